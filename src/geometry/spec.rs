@@ -1,0 +1,159 @@
+//! Shapes as a user writes them, in a shape file or in a case: the table's name is the shape's name.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// One shape, closed and solid, in m. In TOML: `disc = { center = [0.0, 0.0], radius = 1.0e-3 }`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ShapeSpec {
+    /// All points below a straight line.
+    HalfPlane(HalfPlane),
+    /// A full disc (the paper's sphere).
+    Disc(Disc),
+    /// A rectangle about its center.
+    Rectangle(Rectangle),
+    /// All points within `radius` of a segment.
+    Capsule(Capsule),
+    /// A polygon, with holes.
+    Polygon(Polygon),
+    /// Two plates: all points farther than half the width from a center line.
+    Channel(Channel),
+    /// Two discs that leave a gap: a throat with converging and diverging walls.
+    ThroatDiscs(ThroatDiscs),
+    /// A channel with a cosine constriction.
+    ThroatCosine(ThroatCosine),
+}
+
+/// The half-plane below the line through `point`; `rotation-deg` turns it counter-clockwise about `point`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct HalfPlane {
+    /// A point of the surface in m.
+    pub point: [f64; 2],
+    /// Turn about `point` in degrees; 0: solid below, 180: solid above, 90: solid on the right.
+    #[serde(default)]
+    pub rotation_deg: f64,
+}
+
+/// A disc.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Disc {
+    /// Center in m.
+    pub center: [f64; 2],
+    /// Radius in m, above 0.
+    pub radius: f64,
+}
+
+/// A rectangle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Rectangle {
+    /// Center in m.
+    pub center: [f64; 2],
+    /// Width and height in m, above 0.
+    pub size: [f64; 2],
+    /// Turn about the center in degrees.
+    #[serde(default)]
+    pub rotation_deg: f64,
+}
+
+/// A capsule (stadium).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Capsule {
+    /// The two ends of its axis in m.
+    pub ends: [[f64; 2]; 2],
+    /// Radius in m, above 0.
+    pub radius: f64,
+}
+
+/// A polygon: the outer ring counter-clockwise, holes clockwise, no ring closed by repeating its first point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Polygon {
+    /// Outer ring in m, at least three points.
+    pub outer: Vec<[f64; 2]>,
+    /// Holes in m.
+    #[serde(default)]
+    pub holes: Vec<Vec<[f64; 2]>>,
+    /// Shift in m, after the turn.
+    #[serde(default)]
+    pub position: [f64; 2],
+    /// Turn about the origin of the ring's coordinates in degrees.
+    #[serde(default)]
+    pub rotation_deg: f64,
+}
+
+/// The solid outside of a straight channel.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Channel {
+    /// A point of the center line in m.
+    pub center: [f64; 2],
+    /// Distance of the plates in m, above 0.
+    pub width: f64,
+    /// Turn of the center line in degrees; 0 runs along x.
+    #[serde(default)]
+    pub rotation_deg: f64,
+}
+
+/// Two discs of equal or different radius with a gap between them, the flow along x before the turn.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct ThroatDiscs {
+    /// Middle of the gap in m.
+    pub center: [f64; 2],
+    /// Radii of the lower and the upper disc in m, above 0.
+    pub radii: [f64; 2],
+    /// Narrowest distance between the discs in m, above 0.
+    pub gap: f64,
+    /// Turn about the center in degrees.
+    #[serde(default)]
+    pub rotation_deg: f64,
+}
+
+/// Walls at `+-(1/2) (width - (width - throat) (1 + cos(2 pi s/length))/2)` for |s| < length/2 along the axis, straight beyond.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct ThroatCosine {
+    /// Middle of the throat in m.
+    pub center: [f64; 2],
+    /// Distance of the walls away from the throat in m.
+    pub width: f64,
+    /// Distance of the walls in the throat in m, above 0 and at most `width`.
+    pub throat: f64,
+    /// Length of the constriction along the axis in m.
+    pub length: f64,
+    /// Turn about the center in degrees; 0: axis along x.
+    #[serde(default)]
+    pub rotation_deg: f64,
+}
+
+/// What the shapes of a file are: grains in a fluid, or the pore itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SolidSide {
+    /// The shapes are solid; the pore is outside of their union.
+    #[default]
+    Inside,
+    /// The shapes are the pore; all else is solid (complement of the union).
+    Outside,
+}
+
+/// A shape file of ours, or the same keys inline in a case's `[geometry]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct GeometrySpec {
+    /// Lower left corner of the domain in m.
+    pub min: [f64; 2],
+    /// Upper right corner of the domain in m.
+    pub max: [f64; 2],
+    /// Whether the shapes are solid or the pore.
+    #[serde(default)]
+    pub solid: SolidSide,
+    /// The shapes; overlaps are united.
+    #[serde(default)]
+    pub shapes: Vec<ShapeSpec>,
+}

@@ -1,0 +1,1 @@
+//! TOML with places: every mistake of a file at once, each with its line.

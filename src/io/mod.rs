@@ -1,0 +1,1 @@
+//! Files: VTK, series, restart; each appears whole or not at all.

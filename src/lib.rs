@@ -1,0 +1,22 @@
+//! Two-phase flow with partial wetting in pores.
+//!
+//! A run goes one way: case -> checked case -> geometry -> solver -> snapshot -> sinks -> report.
+
+pub mod math;
+pub mod snapshot;
+pub mod solver;
+
+pub mod input;
+
+pub mod geometry;
+
+pub mod case;
+
+pub mod analysis;
+pub mod sph;
+
+pub mod io;
+
+pub mod run;
+
+pub mod cli;

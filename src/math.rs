@@ -1,0 +1,55 @@
+//! The small linear algebra of the plane: two-vectors and two-by-two matrices of nalgebra.
+
+/// A point or a vector of the plane.
+pub type Vec2 = nalgebra::Vector2<f64>;
+
+/// A linear map of the plane.
+pub type Mat2 = nalgebra::Matrix2<f64>;
+
+/// The vector `v` turned by +90 degrees.
+#[must_use]
+pub fn perpendicular(v: Vec2) -> Vec2 {
+    Vec2::new(-v.y, v.x)
+}
+
+/// An axis-aligned box, in m.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Bounds {
+    /// Lower left corner in m.
+    pub min: Vec2,
+    /// Upper right corner in m.
+    pub max: Vec2,
+}
+
+impl Bounds {
+    /// Width and height in m.
+    #[must_use]
+    pub fn size(&self) -> Vec2 {
+        self.max - self.min
+    }
+
+    /// Area in m².
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.size().product()
+    }
+
+    /// The middle of the box.
+    #[must_use]
+    pub fn center(&self) -> Vec2 {
+        0.5 * (self.min + self.max)
+    }
+
+    /// Whether `x` lies in the box, its sides included.
+    #[must_use]
+    pub fn contains(&self, x: Vec2) -> bool {
+        (0..2).all(|i| self.min[i] <= x[i] && x[i] <= self.max[i])
+    }
+
+    /// The box with every side moved outwards by `margin` in m.
+    #[must_use]
+    pub fn grown(&self, margin: f64) -> Self {
+        let by = Vec2::repeat(margin);
+        Self { min: self.min - by, max: self.max + by }
+    }
+}

@@ -1,0 +1,1 @@
+//! The simulation loop, its schedule, sinks and report.

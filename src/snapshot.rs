@@ -1,0 +1,75 @@
+//! What output sees of a solver: points, named fields with units, a grid, lines. No solver type.
+
+use std::borrow::Cow;
+
+use crate::math::Vec2;
+
+/// The values of a field, one per point.
+#[derive(Debug, Clone)]
+pub enum Values<'a> {
+    /// One number per point.
+    Scalar(Cow<'a, [f64]>),
+    /// One vector of the plane per point.
+    Vector(Cow<'a, [Vec2]>),
+    /// One whole number per point.
+    Integer(Cow<'a, [i64]>),
+}
+
+/// A named field with its unit.
+#[derive(Debug, Clone)]
+pub struct Field<'a> {
+    /// Name as it stands in the output contract, such as `wall-distance`.
+    pub name: &'static str,
+    /// SI unit, such as `m/s`; empty for pure numbers.
+    pub unit: &'static str,
+    /// One value per point.
+    pub values: Values<'a>,
+}
+
+/// Scattered points with fields.
+#[derive(Debug, Clone, Default)]
+pub struct Cloud<'a> {
+    /// Positions in m.
+    pub points: Cow<'a, [Vec2]>,
+    /// Fields, each as long as `points`.
+    pub fields: Vec<Field<'a>>,
+}
+
+/// Fields on the nodes of a regular grid, x running fastest.
+#[derive(Debug, Clone)]
+pub struct Grid<'a> {
+    /// Position of the first node in m.
+    pub origin: Vec2,
+    /// Distance of neighboring nodes in m.
+    pub spacing: Vec2,
+    /// Number of nodes along x and y.
+    pub counts: [usize; 2],
+    /// Fields, each of `counts[0] * counts[1]` values.
+    pub fields: Vec<Field<'a>>,
+}
+
+/// Polylines with fields on their vertices.
+#[derive(Debug, Clone, Default)]
+pub struct Lines<'a> {
+    /// Vertices in m.
+    pub points: Cow<'a, [Vec2]>,
+    /// Each polyline as indices into `points`; closed where the first index is repeated at the end.
+    pub lines: Vec<Vec<u32>>,
+    /// Fields on the vertices, each as long as `points`.
+    pub fields: Vec<Field<'a>>,
+}
+
+/// The state of a solver at one time, as output needs it.
+#[derive(Debug, Clone)]
+pub struct Snapshot<'a> {
+    /// Time in s.
+    pub time: f64,
+    /// Number of steps done.
+    pub step: u64,
+    /// The particles, or the nodes of a thin film.
+    pub particles: Cloud<'a>,
+    /// The same fields on a regular grid, where the solver offers them.
+    pub grid: Option<Grid<'a>>,
+    /// The interface between the fluids, where there is one.
+    pub interface: Option<Lines<'a>>,
+}

@@ -1,0 +1,177 @@
+//! What the simulation loop needs of a solver.
+
+use serde::{Deserialize, Serialize};
+
+use crate::math::Vec2;
+use crate::snapshot::{Lines, Snapshot};
+
+/// One named number of the time series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Column of `series.csv` with its unit at the end, such as `interface_length_m`.
+    pub name: &'static str,
+    /// Value in SI units; NaN where the quantity does not exist (no contact line, say).
+    pub value: f64,
+}
+
+/// A final result with its error bar and how it was found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Measure {
+    /// Name in `report.json`, such as `contact-angle-deg`.
+    pub name: String,
+    /// Value in `unit`; NaN where it could not be measured (the method says why).
+    pub value: f64,
+    /// Unit, empty for pure numbers.
+    pub unit: String,
+    /// One standard uncertainty in `unit`, where one is known.
+    pub uncertainty: Option<f64>,
+    /// How it was measured, in one sentence.
+    pub method: String,
+}
+
+/// What one step did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepInfo {
+    /// Time step in s.
+    pub dt: f64,
+    /// The limit that ruled `dt`: `velocity`, `viscosity`, `surface tension`, `gravity`, `record`, ...
+    pub limit: &'static str,
+}
+
+/// Wall time of one part of the solver since its creation.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PartTime {
+    /// Name of the part: `neighbors`, `forces`, `pressure`, ...
+    pub part: &'static str,
+    /// Wall time in s.
+    pub seconds: f64,
+}
+
+/// What a solver tells of its own work.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Number of unknowns: particles or nodes.
+    pub unknowns: usize,
+    /// Steps done by this process.
+    pub steps: u64,
+    /// Wall time by part.
+    pub parts: Vec<PartTime>,
+    /// Further counts by name, such as `ppe-iterations`.
+    pub counts: Vec<(&'static str, f64)>,
+}
+
+/// Why a solver stopped. The state before the failing step is kept.
+#[derive(Debug, thiserror::Error)]
+pub enum SolverError {
+    /// A value that is not finite, or a speed beyond reason.
+    #[error("{what} at time {time:.6e} s (step {step}), at ({:.4e}, {:.4e}) m", place.x, place.y)]
+    BlowUp {
+        /// What went wrong, with the value.
+        what: String,
+        /// Time in s.
+        time: f64,
+        /// Step.
+        step: u64,
+        /// Where in m.
+        place: Vec2,
+    },
+    /// The time step fell far below what the static limits allow.
+    #[error(
+        "the time step fell to {dt:.3e} s, below {smallest:.3e} s, ruled by {limit}, at time {time:.6e} s (step {step}), \
+         fastest particle at ({:.4e}, {:.4e}) m", place.x, place.y
+    )]
+    TimeStep {
+        /// The time step in s.
+        dt: f64,
+        /// The smallest one that is accepted in s.
+        smallest: f64,
+        /// The limit that rules it.
+        limit: &'static str,
+        /// Time in s.
+        time: f64,
+        /// Step.
+        step: u64,
+        /// Where the fastest particle is, in m.
+        place: Vec2,
+    },
+    /// A linear or nonlinear solve did not reach its tolerance.
+    #[error(
+        "{system} did not converge at time {time:.6e} s (step {step}): relative residual {residual:.3e} after {iterations} \
+         iterations, {tolerance:.1e} asked for"
+    )]
+    NotConverged {
+        /// Which system.
+        system: &'static str,
+        /// Relative residual reached.
+        residual: f64,
+        /// Relative residual asked for.
+        tolerance: f64,
+        /// Iterations spent.
+        iterations: usize,
+        /// Time in s.
+        time: f64,
+        /// Step.
+        step: u64,
+    },
+}
+
+/// A saved state that cannot be taken up again.
+#[derive(Debug, thiserror::Error)]
+#[error("the saved state does not fit: {0}")]
+pub struct StateError(pub String);
+
+/// The rows of the time series so far, as `series.csv` holds them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Series {
+    /// Column names; the first is `time_s`.
+    pub columns: Vec<String>,
+    /// One row per record, each as long as `columns`.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Series {
+    /// The values of one column, empty where there is no such column.
+    pub fn column<'a>(&'a self, name: &str) -> impl Iterator<Item = f64> + 'a {
+        let index = self.columns.iter().position(|c| c == name);
+        self.rows.iter().filter_map(move |row| index.and_then(|i| row.get(i).copied()))
+    }
+}
+
+/// A solver that the simulation loop can run. It does no I/O and prints nothing; time advances in `step` only.
+pub trait Solver {
+    /// Time in s.
+    fn time(&self) -> f64;
+
+    /// Number of steps done since time zero (resumed runs go on counting).
+    fn steps(&self) -> u64;
+
+    /// Does one step that ends at `until` (s) or before. Landing on `until` is exact: afterwards `time() == until`.
+    ///
+    /// # Errors
+    /// See [`SolverError`]; the state before the step is kept and can still be saved and shown.
+    fn step(&mut self, until: f64) -> Result<StepInfo, SolverError>;
+
+    /// The state for output. May compute fields, so call it per record, not per step.
+    fn snapshot(&self) -> Snapshot<'_>;
+
+    /// The outline of the solids, which does not move.
+    fn outline(&self) -> Lines<'_>;
+
+    /// One row of the time series: `time_s`, `step` and `dt_s` first, always the same names in the same order.
+    fn sample(&self) -> Vec<Sample>;
+
+    /// The final results; `series` holds all rows recorded so far.
+    fn measures(&self, series: &Series) -> Vec<Measure>;
+
+    /// All that the future depends on, so that `restore` and more steps give the same bits as an unbroken run.
+    fn state(&self) -> Vec<u8>;
+
+    /// Takes up a state that `state` returned for the same case.
+    ///
+    /// # Errors
+    /// [`StateError`] where the bytes are not such a state.
+    fn restore(&mut self, state: &[u8]) -> Result<(), StateError>;
+
+    /// Wall time by part and counts of the solver's work.
+    fn statistics(&self) -> Statistics;
+}

@@ -1,0 +1,1 @@
+//! Incompressible SPH for two fluids with partial wetting.
