@@ -1,1 +1,19 @@
-//! Incompressible SPH for two fluids with partial wetting.
+//! Incompressible SPH for two fluids with partial wetting, after Huber et al. 2013.
+//!
+//! `projection` decides the order of a step, `terms` holds the equations, `fields` what follows from the positions.
+
+pub mod boundary;
+mod cells;
+pub mod domain;
+pub mod fields;
+pub mod fill;
+pub mod images;
+pub mod kernel;
+pub mod method;
+pub mod pairs;
+pub mod particles;
+pub mod poisson;
+pub mod projection;
+pub mod terms;
+pub mod time_step;
+pub mod wetting;

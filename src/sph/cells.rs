@@ -1,0 +1,145 @@
+//! Counting-sort cell list: finds the points within the kernel's support, through periodic sides too.
+
+use crate::math::Vec2;
+use crate::sph::domain::Domain;
+
+/// Points sorted into cells at least as wide as the support.
+#[derive(Debug, Clone, Default)]
+pub struct Cells {
+    origin: Vec2,
+    inverse_size: Vec2,
+    counts: [usize; 2],
+    periodic: [bool; 2],
+    period: Vec2,
+    /// Cell i holds the entries `start[i]..start[i + 1]` of `order`.
+    start: Vec<u32>,
+    order: Vec<u32>,
+    sorted: Vec<Vec2>,
+}
+
+/// A run of consecutive entries that are to be seen shifted by `shift`.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    first: usize,
+    end: usize,
+    shift: Vec2,
+}
+
+impl Cells {
+    /// Sorts `points` into cells at least `support` (m) wide.
+    #[must_use]
+    pub fn build(points: &[Vec2], domain: &Domain, support: f64) -> Self {
+        let (mut low, mut high) = (domain.bounds.min, domain.bounds.max);
+        for x in points.iter().filter(|x| x.iter().all(|v| v.is_finite())) {
+            low = low.inf(x);
+            high = high.sup(x);
+        }
+        let mut counts = [1; 2];
+        let mut size = Vec2::zeros();
+        for i in 0..2 {
+            if domain.periodic[i] {
+                (low[i], high[i]) = (domain.bounds.min[i], domain.bounds.max[i]);
+            }
+            // A runaway particle must not ask for endless memory: coarser cells are slower, never wrong.
+            let most = 4.0 * (points.len() as f64).sqrt() + 8.0;
+            counts[i] = ((high[i] - low[i]) / support).floor().clamp(1.0, most) as usize;
+            size[i] = (high[i] - low[i]) / counts[i] as f64;
+        }
+        let mut cells = Self {
+            origin: low,
+            inverse_size: size.map(|s| 1.0 / s),
+            counts,
+            periodic: domain.periodic,
+            period: domain.bounds.size(),
+            ..Self::default()
+        };
+        cells.sort(points);
+        cells
+    }
+
+    fn sort(&mut self, points: &[Vec2]) {
+        let cell_of: Vec<u32> = points.iter().map(|&x| self.cell_of(x)).collect();
+        self.start = vec![0; self.counts[0] * self.counts[1] + 1];
+        for &cell in &cell_of {
+            self.start[cell as usize + 1] += 1;
+        }
+        for i in 1..self.start.len() {
+            self.start[i] += self.start[i - 1];
+        }
+        let mut next = self.start.clone();
+        self.order = vec![0; points.len()];
+        for (i, &cell) in cell_of.iter().enumerate() {
+            self.order[next[cell as usize] as usize] = i as u32;
+            next[cell as usize] += 1;
+        }
+        self.sorted = self.order.iter().map(|&i| points[i as usize]).collect();
+    }
+
+    fn column_and_row(&self, x: Vec2) -> [usize; 2] {
+        [0, 1].map(|i| {
+            let t = ((x[i] - self.origin[i]) * self.inverse_size[i]).floor();
+            t.clamp(0.0, (self.counts[i] - 1) as f64) as usize
+        })
+    }
+
+    fn cell_of(&self, x: Vec2) -> u32 {
+        let [column, row] = self.column_and_row(x);
+        (row * self.counts[0] + column) as u32
+    }
+
+    /// The points in the order of their cells.
+    #[must_use]
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Calls `visit(index, x − x_index)` for each point in the cells around `x`, always in the same order.
+    ///
+    /// A periodic direction must be at least three supports long, or a point would be met twice.
+    pub fn visit_near(&self, x: Vec2, mut visit: impl FnMut(u32, Vec2)) {
+        let [column, row] = self.column_and_row(x);
+        for (row, shift_y) in self.three(1, row) {
+            for run in self.runs(row, column, shift_y) {
+                let from = x - run.shift;
+                for k in run.first..run.end {
+                    visit(self.order[k], from - self.sorted[k]);
+                }
+            }
+        }
+    }
+
+    /// The neighboring rows or columns of `at` with the shift of the points in them.
+    fn three(&self, axis: usize, at: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let n = self.counts[axis] as isize;
+        let (periodic, period) = (self.periodic[axis], self.period[axis]);
+        (-1..=1).filter_map(move |step| {
+            let i = at as isize + step;
+            if (0..n).contains(&i) {
+                Some((i as usize, 0.0))
+            } else if periodic {
+                Some((i.rem_euclid(n) as usize, if i < 0 { -period } else { period }))
+            } else {
+                None
+            }
+        })
+    }
+
+    /// The three cells of a row around `column`: one run, or one per cell at a periodic side.
+    fn runs(&self, row: usize, column: usize, shift_y: f64) -> impl Iterator<Item = Run> + '_ {
+        let inside = column > 0 && column + 1 < self.counts[0];
+        let base = row * self.counts[0];
+        let whole = inside.then(|| Run {
+            first: self.start[base + column - 1] as usize,
+            end: self.start[base + column + 2] as usize,
+            shift: Vec2::new(0.0, shift_y),
+        });
+        let single = (!inside).then(|| {
+            self.three(0, column).map(move |(c, shift_x)| Run {
+                first: self.start[base + c] as usize,
+                end: self.start[base + c + 1] as usize,
+                shift: Vec2::new(shift_x, shift_y),
+            })
+        });
+        whole.into_iter().chain(single.into_iter().flatten())
+    }
+}

@@ -1,0 +1,135 @@
+//! What follows from the positions: volumes, densities, normals, curvature and the forces of interface and lines.
+//!
+//! Everything here is a function of the particles alone, so that a resumed run finds the same bits.
+
+use crate::math::Vec2;
+use crate::sph::boundary::carry;
+use crate::sph::images::Images;
+use crate::sph::method::Method;
+use crate::sph::pairs::{GRAIN, Pairs};
+use crate::sph::particles::{Particles, Phase};
+use crate::sph::terms::{color, curvature, density, surface_tension};
+use crate::sph::wetting::contact_line::{LineFields, line_force};
+
+use rayon::prelude::*;
+
+/// Fields over particles and images; forces over fluid particles only.
+#[derive(Debug, Clone, Default)]
+pub struct Fields {
+    /// Volume V_a in m²; on walls the lattice's V_0.
+    pub volume: Vec<f64>,
+    /// V_a on fluid, 0 on walls.
+    pub fluid_volume: Vec<f64>,
+    /// ρ_a in kg/m³; on walls that of the fluid nearby.
+    pub density: Vec<f64>,
+    /// Dynamic viscosity in Pa s, 0 on walls.
+    pub viscosity: Vec<f64>,
+    /// Smoothed color; carried into the walls.
+    pub color: Vec<f64>,
+    /// n_a in 1/m.
+    pub normal: Vec<Vec2>,
+    /// n̂_a, zero where not valid.
+    pub unit_normal: Vec<Vec2>,
+    /// κ_a in 1/m.
+    pub curvature: Vec<f64>,
+    /// Continuum surface force in N/m³.
+    pub surface_force: Vec<Vec2>,
+    /// Contact line force in N/m³.
+    pub line_force: Vec<Vec2>,
+    /// Distance to the wall in m: of fluid particles with a wall in reach, else infinite.
+    pub wall_distance: Vec<f64>,
+    /// Wall normal into the fluid, zero far away.
+    pub wall_normal: Vec<Vec2>,
+    /// Number of contact lines.
+    pub contact_lines: usize,
+}
+
+impl Fields {
+    /// Volumes and densities [Huber2013, Eq. 17], viscosities and wall distances.
+    pub fn update_bulk(
+        &mut self,
+        (particles, pairs, images): (&Particles, &Pairs, &Images),
+        method: &Method,
+        wall: impl Fn(Vec2) -> (f64, Vec2) + Sync,
+    ) {
+        let (n, fluids) = (particles.len(), particles.fluids);
+        self.volume.resize(n, 0.0);
+        density::volume(pairs, &mut self.volume[..fluids]);
+        self.volume[fluids..n].fill(method.volume);
+        images.extend(&mut self.volume);
+        self.fluid_volume.clear();
+        self.fluid_volume.extend((0..n).map(|a| if a < fluids { self.volume[a] } else { 0.0 }));
+        images.extend(&mut self.fluid_volume);
+
+        let mass = |a: usize| method.fluid(particles.phase[a]).density * method.volume;
+        self.density.clear();
+        self.density.extend((0..n).map(|a| if a < fluids { mass(a) / self.volume[a] } else { method.mean_density() }));
+        images.extend(&mut self.density);
+        carry::into_walls(pairs, &self.fluid_volume, fluids, &mut self.density);
+        images.extend(&mut self.density);
+        self.viscosity.clear();
+        self.viscosity
+            .extend((0..n).map(|a| if a < fluids { method.fluid(particles.phase[a]).viscosity } else { 0.0 }));
+        images.extend(&mut self.viscosity);
+
+        let nearest: Vec<(f64, Vec2)> = (0..fluids)
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|a| {
+                let has_wall = pairs.of(a).any(|ab| images.source(ab.b) >= fluids);
+                if has_wall { wall(particles.position[a]) } else { (f64::INFINITY, Vec2::zeros()) }
+            })
+            .collect();
+        (self.wall_distance, self.wall_normal) = nearest.into_iter().unzip();
+    }
+
+    /// Normals, curvature and the forces of interface and contact lines [Huber2013, Eqs. 18-23].
+    pub fn update_interface(&mut self, (particles, pairs, images): (&Particles, &Pairs, &Images), method: &Method) {
+        let (n, fluids) = (particles.len(), particles.fluids);
+        for field in [&mut self.surface_force, &mut self.line_force] {
+            field.clear();
+            field.resize(fluids, Vec2::zeros());
+        }
+        for field in [&mut self.normal, &mut self.unit_normal] {
+            field.clear();
+            field.resize(n, Vec2::zeros());
+        }
+        self.curvature.clear();
+        self.curvature.resize(n, 0.0);
+        let mut sharp: Vec<f64> = particles.phase.iter().map(|p: &Phase| p.color()).collect();
+        images.extend(&mut sharp);
+        self.color.clear();
+        self.color.extend_from_slice(&sharp[..n]);
+        self.contact_lines = 0;
+        if method.tension == 0.0 {
+            return;
+        }
+        color::smoothed_color(pairs, &self.fluid_volume, &sharp, &mut self.color);
+        images.extend(&mut self.color);
+        color::color_gradient(pairs, &self.fluid_volume, &self.color, &mut self.normal[..fluids]);
+        images.extend_reflected(&mut self.normal);
+        curvature::unit_normal(&self.normal[..fluids], method.kernel.h, &mut self.unit_normal[..fluids]);
+        images.extend_reflected(&mut self.unit_normal);
+        curvature::curvature(pairs, &self.fluid_volume, &self.unit_normal, &mut self.curvature[..fluids]);
+        surface_tension::surface_force(
+            (method.tension, method.mean_density()),
+            &self.curvature,
+            &self.normal,
+            &self.density,
+            &mut self.surface_force,
+        );
+        if let Some(wetting) = &method.wetting {
+            let relative_density: Vec<f64> = self.density[..fluids].iter().map(|r| r / method.mean_density()).collect();
+            let fields = LineFields {
+                normal: &self.normal,
+                unit_normal: &self.unit_normal,
+                wall_distance: &self.wall_distance,
+                wall_normal: &self.wall_normal,
+                volume: &self.volume,
+                relative_density: &relative_density,
+            };
+            let law = (wetting, method.tension);
+            self.contact_lines = line_force(pairs, images, &fields, &method.kernel, law, &mut self.line_force);
+        }
+    }
+}

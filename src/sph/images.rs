@@ -1,0 +1,126 @@
+//! Image particles behind mirror sides [Huber2013, Eqs. 32-34]: copies of the particles within the support.
+
+use crate::math::Vec2;
+use crate::sph::domain::{Domain, Mirror};
+
+/// The images of one step. They are numbered after the particles: image i has index `first + i` in every field.
+#[derive(Debug, Clone, Default)]
+pub struct Images {
+    first: usize,
+    source: Vec<u32>,
+    /// Bit k: reflected at mirror k of the domain.
+    via: Vec<u8>,
+    mirrors: Vec<Mirror>,
+}
+
+impl Images {
+    /// Finds all images within `support` (m) of the mirrors and appends their positions to `points`.
+    ///
+    /// Corner images are images of images, so that a particle near two mirrors has three.
+    #[must_use]
+    pub fn append(points: &mut Vec<Vec2>, domain: &Domain, support: f64) -> Self {
+        let first = points.len();
+        let mut images = Self { first, mirrors: domain.mirrors.clone(), ..Self::default() };
+        for (k, mirror) in domain.mirrors.iter().enumerate() {
+            for i in 0..points.len() {
+                if (points[i][mirror.axis] - mirror.at).abs() < support {
+                    let mut image = points[i];
+                    image[mirror.axis] = 2.0 * mirror.at - image[mirror.axis];
+                    points.push(image);
+                    let (source, via) = if i < first { (i as u32, 0) } else { images.origin_of(i) };
+                    images.source.push(source);
+                    images.via.push(via | 1 << k);
+                }
+            }
+        }
+        images
+    }
+
+    fn origin_of(&self, index: usize) -> (u32, u8) {
+        (self.source[index - self.first], self.via[index - self.first])
+    }
+
+    /// The particle that index `b` is or is the image of.
+    #[inline]
+    #[must_use]
+    pub fn source(&self, b: usize) -> usize {
+        if b < self.first { b } else { self.source[b - self.first] as usize }
+    }
+
+    /// Position of index `b` in m, given those of the particles.
+    #[inline]
+    #[must_use]
+    pub fn position(&self, b: usize, particles: &[Vec2]) -> Vec2 {
+        let mut x = particles[self.source(b)];
+        if b >= self.first {
+            for mirror in self.mirrors_of(self.via[b - self.first]) {
+                x[mirror.axis] = 2.0 * mirror.at - x[mirror.axis];
+            }
+        }
+        x
+    }
+
+    fn mirrors_of(&self, via: u8) -> impl Iterator<Item = &Mirror> {
+        self.mirrors.iter().enumerate().filter(move |(k, _)| via >> k & 1 == 1).map(|(_, mirror)| mirror)
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.source.is_empty()
+    }
+
+    /// Appends the images' values of a field that the reflection leaves alone: p' = p [Huber2013, Eq. 34].
+    pub fn extend<T: Copy>(&self, field: &mut Vec<T>) {
+        field.truncate(self.first);
+        for &source in &self.source {
+            field.push(field[source as usize]);
+        }
+    }
+
+    /// Appends the images of a polar vector such as a normal.
+    pub fn extend_reflected(&self, field: &mut Vec<Vec2>) {
+        self.extend_by(field, |mirror, v| mirror.reflect(v));
+    }
+
+    /// Appends the images' velocities: v' = −v on no-slip sides [Huber2013, Eq. 34].
+    pub fn extend_velocity(&self, field: &mut Vec<Vec2>) {
+        self.extend_by(field, |mirror, v| mirror.velocity(v));
+    }
+
+    fn extend_by(&self, field: &mut Vec<Vec2>, apply: impl Fn(&Mirror, Vec2) -> Vec2) {
+        field.truncate(self.first);
+        for (&source, &via) in self.source.iter().zip(&self.via) {
+            let mut v = field[source as usize];
+            for mirror in self.mirrors_of(via) {
+                v = apply(mirror, v);
+            }
+            field.push(v);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Bounds;
+    use crate::sph::domain::ImageVelocity;
+
+    #[test]
+    fn a_particle_in_a_corner_of_two_mirrors_has_three_images() {
+        let mirror = |axis, image| Mirror { axis, at: 0.0, image };
+        let bounds = Bounds { min: Vec2::zeros(), max: Vec2::repeat(1.0) };
+        let mirrors = vec![mirror(0, ImageVelocity::Mirrored), mirror(1, ImageVelocity::Reversed)];
+        let domain = Domain::new(bounds, [false; 2], mirrors);
+        let mut points = vec![Vec2::new(0.1, 0.05), Vec2::new(0.5, 0.5)];
+        let images = Images::append(&mut points, &domain, 0.2);
+        assert_eq!(points.len(), 5);
+        assert!(points[4] == Vec2::new(-0.1, -0.05));
+        let mut v = vec![Vec2::new(1.0, 2.0), Vec2::zeros()];
+        images.extend_velocity(&mut v);
+        assert_eq!(v[2], Vec2::new(-1.0, 2.0));
+        assert_eq!(v[3], Vec2::new(-1.0, -2.0));
+        assert_eq!(v[4], Vec2::new(1.0, -2.0));
+        assert_eq!(images.source(4), 0);
+    }
+}

@@ -1,0 +1,236 @@
+//! All pairs within the support, with W and ∇W, found once per step and used by every sum of the step.
+
+use std::iter::Sum;
+
+use rayon::prelude::*;
+
+use crate::math::Vec2;
+use crate::sph::cells::Cells;
+use crate::sph::domain::Domain;
+use crate::sph::kernel::WendlandC2;
+
+/// Particles handled by one task: large against the cost of a task, small against the particle count of a real case.
+pub const GRAIN: usize = 512;
+
+/// A neighbor b of a particle a.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair {
+    /// Index of the neighbor; indices beyond the particles are images.
+    pub b: usize,
+    /// W_ab in 1/m².
+    pub w: f64,
+    /// ∇_a W_ab in 1/m³.
+    pub grad_w: Vec2,
+}
+
+/// The neighbors of each particle (itself left out), in rows.
+#[derive(Debug, Clone, Default)]
+pub struct Pairs {
+    start: Vec<usize>,
+    b: Vec<u32>,
+    w: Vec<f64>,
+    grad_w: Vec<Vec2>,
+    /// W(0) in 1/m²: the share of a particle in its own sum.
+    pub w_self: f64,
+}
+
+impl Pairs {
+    /// Finds the neighbors of the first `count` of `points` among all of them.
+    #[must_use]
+    pub fn find(points: &[Vec2], count: usize, domain: &Domain, kernel: &WendlandC2) -> Self {
+        let cells = Cells::build(points, domain, kernel.support());
+        let reach2 = kernel.support() * kernel.support();
+        let chunks: Vec<(Vec<u32>, Vec<u32>)> = points[..count]
+            .par_chunks(GRAIN)
+            .enumerate()
+            .map(|(chunk, xs)| {
+                let mut counts = Vec::with_capacity(xs.len());
+                let mut found = Vec::with_capacity(xs.len() * 32);
+                for (i, &x) in xs.iter().enumerate() {
+                    let a = (chunk * GRAIN + i) as u32;
+                    let before = found.len();
+                    cells.visit_near(x, |b, r_ab| {
+                        if r_ab.norm_squared() < reach2 && b != a {
+                            found.push(b);
+                        }
+                    });
+                    counts.push((found.len() - before) as u32);
+                }
+                (counts, found)
+            })
+            .collect();
+        Self::from_rows(&chunks, points, domain, kernel)
+    }
+
+    /// Every pair tried: the oracle of [`Pairs::find`], in the order of the indices.
+    #[must_use]
+    pub fn brute_force(points: &[Vec2], count: usize, domain: &Domain, kernel: &WendlandC2) -> Self {
+        let row = |a: usize| -> Vec<u32> {
+            let near = |&b: &usize| b != a && domain.separation(points[a], points[b]).norm() < kernel.support();
+            (0..points.len()).filter(near).map(|b| b as u32).collect()
+        };
+        let rows: Vec<Vec<u32>> = (0..count).map(row).collect();
+        let chunk = (rows.iter().map(|r| r.len() as u32).collect(), rows.concat());
+        Self::from_rows(&[chunk], points, domain, kernel)
+    }
+
+    /// Lays the rows end to end and evaluates the kernel on them.
+    fn from_rows(chunks: &[(Vec<u32>, Vec<u32>)], points: &[Vec2], domain: &Domain, kernel: &WendlandC2) -> Self {
+        let mut start = vec![0];
+        let mut end = 0;
+        for count in chunks.iter().flat_map(|(counts, _)| counts) {
+            end += *count as usize;
+            start.push(end);
+        }
+        let mut pairs = Self {
+            start,
+            b: Vec::with_capacity(end),
+            w: vec![0.0; end],
+            grad_w: vec![Vec2::zeros(); end],
+            w_self: kernel.w(0.0),
+        };
+        for (_, found) in chunks {
+            pairs.b.extend_from_slice(found);
+        }
+        let (starts, bs) = (&pairs.start, &pairs.b);
+        let mut rows: Vec<(usize, &mut [f64], &mut [Vec2])> = Vec::new();
+        let (mut w, mut grad_w) = (pairs.w.as_mut_slice(), pairs.grad_w.as_mut_slice());
+        let count = starts.len() - 1;
+        for first in (0..count).step_by(GRAIN) {
+            let length = starts[(first + GRAIN).min(count)] - starts[first];
+            let (w_here, w_rest) = w.split_at_mut(length);
+            let (g_here, g_rest) = grad_w.split_at_mut(length);
+            (w, grad_w) = (w_rest, g_rest);
+            rows.push((first, w_here, g_here));
+        }
+        rows.into_par_iter().for_each(|(first, w, grad_w)| {
+            let offset = starts[first];
+            for a in first..(first + GRAIN).min(count) {
+                for k in starts[a]..starts[a + 1] {
+                    let r_ab = domain.separation(points[a], points[bs[k] as usize]);
+                    w[k - offset] = kernel.w(r_ab.norm());
+                    grad_w[k - offset] = kernel.grad_w(r_ab);
+                }
+            }
+        });
+        pairs
+    }
+
+    /// Number of particles that have a row.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.start.len() - 1
+    }
+
+    /// Number of neighbors over all rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.b.len()
+    }
+
+    /// Whether nobody has a neighbor.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.b.is_empty()
+    }
+
+    /// Where the row of `a` lies in [`Pairs::neighbors`].
+    #[inline]
+    #[must_use]
+    pub fn row(&self, a: usize) -> std::ops::Range<usize> {
+        self.start[a]..self.start[a + 1]
+    }
+
+    /// The row starts, one more than there are rows.
+    #[must_use]
+    pub fn starts(&self) -> &[usize] {
+        &self.start
+    }
+
+    /// The neighbors, row after row.
+    #[must_use]
+    pub fn neighbors(&self) -> &[u32] {
+        &self.b
+    }
+
+    /// The neighbors of `a`, always in the same order.
+    #[inline]
+    pub fn of(&self, a: usize) -> impl Iterator<Item = Pair> + '_ {
+        let row = self.row(a);
+        let (b, w, grad_w) = (&self.b[row.clone()], &self.w[row.clone()], &self.grad_w[row]);
+        b.iter().zip(w).zip(grad_w).map(|((&b, &w), &grad_w)| Pair { b: b as usize, w, grad_w })
+    }
+
+    /// `out[a]` = Σ_b `term(a, ab)` for each a of `out`, in parallel with one writer per element.
+    pub fn sum_into<T: Sum + Send>(&self, out: &mut [T], term: impl Fn(usize, &Pair) -> T + Sync) {
+        each(out, |a| self.of(a).map(|ab| term(a, &ab)).sum());
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.start.len() * 8 + self.b.len() * (4 + 8 + 16)
+    }
+}
+
+/// `out[a] = value(a)` in parallel, one writer per element, so that any number of threads gives the same bits.
+pub fn each<T: Send>(out: &mut [T], value: impl Fn(usize) -> T + Sync) {
+    out.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, out)| *out = value(a));
+}
+
+/// Σ_a `value(a)` over 0..n, in parts of fixed length added in order: the same bits for any number of threads.
+pub fn total(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let parts: Vec<f64> = (0..n.div_ceil(GRAIN))
+        .into_par_iter()
+        .map(|part| (part * GRAIN..((part + 1) * GRAIN).min(n)).map(&value).sum())
+        .collect();
+    parts.iter().sum()
+}
+
+/// The largest `value(a)` over 0..n with its index; the first of equals. None for n = 0.
+pub fn largest(n: usize, value: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
+    (0..n).map(|a| (a, value(a))).reduce(|best, next| if next.1 > best.1 { next } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Bounds;
+    use proptest::prelude::*;
+
+    fn sorted_row(pairs: &Pairs, a: usize) -> Vec<(usize, f64)> {
+        let mut row: Vec<_> = pairs.of(a).map(|ab| (ab.b, ab.w)).collect();
+        row.sort_by_key(|r| r.0);
+        row
+    }
+
+    proptest! {
+        #[test]
+        fn cells_find_the_same_pairs_as_brute_force(
+            points in proptest::collection::vec((-0.3..3.3_f64, -0.3..3.3_f64), 2..150),
+            periodic in any::<[bool; 2]>(),
+            h in 0.1..0.5_f64,
+        ) {
+            let bounds = Bounds { min: Vec2::zeros(), max: Vec2::repeat(3.0) };
+            let domain = Domain::new(bounds, periodic, vec![]);
+            let points: Vec<Vec2> = points.iter().map(|&(x, y)| domain.wrapped(Vec2::new(x, y))).collect();
+            let kernel = WendlandC2::new(h);
+            let count = points.len() / 2 + 1;
+            let fast = Pairs::find(&points, count, &domain, &kernel);
+            let slow = Pairs::brute_force(&points, count, &domain, &kernel);
+            for a in 0..count {
+                prop_assert_eq!(sorted_row(&fast, a), sorted_row(&slow, a));
+            }
+        }
+    }
+
+    #[test]
+    fn totals_do_not_depend_on_the_number_of_threads() {
+        let value = |a: usize| (a as f64 * 0.37).sin() / (1.0 + a as f64);
+        let sum_with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| total(10_000, value))
+        };
+        assert_eq!(sum_with(1).to_bits(), sum_with(2).to_bits());
+    }
+}

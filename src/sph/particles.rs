@@ -1,0 +1,102 @@
+//! The particles as a structure of arrays: fluid particles first, wall particles after them, images last.
+//!
+//! Images stand behind mirror sides; they are made anew in each step and copy their source.
+
+use serde::{Deserialize, Serialize};
+
+use crate::math::Vec2;
+
+/// What a particle is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Phase {
+    /// The phase through which contact angles are measured, color 1.
+    Wetting,
+    /// The other fluid, color 0.
+    NonWetting,
+    /// A wall.
+    Solid,
+}
+
+impl Phase {
+    /// The number in the output: 0 wetting, 1 non-wetting, 2 solid.
+    #[must_use]
+    pub fn number(self) -> i64 {
+        match self {
+            Self::Wetting => 0,
+            Self::NonWetting => 1,
+            Self::Solid => 2,
+        }
+    }
+
+    /// Color c: 1 in the wetting phase, else 0.
+    #[must_use]
+    pub fn color(self) -> f64 {
+        if self == Self::Wetting { 1.0 } else { 0.0 }
+    }
+}
+
+/// All particles that carry state. Arrays are of equal length; index < `fluids` is fluid, the rest is wall.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Particles {
+    /// Number of fluid particles.
+    pub fluids: usize,
+    /// Name of the particle for its whole life.
+    pub id: Vec<u32>,
+    /// Phase.
+    pub phase: Vec<Phase>,
+    /// Position in m.
+    pub position: Vec<Vec2>,
+    /// Velocity in m/s; zero on walls.
+    pub velocity: Vec<Vec2>,
+    /// Pressure in Pa; also the first guess of the next solve.
+    pub pressure: Vec<f64>,
+    /// Which part of the pore space: parts that share no neighbors have a pressure constant each.
+    pub part: Vec<u32>,
+}
+
+impl Particles {
+    /// Number of particles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// Whether particle `a` is fluid.
+    #[must_use]
+    pub fn is_fluid(&self, a: usize) -> bool {
+        a < self.fluids
+    }
+
+    /// Adds a particle at rest; fluid must come before walls.
+    pub fn push(&mut self, phase: Phase, position: Vec2) {
+        debug_assert!(phase == Phase::Solid || self.fluids == self.len(), "fluid comes before walls");
+        if phase != Phase::Solid {
+            self.fluids += 1;
+        }
+        self.id.push(u32::try_from(self.len()).unwrap_or(u32::MAX));
+        self.phase.push(phase);
+        self.position.push(position);
+        self.velocity.push(Vec2::zeros());
+        self.pressure.push(0.0);
+        self.part.push(0);
+    }
+
+    /// Reorders the particles: the new particle i is the old `order[i]`. Fluid must stay before walls.
+    pub fn reorder(&mut self, order: &[usize]) {
+        fn pick<T: Copy>(values: &mut Vec<T>, order: &[usize]) {
+            *values = order.iter().map(|&i| values[i]).collect();
+        }
+        pick(&mut self.id, order);
+        pick(&mut self.phase, order);
+        pick(&mut self.position, order);
+        pick(&mut self.velocity, order);
+        pick(&mut self.pressure, order);
+        pick(&mut self.part, order);
+    }
+}

@@ -1,0 +1,62 @@
+//! Sparse Cholesky factorization by faer for small systems; the symbolic part is kept while the pattern lasts.
+
+use faer::prelude::*;
+use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Col, Side};
+
+use crate::sph::poisson::Matrix;
+
+/// A direct solver that remembers the elimination order of the last pattern it saw.
+#[derive(Default)]
+pub struct SparseCholesky {
+    pattern: (Vec<usize>, Vec<u32>),
+    symbolic: Option<SymbolicLlt<usize>>,
+}
+
+/// The factorization failed; the message is the library's.
+#[derive(Debug, thiserror::Error)]
+#[error("sparse Cholesky factorization: {0}")]
+pub struct FactorizationError(String);
+
+impl SparseCholesky {
+    /// Solves M x = b. Each part without a fixed value has its first unknown held at zero.
+    ///
+    /// # Errors
+    /// [`FactorizationError`] where the matrix is not positive definite after that.
+    pub fn solve(&mut self, matrix: &Matrix, part: &[u32], b: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
+        let lower = lower_triangle(matrix, part)?;
+        let failed = |e: &dyn std::fmt::Debug| FactorizationError(format!("{e:?}"));
+        if self.pattern.0 != matrix.start || self.pattern.1 != matrix.column {
+            self.symbolic = None;
+            self.pattern = (matrix.start.clone(), matrix.column.clone());
+        }
+        let symbolic = match self.symbolic.clone() {
+            Some(symbolic) => symbolic,
+            None => SymbolicLlt::try_new(lower.symbolic(), Side::Lower).map_err(|e| failed(&e))?,
+        };
+        self.symbolic = Some(symbolic.clone());
+        let factor = Llt::try_new_with_symbolic(symbolic, lower.as_ref(), Side::Lower).map_err(|e| failed(&e))?;
+        let solution = factor.solve(Col::from_fn(b.len(), |i| b[i]));
+        x.iter_mut().enumerate().for_each(|(i, x)| *x = solution[i]);
+        Ok(())
+    }
+}
+
+fn lower_triangle(matrix: &Matrix, part: &[u32]) -> Result<SparseColMat<usize, f64>, FactorizationError> {
+    let mut seen = Vec::new();
+    let mut entries = Vec::with_capacity(matrix.column.len() / 2 + matrix.rows());
+    for a in 0..matrix.rows() {
+        // Doubling one diagonal entry per part holds that unknown near zero without a change of the range's solution.
+        let first = !seen.contains(&part[a]);
+        if first {
+            seen.push(part[a]);
+        }
+        entries.push(Triplet::new(a, a, matrix.diagonal[a] * if first { 2.0 } else { 1.0 }));
+        for (b, coupling) in matrix.row(a).filter(|&(b, _)| b <= a) {
+            entries.push(Triplet::new(a, b, -coupling));
+        }
+    }
+    SparseColMat::try_new_from_triplets(matrix.rows(), matrix.rows(), &entries)
+        .map_err(|e| FactorizationError(format!("{e:?}")))
+}

@@ -1,0 +1,54 @@
+//! A symmetric matrix with non-positive off-diagonal entries: what Eq. (30) times −V_a gives, and its coarse forms.
+
+use crate::sph::pairs::each;
+
+/// M = D − A with A ≥ 0 off the diagonal: (M x)_a = D_a x_a − Σ_b A_ab x_b. Columns may repeat within a row.
+#[derive(Debug, Clone, Default)]
+pub struct Matrix {
+    /// Row starts, one more than there are rows.
+    pub start: Vec<usize>,
+    /// Columns of the off-diagonal entries.
+    pub column: Vec<u32>,
+    /// A_ab, the negative of the off-diagonal entries.
+    pub coupling: Vec<f64>,
+    /// D_a.
+    pub diagonal: Vec<f64>,
+}
+
+impl Matrix {
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.diagonal.len()
+    }
+
+    /// Columns and couplings of a row.
+    #[inline]
+    pub fn row(&self, a: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let row = self.start[a]..self.start[a + 1];
+        self.column[row.clone()].iter().zip(&self.coupling[row]).map(|(&b, &coupling)| (b as usize, coupling))
+    }
+
+    /// Σ_b A_ab x_b.
+    #[inline]
+    #[must_use]
+    pub fn coupled(&self, a: usize, x: &[f64]) -> f64 {
+        self.row(a).map(|(b, coupling)| coupling * x[b]).sum()
+    }
+
+    /// y = M x.
+    pub fn apply(&self, x: &[f64], y: &mut [f64]) {
+        each(y, |a| self.diagonal[a] * x[a] - self.coupled(a, x));
+    }
+
+    /// r = b − M x.
+    pub fn residual(&self, b: &[f64], x: &[f64], r: &mut [f64]) {
+        each(r, |a| b[a] - self.diagonal[a] * x[a] + self.coupled(a, x));
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.start.len() * 8 + self.column.len() * 12 + self.diagonal.len() * 8
+    }
+}

@@ -1,0 +1,17 @@
+//! The pressure Poisson equation: its matrix, and how it is solved.
+//!
+//! Small systems go to sparse Cholesky, all others to conjugate gradients with a multigrid cycle as preconditioner.
+
+mod aggregation;
+mod assemble;
+mod cholesky;
+mod conjugate_gradients;
+mod matrix;
+mod multigrid;
+mod solve;
+
+pub use assemble::{assemble, parts};
+pub use conjugate_gradients::{Convergence, conjugate_gradients};
+pub use matrix::Matrix;
+pub use multigrid::Multigrid;
+pub use solve::{PressureSolve, Tolerance, Unknowns};

@@ -1,0 +1,221 @@
+//! Multigrid by plain aggregation with a K-cycle, as preconditioner of conjugate gradients (Notay 2010, ETNA 37).
+//!
+//! Aggregates are squares of about 3 × 3 points, their coarse matrix is the sum of the couplings between them, and the
+//! smoother is one forward and one backward Gauss-Seidel sweep. All of it follows from the matrix and the positions of
+//! this step alone, so that a resumed run repeats it exactly. Blocks of fixed size make the sweeps parallel with the same
+//! bits for any number of threads; since D ≥ Σ A the sweeps converge for any blocks.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use rayon::prelude::*;
+
+use crate::math::Vec2;
+use crate::sph::pairs::total;
+use crate::sph::poisson::Matrix;
+use crate::sph::poisson::aggregation::{Aggregates, COARSENING};
+
+/// A level of at most this many unknowns is solved by a dense factorization.
+const DIRECT: usize = 150;
+
+/// Rows of one Gauss-Seidel block.
+const BLOCK: usize = 2048;
+
+/// The second step of the K-cycle is left out where the first brought the residual below this share.
+const GOOD_ENOUGH: f64 = 0.25;
+
+/// Share of the largest diagonal entry added to the coarsest diagonal: without a fixed pressure the matrix is singular.
+const REGULARIZATION: f64 = 1e-9;
+
+struct Level {
+    matrix: Matrix,
+    /// Aggregate of each unknown of the level above.
+    aggregate: Vec<u32>,
+}
+
+/// The hierarchy of one matrix; the finest matrix stays with the caller.
+pub struct Multigrid {
+    coarse: Vec<Level>,
+    direct: Option<Cholesky<f64, Dyn>>,
+}
+
+impl Multigrid {
+    /// Builds the hierarchy for `matrix`, whose unknowns lie at `points` about `spacing` (m) apart; `kind` as in
+    /// [`Aggregates::by_cell`].
+    #[must_use]
+    pub fn new(matrix: &Matrix, points: &[Vec2], kind: &[u8], spacing: f64) -> Self {
+        let mut coarse: Vec<Level> = Vec::new();
+        let (mut points, mut kind, mut width) = (points.to_vec(), kind.to_vec(), spacing);
+        loop {
+            let finest = coarse.last().map_or(matrix, |level| &level.matrix);
+            if finest.rows() <= DIRECT {
+                break;
+            }
+            width *= COARSENING;
+            let aggregates = Aggregates::by_cell(&points, &kind, width);
+            // Scattered points that no cell joins cannot be coarsened; widen the cells once more, then give up.
+            if aggregates.position.len() * 10 > finest.rows() * 9 && width > 1e3 * spacing {
+                break;
+            }
+            let matrix = galerkin(finest, &aggregates.of, aggregates.position.len());
+            (points, kind) = (aggregates.position, aggregates.kind);
+            coarse.push(Level { matrix, aggregate: aggregates.of });
+        }
+        let coarsest = coarse.last().map_or(matrix, |level| &level.matrix);
+        let direct = if coarsest.rows() <= 10 * DIRECT { factor(coarsest) } else { None };
+        Self { coarse, direct }
+    }
+
+    /// z ≈ M⁻¹ r by one cycle from zero.
+    pub fn precondition(&self, matrix: &Matrix, r: &[f64], z: &mut [f64]) {
+        self.cycle(0, matrix, r, z);
+    }
+
+    fn cycle(&self, depth: usize, matrix: &Matrix, r: &[f64], z: &mut [f64]) {
+        let Some(next) = self.coarse.get(depth) else {
+            match &self.direct {
+                Some(direct) => z.copy_from_slice(direct.solve(&DVector::from_column_slice(r)).as_slice()),
+                None => forward_from_zero(matrix, r, z),
+            }
+            return;
+        };
+        forward_from_zero(matrix, r, z);
+        let mut left = vec![0.0; r.len()];
+        matrix.residual(r, z, &mut left);
+        let mut coarse_r = vec![0.0; next.matrix.rows()];
+        for (value, &group) in left.iter().zip(&next.aggregate) {
+            coarse_r[group as usize] += value;
+        }
+        let coarse_z = self.inner(depth + 1, &next.matrix, &coarse_r);
+        for (z, &group) in z.iter_mut().zip(&next.aggregate) {
+            *z += coarse_z[group as usize];
+        }
+        left.copy_from_slice(z);
+        backward(matrix, r, &left, z);
+    }
+
+    /// At most two steps of flexible conjugate gradients with the cycle of the level as preconditioner (Notay 2010, Alg. 3.2).
+    fn inner(&self, depth: usize, matrix: &Matrix, b: &[f64]) -> Vec<f64> {
+        let n = b.len();
+        let mut c = vec![0.0; n];
+        self.cycle(depth, matrix, b, &mut c);
+        if depth == self.coarse.len() {
+            return c;
+        }
+        let mut v = vec![0.0; n];
+        matrix.apply(&c, &mut v);
+        let (rho, alpha) = (dot(&c, &v), dot(&c, b));
+        if !(rho > 0.0) {
+            return c;
+        }
+        let r: Vec<f64> = b.iter().zip(&v).map(|(b, v)| b - alpha / rho * v).collect();
+        if dot(&r, &r) <= GOOD_ENOUGH * GOOD_ENOUGH * dot(b, b) {
+            c.iter_mut().for_each(|c| *c *= alpha / rho);
+            return c;
+        }
+        let (mut d, mut w) = (vec![0.0; n], vec![0.0; n]);
+        self.cycle(depth, matrix, &r, &mut d);
+        matrix.apply(&d, &mut w);
+        let (gamma, beta, alpha2) = (dot(&d, &v), dot(&d, &w), dot(&d, &r));
+        let rho2 = beta - gamma * gamma / rho;
+        if !(rho2 > 0.0) {
+            c.iter_mut().for_each(|c| *c *= alpha / rho);
+            return c;
+        }
+        let (x, y) = (alpha / rho - gamma * alpha2 / (rho * rho2), alpha2 / rho2);
+        c.iter_mut().zip(&d).for_each(|(c, d)| *c = x * *c + y * d);
+        c
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.coarse.iter().map(|level| level.matrix.bytes() + level.aggregate.len() * 4).sum()
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    total(a.len(), |i| a[i] * b[i])
+}
+
+/// Pᵀ M P for piecewise constant P: couplings between aggregates are summed, those within one cancel.
+fn galerkin(fine: &Matrix, aggregate: &[u32], count: usize) -> Matrix {
+    const NONE: usize = usize::MAX;
+    let mut start = vec![0; count + 1];
+    for &group in aggregate {
+        start[group as usize + 1] += 1;
+    }
+    for i in 0..count {
+        start[i + 1] += start[i];
+    }
+    let mut next = start.clone();
+    let mut members = vec![0_u32; aggregate.len()];
+    for (a, &group) in aggregate.iter().enumerate() {
+        members[next[group as usize]] = a as u32;
+        next[group as usize] += 1;
+    }
+    let mut coarse = Matrix { start: vec![0], ..Matrix::default() };
+    let mut place = vec![NONE; count];
+    for group in 0..count {
+        let first = coarse.column.len();
+        let (mut diagonal, mut within) = (0.0, 0.0);
+        for &a in &members[start[group]..start[group + 1]] {
+            diagonal += fine.diagonal[a as usize];
+            for (b, coupling) in fine.row(a as usize) {
+                let other = aggregate[b] as usize;
+                if other == group {
+                    within += coupling;
+                } else if place[other] != NONE && place[other] >= first {
+                    coarse.coupling[place[other]] += coupling;
+                } else {
+                    place[other] = coarse.column.len();
+                    coarse.column.push(other as u32);
+                    coarse.coupling.push(coupling);
+                }
+            }
+        }
+        coarse.diagonal.push(diagonal - within);
+        coarse.start.push(coarse.column.len());
+    }
+    coarse
+}
+
+fn factor(matrix: &Matrix) -> Option<Cholesky<f64, Dyn>> {
+    let n = matrix.rows();
+    let largest = matrix.diagonal.iter().fold(0.0_f64, |m, d| m.max(*d));
+    let mut dense = DMatrix::from_diagonal(&DVector::from_column_slice(&matrix.diagonal));
+    for a in 0..n {
+        dense[(a, a)] += REGULARIZATION * largest;
+        for (b, coupling) in matrix.row(a) {
+            dense[(a, b)] -= coupling;
+        }
+    }
+    Cholesky::new(dense)
+}
+
+/// z = (D − L)⁻¹ r, block by block: a forward Gauss-Seidel sweep from zero.
+fn forward_from_zero(matrix: &Matrix, r: &[f64], z: &mut [f64]) {
+    z.par_chunks_mut(BLOCK).enumerate().for_each(|(block, z)| {
+        let first = block * BLOCK;
+        for i in 0..z.len() {
+            let a = first + i;
+            let known: f64 =
+                matrix.row(a).filter(|&(b, _)| b >= first && b < a).map(|(b, coupling)| coupling * z[b - first]).sum();
+            z[i] = (r[a] + known) / matrix.diagonal[a];
+        }
+    });
+}
+
+/// A backward Gauss-Seidel sweep from `old`, block by block; other blocks are seen as they were.
+fn backward(matrix: &Matrix, r: &[f64], old: &[f64], z: &mut [f64]) {
+    z.par_chunks_mut(BLOCK).enumerate().for_each(|(block, z)| {
+        let first = block * BLOCK;
+        let end = first + z.len();
+        for i in (0..z.len()).rev() {
+            let a = first + i;
+            let coupled: f64 = matrix
+                .row(a)
+                .map(|(b, coupling)| coupling * if b >= first && b < end { z[b - first] } else { old[b] })
+                .sum();
+            z[i] = (r[a] + coupled) / matrix.diagonal[a];
+        }
+    });
+}

@@ -1,0 +1,103 @@
+//! One pressure solve: the right side made compatible, the solver chosen by size, the result checked.
+
+use crate::math::Vec2;
+use crate::sph::pairs::total;
+use crate::sph::poisson::cholesky::SparseCholesky;
+use crate::sph::poisson::conjugate_gradients::{Convergence, conjugate_gradients};
+use crate::sph::poisson::{Matrix, Multigrid};
+
+/// Systems up to this size are solved directly. Above it the factorization costs more than the iteration (benches/poisson.rs).
+const SMALL: usize = 300;
+
+/// When the iteration stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Largest |b − M p|/|b|.
+    pub residual: f64,
+    /// Most iterations.
+    pub iterations: usize,
+}
+
+/// The points of the unknowns, for the multigrid.
+pub struct Unknowns<'a> {
+    /// Positions in m.
+    pub position: &'a [Vec2],
+    /// Light or heavy fluid or wall: coarse unknowns join one kind only.
+    pub kind: &'a [u8],
+    /// Part of the pore space, numbered from 0.
+    pub part: &'a [u32],
+    /// Distance of neighboring points in m.
+    pub spacing: f64,
+}
+
+/// Solves the pressure Poisson equation step after step.
+#[derive(Default)]
+pub struct PressureSolve {
+    /// The matrix of the last solve.
+    pub matrix: Matrix,
+    cholesky: SparseCholesky,
+    hierarchy_bytes: usize,
+}
+
+impl PressureSolve {
+    /// Solves M p = b for the matrix set before, from the first guess `p`.
+    ///
+    /// Without a fixed pressure b must sum to zero over each part; what is left over by the discrete divergence is spread by `volume`.
+    /// Then p has mean zero over each part.
+    pub fn solve(
+        &mut self,
+        unknowns: &Unknowns,
+        volume: &[f64],
+        b: &mut [f64],
+        p: &mut [f64],
+        tolerance: Tolerance,
+    ) -> Convergence {
+        subtract_mean(unknowns.part, volume, b);
+        let convergence = if self.matrix.rows() <= SMALL {
+            self.solve_directly(unknowns, b, p, tolerance)
+        } else {
+            self.iterate(unknowns, b, p, tolerance)
+        };
+        let ones = vec![1.0; p.len()];
+        subtract_mean(unknowns.part, &ones, p);
+        convergence
+    }
+
+    fn solve_directly(&mut self, unknowns: &Unknowns, b: &[f64], p: &mut [f64], tolerance: Tolerance) -> Convergence {
+        if self.cholesky.solve(&self.matrix, unknowns.part, b, p).is_err() {
+            return self.iterate(unknowns, b, p, tolerance);
+        }
+        let mut r = vec![0.0; b.len()];
+        self.matrix.residual(b, p, &mut r);
+        let norm = |v: &[f64]| total(v.len(), |i| v[i] * v[i]).sqrt();
+        let residual = if norm(b) > 0.0 { norm(&r) / norm(b) } else { 0.0 };
+        Convergence { iterations: 1, residual }
+    }
+
+    fn iterate(&mut self, unknowns: &Unknowns, b: &[f64], p: &mut [f64], tolerance: Tolerance) -> Convergence {
+        let multigrid = Multigrid::new(&self.matrix, unknowns.position, unknowns.kind, unknowns.spacing);
+        self.hierarchy_bytes = multigrid.bytes();
+        conjugate_gradients(&self.matrix, b, p, (tolerance.residual, tolerance.iterations), |r, z| {
+            multigrid.precondition(&self.matrix, r, z);
+        })
+    }
+
+    /// Bytes held between and during solves.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.matrix.bytes() + self.hierarchy_bytes
+    }
+}
+
+/// Takes `weight`·(Σ values/Σ weight) off the values of each part, so that they sum to zero over it.
+fn subtract_mean(part: &[u32], weight: &[f64], values: &mut [f64]) {
+    let count = part.iter().max().map_or(0, |m| *m as usize + 1);
+    let (mut sum, mut total) = (vec![0.0; count], vec![0.0; count]);
+    for ((&part, value), weight) in part.iter().zip(values.iter()).zip(weight) {
+        sum[part as usize] += value;
+        total[part as usize] += weight;
+    }
+    for ((&part, value), weight) in part.iter().zip(values.iter_mut()).zip(weight) {
+        *value -= weight * sum[part as usize] / total[part as usize];
+    }
+}

@@ -1,0 +1,405 @@
+//! One time step: predictor, pressure, corrector [Huber2013, section 3.3]. The one place where the order of the terms is decided.
+
+use std::time::Instant;
+
+use crate::math::Vec2;
+use crate::solver::{PartTime, SolverError, StepInfo};
+use crate::sph::cells::Cells;
+use crate::sph::domain::Domain;
+use crate::sph::fields::Fields;
+use crate::sph::images::Images;
+use crate::sph::method::{Method, ViscousTerm};
+use crate::sph::pairs::{Pairs, each, largest};
+use crate::sph::particles::{Particles, Phase};
+use crate::sph::poisson::{PressureSolve, Unknowns, assemble, parts};
+use crate::sph::terms::divergence::divergence;
+use crate::sph::terms::viscosity::Viscous;
+use crate::sph::terms::{pressure_gradient, shifting};
+use crate::sph::time_step::landing;
+
+/// The particles are put in the order of their cells every so many steps, so that neighbors are near in memory.
+const REORDER_EVERY: u64 = 20;
+
+/// A particle that moves farther than this share of h in a step has run away.
+const LARGEST_MOVE: f64 = 0.5;
+
+/// A fluid particle nearer to a wall than this share of dx is set back to it: the pressure of a rough wall can leak.
+const CLOSEST_TO_WALL: f64 = 0.05;
+
+/// The signed distance in m (above 0 in the pore) and the wall normal at a point.
+pub type WallQuery = Box<dyn Fn(Vec2) -> (f64, Vec2) + Send + Sync>;
+
+/// Counts of the solver's work.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Work {
+    /// Steps done by this process.
+    pub steps: u64,
+    /// Iterations of the last pressure solve.
+    pub last_iterations: usize,
+    /// Iterations of all pressure solves.
+    pub iterations: u64,
+    /// Relative residual of the last pressure solve.
+    pub residual: f64,
+    /// Particles set back from a wall.
+    pub set_back: u64,
+    /// Wall time of neighbors, forces, pressure matrix and solve, move in s.
+    pub seconds: [f64; 4],
+}
+
+/// Names of the parts that `Work::seconds` counts.
+pub const PARTS: [&str; 4] = ["neighbors", "forces", "pressure", "move"];
+
+/// The state of a simulation and all that follows from it.
+pub struct Flow {
+    /// Constants.
+    pub method: Method,
+    /// Box and sides.
+    pub domain: Domain,
+    /// Wall distance and normal.
+    pub wall: WallQuery,
+    /// The particles.
+    pub particles: Particles,
+    /// Depth of each wall particle in m.
+    pub wall_depth: Vec<f64>,
+    /// Time in s.
+    pub time: f64,
+    /// Steps since time zero.
+    pub steps: u64,
+    /// Last step.
+    pub last: StepInfo,
+    /// Fields at the present positions.
+    pub fields: Fields,
+    /// Pairs at the present positions.
+    pub pairs: Pairs,
+    /// Images at the present positions.
+    pub images: Images,
+    /// Pressure solver.
+    pub pressure: PressureSolve,
+    /// Counts.
+    pub work: Work,
+}
+
+/// The intermediate state of a step [Huber2013, Eq. 25].
+struct Predicted {
+    dt: f64,
+    limit: &'static str,
+    /// v_int over particles and images in m/s.
+    velocity: Vec<Vec2>,
+}
+
+impl Flow {
+    /// The flow at time zero. `wall_depth` in m as `fill` returns it.
+    #[must_use]
+    pub fn new(method: Method, domain: Domain, wall: WallQuery, particles: Particles, wall_depth: Vec<f64>) -> Self {
+        let mut flow = Self {
+            method,
+            domain,
+            wall,
+            particles,
+            wall_depth,
+            time: 0.0,
+            steps: 0,
+            last: StepInfo { dt: 0.0, limit: "none" },
+            fields: Fields::default(),
+            pairs: Pairs::default(),
+            images: Images::default(),
+            pressure: PressureSolve::default(),
+            work: Work::default(),
+        };
+        flow.order_walls();
+        flow.prepare();
+        flow.particles.part = parts(&flow.pairs, &flow.images);
+        flow
+    }
+
+    /// All that follows from the positions: neighbors, volumes, normals, forces of interface and lines.
+    pub fn prepare(&mut self) {
+        let start = Instant::now();
+        if self.steps.is_multiple_of(REORDER_EVERY) {
+            let fluids = &self.particles.position[..self.particles.fluids];
+            let order = Cells::build(fluids, &self.domain, self.method.kernel.support()).order().to_vec();
+            self.reorder(
+                order.iter().map(|&i| i as usize).chain(self.particles.fluids..self.particles.len()).collect(),
+            );
+        }
+        let mut points = self.particles.position.clone();
+        self.images = Images::append(&mut points, &self.domain, self.method.kernel.support());
+        self.pairs = Pairs::find(&points, self.particles.len(), &self.domain, &self.method.kernel);
+        let after = Instant::now();
+        let neighborhood = (&self.particles, &self.pairs, &self.images);
+        self.fields.update_bulk(neighborhood, &self.method, &self.wall);
+        self.fields.update_interface(neighborhood, &self.method);
+        self.work.seconds[0] += (after - start).as_secs_f64();
+        self.work.seconds[1] += after.elapsed().as_secs_f64();
+    }
+
+    fn order_walls(&mut self) {
+        let fluids = self.particles.fluids;
+        let walls = &self.particles.position[fluids..];
+        let order = Cells::build(walls, &self.domain, self.method.kernel.support()).order().to_vec();
+        self.wall_depth = order.iter().map(|&i| self.wall_depth[i as usize]).collect();
+        self.reorder((0..fluids).chain(order.iter().map(|&i| i as usize + fluids)).collect());
+    }
+
+    fn reorder(&mut self, order: Vec<usize>) {
+        self.particles.reorder(&order);
+    }
+
+    /// Does one step that ends at `until` (s) or before.
+    ///
+    /// # Errors
+    /// See [`SolverError`]; positions, velocities and time are then those before the step.
+    pub fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
+        let start = Instant::now();
+        let predicted = self.predict(until)?;
+        let after_forces = Instant::now();
+        let pressure = self.project(&predicted)?;
+        let after_pressure = Instant::now();
+        let velocity = self.correct(&predicted, &pressure);
+        self.advance(&predicted, velocity, until)?;
+        self.particles.pressure = pressure;
+        self.work.seconds[1] += (after_forces - start).as_secs_f64();
+        self.work.seconds[2] += (after_pressure - after_forces).as_secs_f64();
+        self.work.seconds[3] += after_pressure.elapsed().as_secs_f64();
+        self.work.steps += 1;
+        self.prepare();
+        Ok(self.last)
+    }
+
+    /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25].
+    fn predict(&self, until: f64) -> Result<Predicted, SolverError> {
+        let (particles, fluids) = (&self.particles, self.particles.fluids);
+        let mut velocity = particles.velocity.clone();
+        self.images.extend_velocity(&mut velocity);
+        let (viscous, rate) = self.viscous_acceleration(&velocity);
+        let (fastest, speed) = largest(fluids, |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
+        let step = self.method.time_step(speed, rate);
+        let smallest = self.method.smallest_time_step(rate);
+        if !(step.dt >= smallest) {
+            let place = particles.position.get(fastest).copied().unwrap_or_default();
+            let (time, step_number) = (self.time, self.steps);
+            return Err(SolverError::TimeStep {
+                dt: step.dt,
+                smallest,
+                limit: step.limit,
+                time,
+                step: step_number,
+                place,
+            });
+        }
+        let step = landing(step, self.time, until);
+        let background = self.background_acceleration(speed);
+        let f = &self.fields;
+        each(&mut velocity[..fluids], |a| {
+            let forces = (f.surface_force[a] + f.line_force[a]) / f.density[a];
+            particles.velocity[a] + step.dt * (viscous[a] + self.method.gravity + forces + background[a])
+        });
+        self.images.extend_velocity(&mut velocity);
+        Ok(Predicted { dt: step.dt, limit: step.limit, velocity })
+    }
+
+    /// The viscous acceleration of the fluid particles in m/s² and the largest viscous rate in 1/s.
+    fn viscous_acceleration(&self, velocity: &[Vec2]) -> (Vec<Vec2>, f64) {
+        let (fluids, f) = (self.particles.fluids, &self.fields);
+        let viscous =
+            Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity, zeta: self.method.zeta() };
+        let r_ab = |a: usize, b: usize| self.separation(a, b);
+        let stretch = |a: usize, b: usize| self.stretch(a, b);
+        let v_ab = |a: usize, b: usize| stretch(a, b) * (velocity[a] - velocity[b]);
+        let mut acceleration = vec![Vec2::zeros(); fluids];
+        match self.method.viscous_term {
+            ViscousTerm::Morris => viscous.morris(&self.pairs, r_ab, v_ab, &mut acceleration),
+            ViscousTerm::Szewc => viscous.szewc(&self.pairs, r_ab, v_ab, &mut acceleration),
+        }
+        let mut rate = vec![0.0; fluids];
+        viscous.rate(&self.pairs, r_ab, stretch, &mut rate);
+        (acceleration, rate.iter().fold(0.0, |m: f64, r| m.max(*r)))
+    }
+
+    /// |v_ab| over the velocity difference: β at walls, 1 between fluid particles.
+    fn stretch(&self, a: usize, b: usize) -> f64 {
+        let (source, fluids) = (self.images.source(b), self.particles.fluids);
+        if source < fluids {
+            return 1.0;
+        }
+        self.method.no_slip.stretch(self.fields.wall_distance[a], self.wall_depth[source - fluids])
+    }
+
+    /// x_a − x_b in m, where b may be an image.
+    fn separation(&self, a: usize, b: usize) -> Vec2 {
+        let x_b = self.images.position(b, &self.particles.position);
+        self.domain.separation(self.particles.position[a], x_b)
+    }
+
+    /// The background pressure p_0 in Pa for a flow of the given `speed` (m/s).
+    fn background_pressure(&self, speed: f64) -> f64 {
+        let m = &self.method;
+        let scale = if m.tension > 0.0 { m.tension / m.kernel.h } else { m.mean_density() * speed * speed };
+        m.background_pressure * scale
+    }
+
+    fn background_acceleration(&self, speed: f64) -> Vec<Vec2> {
+        let mut acceleration = vec![Vec2::zeros(); self.particles.fluids];
+        if !self.method.is_symmetric() {
+            let over_density = self.background_pressure(speed) / self.method.mean_density();
+            pressure_gradient::background(&self.pairs, &self.fields.volume, over_density, &mut acceleration);
+        }
+        acceleration
+    }
+
+    /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part.
+    ///
+    /// The right side gives a share γ of the density error back per step (the drift source, which the paper lacks).
+    fn project(&mut self, predicted: &Predicted) -> Result<Vec<f64>, SolverError> {
+        let (n, fluids, dt) = (self.particles.len(), self.particles.fluids, predicted.dt);
+        let (method, f) = (&self.method, &self.fields);
+        let mut source = vec![0.0; n];
+        divergence(&self.pairs, &f.volume, &predicted.velocity, &mut source);
+        let (drift, v_0) = (method.drift_source / (dt * dt), method.volume);
+        let mut b = vec![0.0; n];
+        each(&mut b, |a| {
+            let crowding = if a < fluids { v_0 / f.volume[a] - 1.0 } else { 0.0 };
+            -f.volume[a] * (source[a] / dt - drift * crowding)
+        });
+        let mut matrix = std::mem::take(&mut self.pressure.matrix);
+        let r_ab = |a: usize, b: usize| self.separation(a, b);
+        assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density, r_ab, method.zeta());
+        self.pressure.matrix = matrix;
+        let kind = self.kinds();
+        let unknowns = Unknowns {
+            position: &self.particles.position,
+            kind: &kind,
+            part: &self.particles.part,
+            spacing: method.spacing,
+        };
+        let mut p = self.particles.pressure.clone();
+        let convergence = self.pressure.solve(&unknowns, &self.fields.volume[..n], &mut b, &mut p, method.tolerance);
+        self.work.last_iterations = convergence.iterations;
+        self.work.iterations += convergence.iterations as u64;
+        self.work.residual = convergence.residual;
+        if !(convergence.residual <= method.tolerance.residual) {
+            return Err(SolverError::NotConverged {
+                system: "the pressure equation",
+                residual: convergence.residual,
+                tolerance: method.tolerance.residual,
+                iterations: convergence.iterations,
+                time: self.time,
+                step: self.steps,
+            });
+        }
+        Ok(p)
+    }
+
+    /// 0 in and near the heavy fluid, 1 in and near the light one, so that the multigrid keeps them apart.
+    fn kinds(&self) -> Vec<u8> {
+        let (w, o) = (self.method.wetting_fluid.density, self.method.other_fluid.density);
+        let between = if self.method.is_symmetric() { 0.0 } else { (w * o).sqrt() };
+        self.fields.density[..self.particles.len()].iter().map(|&rho| u8::from(rho < between)).collect()
+    }
+
+    /// The corrector: the velocity at the end of the step [Huber2013, Eq. 26].
+    fn correct(&self, predicted: &Predicted, pressure: &[f64]) -> Vec<Vec2> {
+        let (fluids, f) = (self.particles.fluids, &self.fields);
+        let mut p = pressure.to_vec();
+        let mut acceleration = vec![Vec2::zeros(); fluids];
+        if self.method.is_symmetric() {
+            // The constant matters in Eq. (15): all pressures at or above the background order the particles.
+            let speed = largest(fluids, |a| self.particles.velocity[a].norm()).map_or(0.0, |l| l.1);
+            let lowest = p.iter().fold(f64::INFINITY, |m, p| m.min(*p));
+            let shift = self.background_pressure(speed) - lowest;
+            p.iter_mut().for_each(|p| *p += shift);
+            self.images.extend(&mut p);
+            pressure_gradient::symmetric(&self.pairs, &f.volume, &f.density, &p, &mut acceleration);
+        } else {
+            self.images.extend(&mut p);
+            pressure_gradient::difference(&self.pairs, &f.volume, &f.density, &p, &mut acceleration);
+        }
+        acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a).collect()
+    }
+
+    /// Moves the particles with the mean of old and new velocity [Huber2013, Eq. 27].
+    fn advance(&mut self, predicted: &Predicted, mut velocity: Vec<Vec2>, until: f64) -> Result<(), SolverError> {
+        let (fluids, dt) = (self.particles.fluids, predicted.dt);
+        let mut position = Vec::with_capacity(fluids);
+        for (a, v) in velocity.iter().enumerate() {
+            let by = 0.5 * dt * (self.particles.velocity[a] + v);
+            if !(by.norm() <= LARGEST_MOVE * self.method.kernel.h) {
+                let phase = if self.particles.phase[a] == Phase::Wetting { "wetting" } else { "non-wetting" };
+                return Err(SolverError::BlowUp {
+                    what: format!("a {phase} particle reached {:.3e} m/s", v.norm()),
+                    time: self.time,
+                    step: self.steps,
+                    place: self.particles.position[a],
+                });
+            }
+            position.push(self.domain.wrapped(self.particles.position[a] + by));
+        }
+        self.shift(dt, &mut position, &mut velocity);
+        self.set_back_from_walls(&mut position, &mut velocity);
+        self.particles.position[..fluids].copy_from_slice(&position);
+        self.particles.velocity[..fluids].copy_from_slice(&velocity);
+        self.time = if dt >= until - self.time { until } else { self.time + dt };
+        self.steps += 1;
+        self.last = StepInfo { dt, limit: predicted.limit };
+        Ok(())
+    }
+
+    /// Shifts crowded particles apart and carries their velocity along.
+    fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
+        let (fluids, m) = (self.particles.fluids, &self.method);
+        let speed = largest(fluids, |a| velocity[a].norm()).map_or(0.0, |l| l.1);
+        let diffusion = m.shifting * m.kernel.h * speed * dt;
+        if diffusion == 0.0 {
+            return;
+        }
+        let (mut by, mut change) = (vec![Vec2::zeros(); fluids], vec![Vec2::zeros(); fluids]);
+        shifting::shift(&self.pairs, &self.fields.volume, diffusion, m.kernel.h, &mut by);
+        let mut all = velocity.to_vec();
+        all.extend_from_slice(&self.particles.velocity[fluids..]);
+        self.images.extend_velocity(&mut all);
+        shifting::carried_velocity(&self.pairs, &self.fields.volume, &all, &by, &mut change);
+        for a in 0..fluids {
+            position[a] = self.domain.wrapped(position[a] + by[a]);
+            velocity[a] += change[a];
+        }
+    }
+
+    fn set_back_from_walls(&mut self, position: &mut [Vec2], velocity: &mut [Vec2]) {
+        let closest = CLOSEST_TO_WALL * self.method.spacing;
+        let reach = closest + LARGEST_MOVE * self.method.kernel.h;
+        for a in 0..position.len() {
+            if self.fields.wall_distance[a] < reach {
+                let (distance, normal) = (self.wall)(position[a]);
+                if distance < closest {
+                    position[a] = self.domain.wrapped(position[a] + (closest - distance) * normal);
+                    velocity[a] -= velocity[a].dot(&normal).min(0.0) * normal;
+                    self.work.set_back += 1;
+                }
+            }
+        }
+        for mirror in &self.domain.mirrors {
+            let inwards = (self.domain.bounds.center()[mirror.axis] - mirror.at).signum();
+            for x in position.iter_mut() {
+                let depth = inwards * (x[mirror.axis] - mirror.at);
+                if depth < closest {
+                    x[mirror.axis] = mirror.at + inwards * closest;
+                    self.work.set_back += 1;
+                }
+            }
+        }
+    }
+
+    /// Wall time by part in s.
+    #[must_use]
+    pub fn part_times(&self) -> Vec<PartTime> {
+        PARTS.iter().zip(self.work.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
+    }
+
+    /// Bytes held per particle by pairs, matrix, hierarchy and fields.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        // Sixteen numbers of fields and particles, and ten of work space in step and solve, of 8 bytes or a pair of them.
+        let fields = self.particles.len() * (16 + 10) * 8 * 3 / 2;
+        self.pairs.bytes() + self.pressure.bytes() + fields
+    }
+}

@@ -1,0 +1,14 @@
+//! The equations of the paper, one function each; a sum over pairs reads as it is printed.
+//!
+//! Fields are slices with one entry per particle and image. Where the paper's sum runs over fluid particles only, the
+//! function takes `fluid_volume`: V_b on fluid, 0 on walls.
+
+pub mod color;
+pub mod curvature;
+pub mod density;
+pub mod divergence;
+pub mod poisson;
+pub mod pressure_gradient;
+pub mod shifting;
+pub mod surface_tension;
+pub mod viscosity;

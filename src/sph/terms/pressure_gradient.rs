@@ -1,0 +1,28 @@
+//! Acceleration by the pressure gradient: the paper's form and one that holds at large density ratios.
+
+use crate::math::Vec2;
+use crate::sph::pairs::Pairs;
+
+/// −(∇p/ρ)_a = −Σ_b m_b (p_a + p_b)/(ρ_a ρ_b) ∇_a W_ab in m/s² [Huber2013, Eq. 15], after Morris 2000.
+///
+/// Keeps momentum; the constant in p matters, since it orders the particles. Up to density ratios of about 5.
+pub fn symmetric(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], acceleration: &mut [Vec2]) {
+    pairs.sum_into(acceleration, |a, ab| -volume[ab.b] * (pressure[a] + pressure[ab.b]) / density[a] * ab.grad_w);
+}
+
+/// −Σ_b V_b 2 (p_b − p_a)/(ρ_a + ρ_b) ∇_a W_ab in m/s²: the gradient whose Laplacian is Eq. (30).
+///
+/// Continuous in ∇p/ρ across the interface, so it holds at any density ratio; the constant in p does nothing, and momentum is kept only
+/// as well as the particles are ordered.
+pub fn difference(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], acceleration: &mut [Vec2]) {
+    pairs.sum_into(acceleration, |a, ab| {
+        let b = ab.b;
+        -volume[b] * 2.0 * (pressure[b] - pressure[a]) / (density[a] + density[b]) * ab.grad_w
+    });
+}
+
+/// −2 (p_0/ρ_0) Σ_b V_b ∇_a W_ab in m/s²: what a background pressure p_0 does in [`symmetric`], as an acceleration
+/// that is the same for light and heavy particles. `pressure_over_density` = p_0/ρ_0 in m²/s².
+pub fn background(pairs: &Pairs, volume: &[f64], pressure_over_density: f64, acceleration: &mut [Vec2]) {
+    pairs.sum_into(acceleration, |_, ab| -2.0 * pressure_over_density * volume[ab.b] * ab.grad_w);
+}

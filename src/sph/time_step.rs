@@ -1,0 +1,94 @@
+//! Limits of the time step (method: Brackbill et al. 1992 for surface tension, Morris et al. 1997 for the rest).
+
+use std::f64::consts::PI;
+
+use crate::sph::method::{Method, ViscousTerm};
+
+/// Courant number on the smoothing length.
+const COURANT: f64 = 0.25;
+
+/// Factor on sqrt(ρ̄ h³/(2πσ)). With h = 1.5 dx this is half of Brackbill's limit, which is in terms of dx.
+const CAPILLARY: f64 = 0.25;
+
+/// Szewc's form acts along the line of centers with four times the coefficient of Morris's, half of it on average.
+const SZEWC_OVER_MORRIS: f64 = 2.0;
+
+/// A step below this share of the static limits means that a velocity has run away.
+const COLLAPSE: f64 = 1e-3;
+
+/// A time step with the limit that rules it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeStep {
+    /// Δt in s.
+    pub dt: f64,
+    /// Name of the limit.
+    pub limit: &'static str,
+}
+
+impl TimeStep {
+    fn tighter(self, dt: f64, limit: &'static str) -> Self {
+        if dt < self.dt { Self { dt, limit } } else { self }
+    }
+}
+
+impl Method {
+    /// The largest stable Δt for the fastest particle `speed` (m/s) and the largest viscous rate (1/s, see `Viscous::rate`).
+    #[must_use]
+    pub fn time_step(&self, speed: f64, viscous_rate: f64) -> TimeStep {
+        let step = self.static_time_step(viscous_rate);
+        step.tighter(self.time_step_factor * COURANT * self.kernel.h / speed, "velocity")
+    }
+
+    /// The same without the limit by velocity.
+    #[must_use]
+    pub fn static_time_step(&self, viscous_rate: f64) -> TimeStep {
+        let (h, f) = (self.kernel.h, self.time_step_factor);
+        let over_rate = if self.viscous_term == ViscousTerm::Szewc { 1.0 / SZEWC_OVER_MORRIS } else { 1.0 };
+        TimeStep { dt: f64::INFINITY, limit: "none" }
+            .tighter(f * over_rate / viscous_rate, "viscosity")
+            .tighter(
+                f * CAPILLARY * (self.mean_density() * h.powi(3) / (2.0 * PI * self.tension)).sqrt(),
+                "surface tension",
+            )
+            .tighter(f * COURANT * (h / self.gravity.norm()).sqrt(), "gravity")
+    }
+
+    /// The smallest Δt that is accepted, in s.
+    #[must_use]
+    pub fn smallest_time_step(&self, viscous_rate: f64) -> f64 {
+        let step = self.static_time_step(viscous_rate).dt;
+        if step.is_finite() { COLLAPSE * step } else { 0.0 }
+    }
+}
+
+/// Shortens `step` so that it lands on `until` (s) from `time` (s) without a last sliver.
+#[must_use]
+pub fn landing(step: TimeStep, time: f64, until: f64) -> TimeStep {
+    let left = until - time;
+    if step.dt >= left {
+        TimeStep { dt: left, limit: "record" }
+    } else if 2.0 * step.dt > left {
+        TimeStep { dt: 0.5 * left, limit: "record" }
+    } else {
+        step
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_land_on_the_record_without_a_sliver() {
+        let (mut time, until) = (0.0, 1.0);
+        let mut steps = vec![];
+        while time < until {
+            let step = landing(TimeStep { dt: 0.3, limit: "velocity" }, time, until);
+            steps.push(step.dt);
+            time = if step.dt >= until - time { until } else { time + step.dt };
+        }
+        assert_eq!(time, until);
+        assert_eq!(steps.len(), 4);
+        assert!(steps.iter().all(|dt| *dt > 0.19));
+    }
+}
