@@ -1,0 +1,129 @@
+//! A TOML file as text and tree, with the `--set` values of the command line put in.
+//!
+//! Every node knows its bytes. Those of `--set` values lie behind the end of the file's text, so that one number says
+//! whether a node came from the file or from the command line.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{InputError, Mistake};
+use super::explain::explain;
+use super::overrides::{Override, Overrides};
+use super::path::{self, Step};
+
+/// A parsed file.
+#[derive(Debug, Clone)]
+pub struct Document {
+    name: String,
+    text: Arc<str>,
+    overrides: Overrides,
+}
+
+impl Document {
+    /// Parses `text`; `name` is how the file is called in messages.
+    ///
+    /// # Errors
+    /// All syntax mistakes of the text, and the overrides that cannot be put in.
+    pub fn parse(name: &str, text: &str, overrides: &Overrides) -> Result<Self, InputError> {
+        let document = Self { name: name.to_owned(), text: Arc::from(text), overrides: overrides.clone() };
+        let (_, mistakes) = document.parse_tree();
+        if mistakes.is_empty() { Ok(document) } else { Err(InputError { mistakes }) }
+    }
+
+    /// The tree, with the overrides put in.
+    pub(super) fn tree(&self) -> Spanned<DeTable<'_>> {
+        self.parse_tree().0
+    }
+
+    fn parse_tree(&self) -> (Spanned<DeTable<'_>>, Vec<Mistake>) {
+        let (mut root, errors) = DeTable::parse_recoverable(&self.text);
+        let syntax = |error: &toml::de::Error| {
+            let explained = explain(error.message());
+            self.mistake(error.span().unwrap_or_default(), (explained.message, explained.help))
+        };
+        let mut mistakes: Vec<Mistake> = errors.iter().map(syntax).collect();
+        if !mistakes.is_empty() {
+            return (root, mistakes);
+        }
+        for (base, entry) in self.bases() {
+            if let Err(problem) = entry.put_into(&mut root, base) {
+                mistakes.push(self.mistake(base..base + entry.text.len(), problem));
+            }
+        }
+        (root, mistakes)
+    }
+
+    /// The overrides, each with its first byte behind the file's text.
+    fn bases(&self) -> impl Iterator<Item = (usize, &Override)> {
+        self.overrides.entries().iter().scan(self.text.len() + 1, |next, entry| {
+            let base = *next;
+            *next += entry.text.len() + 1;
+            Some((base, entry))
+        })
+    }
+
+    /// How the file is called in messages.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// A mistake at some bytes of the file or of an override.
+    pub(super) fn mistake(&self, range: Range<usize>, problem: (String, String)) -> Mistake {
+        match self.bases().filter(|(base, _)| *base <= range.start).last() {
+            Some((base, entry)) => {
+                let range = range.start - base..range.end.saturating_sub(base);
+                Mistake::in_text(&format!("--set {}", entry.text), &Arc::from(entry.text.as_str()), range, problem)
+            }
+            None => Mistake::in_text(&self.name, &self.text, range, problem),
+        }
+    }
+
+    /// The bytes of the value at a key path or, where it is absent, those of the nearest table around it.
+    pub(super) fn place(&self, path: &str) -> Range<usize> {
+        let steps = path::parse(path).unwrap_or_default();
+        let Some((Step::Key(first), rest)) = steps.split_first() else { return 0..0 };
+        let tree = self.tree();
+        let Some(mut node) = tree.get_ref().get(first.as_str()) else { return 0..0 };
+        for step in rest {
+            let next = match (step, node.get_ref()) {
+                (Step::Key(key), DeValue::Table(table)) => table.get(key.as_str()),
+                (Step::Index(index), DeValue::Array(array)) => array.get(*index),
+                _ => None,
+            };
+            let Some(next) = next else { break };
+            node = next;
+        }
+        node.span()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place_of(text: &str, path: &str) -> String {
+        let document = Document::parse("f", text, &Overrides::default()).unwrap();
+        text[document.place(path)].to_owned()
+    }
+
+    #[test]
+    fn a_value_is_found_by_its_path_in_every_way_of_writing_it() {
+        let text = "[a.b]\nc = 1\n[[d]]\ne = {f = 2.0}\n[[d]]\ng.h.i = [3, 4]\n";
+        assert_eq!(place_of(text, "a.b.c"), "1");
+        assert_eq!(place_of(text, "d[0].e.f"), "2.0");
+        assert_eq!(place_of(text, "d[1].g.h.i[1]"), "4");
+    }
+
+    #[test]
+    fn an_absent_key_has_the_place_of_the_table_around_it() {
+        let text = "x = 1\n[a.b]\nc = 1\n[[d]]\ne = {f = 2.0}\n[[d]]\n";
+        assert_eq!(place_of(text, "a.b.zzz"), "[a.b]");
+        assert_eq!(place_of(text, "d[0].e.zzz"), "{f = 2.0}");
+        assert_eq!(place_of(text, "d[1].zzz"), "[[d]]");
+        assert_eq!(place_of(text, "zzz"), "");
+    }
+}

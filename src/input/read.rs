@@ -1,0 +1,326 @@
+//! Reading a document into a type by serde, going on after each mistake.
+//!
+//! Serde stops at the first mistake. So the node it names is taken out of the tree and the rest is read again; types
+//! have optional fields, and what is missing is judged by their checkers. What a removal makes others say (a table that
+//! now lacks a key) is not reported.
+
+use std::ops::Range;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use super::document::Document;
+use super::error::{InputError, Mistake};
+use super::explain::explain;
+use super::path::{self, Step};
+use super::problem::Problem;
+
+/// Mistakes after which a file is not read further; a file with more of them is no case file.
+const MOST_MISTAKES: usize = 100;
+
+/// A document read into a type, with the mistakes so far.
+#[derive(Debug)]
+pub struct Reading<'d, T> {
+    /// The value; what was wrong is absent from it.
+    pub value: T,
+    document: &'d Document,
+    mistakes: Vec<(Range<usize>, Mistake)>,
+    removed: Removed,
+}
+
+/// What has been taken out of the tree.
+#[derive(Debug, Default)]
+struct Removed {
+    /// Key paths in the file, and the keys that were probably meant by them.
+    paths: Vec<String>,
+    /// Array and index in the file of each array element taken out.
+    elements: Vec<(Vec<Step>, usize)>,
+}
+
+impl Document {
+    /// Reads the document as a `T`.
+    #[must_use]
+    pub fn read<T: DeserializeOwned + Serialize + Default>(&self) -> Reading<'_, T> {
+        let mut reader =
+            Reader { document: self, root: self.tree(), mistakes: Vec::new(), removed: Removed::default() };
+        reader.refuse_non_finite();
+        let value = reader.read();
+        reader.refuse_long_arrays(&value);
+        Reading { value, document: self, mistakes: reader.mistakes, removed: reader.removed }
+    }
+}
+
+impl<T> Reading<'_, T> {
+    /// Whether nothing was wrong so far.
+    #[must_use]
+    pub fn is_clean(&self) -> bool {
+        self.mistakes.is_empty()
+    }
+
+    /// All mistakes by place: those of reading, and `problems` where they do not follow from those.
+    #[must_use]
+    pub fn refuse(self, problems: Vec<Problem>) -> Vec<Mistake> {
+        let mut mistakes = self.mistakes;
+        for problem in problems {
+            let steps = path::parse(&problem.path).unwrap_or_default();
+            let path = path::write(&self.removed.in_file(&steps));
+            if self.removed.paths.iter().any(|removed| path::is_within(&path, removed)) {
+                continue;
+            }
+            let range = self.document.place(&path);
+            let mistake = self.document.mistake(range.clone(), (problem.message, problem.help));
+            mistakes.push((range, mistake));
+        }
+        mistakes.sort_by_key(|(range, _)| range.start);
+        let mut mistakes: Vec<Mistake> = mistakes.into_iter().map(|(_, mistake)| mistake).collect();
+        mistakes.dedup_by(|a, b| a.place == b.place && a.name == b.name && a.message == b.message);
+        mistakes
+    }
+}
+
+impl Document {
+    /// The error that names `problems` at their places, where there are any.
+    ///
+    /// # Errors
+    /// [`InputError`] with all problems.
+    pub fn refuse(&self, problems: Vec<Problem>) -> Result<(), InputError> {
+        let reading = Reading { value: (), document: self, mistakes: Vec::new(), removed: Removed::default() };
+        let mistakes = reading.refuse(problems);
+        if mistakes.is_empty() { Ok(()) } else { Err(InputError { mistakes }) }
+    }
+}
+
+impl Removed {
+    /// A path of the tree as it is now, as a path of the file.
+    fn in_file(&self, steps: &[Step]) -> Vec<Step> {
+        let mut path: Vec<Step> = Vec::with_capacity(steps.len());
+        for step in steps {
+            let step = match step {
+                Step::Index(index) => {
+                    let mut gone: Vec<usize> =
+                        self.elements.iter().filter(|(array, _)| *array == path).map(|(_, index)| *index).collect();
+                    gone.sort_unstable();
+                    Step::Index(gone.iter().fold(*index, |index, gone| if *gone <= index { index + 1 } else { index }))
+                }
+                key => key.clone(),
+            };
+            path.push(step);
+        }
+        path
+    }
+
+    fn has(&self, table: &[Step], key: &str) -> bool {
+        let mut steps = table.to_vec();
+        steps.push(Step::Key(key.to_owned()));
+        self.paths.contains(&path::write(&steps))
+    }
+
+    fn has_below(&self, table: &[Step]) -> bool {
+        let table = path::write(table);
+        self.paths.iter().any(|path| path::is_within(path, &table))
+    }
+}
+
+struct Reader<'d> {
+    document: &'d Document,
+    root: Spanned<DeTable<'d>>,
+    mistakes: Vec<(Range<usize>, Mistake)>,
+    removed: Removed,
+}
+
+impl<'d> Reader<'d> {
+    fn read<T: DeserializeOwned + Default>(&mut self) -> T {
+        while self.mistakes.len() < MOST_MISTAKES {
+            let error = match T::deserialize(toml::Deserializer::from(self.root.clone())) {
+                Ok(value) => return value,
+                Err(error) => error,
+            };
+            let span = error.span().unwrap_or_default();
+            let steps = find(self.root.get_ref(), &span);
+            self.record(&error, span, &steps);
+            if !self.remove(steps) {
+                break;
+            }
+        }
+        T::default()
+    }
+
+    /// Notes a serde error, unless it follows from something taken out before.
+    fn record(&mut self, error: &toml::de::Error, span: Range<usize>, steps: &[Step]) {
+        let explained = explain(error.message());
+        let here = self.removed.in_file(steps);
+        let follows = explained.missing.as_ref().is_some_and(|key| self.removed.has(&here, key))
+            || (explained.empty_choice && self.removed.has_below(&here));
+        if let Some(meant) = explained.meant {
+            let mut meant_path = here;
+            meant_path.pop();
+            meant_path.push(Step::Key(meant));
+            self.removed.paths.push(path::write(&meant_path));
+        }
+        if !follows {
+            self.push(span, (explained.message, explained.help));
+        }
+    }
+
+    fn push(&mut self, span: Range<usize>, problem: (String, String)) {
+        let mistake = self.document.mistake(span.clone(), problem);
+        self.mistakes.push((span, mistake));
+    }
+
+    /// Takes out the node at `steps`, with the array of plain values around it; false where nothing is left to take.
+    fn remove(&mut self, mut steps: Vec<Step>) -> bool {
+        while let Some(Step::Index(_)) = steps.last() {
+            if matches!(node(self.root.get_ref(), &steps), Some(DeValue::Table(_))) {
+                break;
+            }
+            steps.pop();
+        }
+        let in_file = self.removed.in_file(&steps);
+        let Some((last, parents)) = steps.split_last() else { return false };
+        let gone = match (last, container(self.root.get_mut(), parents)) {
+            (Step::Key(key), Container::Table(table)) => table.remove(key.as_str()).is_some(),
+            (Step::Index(index), Container::Array(array)) if *index < array.len() => {
+                *array = std::mem::replace(array, DeArray::new())
+                    .into_iter()
+                    .enumerate()
+                    .filter(|(i, _)| i != index)
+                    .map(|(_, v)| v)
+                    .collect();
+                if let Some((Step::Index(index), array)) = in_file.split_last() {
+                    self.removed.elements.push((array.to_vec(), *index));
+                }
+                true
+            }
+            _ => false,
+        };
+        self.removed.paths.push(path::write(&in_file));
+        gone
+    }
+
+    fn refuse_non_finite(&mut self) {
+        let mut found = Vec::new();
+        visit(self.root.get_ref(), &mut |steps, value| {
+            if let DeValue::Float(number) = value.get_ref()
+                && number.as_str().parse::<f64>().is_ok_and(|number| !number.is_finite())
+            {
+                found.push((steps.to_vec(), value.span(), number.as_str().to_owned()));
+            }
+        });
+        for (steps, span, number) in found {
+            self.push(span, (format!("expected a finite number, found {number}"), String::new()));
+            self.remove(steps);
+        }
+    }
+
+    /// Refuses arrays with more values than the type took.
+    fn refuse_long_arrays<T: Serialize>(&mut self, value: &T) {
+        let Ok(taken) = toml::Value::try_from(value) else { return };
+        let mut found = Vec::new();
+        visit(self.root.get_ref(), &mut |steps, value| {
+            if let DeValue::Array(array) = value.get_ref()
+                && let Some(toml::Value::Array(taken)) = value_at(&taken, steps)
+                && taken.len() < array.len()
+            {
+                found.push((value.span(), taken.len(), array.len()));
+            }
+        });
+        for (span, expected, given) in found {
+            self.push(span, (format!("expected {expected} values, found {given}"), String::new()));
+        }
+    }
+}
+
+enum Container<'a, 't> {
+    Table(&'a mut DeTable<'t>),
+    Array(&'a mut DeArray<'t>),
+    Neither,
+}
+
+fn container<'a, 't>(root: &'a mut DeTable<'t>, steps: &[Step]) -> Container<'a, 't> {
+    let Some((Step::Key(first), rest)) = steps.split_first() else { return Container::Table(root) };
+    let Some(mut here) = root.get_mut(first.as_str()) else { return Container::Neither };
+    for step in rest {
+        let next = match (step, here.get_mut()) {
+            (Step::Key(key), DeValue::Table(table)) => table.get_mut(key.as_str()),
+            (Step::Index(index), DeValue::Array(array)) => array.get_mut(*index),
+            _ => None,
+        };
+        let Some(next) = next else { return Container::Neither };
+        here = next;
+    }
+    match here.get_mut() {
+        DeValue::Table(table) => Container::Table(table),
+        DeValue::Array(array) => Container::Array(array),
+        _ => Container::Neither,
+    }
+}
+
+fn node<'a, 't>(root: &'a DeTable<'t>, steps: &[Step]) -> Option<&'a DeValue<'t>> {
+    let (Step::Key(first), rest) = steps.split_first()? else { return None };
+    let mut here = root.get(first.as_str())?;
+    for step in rest {
+        here = match (step, here.get_ref()) {
+            (Step::Key(key), DeValue::Table(table)) => table.get(key.as_str())?,
+            (Step::Index(index), DeValue::Array(array)) => array.get(*index)?,
+            _ => return None,
+        };
+    }
+    Some(here.get_ref())
+}
+
+fn value_at<'v>(root: &'v toml::Value, steps: &[Step]) -> Option<&'v toml::Value> {
+    steps.iter().try_fold(root, |here, step| match step {
+        Step::Key(key) => here.get(key.as_str()),
+        Step::Index(index) => here.get(*index),
+    })
+}
+
+/// The deepest node whose key or value has exactly these bytes; the root where there is none.
+fn find(root: &DeTable<'_>, span: &Range<usize>) -> Vec<Step> {
+    let mut found: Vec<Step> = Vec::new();
+    visit_entries(root, &mut Vec::new(), &mut |steps, key, value| {
+        let is_it = value.span() == *span || key.is_some_and(|key| key == *span);
+        if is_it && steps.len() > found.len() {
+            found = steps.to_vec();
+        }
+    });
+    found
+}
+
+fn visit(root: &DeTable<'_>, see: &mut impl FnMut(&[Step], &Spanned<DeValue<'_>>)) {
+    visit_entries(root, &mut Vec::new(), &mut |steps, _, value| see(steps, value));
+}
+
+fn visit_entries(
+    table: &DeTable<'_>,
+    steps: &mut Vec<Step>,
+    see: &mut dyn FnMut(&[Step], Option<Range<usize>>, &Spanned<DeValue<'_>>),
+) {
+    for (key, value) in table {
+        steps.push(Step::Key(key.get_ref().to_string()));
+        see(steps, Some(key.span()), value);
+        visit_value(value, steps, see);
+        steps.pop();
+    }
+}
+
+fn visit_value(
+    value: &Spanned<DeValue<'_>>,
+    steps: &mut Vec<Step>,
+    see: &mut dyn FnMut(&[Step], Option<Range<usize>>, &Spanned<DeValue<'_>>),
+) {
+    match value.get_ref() {
+        DeValue::Table(table) => visit_entries(table, steps, see),
+        DeValue::Array(array) => {
+            for (index, value) in array.iter().enumerate() {
+                steps.push(Step::Index(index));
+                see(steps, None, value);
+                visit_value(value, steps, see);
+                steps.pop();
+            }
+        }
+        _ => {}
+    }
+}
