@@ -42,7 +42,7 @@ impl Checker {
         if value > 0.0 {
             return Some(value);
         }
-        self.refuse(path, format!("expected {what} above 0, found {value}"), "");
+        self.refuse(path, format!("expected {what} above 0, found {value:?}"), "");
         None
     }
 
@@ -52,7 +52,7 @@ impl Checker {
         if range.0 <= value && value <= range.1 {
             return Some(value);
         }
-        self.refuse(path, format!("expected {what} from {} to {}, found {value}", range.0, range.1), "");
+        self.refuse(path, format!("expected {what} from {:?} to {:?}, found {value:?}", range.0, range.1), "");
         None
     }
 
@@ -98,7 +98,7 @@ fn every(checker: &mut Checker, (table, raw): (&str, Option<&RawEvery>), end: Op
     if count > MOST_RECORDS {
         checker.refuse(
             path,
-            format!("{time} s would give {count:.0} records until the end at {end} s, more than {MOST_RECORDS:.0}"),
+            format!("{time:?} s would give {count:.0} records until the end at {end:?} s, more than {MOST_RECORDS:.0}"),
             format!("write every {:.2e} s or less often", end / MOST_RECORDS),
         );
     }

@@ -95,20 +95,16 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
 
 fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>) -> Option<Model> {
     if raw.thin_film.is_some() {
-        checker.refuse("thin-film", "thin films are not yet available", "use [sph], direct simulation");
+        let message = match raw.sph {
+            Some(_) => "expected exactly one model, found `sph` and `thin-film`",
+            None => "thin films are not yet available",
+        };
+        checker.refuse("thin-film", message, "use [sph], direct simulation, and leave out [thin-film]");
     }
-    match &raw.sph {
-        Some(_) if raw.thin_film.is_some() => {
-            checker.refuse("sph", "expected exactly one model, found `sph` and `thin-film`", "leave one of them out");
-            None
-        }
-        Some(raw) => sph::sph(checker, raw, geometry).map(|sph| Model::Sph(Box::new(sph))),
-        None if raw.thin_film.is_some() => None,
-        None => {
-            checker.refuse("sph", "expected a model, found none", "add the table [sph]");
-            None
-        }
+    if raw.sph.is_none() && raw.thin_film.is_none() {
+        checker.refuse("sph", "expected a model, found none", "add the table [sph]");
     }
+    sph::sph(checker, raw.sph.as_ref()?, geometry).map(|sph| Model::Sph(Box::new(sph)))
 }
 
 fn geometry(
@@ -119,6 +115,7 @@ fn geometry(
     elsewhere: &mut Vec<Mistake>,
 ) -> Option<GeometrySpec> {
     let Some(file) = &raw.file else { return shapes::inline(checker, "geometry", raw) };
+    shapes::refuse_keys_of_file(checker, raw);
     let loaded = match origin {
         Origin::BuiltIn if file == Path::new(DEFAULT_SHAPES) => {
             shape_text("geometries/four-discs.toml", DEFAULT_SHAPES_TEXT)

@@ -25,8 +25,8 @@ pub(super) fn inline(checker: &mut Checker, at: &str, raw: &RawGeometry) -> Opti
     (checker.problems.len() == before).then_some(spec)
 }
 
-/// The geometry of a file with the domain that the case puts in its place.
-pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &RawGeometry) -> GeometrySpec {
+/// Refuses keys that belong to the file where a file is named.
+pub(super) fn refuse_keys_of_file(checker: &mut Checker, raw: &RawGeometry) {
     let given = [("solid", raw.solid.is_some()), ("shapes", raw.shapes.is_some())];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
         checker.refuse(
@@ -35,6 +35,10 @@ pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &R
             "put the shapes into the file, or write them all here and leave out `file`",
         );
     }
+}
+
+/// The geometry of a file with the domain that the case puts in its place.
+pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &RawGeometry) -> GeometrySpec {
     spec.min = raw.min.unwrap_or(spec.min);
     spec.max = raw.max.unwrap_or(spec.max);
     if raw.min.is_some() || raw.max.is_some() {
@@ -49,7 +53,7 @@ fn domain(checker: &mut Checker, at: &str, spec: &GeometrySpec) {
         if min >= max {
             checker.refuse(
                 join(at, "max"),
-                format!("the domain is empty along {name}: min is {min} m, max is {max} m"),
+                format!("the domain is empty along {name}: min is {min:?} m, max is {max:?} m"),
                 "min is the lower left corner, max the upper right one",
             );
         }

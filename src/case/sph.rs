@@ -104,6 +104,11 @@ fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
             "add `preset`, or give the density and viscosity at that temperature",
         );
     }
+    if raw.preset.is_none() && raw.density.is_none() && raw.viscosity.is_none() {
+        let help = "add preset = \"water\", or density in kg/m3 and viscosity in Pa s";
+        checker.refuse(format!("{at}.preset"), format!("expected a fluid in [{at}], found no property"), help);
+        return None;
+    }
     let preset = raw.preset.map(|preset| preset.at(celsius.unwrap_or(COLD)));
     let mut property = |key: &str, given: Option<f64>, known: Option<f64>, example: &str, what: &str| {
         let path = format!("{at}.{key}");
@@ -138,7 +143,7 @@ fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<Surfac
     let tension = checker.require(PATH, raw.interface.as_ref().and_then(|i| i.tension), "tension = 0.0276  # N/m");
     let tension = tension.filter(|tension| {
         if *tension < 0.0 {
-            checker.refuse(PATH, format!("expected a tension in N/m of at least 0, found {tension}"), "");
+            checker.refuse(PATH, format!("expected a tension in N/m of at least 0, found {tension:?}"), "");
         }
         *tension >= 0.0
     });

@@ -10,9 +10,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{InputError, Mistake};
-use super::explain::explain;
 use super::overrides::{Override, Overrides};
-use super::path::{self, Step};
+use super::path::Step;
 
 /// A parsed file.
 #[derive(Debug, Clone)]
@@ -40,11 +39,7 @@ impl Document {
 
     fn parse_tree(&self) -> (Spanned<DeTable<'_>>, Vec<Mistake>) {
         let (mut root, errors) = DeTable::parse_recoverable(&self.text);
-        let syntax = |error: &toml::de::Error| {
-            let explained = explain(error.message());
-            self.mistake(error.span().unwrap_or_default(), (explained.message, explained.help))
-        };
-        let mut mistakes: Vec<Mistake> = errors.iter().map(syntax).collect();
+        let mut mistakes = self.syntax_mistakes(&errors);
         if !mistakes.is_empty() {
             return (root, mistakes);
         }
@@ -54,6 +49,32 @@ impl Document {
             }
         }
         (root, mistakes)
+    }
+
+    /// The first mistake of each line, up to an open bracket: what follows one is no mistake of its own.
+    fn syntax_mistakes(&self, errors: &[toml::de::Error]) -> Vec<Mistake> {
+        let mut mistakes: Vec<Mistake> = Vec::new();
+        for error in errors {
+            let message = error.message();
+            let in_brackets =
+                ["array", "inline table", "key-value pairs", "unclosed"].iter().any(|word| message.contains(word));
+            let help = match message {
+                _ if in_brackets => "is a bracket left open here or above?",
+                _ if message.contains("must be quoted") => {
+                    "texts stand in quotes; numbers have no unit and a point before decimals"
+                }
+                _ => "",
+            };
+            let mistake = self.mistake(error.span().unwrap_or_default(), (message.to_owned(), help.to_owned()));
+            let line = |mistake: &Mistake| mistake.place.map(|(line, _)| line);
+            if mistakes.last().is_none_or(|last| line(last) != line(&mistake)) {
+                mistakes.push(mistake);
+            }
+            if in_brackets {
+                break;
+            }
+        }
+        mistakes
     }
 
     /// The overrides, each with its first byte behind the file's text.
@@ -81,33 +102,32 @@ impl Document {
             None => Mistake::in_text(&self.name, &self.text, range, problem),
         }
     }
+}
 
-    /// The bytes of the value at a key path or, where it is absent, those of the nearest table around it.
-    pub(super) fn place(&self, path: &str) -> Range<usize> {
-        let steps = path::parse(path).unwrap_or_default();
-        let Some((Step::Key(first), rest)) = steps.split_first() else { return 0..0 };
-        let tree = self.tree();
-        let Some(mut node) = tree.get_ref().get(first.as_str()) else { return 0..0 };
-        for step in rest {
-            let next = match (step, node.get_ref()) {
-                (Step::Key(key), DeValue::Table(table)) => table.get(key.as_str()),
-                (Step::Index(index), DeValue::Array(array)) => array.get(*index),
-                _ => None,
-            };
-            let Some(next) = next else { break };
-            node = next;
-        }
-        node.span()
+/// The bytes of the value at a key path or, where it is absent, those of the nearest table around it.
+pub(super) fn place(root: &DeTable<'_>, steps: &[Step]) -> Range<usize> {
+    let Some((Step::Key(first), rest)) = steps.split_first() else { return 0..0 };
+    let Some(mut node) = root.get(first.as_str()) else { return 0..0 };
+    for step in rest {
+        let next = match (step, node.get_ref()) {
+            (Step::Key(key), DeValue::Table(table)) => table.get(key.as_str()),
+            (Step::Index(index), DeValue::Array(array)) => array.get(*index),
+            _ => None,
+        };
+        let Some(next) = next else { break };
+        node = next;
     }
+    node.span()
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::path;
     use super::*;
 
     fn place_of(text: &str, path: &str) -> String {
         let document = Document::parse("f", text, &Overrides::default()).unwrap();
-        text[document.place(path)].to_owned()
+        text[place(document.tree().get_ref(), &path::parse(path).unwrap())].to_owned()
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::suggest::nearest;
 
 /// A serde message put into our words.
+#[derive(Debug, Default)]
 pub(super) struct Explained {
     /// What was expected and what was found.
     pub message: String,
@@ -14,13 +15,14 @@ pub(super) struct Explained {
     pub missing: Option<String>,
     /// Whether the message is about a table without its only key.
     pub empty_choice: bool,
+    /// Whether a name was wanted, alone or as the key of a table.
+    pub wants_name: bool,
 }
 
 /// Explains a serde or TOML message.
 pub(super) fn explain(serde: &str) -> Explained {
     let names = quoted(serde);
-    let mut explained =
-        Explained { message: String::new(), help: String::new(), meant: None, missing: None, empty_choice: false };
+    let mut explained = Explained::default();
     if serde.starts_with("unknown field") || serde.starts_with("unknown variant") {
         let (word, known) = names.split_first().map_or(("", &[][..]), |(word, known)| (*word, known));
         let kind = if serde.starts_with("unknown field") { "key" } else { "name" };
@@ -39,6 +41,12 @@ pub(super) fn explain(serde: &str) -> Explained {
             "the key is the name of the choice, as in `{ disc = { center = [0.0, 0.0], radius = 1.0e-3 } }`; \
                           write one table per shape"
                 .to_owned();
+    } else if serde.contains("unit variant, expected newtype variant") {
+        explained.message = "expected a table, found a name alone".to_owned();
+        explained.help =
+            "a name is followed by its values, as in `{ disc = { center = [0.0, 0.0], radius = 1.0e-3 } }`".to_owned();
+    } else if serde == "wanted string or table" {
+        explained.wants_name = true;
     } else if let Some((found, expected)) = mismatch(serde) {
         explained.message = format!("expected {}, found {found}", expected_words(expected));
     } else if serde.contains("overflowed") {
@@ -67,8 +75,8 @@ fn mismatch(serde: &str) -> Option<(String, &str)> {
         },
         None if found == "map" => "a table".to_owned(),
         None if found == "sequence" => "an array".to_owned(),
-        Some(("floating", number)) => number.replace("point ", "the number "),
-        Some(("integer", number)) => format!("the number {number}"),
+        Some(("floating", number)) => number.replace("point ", "the number ").replace('`', ""),
+        Some(("integer", number)) => format!("the number {}", number.replace('`', "")),
         Some((kind, value)) => format!("the {kind} {value}").replace('`', ""),
         None => found.to_owned(),
     };

@@ -11,14 +11,20 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::document::Document;
+use super::document::{Document, place};
 use super::error::{InputError, Mistake};
-use super::explain::explain;
+use super::explain::{Explained, explain};
 use super::path::{self, Step};
 use super::problem::Problem;
 
 /// Mistakes after which a file is not read further; a file with more of them is no case file.
 const MOST_MISTAKES: usize = 100;
+
+/// The place of what stands in for a missing value; no text is as long.
+const NOWHERE: Range<usize> = usize::MAX - 1..usize::MAX;
+
+/// Deepest array of numbers that a key may hold: a polygon's holes.
+const DEEPEST_ARRAY: usize = 3;
 
 /// A document read into a type, with the mistakes so far.
 #[derive(Debug)]
@@ -43,8 +49,13 @@ impl Document {
     /// Reads the document as a `T`.
     #[must_use]
     pub fn read<T: DeserializeOwned + Serialize + Default>(&self) -> Reading<'_, T> {
-        let mut reader =
-            Reader { document: self, root: self.tree(), mistakes: Vec::new(), removed: Removed::default() };
+        let mut reader = Reader {
+            document: self,
+            root: self.tree(),
+            mistakes: Vec::new(),
+            removed: Removed::default(),
+            filled: Vec::new(),
+        };
         reader.refuse_non_finite();
         let value = reader.read();
         reader.refuse_long_arrays(&value);
@@ -63,19 +74,28 @@ impl<T> Reading<'_, T> {
     #[must_use]
     pub fn refuse(self, problems: Vec<Problem>) -> Vec<Mistake> {
         let mut mistakes = self.mistakes;
+        let tree = self.document.tree();
+        let mut more = 0;
         for problem in problems {
             let steps = path::parse(&problem.path).unwrap_or_default();
-            let path = path::write(&self.removed.in_file(&steps));
-            if self.removed.paths.iter().any(|removed| path::is_within(&path, removed)) {
+            let steps = self.removed.in_file(&steps);
+            if self.removed.explains(&path::write(&steps)) {
                 continue;
             }
-            let range = self.document.place(&path);
+            if mistakes.len() >= MOST_MISTAKES {
+                more += 1;
+                continue;
+            }
+            let range = place(tree.get_ref(), &steps);
             let mistake = self.document.mistake(range.clone(), (problem.message, problem.help));
             mistakes.push((range, mistake));
         }
         mistakes.sort_by_key(|(range, _)| range.start);
         let mut mistakes: Vec<Mistake> = mistakes.into_iter().map(|(_, mistake)| mistake).collect();
         mistakes.dedup_by(|a, b| a.place == b.place && a.name == b.name && a.message == b.message);
+        if more > 0 {
+            mistakes.push(Mistake::of_file(self.document.name(), format!("there are {more} more mistakes"), ""));
+        }
         mistakes
     }
 }
@@ -111,6 +131,14 @@ impl Removed {
         path
     }
 
+    /// Whether a problem at `path` may come from what was taken out: it, something around it or a part of it.
+    fn explains(&self, path: &str) -> bool {
+        self.paths.iter().any(|removed| {
+            let parent = removed.rfind(['.', '[']).map(|end| &removed[..end]);
+            path::is_within(path, removed) || parent == Some(path)
+        })
+    }
+
     fn has(&self, table: &[Step], key: &str) -> bool {
         let mut steps = table.to_vec();
         steps.push(Step::Key(key.to_owned()));
@@ -128,28 +156,55 @@ struct Reader<'d> {
     root: Spanned<DeTable<'d>>,
     mistakes: Vec<(Range<usize>, Mistake)>,
     removed: Removed,
+    /// The places of tables that lack keys and hold fillings for them.
+    filled: Vec<Range<usize>>,
 }
 
 impl<'d> Reader<'d> {
     fn read<T: DeserializeOwned + Default>(&mut self) -> T {
         while self.mistakes.len() < MOST_MISTAKES {
-            let error = match T::deserialize(toml::Deserializer::from(self.root.clone())) {
-                Ok(value) => return value,
+            let error = match self.try_read::<T>() {
+                Ok(value) if self.filled.is_empty() => return value,
+                Ok(_) => {
+                    self.remove_filled();
+                    continue;
+                }
                 Err(error) => error,
             };
             let span = error.span().unwrap_or_default();
             let steps = find(self.root.get_ref(), &span);
-            self.record(&error, span, &steps);
-            if !self.remove(steps) {
+            let explained = self.explain_at(&error, &steps);
+            let missing = explained.missing.clone();
+            if !self.record(explained, span, &steps) {
+                self.remove(steps);
+            } else if missing.is_none_or(|key| !self.fill::<T>(&steps, &key)) && !self.remove(steps) {
                 break;
             }
         }
         T::default()
     }
 
-    /// Notes a serde error, unless it follows from something taken out before.
-    fn record(&mut self, error: &toml::de::Error, span: Range<usize>, steps: &[Step]) {
-        let explained = explain(error.message());
+    fn try_read<T: DeserializeOwned>(&self) -> Result<T, toml::de::Error> {
+        T::deserialize(toml::Deserializer::from(self.root.clone()))
+    }
+
+    fn explain_at(&self, error: &toml::de::Error, steps: &[Step]) -> Explained {
+        let mut explained = explain(error.message());
+        match node(self.root.get_ref(), steps) {
+            Some(DeValue::Datetime(_)) => {
+                explained.message = explained.message.replace("found a table", "found a date")
+            }
+            Some(value) if explained.wants_name => {
+                explained.message =
+                    format!("expected a name in quotes or a table, found {}", with_article(value.type_str()));
+            }
+            _ => {}
+        }
+        explained
+    }
+
+    /// Notes a serde error, unless it follows from something taken out before; says whether it did.
+    fn record(&mut self, explained: Explained, span: Range<usize>, steps: &[Step]) -> bool {
         let here = self.removed.in_file(steps);
         let follows = explained.missing.as_ref().is_some_and(|key| self.removed.has(&here, key))
             || (explained.empty_choice && self.removed.has_below(&here));
@@ -162,6 +217,35 @@ impl<'d> Reader<'d> {
         if !follows {
             self.push(span, (explained.message, explained.help));
         }
+        !follows
+    }
+
+    /// Puts something into a table for a key that it lacks, so that the next key that it lacks is named too.
+    fn fill<T: DeserializeOwned>(&mut self, steps: &[Step], key: &str) -> bool {
+        let place = node_span(self.root.get_ref(), steps);
+        for depth in 0..=DEEPEST_ARRAY {
+            let Container::Table(table) = container(self.root.get_mut(), steps) else { return false };
+            table.remove(key);
+            table.insert(Spanned::new(NOWHERE, key.to_owned().into()), filling(depth));
+            if self.try_read::<T>().err().and_then(|error| error.span()) != Some(NOWHERE) {
+                self.filled.extend(place);
+                return true;
+            }
+        }
+        if let Container::Table(table) = container(self.root.get_mut(), steps) {
+            table.remove(key);
+        }
+        false
+    }
+
+    /// Takes out the tables that lacked keys.
+    fn remove_filled(&mut self) {
+        for place in std::mem::take(&mut self.filled) {
+            let steps = find(self.root.get_ref(), &place);
+            if !steps.is_empty() {
+                self.remove(steps);
+            }
+        }
     }
 
     fn push(&mut self, span: Range<usize>, problem: (String, String)) {
@@ -172,7 +256,10 @@ impl<'d> Reader<'d> {
     /// Takes out the node at `steps`, with the array of plain values around it; false where nothing is left to take.
     fn remove(&mut self, mut steps: Vec<Step>) -> bool {
         while let Some(Step::Index(_)) = steps.last() {
-            if matches!(node(self.root.get_ref(), &steps), Some(DeValue::Table(_))) {
+            let parent = &steps[..steps.len() - 1];
+            if let Some(DeValue::Array(array)) = node(self.root.get_ref(), parent)
+                && array.iter().any(|value| value.get_ref().is_table())
+            {
                 break;
             }
             steps.pop();
@@ -268,6 +355,32 @@ fn node<'a, 't>(root: &'a DeTable<'t>, steps: &[Step]) -> Option<&'a DeValue<'t>
         };
     }
     Some(here.get_ref())
+}
+
+fn node_span(root: &DeTable<'_>, steps: &[Step]) -> Option<Range<usize>> {
+    let mut span = None;
+    visit_entries(root, &mut Vec::new(), &mut |here, _, value| {
+        if here == steps {
+            span = Some(value.span());
+        }
+    });
+    span
+}
+
+/// A number, or points of it: `depth` arrays around it.
+fn filling(depth: usize) -> Spanned<DeValue<'static>> {
+    /// A polygon takes three points, and a pair drops the third.
+    const LENGTH: usize = 3;
+    let value = match depth.checked_sub(1) {
+        None => DeValue::parse("1.0").map_or(DeValue::Boolean(true), Spanned::into_inner),
+        Some(depth) => DeValue::Array((0..LENGTH).map(|_| filling(depth)).collect()),
+    };
+    Spanned::new(NOWHERE, value)
+}
+
+fn with_article(noun: &str) -> String {
+    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {noun}")
 }
 
 fn value_at<'v>(root: &'v toml::Value, steps: &[Step]) -> Option<&'v toml::Value> {

@@ -1,14 +1,22 @@
 //! The known word nearest to a misspelled one, by edit distance.
 
-/// The candidate nearest to `word`, where one is near enough to be meant: at most a third of its letters differ.
+/// The candidate nearest to `word`, where one is near enough to be meant: at most a third of its letters differ, or it
+/// is the end of the word.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .into_iter()
         .map(|candidate| (edit_distance(word, candidate), candidate))
-        .filter(|(distance, candidate)| *distance <= candidate.chars().count().div_ceil(3))
+        .filter(|(distance, candidate)| {
+            *distance <= candidate.chars().count().div_ceil(3) || is_end_of(candidate, word)
+        })
         .min()
         .map(|(_, candidate)| candidate)
+}
+
+/// Whether `word` is `candidate` with words before it: `surface-tension` for `tension`.
+fn is_end_of(candidate: &str, word: &str) -> bool {
+    word.strip_suffix(candidate).is_some_and(|before| before.ends_with('-'))
 }
 
 /// Levenshtein distance: the least number of letters put in, taken out or replaced.
@@ -46,6 +54,7 @@ mod tests {
     #[test]
     fn a_misspelled_word_finds_its_neighbor_and_a_foreign_one_finds_none() {
         assert_eq!(nearest("spacng", ["spacing", "gravity"]), Some("spacing"));
+        assert_eq!(nearest("surface-tension", ["tension", "spacing"]), Some("tension"));
         assert_eq!(nearest("colour", ["spacing", "gravity"]), None);
     }
 }
