@@ -7,11 +7,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 use super::error::{InputError, Mistake};
 use super::overrides::{Override, Overrides};
-use super::path::Step;
 
 /// A parsed file.
 #[derive(Debug, Clone)]
@@ -104,25 +103,9 @@ impl Document {
     }
 }
 
-/// The bytes of the value at a key path or, where it is absent, those of the nearest table around it.
-pub(super) fn place(root: &DeTable<'_>, steps: &[Step]) -> Range<usize> {
-    let Some((Step::Key(first), rest)) = steps.split_first() else { return 0..0 };
-    let Some(mut node) = root.get(first.as_str()) else { return 0..0 };
-    for step in rest {
-        let next = match (step, node.get_ref()) {
-            (Step::Key(key), DeValue::Table(table)) => table.get(key.as_str()),
-            (Step::Index(index), DeValue::Array(array)) => array.get(*index),
-            _ => None,
-        };
-        let Some(next) = next else { break };
-        node = next;
-    }
-    node.span()
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::path;
+    use super::super::{path, tree::place};
     use super::*;
 
     fn place_of(text: &str, path: &str) -> String {

@@ -12,6 +12,7 @@ mod path;
 mod problem;
 mod read;
 mod suggest;
+mod tree;
 
 pub use document::Document;
 pub use error::{InputError, Mistake};

@@ -11,11 +11,12 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::document::{Document, place};
+use super::document::Document;
 use super::error::{InputError, Mistake};
 use super::explain::{Explained, explain};
 use super::path::{self, Step};
 use super::problem::Problem;
+use super::tree::{Container, container, find, node, node_span, place, value_at, visit};
 
 /// Mistakes after which a file is not read further; a file with more of them is no case file.
 const MOST_MISTAKES: usize = 100;
@@ -319,54 +320,6 @@ impl<'d> Reader<'d> {
     }
 }
 
-enum Container<'a, 't> {
-    Table(&'a mut DeTable<'t>),
-    Array(&'a mut DeArray<'t>),
-    Neither,
-}
-
-fn container<'a, 't>(root: &'a mut DeTable<'t>, steps: &[Step]) -> Container<'a, 't> {
-    let Some((Step::Key(first), rest)) = steps.split_first() else { return Container::Table(root) };
-    let Some(mut here) = root.get_mut(first.as_str()) else { return Container::Neither };
-    for step in rest {
-        let next = match (step, here.get_mut()) {
-            (Step::Key(key), DeValue::Table(table)) => table.get_mut(key.as_str()),
-            (Step::Index(index), DeValue::Array(array)) => array.get_mut(*index),
-            _ => None,
-        };
-        let Some(next) = next else { return Container::Neither };
-        here = next;
-    }
-    match here.get_mut() {
-        DeValue::Table(table) => Container::Table(table),
-        DeValue::Array(array) => Container::Array(array),
-        _ => Container::Neither,
-    }
-}
-
-fn node<'a, 't>(root: &'a DeTable<'t>, steps: &[Step]) -> Option<&'a DeValue<'t>> {
-    let (Step::Key(first), rest) = steps.split_first()? else { return None };
-    let mut here = root.get(first.as_str())?;
-    for step in rest {
-        here = match (step, here.get_ref()) {
-            (Step::Key(key), DeValue::Table(table)) => table.get(key.as_str())?,
-            (Step::Index(index), DeValue::Array(array)) => array.get(*index)?,
-            _ => return None,
-        };
-    }
-    Some(here.get_ref())
-}
-
-fn node_span(root: &DeTable<'_>, steps: &[Step]) -> Option<Range<usize>> {
-    let mut span = None;
-    visit_entries(root, &mut Vec::new(), &mut |here, _, value| {
-        if here == steps {
-            span = Some(value.span());
-        }
-    });
-    span
-}
-
 /// A number, or points of it: `depth` arrays around it.
 fn filling(depth: usize) -> Spanned<DeValue<'static>> {
     /// A polygon takes three points, and a pair drops the third.
@@ -381,59 +334,4 @@ fn filling(depth: usize) -> Spanned<DeValue<'static>> {
 fn with_article(noun: &str) -> String {
     let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
     format!("{article} {noun}")
-}
-
-fn value_at<'v>(root: &'v toml::Value, steps: &[Step]) -> Option<&'v toml::Value> {
-    steps.iter().try_fold(root, |here, step| match step {
-        Step::Key(key) => here.get(key.as_str()),
-        Step::Index(index) => here.get(*index),
-    })
-}
-
-/// The deepest node whose key or value has exactly these bytes; the root where there is none.
-fn find(root: &DeTable<'_>, span: &Range<usize>) -> Vec<Step> {
-    let mut found: Vec<Step> = Vec::new();
-    visit_entries(root, &mut Vec::new(), &mut |steps, key, value| {
-        let is_it = value.span() == *span || key.is_some_and(|key| key == *span);
-        if is_it && steps.len() > found.len() {
-            found = steps.to_vec();
-        }
-    });
-    found
-}
-
-fn visit(root: &DeTable<'_>, see: &mut impl FnMut(&[Step], &Spanned<DeValue<'_>>)) {
-    visit_entries(root, &mut Vec::new(), &mut |steps, _, value| see(steps, value));
-}
-
-fn visit_entries(
-    table: &DeTable<'_>,
-    steps: &mut Vec<Step>,
-    see: &mut dyn FnMut(&[Step], Option<Range<usize>>, &Spanned<DeValue<'_>>),
-) {
-    for (key, value) in table {
-        steps.push(Step::Key(key.get_ref().to_string()));
-        see(steps, Some(key.span()), value);
-        visit_value(value, steps, see);
-        steps.pop();
-    }
-}
-
-fn visit_value(
-    value: &Spanned<DeValue<'_>>,
-    steps: &mut Vec<Step>,
-    see: &mut dyn FnMut(&[Step], Option<Range<usize>>, &Spanned<DeValue<'_>>),
-) {
-    match value.get_ref() {
-        DeValue::Table(table) => visit_entries(table, steps, see),
-        DeValue::Array(array) => {
-            for (index, value) in array.iter().enumerate() {
-                steps.push(Step::Index(index));
-                see(steps, None, value);
-                visit_value(value, steps, see);
-                steps.pop();
-            }
-        }
-        _ => {}
-    }
 }
