@@ -1,3 +1,19 @@
 //! Case files: what the user wrote, checked, with every mistake named at its place.
+//!
+//! [`load`] goes from a path to a [`Loaded`] case: TOML -> [`raw`] types (all keys optional, so that one mistake does not
+//! hide another) -> checks -> [`checked`] types, which hold every value in SI units and in range.
 
+mod check;
 pub mod checked;
+mod facts;
+mod load;
+pub mod preset;
+pub mod raw;
+mod resolve;
+mod schema;
+mod shapes;
+mod sph;
+
+pub use facts::{Facts, check_against};
+pub use load::{Loaded, load, load_default, load_shapes};
+pub use schema::{schema, starter_case};

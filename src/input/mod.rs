@@ -1,1 +1,22 @@
 //! TOML with places: every mistake of a file at once, each with its line.
+//!
+//! A [`Document`] is a file's text and tree. [`Document::read`] turns it into a type by serde and goes on after a mistake;
+//! the checkers of a type name [`Problem`]s by key path, and [`Reading::refuse`] finds their places. [`Overrides`] are
+//! the `--set KEY=VALUE` of the command line.
+
+mod document;
+mod error;
+mod explain;
+mod overrides;
+mod path;
+mod problem;
+mod read;
+mod suggest;
+mod tree;
+
+pub use document::Document;
+pub use error::{InputError, Mistake};
+pub use overrides::Overrides;
+pub use problem::Problem;
+pub use read::Reading;
+pub use suggest::nearest;

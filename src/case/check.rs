@@ -1,0 +1,124 @@
+//! Checks of a case: time, output, expectations; and the tools that all checks share.
+
+use super::checked::{Expectation, Output};
+use super::raw::{RawCase, RawEvery, RawExpectation};
+use crate::input::Problem;
+
+/// The format of case and shape files that this program reads.
+const FORMAT: u32 = 1;
+
+/// Most records of one kind: more files than a folder should hold.
+const MOST_RECORDS: f64 = 1.0e5;
+
+/// Records of a run where the case says nothing.
+const VTK_RECORDS: f64 = 50.0;
+const SERIES_RECORDS: f64 = 200.0;
+const RESTART_RECORDS: f64 = 10.0;
+
+/// Collects problems while values pass through.
+#[derive(Debug, Default)]
+pub(super) struct Checker {
+    pub problems: Vec<Problem>,
+}
+
+impl Checker {
+    pub fn refuse(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
+        self.problems.push(Problem { path: path.into(), message: message.into(), help: help.into() });
+    }
+
+    /// The value, or a problem where it is missing.
+    pub fn require<T>(&mut self, path: &str, value: Option<T>, example: &str) -> Option<T> {
+        if value.is_none() {
+            let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
+            let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
+            self.refuse(path, format!("missing key `{key}`{place}"), format!("add `{example}`"));
+        }
+        value
+    }
+
+    /// The value where it is above zero; `what` names it with its unit.
+    pub fn positive(&mut self, path: &str, value: Option<f64>, what: &str) -> Option<f64> {
+        let value = value?;
+        if value > 0.0 {
+            return Some(value);
+        }
+        self.refuse(path, format!("expected {what} above 0, found {value:?}"), "");
+        None
+    }
+
+    /// The value where it lies in a closed range; `what` names it with its unit.
+    pub fn within(&mut self, path: &str, value: Option<f64>, range: (f64, f64), what: &str) -> Option<f64> {
+        let value = value?;
+        if range.0 <= value && value <= range.1 {
+            return Some(value);
+        }
+        self.refuse(path, format!("expected {what} from {:?} to {:?}, found {value:?}", range.0, range.1), "");
+        None
+    }
+
+    pub fn format(&mut self, found: Option<u32>) {
+        if let Some(found) = self.require("format", found, "format = 1")
+            && found != FORMAT
+        {
+            self.refuse(
+                "format",
+                format!("expected format {FORMAT}, found {found}"),
+                "this version reads format 1; a newer format needs a newer version",
+            );
+        }
+    }
+}
+
+/// The end of the simulation in s.
+pub(super) fn end(checker: &mut Checker, raw: &RawCase) -> Option<f64> {
+    let end = raw.time.as_ref().and_then(|time| time.end);
+    let end = checker.require("time.end", end, "end = 0.01  # s");
+    checker.positive("time.end", end, "an end time in s")
+}
+
+/// What is written and when; `end` is missing where it was wrong.
+pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>) -> Output {
+    let output = raw.output.clone().unwrap_or_default();
+    let ratio = output.grid.as_ref().and_then(|grid| grid.ratio);
+    let ratio = checker.within("output.grid.ratio", ratio, (0.25, 100.0), "grid distance over particle spacing");
+    Output {
+        vtk_every: every(checker, ("output.vtk", output.vtk.as_ref()), end, VTK_RECORDS),
+        series_every: every(checker, ("output.series", output.series.as_ref()), end, SERIES_RECORDS),
+        restart_every: every(checker, ("output.restart", output.restart.as_ref()), end, RESTART_RECORDS),
+        grid_ratio: ratio.unwrap_or(1.0),
+    }
+}
+
+fn every(checker: &mut Checker, (table, raw): (&str, Option<&RawEvery>), end: Option<f64>, records: f64) -> f64 {
+    let path = format!("{table}.every-time");
+    let default = end.unwrap_or(1.0) / records;
+    let Some(time) = checker.positive(&path, raw.and_then(|raw| raw.every_time), "a time in s") else { return default };
+    let Some(end) = end else { return time };
+    let count = end / time;
+    if count > MOST_RECORDS {
+        checker.refuse(
+            path,
+            format!("{time:?} s would give {count:.0} records until the end at {end:?} s, more than {MOST_RECORDS:.0}"),
+            format!("write every {:.2e} s or less often", end / MOST_RECORDS),
+        );
+    }
+    time
+}
+
+/// The expectations that are whole.
+pub(super) fn expectations(checker: &mut Checker, raw: &RawCase) -> Vec<Expectation> {
+    let raw = raw.expect.iter().flatten().enumerate();
+    raw.filter_map(|(index, raw)| expectation(checker, &format!("expect[{index}]"), raw)).collect()
+}
+
+fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation) -> Option<Expectation> {
+    let measure = checker.require(&format!("{at}.measure"), raw.measure.clone(), "measure = \"contact-angle-deg\"");
+    let value = checker.require(&format!("{at}.value"), raw.value, "value = 40.0");
+    let path = format!("{at}.tolerance");
+    let tolerance = checker.require(&path, raw.tolerance, "tolerance = 3.0");
+    let tolerance = checker.positive(&path, tolerance, "a tolerance");
+    if measure.as_deref().is_some_and(|name| name.trim().is_empty()) {
+        checker.refuse(format!("{at}.measure"), "expected the name of a measure, found nothing", "");
+    }
+    Some(Expectation { measure: measure?, value: value?, tolerance: tolerance? })
+}

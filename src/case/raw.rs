@@ -1,0 +1,294 @@
+//! The keys of a case file and of a shape file, as written: all optional, nothing checked but names and types.
+
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::preset::Preset;
+use crate::geometry::spec::{ShapeSpec, SolidSide};
+
+/// Derives and attributes of every table of a case file.
+macro_rules! tables {
+    ($($(#[$outer:meta])* pub struct $name:ident { $($(#[$inner:meta])* pub $field:ident: $kind:ty,)* })*) => {$(
+        $(#[$outer])*
+        #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+        pub struct $name {
+            $($(#[$inner])*
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub $field: Option<$kind>,)*
+        }
+    )*};
+}
+
+tables! {
+    /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.
+    pub struct RawCase {
+        /// Version of the format: 1.
+        pub format: u32,
+        /// One line that says what the case shows.
+        pub title: String,
+        /// Domain and solids: a shape file, or shapes written here.
+        pub geometry: RawGeometry,
+        /// Direct simulation by incompressible SPH.
+        pub sph: RawSph,
+        /// Thin films by the lubrication equation (not yet available).
+        pub thin_film: Empty,
+        /// How long the simulation runs.
+        pub time: RawTime,
+        /// What is written and when.
+        pub output: RawOutput,
+        /// Measures that must come out as said; otherwise the run ends with exit code 5.
+        pub expect: Vec<RawExpectation>,
+    }
+
+    /// A shape file: domain and solids.
+    pub struct RawShapeFile {
+        /// Version of the format: 1.
+        pub format: u32,
+        /// Lower left corner of the domain in m.
+        pub min: [f64; 2],
+        /// Upper right corner of the domain in m.
+        pub max: [f64; 2],
+        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`).
+        pub solid: SolidSide,
+        /// The shapes; overlaps are united.
+        pub shapes: Vec<ShapeSpec>,
+    }
+
+    /// Domain and solids of a case.
+    pub struct RawGeometry {
+        /// Shape file, relative to the case file.
+        pub file: PathBuf,
+        /// Lower left corner of the domain in m; with `file`, in place of the file's.
+        pub min: [f64; 2],
+        /// Upper right corner of the domain in m; with `file`, in place of the file's.
+        pub max: [f64; 2],
+        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`); not with `file`.
+        pub solid: SolidSide,
+        /// The shapes; overlaps are united; not with `file`.
+        pub shapes: Vec<ShapeSpec>,
+    }
+
+    /// Direct simulation by incompressible SPH.
+    pub struct RawSph {
+        /// Initial particle spacing dx in m.
+        pub spacing: f64,
+        /// Smoothing length over spacing, 1 to 3 (default 1.5).
+        pub smoothing_ratio: f64,
+        /// Body force per mass along x and y in m/s² (default none).
+        pub gravity: [f64; 2],
+        /// The one or two fluids.
+        pub phases: RawPhases,
+        /// Interface between the fluids.
+        pub interface: RawInterface,
+        /// Form of the surface force: one table whose name is the model (default `csf`).
+        pub surface_force: RawSurfaceForce,
+        /// Wetting model: one table whose name is the model (default none).
+        pub wetting: RawWetting,
+        /// What stands at the four sides of the domain (default walls).
+        pub sides: RawSides,
+        /// Which phase is where at the start, and how it moves.
+        pub initial: RawInitial,
+        /// Parameters of the method that rarely need a change.
+        pub numerics: RawNumerics,
+        /// Groups of measures for the report: one empty table each.
+        pub measure: RawMeasures,
+    }
+
+    /// The fluids.
+    pub struct RawPhases {
+        /// The phase through which contact angles are measured.
+        pub wetting: RawFluid,
+        /// The other phase; absent in single-phase flow.
+        pub non_wetting: RawFluid,
+    }
+
+    /// A Newtonian fluid, by name or by its properties; a property given beside a name wins.
+    pub struct RawFluid {
+        /// A fluid with known properties.
+        pub preset: Preset,
+        /// Temperature of the preset in degrees Celsius, 20 to 25 (default 20).
+        pub temperature_c: f64,
+        /// Density in kg/m³.
+        pub density: f64,
+        /// Dynamic viscosity in Pa s.
+        pub viscosity: f64,
+    }
+
+    /// The interface between the fluids.
+    pub struct RawInterface {
+        /// Interfacial tension in N/m.
+        pub tension: f64,
+    }
+
+    /// Forms of the surface force.
+    pub struct RawSurfaceForce {
+        /// Continuum surface force, Huber et al. 2013, Eq. 20.
+        pub csf: Empty,
+    }
+
+    /// Wetting models.
+    pub struct RawWetting {
+        /// Unbalanced Young force at the contact line, Huber et al. 2013, Eqs. 7 and 23.
+        pub young: RawYoung,
+    }
+
+    /// Unbalanced Young force.
+    pub struct RawYoung {
+        /// Static contact angle through the wetting phase in degrees, 0 to 180.
+        pub contact_angle_deg: f64,
+    }
+
+    /// The four sides of the domain.
+    pub struct RawSides {
+        /// x = min (default `wall`).
+        pub left: RawSide,
+        /// x = max (default `wall`).
+        pub right: RawSide,
+        /// y = min (default `wall`).
+        pub bottom: RawSide,
+        /// y = max (default `wall`).
+        pub top: RawSide,
+    }
+
+    /// The state at time zero.
+    pub struct RawInitial {
+        /// The phase outside of the shapes below (default `non-wetting`).
+        pub background: RawPhase,
+        /// Shapes filled with the wetting phase (with the background `wetting`: with the other one).
+        pub wetting: Vec<ShapeSpec>,
+        /// Velocity: one key whose name is the field (default `rest`).
+        pub velocity: RawVelocity,
+    }
+
+    /// Initial velocity fields; exactly one of them.
+    pub struct RawVelocity {
+        /// No motion.
+        pub rest: Empty,
+        /// The same velocity everywhere, in m/s.
+        pub uniform: [f64; 2],
+        /// Taylor-Green vortices, one period per domain.
+        pub taylor_green: RawTaylorGreen,
+    }
+
+    /// Taylor-Green vortices.
+    pub struct RawTaylorGreen {
+        /// Largest speed in m/s.
+        pub speed: f64,
+    }
+
+    /// Parameters of the method.
+    pub struct RawNumerics {
+        /// Form of the viscous term (default `morris`).
+        pub viscous_term: RawViscousTerm,
+        /// Share of the density error taken back per step, 0 to 1 (default 0.02).
+        pub drift_source: f64,
+        /// Background pressure in units of tension over smoothing length, or of density times speed squared (default 0.5).
+        pub background_pressure: f64,
+        /// Largest relative residual of the pressure solve (default 1e-6).
+        pub pressure_tolerance: f64,
+        /// Factor on all limits of the time step, above 0 and at most 1 (default 1).
+        pub time_step_factor: f64,
+    }
+
+    /// Groups of measures.
+    pub struct RawMeasures {
+        /// Base and height of a drop on a straight wall.
+        pub sessile_drop: Empty,
+        /// Pressure jump and parasitic currents of a free drop.
+        pub laplace_drop: Empty,
+        /// Velocity error against plane Poiseuille flow.
+        pub poiseuille: Empty,
+        /// Decay rate against the Taylor-Green vortex.
+        pub taylor_green: Empty,
+        /// Filling angle, neck and pressure of a bridge between two discs.
+        pub capillary_bridge: Empty,
+        /// Curvature of the menisci between four discs.
+        pub four_discs: Empty,
+    }
+
+    /// How long the simulation runs.
+    pub struct RawTime {
+        /// End of the simulation in s.
+        pub end: f64,
+    }
+
+    /// What is written and when.
+    pub struct RawOutput {
+        /// Particle, grid and interface files (default: 50 records).
+        pub vtk: RawEvery,
+        /// Rows of series.csv (default: 200 records).
+        pub series: RawEvery,
+        /// The regular grid.
+        pub grid: RawGrid,
+        /// Files to resume from (default: 10 records).
+        pub restart: RawEvery,
+    }
+
+    /// A schedule.
+    pub struct RawEvery {
+        /// Time between records in s.
+        pub every_time: f64,
+    }
+
+    /// The regular grid of the output.
+    pub struct RawGrid {
+        /// Distance of grid nodes over the particle spacing (default 1).
+        pub ratio: f64,
+    }
+
+    /// A measure that must come out as said.
+    pub struct RawExpectation {
+        /// Name of a measure, such as `contact-angle-deg`.
+        pub measure: String,
+        /// Expected value in the measure's unit.
+        pub value: f64,
+        /// Largest accepted deviation, same unit.
+        pub tolerance: f64,
+    }
+}
+
+/// A table without keys: its name says all.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Empty {}
+
+/// A phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RawPhase {
+    /// The phase through which angles are measured.
+    Wetting,
+    /// The other phase.
+    NonWetting,
+}
+
+/// What stands at a side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RawSide {
+    /// Joined to the opposite side.
+    Periodic,
+    /// A solid no-slip wall; contact lines may stand on it.
+    Wall,
+    /// A no-slip wall by image particles; no contact angle is set on it.
+    Image,
+    /// A mirror: free slip.
+    Symmetry,
+    /// Inflow (not yet available).
+    Inlet,
+    /// Outflow (not yet available).
+    Outlet,
+}
+
+/// Forms of the viscous term.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RawViscousTerm {
+    /// Szewc et al. 2012; Huber et al. 2013, Eq. 16.
+    Szewc,
+    /// Morris et al. 1997 with the harmonic mean of the viscosities.
+    Morris,
+}

@@ -1,0 +1,134 @@
+//! A checked case written out as one case file: no defaults, presets, overrides or other files left.
+
+use super::checked::{
+    Case, Fluid, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides, Sph, ViscousTerm, WettingModel,
+};
+use super::raw::{
+    Empty, RawCase, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface, RawMeasures,
+    RawNumerics, RawOutput, RawPhase, RawPhases, RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime,
+    RawVelocity, RawViscousTerm, RawWetting, RawYoung,
+};
+
+/// The case as TOML that loads to the same case (angles to the last bit of a degree).
+pub(super) fn text(case: &Case) -> String {
+    // Every value of a checked case can be written as TOML: numbers, texts and tables with text keys.
+    toml::to_string(&raw(case)).unwrap_or_default()
+}
+
+fn raw(case: &Case) -> RawCase {
+    let Model::Sph(sph) = &case.model;
+    let geometry = &case.geometry;
+    RawCase {
+        format: Some(1),
+        title: Some(case.title.clone()),
+        geometry: Some(RawGeometry {
+            file: None,
+            min: Some(geometry.min),
+            max: Some(geometry.max),
+            solid: Some(geometry.solid),
+            shapes: Some(geometry.shapes.clone()),
+        }),
+        sph: Some(raw_sph(sph)),
+        thin_film: None,
+        time: Some(RawTime { end: Some(case.end) }),
+        output: Some(raw_output(&case.output)),
+        expect: Some(
+            case.expect
+                .iter()
+                .map(|expect| RawExpectation {
+                    measure: Some(expect.measure.clone()),
+                    value: Some(expect.value),
+                    tolerance: Some(expect.tolerance),
+                })
+                .collect(),
+        ),
+    }
+}
+
+fn raw_output(output: &Output) -> RawOutput {
+    let every = |time| Some(RawEvery { every_time: Some(time) });
+    RawOutput {
+        vtk: every(output.vtk_every),
+        series: every(output.series_every),
+        grid: Some(RawGrid { ratio: Some(output.grid_ratio) }),
+        restart: every(output.restart_every),
+    }
+}
+
+fn raw_sph(sph: &Sph) -> RawSph {
+    let two_phases = sph.non_wetting.is_some();
+    let background = if sph.initial.wetting_is_background { RawPhase::Wetting } else { RawPhase::NonWetting };
+    RawSph {
+        spacing: Some(sph.spacing),
+        smoothing_ratio: Some(sph.smoothing_ratio),
+        gravity: Some(sph.gravity.into()),
+        phases: Some(RawPhases {
+            wetting: Some(raw_fluid(&sph.wetting)),
+            non_wetting: sph.non_wetting.as_ref().map(raw_fluid),
+        }),
+        interface: two_phases.then_some(RawInterface { tension: Some(sph.tension) }),
+        surface_force: sph.surface_force.map(|_| RawSurfaceForce { csf: Some(Empty {}) }),
+        wetting: sph.wetting_model.map(|WettingModel::Young { contact_angle }| RawWetting {
+            young: Some(RawYoung { contact_angle_deg: Some(contact_angle.to_degrees().clamp(0.0, 180.0)) }),
+        }),
+        sides: Some(raw_sides(&sph.sides)),
+        initial: Some(RawInitial {
+            background: two_phases.then_some(background),
+            wetting: two_phases.then(|| sph.initial.wetting.clone()),
+            velocity: Some(raw_velocity(&sph.initial.velocity)),
+        }),
+        numerics: Some(raw_numerics(&sph.numerics)),
+        measure: Some(raw_measures(&sph.measure)),
+    }
+}
+
+fn raw_fluid(fluid: &Fluid) -> RawFluid {
+    RawFluid { preset: None, temperature_c: None, density: Some(fluid.density), viscosity: Some(fluid.viscosity) }
+}
+
+fn raw_sides(sides: &Sides) -> RawSides {
+    let side = |side| {
+        Some(match side {
+            Side::Periodic => RawSide::Periodic,
+            Side::Wall => RawSide::Wall,
+            Side::Image => RawSide::Image,
+            Side::Symmetry => RawSide::Symmetry,
+        })
+    };
+    RawSides { left: side(sides.left), right: side(sides.right), bottom: side(sides.bottom), top: side(sides.top) }
+}
+
+fn raw_velocity(velocity: &InitialVelocity) -> RawVelocity {
+    match *velocity {
+        InitialVelocity::Rest => RawVelocity { rest: Some(Empty {}), ..RawVelocity::default() },
+        InitialVelocity::Uniform(velocity) => RawVelocity { uniform: Some(velocity.into()), ..RawVelocity::default() },
+        InitialVelocity::TaylorGreen(speed) => {
+            RawVelocity { taylor_green: Some(RawTaylorGreen { speed: Some(speed) }), ..RawVelocity::default() }
+        }
+    }
+}
+
+fn raw_numerics(numerics: &Numerics) -> RawNumerics {
+    RawNumerics {
+        viscous_term: Some(match numerics.viscous_term {
+            ViscousTerm::Szewc => RawViscousTerm::Szewc,
+            ViscousTerm::Morris => RawViscousTerm::Morris,
+        }),
+        drift_source: Some(numerics.drift_source),
+        background_pressure: Some(numerics.background_pressure),
+        pressure_tolerance: Some(numerics.pressure_tolerance),
+        time_step_factor: Some(numerics.time_step_factor),
+    }
+}
+
+fn raw_measures(measure: &MeasureSet) -> RawMeasures {
+    let table = |asked: bool| asked.then_some(Empty {});
+    RawMeasures {
+        sessile_drop: table(measure.sessile_drop),
+        laplace_drop: table(measure.laplace_drop),
+        poiseuille: table(measure.poiseuille),
+        taylor_green: table(measure.taylor_green),
+        capillary_bridge: table(measure.capillary_bridge),
+        four_discs: table(measure.four_discs),
+    }
+}

@@ -1,0 +1,314 @@
+//! Checks of `[sph]`: ranges of every value, and which values go together.
+
+use super::check::Checker;
+use super::checked::{
+    Fluid, Initial, InitialVelocity, MeasureSet, Numerics, Side, Sides, Sph, SurfaceForce, ViscousTerm, WettingModel,
+};
+use super::preset::{COLD, WARM};
+use super::raw::{RawFluid, RawInitial, RawMeasures, RawNumerics, RawPhase, RawSide, RawSides, RawSph, RawViscousTerm};
+use super::shapes::shape_problems;
+use crate::geometry::spec::GeometrySpec;
+use crate::math::Vec2;
+
+/// Most particles that a run may have: their pairs then fill the memory of a large machine.
+const MOST_PARTICLES: f64 = 2.0e7;
+
+/// Fewest particles across the domain: below, the kernels of opposite sides overlap.
+const FEWEST_ACROSS: f64 = 10.0;
+
+/// Smoothing length over spacing: below 1 too few neighbors, above 3 hundreds of them.
+const SMOOTHING_RATIO: (f64, f64) = (1.0, 3.0);
+
+/// Largest ratio of densities for which the pressure solve is known to converge.
+const LARGEST_DENSITY_RATIO: f64 = 1.0e4;
+
+/// Checks `[sph]`; `geometry` is missing where it was wrong.
+pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&GeometrySpec>) -> Option<Sph> {
+    let spacing = checker.require("sph.spacing", raw.spacing, "spacing = 2.0e-5  # m");
+    let spacing = checker.positive("sph.spacing", spacing, "a spacing in m");
+    if let (Some(spacing), Some(geometry)) = (spacing, geometry) {
+        particle_count(checker, spacing, geometry);
+    }
+    let ratio =
+        checker.within("sph.smoothing-ratio", raw.smoothing_ratio, SMOOTHING_RATIO, "smoothing length over spacing");
+    let phases = raw.phases.clone().unwrap_or_default();
+    let wetting = phases.wetting.as_ref().map(|fluid| self::fluid(checker, "sph.phases.wetting", fluid));
+    let wetting =
+        checker.require("sph.phases.wetting", wetting, "[sph.phases.wetting] with preset, or density and viscosity");
+    let other = phases.non_wetting.as_ref().map(|fluid| self::fluid(checker, "sph.phases.non-wetting", fluid));
+    if let (Some(Some(a)), Some(Some(b))) = (&wetting, &other) {
+        density_ratio(checker, a, b);
+    }
+    let two_phases = other.is_some();
+    let (tension, surface_force) = if two_phases { interface(checker, raw) } else { (Some(0.0), None) };
+    let wetting_model = if two_phases { wetting_model(checker, raw, tension) } else { None };
+    if !two_phases {
+        refuse_single_phase_keys(checker, raw);
+    }
+    let sides = sides(checker, &raw.sides.clone().unwrap_or_default());
+    let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
+    let numerics = numerics(checker, &raw.numerics.clone().unwrap_or_default());
+    Some(Sph {
+        spacing: spacing?,
+        smoothing_ratio: ratio.unwrap_or(DEFAULT_SMOOTHING_RATIO),
+        wetting: wetting??,
+        non_wetting: match other {
+            Some(other) => Some(other?),
+            None => None,
+        },
+        tension: tension?,
+        surface_force,
+        wetting_model,
+        gravity: Vec2::from(raw.gravity.unwrap_or_default()),
+        sides: sides?,
+        initial: initial?,
+        numerics,
+        measure: measures(&raw.measure.clone().unwrap_or_default()),
+    })
+}
+
+/// h/dx of the paper's examples.
+const DEFAULT_SMOOTHING_RATIO: f64 = 1.5;
+
+fn particle_count(checker: &mut Checker, spacing: f64, geometry: &GeometrySpec) {
+    let across = [0, 1].map(|axis| (geometry.max[axis] - geometry.min[axis]) / spacing);
+    let count = across[0] * across[1];
+    let (width, height) = (geometry.max[0] - geometry.min[0], geometry.max[1] - geometry.min[1]);
+    if count > MOST_PARTICLES {
+        let enough = (width * height / MOST_PARTICLES).sqrt();
+        checker.refuse(
+            "sph.spacing",
+            format!("a spacing of {spacing:e} m gives {count:.2e} particles in {width:e} m by {height:e} m, more than {MOST_PARTICLES:.0e}"),
+            format!("a spacing of {enough:.1e} m or more would do; the spacing is in m"),
+        );
+    }
+    let narrow = across[0].min(across[1]);
+    if narrow < FEWEST_ACROSS {
+        checker.refuse(
+            "sph.spacing",
+            format!(
+                "a spacing of {spacing:e} m gives {narrow:.1} particles across the domain, fewer than {FEWEST_ACROSS}"
+            ),
+            format!("a spacing of {:.1e} m or less would do; the spacing is in m", width.min(height) / FEWEST_ACROSS),
+        );
+    }
+}
+
+fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
+    let path = format!("{at}.temperature-c");
+    let celsius = checker.within(&path, raw.temperature_c, (COLD, WARM), "a temperature in degrees Celsius");
+    if raw.temperature_c.is_some() && raw.preset.is_none() {
+        checker.refuse(
+            path,
+            "a temperature needs a preset",
+            "add `preset`, or give the density and viscosity at that temperature",
+        );
+    }
+    if raw.preset.is_none() && raw.density.is_none() && raw.viscosity.is_none() {
+        let help = "add preset = \"water\", or density in kg/m3 and viscosity in Pa s";
+        checker.refuse(format!("{at}.preset"), format!("expected a fluid in [{at}], found no property"), help);
+        return None;
+    }
+    let preset = raw.preset.map(|preset| preset.at(celsius.unwrap_or(COLD)));
+    let mut property = |key: &str, given: Option<f64>, known: Option<f64>, example: &str, what: &str| {
+        let path = format!("{at}.{key}");
+        let value = checker.require(&path, given.or(known), example);
+        checker.positive(&path, value, what)
+    };
+    let density =
+        property("density", raw.density, preset.map(|p| p.density), "density = 998.2  # kg/m3", "a density in kg/m3");
+    let viscosity = property(
+        "viscosity",
+        raw.viscosity,
+        preset.map(|p| p.viscosity),
+        "viscosity = 1.0e-3  # Pa s",
+        "a viscosity in Pa s",
+    );
+    Some(Fluid { density: density?, viscosity: viscosity? })
+}
+
+fn density_ratio(checker: &mut Checker, wetting: &Fluid, other: &Fluid) {
+    let ratio = wetting.density / other.density;
+    if !(1.0 / LARGEST_DENSITY_RATIO..=LARGEST_DENSITY_RATIO).contains(&ratio) {
+        checker.refuse(
+            "sph.phases.non-wetting.density",
+            format!("the density ratio of the phases is {ratio:.3e}, expected 1e-4 to 1e4"),
+            "densities are in kg/m3: water has 998, air 1.2",
+        );
+    }
+}
+
+fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<SurfaceForce>) {
+    const PATH: &str = "sph.interface.tension";
+    let tension = checker.require(PATH, raw.interface.as_ref().and_then(|i| i.tension), "tension = 0.0276  # N/m");
+    let tension = tension.filter(|tension| {
+        if *tension < 0.0 {
+            checker.refuse(PATH, format!("expected a tension in N/m of at least 0, found {tension:?}"), "");
+        }
+        *tension >= 0.0
+    });
+    let force = raw.surface_force.as_ref();
+    if force.is_some_and(|force| force.csf.is_none()) {
+        checker.refuse(
+            "sph.surface-force",
+            "expected exactly one surface force, found none",
+            "add the table [sph.surface-force.csf]",
+        );
+    }
+    if force.is_some() && tension == Some(0.0) {
+        checker.refuse(
+            "sph.surface-force",
+            "a surface force needs a tension above 0",
+            "raise sph.interface.tension, or leave this table out",
+        );
+    }
+    (tension, tension.filter(|tension| *tension > 0.0).map(|_| SurfaceForce::Csf))
+}
+
+fn wetting_model(checker: &mut Checker, raw: &RawSph, tension: Option<f64>) -> Option<WettingModel> {
+    let model = raw.wetting.as_ref()?;
+    let Some(young) = &model.young else {
+        checker.refuse(
+            "sph.wetting",
+            "expected exactly one wetting model, found none",
+            "add the table [sph.wetting.young]",
+        );
+        return None;
+    };
+    const PATH: &str = "sph.wetting.young.contact-angle-deg";
+    let degrees = checker.require(PATH, young.contact_angle_deg, "contact-angle-deg = 40.0");
+    let degrees = checker.within(PATH, degrees, (0.0, 180.0), "an angle in degrees")?;
+    if tension == Some(0.0) {
+        checker.refuse(
+            PATH,
+            "a contact angle needs a tension above 0",
+            "raise sph.interface.tension, or leave [sph.wetting] out",
+        );
+    }
+    Some(WettingModel::Young { contact_angle: degrees.to_radians() })
+}
+
+fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
+    let initial = raw.initial.as_ref();
+    let given = [
+        ("sph.interface", raw.interface.is_some()),
+        ("sph.surface-force", raw.surface_force.is_some()),
+        ("sph.wetting", raw.wetting.is_some()),
+        ("sph.initial.background", initial.is_some_and(|initial| initial.background.is_some())),
+        ("sph.initial.wetting", initial.is_some_and(|initial| initial.wetting.is_some())),
+    ];
+    for (path, _) in given.into_iter().filter(|(_, given)| *given) {
+        checker.refuse(
+            path,
+            format!("`{path}` needs two phases, and there is no [sph.phases.non-wetting]"),
+            "add the second phase, or leave this out",
+        );
+    }
+}
+
+fn sides(checker: &mut Checker, raw: &RawSides) -> Option<Sides> {
+    let given = [("left", raw.left), ("right", raw.right), ("bottom", raw.bottom), ("top", raw.top)];
+    for pair in given.chunks_exact(2) {
+        let [(a, side_a), (b, side_b)] = pair else { continue };
+        let (one, other, missing) = match (side_a, side_b) {
+            (Some(RawSide::Periodic), side) if *side != Some(RawSide::Periodic) => (a, b, side),
+            (side, Some(RawSide::Periodic)) if *side != Some(RawSide::Periodic) => (b, a, side),
+            _ => continue,
+        };
+        let found = if missing.is_none() { "is a wall by default" } else { "is not" };
+        checker.refuse(
+            format!("sph.sides.{one}"),
+            format!("the side `{one}` is periodic and the opposite side `{other}` {found}"),
+            format!("set {other} = \"periodic\" too"),
+        );
+    }
+    let mut side = |key: &str, side: Option<RawSide>| match side {
+        None | Some(RawSide::Wall) => Some(Side::Wall),
+        Some(RawSide::Periodic) => Some(Side::Periodic),
+        Some(RawSide::Image) => Some(Side::Image),
+        Some(RawSide::Symmetry) => Some(Side::Symmetry),
+        Some(RawSide::Inlet | RawSide::Outlet) => {
+            let help = "available sides: `periodic`, `wall`, `image`, `symmetry`";
+            checker.refuse(format!("sph.sides.{key}"), "inlets and outlets are not yet available", help);
+            None
+        }
+    };
+    let (left, right) = (side("left", raw.left), side("right", raw.right));
+    let (bottom, top) = (side("bottom", raw.bottom), side("top", raw.top));
+    Some(Sides { left: left?, right: right?, bottom: bottom?, top: top? })
+}
+
+fn initial(checker: &mut Checker, raw: &RawInitial, two_phases: bool) -> Option<Initial> {
+    let wetting = raw.wetting.clone().unwrap_or_default();
+    for (index, shape) in wetting.iter().enumerate() {
+        shape_problems(checker, &format!("sph.initial.wetting[{index}]"), shape);
+    }
+    if two_phases && wetting.is_empty() {
+        checker.refuse(
+            "sph.initial.wetting",
+            "there are two phases, and no shape says where they are",
+            "add [[sph.initial.wetting]] with a shape, such as disc = { center = [0.0, 0.0], radius = 1.0e-3 }",
+        );
+    }
+    let velocity = velocity(checker, raw);
+    let wetting_is_background = !two_phases || raw.background == Some(RawPhase::Wetting);
+    Some(Initial { wetting, wetting_is_background, velocity: velocity? })
+}
+
+fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> {
+    const PATH: &str = "sph.initial.velocity";
+    let Some(raw) = &raw.velocity else { return Some(InitialVelocity::Rest) };
+    let speed = raw.taylor_green.as_ref().map(|raw| {
+        let path = format!("{PATH}.taylor-green.speed");
+        let speed = checker.require(&path, raw.speed, "speed = 1.0  # m/s");
+        checker.positive(&path, speed, "a speed in m/s")
+    });
+    match (raw.rest, raw.uniform, speed) {
+        (Some(_), None, None) => Some(InitialVelocity::Rest),
+        (None, Some(velocity), None) => Some(InitialVelocity::Uniform(Vec2::from(velocity))),
+        (None, None, Some(speed)) => speed.map(InitialVelocity::TaylorGreen),
+        (rest, uniform, speed) => {
+            let count = usize::from(rest.is_some()) + usize::from(uniform.is_some()) + usize::from(speed.is_some());
+            checker.refuse(
+                PATH,
+                format!("expected exactly one velocity field, found {count}"),
+                "choose one of `rest`, `uniform`, `taylor-green`",
+            );
+            None
+        }
+    }
+}
+
+fn numerics(checker: &mut Checker, raw: &RawNumerics) -> Numerics {
+    let drift = checker.within("sph.numerics.drift-source", raw.drift_source, (0.0, 1.0), "a share");
+    let background =
+        checker.within("sph.numerics.background-pressure", raw.background_pressure, (0.0, 1.0e3), "a factor");
+    let tolerance = checker.within(
+        "sph.numerics.pressure-tolerance",
+        raw.pressure_tolerance,
+        (1.0e-13, 0.1),
+        "a relative residual",
+    );
+    let step = checker.within("sph.numerics.time-step-factor", raw.time_step_factor, (1.0e-3, 1.0), "a factor");
+    Numerics {
+        viscous_term: match raw.viscous_term {
+            None | Some(RawViscousTerm::Morris) => ViscousTerm::Morris,
+            Some(RawViscousTerm::Szewc) => ViscousTerm::Szewc,
+        },
+        drift_source: drift.unwrap_or(0.02),
+        background_pressure: background.unwrap_or(0.5),
+        pressure_tolerance: tolerance.unwrap_or(1.0e-6),
+        time_step_factor: step.unwrap_or(1.0),
+    }
+}
+
+fn measures(raw: &RawMeasures) -> MeasureSet {
+    MeasureSet {
+        sessile_drop: raw.sessile_drop.is_some(),
+        laplace_drop: raw.laplace_drop.is_some(),
+        poiseuille: raw.poiseuille.is_some(),
+        taylor_green: raw.taylor_green.is_some(),
+        capillary_bridge: raw.capillary_bridge.is_some(),
+        four_discs: raw.four_discs.is_some(),
+    }
+}

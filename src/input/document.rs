@@ -1,0 +1,132 @@
+//! A TOML file as text and tree, with the `--set` values of the command line put in.
+//!
+//! Every node knows its bytes. Those of `--set` values lie behind the end of the file's text, so that one number says
+//! whether a node came from the file or from the command line.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::DeTable;
+
+use super::error::{InputError, Mistake};
+use super::overrides::{Override, Overrides};
+
+/// A parsed file.
+#[derive(Debug, Clone)]
+pub struct Document {
+    name: String,
+    text: Arc<str>,
+    overrides: Overrides,
+}
+
+impl Document {
+    /// Parses `text`; `name` is how the file is called in messages.
+    ///
+    /// # Errors
+    /// All syntax mistakes of the text, and the overrides that cannot be put in.
+    pub fn parse(name: &str, text: &str, overrides: &Overrides) -> Result<Self, InputError> {
+        let document = Self { name: name.to_owned(), text: Arc::from(text), overrides: overrides.clone() };
+        let (_, mistakes) = document.parse_tree();
+        if mistakes.is_empty() { Ok(document) } else { Err(InputError { mistakes }) }
+    }
+
+    /// The tree, with the overrides put in.
+    pub(super) fn tree(&self) -> Spanned<DeTable<'_>> {
+        self.parse_tree().0
+    }
+
+    fn parse_tree(&self) -> (Spanned<DeTable<'_>>, Vec<Mistake>) {
+        let (mut root, errors) = DeTable::parse_recoverable(&self.text);
+        let mut mistakes = self.syntax_mistakes(&errors);
+        if !mistakes.is_empty() {
+            return (root, mistakes);
+        }
+        for (base, entry) in self.bases() {
+            if let Err(problem) = entry.put_into(&mut root, base) {
+                mistakes.push(self.mistake(base..base + entry.text.len(), problem));
+            }
+        }
+        (root, mistakes)
+    }
+
+    /// The first mistake of each line, up to an open bracket: what follows one is no mistake of its own.
+    fn syntax_mistakes(&self, errors: &[toml::de::Error]) -> Vec<Mistake> {
+        let mut mistakes: Vec<Mistake> = Vec::new();
+        for error in errors {
+            let message = error.message();
+            let in_brackets =
+                ["array", "inline table", "key-value pairs", "unclosed"].iter().any(|word| message.contains(word));
+            let help = match message {
+                _ if in_brackets => "is a bracket left open here or above?",
+                _ if message.contains("must be quoted") => {
+                    "texts stand in quotes; numbers have no unit and a point before decimals"
+                }
+                _ => "",
+            };
+            let mistake = self.mistake(error.span().unwrap_or_default(), (message.to_owned(), help.to_owned()));
+            let line = |mistake: &Mistake| mistake.place.map(|(line, _)| line);
+            if mistakes.last().is_none_or(|last| line(last) != line(&mistake)) {
+                mistakes.push(mistake);
+            }
+            if in_brackets {
+                break;
+            }
+        }
+        mistakes
+    }
+
+    /// The overrides, each with its first byte behind the file's text.
+    fn bases(&self) -> impl Iterator<Item = (usize, &Override)> {
+        self.overrides.entries().iter().scan(self.text.len() + 1, |next, entry| {
+            let base = *next;
+            *next += entry.text.len() + 1;
+            Some((base, entry))
+        })
+    }
+
+    /// How the file is called in messages.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// A mistake at some bytes of the file or of an override.
+    pub(super) fn mistake(&self, range: Range<usize>, problem: (String, String)) -> Mistake {
+        match self.bases().filter(|(base, _)| *base <= range.start).last() {
+            Some((base, entry)) => {
+                let range = range.start - base..range.end.saturating_sub(base);
+                Mistake::in_text(&format!("--set {}", entry.text), &Arc::from(entry.text.as_str()), range, problem)
+            }
+            None => Mistake::in_text(&self.name, &self.text, range, problem),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{path, tree::place};
+    use super::*;
+
+    fn place_of(text: &str, path: &str) -> String {
+        let document = Document::parse("f", text, &Overrides::default()).unwrap();
+        text[place(document.tree().get_ref(), &path::parse(path).unwrap())].to_owned()
+    }
+
+    #[test]
+    fn a_value_is_found_by_its_path_in_every_way_of_writing_it() {
+        let text = "[a.b]\nc = 1\n[[d]]\ne = {f = 2.0}\n[[d]]\ng.h.i = [3, 4]\n";
+        assert_eq!(place_of(text, "a.b.c"), "1");
+        assert_eq!(place_of(text, "d[0].e.f"), "2.0");
+        assert_eq!(place_of(text, "d[1].g.h.i[1]"), "4");
+    }
+
+    #[test]
+    fn an_absent_key_has_the_place_of_the_table_around_it() {
+        let text = "x = 1\n[a.b]\nc = 1\n[[d]]\ne = {f = 2.0}\n[[d]]\n";
+        assert_eq!(place_of(text, "a.b.zzz"), "[a.b]");
+        assert_eq!(place_of(text, "d[0].e.zzz"), "{f = 2.0}");
+        assert_eq!(place_of(text, "d[1].zzz"), "[[d]]");
+        assert_eq!(place_of(text, "zzz"), "");
+    }
+}

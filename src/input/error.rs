@@ -1,0 +1,104 @@
+//! Mistakes with their places, all those of a case at once, as a colored report or as plain text.
+
+use std::sync::Arc;
+
+use miette::{Diagnostic, NamedSource, SourceSpan};
+
+/// One mistake at its place.
+#[derive(Debug, Clone, thiserror::Error, Diagnostic)]
+#[error("{message}")]
+pub struct Mistake {
+    /// What was expected and what was found.
+    pub message: String,
+    /// The file, or the `--set KEY=VALUE`.
+    pub name: String,
+    /// Line and column, from 1; absent for a file as a whole.
+    pub place: Option<(usize, usize)>,
+    #[help]
+    help: Option<String>,
+    #[source_code]
+    text: Option<NamedSource<Arc<str>>>,
+    #[label("here")]
+    span: Option<SourceSpan>,
+}
+
+impl Mistake {
+    /// A mistake of a file as a whole, such as one that cannot be read.
+    pub(crate) fn of_file(name: &str, message: String, help: &str) -> Self {
+        Self { message, name: name.to_owned(), place: None, help: non_empty(help), text: None, span: None }
+    }
+
+    /// A mistake at the bytes `start..end` of `text`; the ends are moved to the nearest letters.
+    pub(super) fn in_text(
+        name: &str,
+        text: &Arc<str>,
+        range: std::ops::Range<usize>,
+        problem: (String, String),
+    ) -> Self {
+        let start = floor_boundary(text, range.start);
+        let end = floor_boundary(text, range.end).max(start);
+        let before = &text[..start];
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |rest| rest.chars().count()) + 1;
+        Self {
+            message: problem.0,
+            name: name.to_owned(),
+            place: Some((line, column)),
+            help: non_empty(&problem.1),
+            text: Some(NamedSource::new(name, Arc::clone(text))),
+            span: Some((start, end - start).into()),
+        }
+    }
+
+    /// The way out, empty where the message says it all.
+    #[must_use]
+    pub fn help_text(&self) -> &str {
+        self.help.as_deref().unwrap_or_default()
+    }
+
+    /// `file.toml:12:5: message`, and a second line with the help.
+    fn render(&self) -> String {
+        let place = self.place.map_or(String::new(), |(line, column)| format!(":{line}:{column}"));
+        let help = self.help.as_ref().map_or(String::new(), |help| format!("  help: {help}\n"));
+        format!("{}{place}: {}\n{help}", self.name, self.message)
+    }
+}
+
+/// All mistakes of a case and of the files it names.
+#[derive(Debug, Clone, thiserror::Error, Diagnostic)]
+#[error("{}", summary(.mistakes))]
+pub struct InputError {
+    /// The mistakes, by file and place.
+    #[related]
+    pub mistakes: Vec<Mistake>,
+}
+
+impl InputError {
+    /// The mistakes as plain text without colors, in the order of their places.
+    #[must_use]
+    pub fn render(&self) -> String {
+        self.mistakes.iter().map(Mistake::render).collect()
+    }
+}
+
+impl From<Mistake> for InputError {
+    fn from(mistake: Mistake) -> Self {
+        Self { mistakes: vec![mistake] }
+    }
+}
+
+fn summary(mistakes: &[Mistake]) -> String {
+    match mistakes {
+        [one] => format!("a mistake in {}", one.name),
+        _ => format!("{} mistakes", mistakes.len()),
+    }
+}
+
+fn non_empty(text: &str) -> Option<String> {
+    (!text.is_empty()).then(|| text.to_owned())
+}
+
+/// The last letter boundary at or before `index`.
+fn floor_boundary(text: &str, index: usize) -> usize {
+    (0..=index.min(text.len())).rev().find(|i| text.is_char_boundary(*i)).unwrap_or(0)
+}

@@ -1,0 +1,218 @@
+//! `--set KEY=VALUE`: values put into a file's tree before it is read.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{InputError, Mistake};
+use super::path::{self, Step};
+
+/// The overrides of a command line, in their order; a later one wins.
+#[derive(Debug, Clone, Default)]
+pub struct Overrides {
+    entries: Vec<Override>,
+}
+
+/// One `KEY=VALUE`.
+#[derive(Debug, Clone)]
+pub(super) struct Override {
+    /// As it was given.
+    pub text: String,
+    steps: Vec<Step>,
+    key_length: usize,
+    /// The value as a line of TOML, where it is TOML.
+    line: Option<String>,
+}
+
+impl Overrides {
+    /// Reads `KEY=VALUE` texts. A value that is no TOML is taken as text, so that `sph.sides.left=periodic` needs no
+    /// quotes.
+    ///
+    /// # Errors
+    /// All texts that have no key, a malformed key, or a value that begins like a table, array or quoted text and is
+    /// none.
+    pub fn parse<S: AsRef<str>>(texts: &[S]) -> Result<Self, InputError> {
+        let (mut entries, mut mistakes) = (Vec::new(), Vec::new());
+        for text in texts {
+            match Override::parse(text.as_ref()) {
+                Ok(entry) => entries.push(entry),
+                Err((message, help)) => {
+                    mistakes.push(Mistake::of_file(&format!("--set {}", text.as_ref()), message, help));
+                }
+            }
+        }
+        if mistakes.is_empty() { Ok(Self { entries }) } else { Err(InputError { mistakes }) }
+    }
+
+    pub(super) fn entries(&self) -> &[Override] {
+        &self.entries
+    }
+}
+
+impl Override {
+    fn parse(text: &str) -> Result<Self, (String, &'static str)> {
+        let Some((key, value)) = text.split_once('=') else {
+            return Err(("expected KEY=VALUE, found no `=`".to_owned(), "as in --set sph.spacing=1e-5"));
+        };
+        let steps = path::parse(key.trim()).filter(|steps| !steps.is_empty()).ok_or((
+            format!("`{key}` is not a key path"),
+            "names with points between them and places in arrays in brackets, as in geometry.shapes[0].disc.radius",
+        ))?;
+        let line = toml_line(value).map_err(|message| (message, "write the value as in the file, in TOML"))?;
+        Ok(Self { text: text.to_owned(), steps, key_length: key.len(), line })
+    }
+
+    /// Puts the value into the tree; `base` is the first byte of this override's text.
+    pub(super) fn put_into<'t>(&'t self, root: &mut Spanned<DeTable<'t>>, base: usize) -> Result<(), (String, String)> {
+        let key_span = base..base + self.key_length;
+        let value = self.value(base + self.key_length + 1);
+        let Some((Step::Key(first), rest)) = self.steps.split_first() else { return Ok(()) };
+        let Some((last, between)) = rest.split_last() else {
+            set_key(root.get_mut(), first, key_span, value);
+            return Ok(());
+        };
+        let mut node = enter_key(root.get_mut(), first, &key_span).ok_or_else(|| not_a_table(&self.steps[..1]))?;
+        for (depth, step) in between.iter().enumerate() {
+            let here = &self.steps[..=depth];
+            node = match (step, node.get_mut()) {
+                (Step::Key(key), DeValue::Table(table)) => {
+                    enter_key(table, key, &key_span).ok_or_else(|| not_a_table(here))?
+                }
+                (Step::Index(index), DeValue::Array(array)) => {
+                    let count = array.len();
+                    array.get_mut(*index).ok_or_else(|| no_element(here, *index, count))?
+                }
+                (step, _) => return Err(wrong_step(here, step)),
+            };
+        }
+        let here = &self.steps[..self.steps.len() - 1];
+        match (last, node.get_mut()) {
+            (Step::Key(key), DeValue::Table(table)) => set_key(table, key, key_span, value),
+            (Step::Index(index), DeValue::Array(array)) => {
+                let count = array.len();
+                *array.get_mut(*index).ok_or_else(|| no_element(here, *index, count))? = value;
+            }
+            (step, _) => return Err(wrong_step(here, step)),
+        }
+        Ok(())
+    }
+
+    /// The value, its bytes counted from `base`.
+    fn value(&self, base: usize) -> Spanned<DeValue<'_>> {
+        if let Some(line) = &self.line
+            && let Ok(table) = DeTable::parse(line)
+            && let Some((_, mut value)) = table.into_inner().into_iter().next()
+        {
+            move_spans(&mut value, &|byte| (byte + base).saturating_sub(BEFORE.len()));
+            return value;
+        }
+        let text = &self.text[self.key_length + 1..];
+        Spanned::new(base..base + text.len(), DeValue::String(text.trim().into()))
+    }
+}
+
+/// The value of a key, made a table where it is absent.
+fn enter_key<'a, 't>(
+    table: &'a mut DeTable<'t>,
+    key: &str,
+    span: &Range<usize>,
+) -> Option<&'a mut Spanned<DeValue<'t>>> {
+    if !table.contains_key(key) {
+        set_key(table, key, span.clone(), Spanned::new(span.clone(), DeValue::Table(DeTable::new())));
+    }
+    table.get_mut(key)
+}
+
+fn set_key<'t>(table: &mut DeTable<'t>, key: &str, span: Range<usize>, value: Spanned<DeValue<'t>>) {
+    // The map would keep the old key and with it the old place.
+    table.remove(key);
+    table.insert(Spanned::new(span, key.to_owned().into()), value);
+}
+
+fn not_a_table(steps: &[Step]) -> (String, String) {
+    wrong_step(steps, &Step::Key(String::new()))
+}
+
+fn wrong_step(steps: &[Step], step: &Step) -> (String, String) {
+    let what = match step {
+        Step::Key(_) => "a table",
+        Step::Index(_) => "an array",
+    };
+    (format!("`{}` is not {what} in the file", path::write(steps)), "check the key against the file".to_owned())
+}
+
+fn no_element(steps: &[Step], index: usize, count: usize) -> (String, String) {
+    let path = path::write(steps);
+    (format!("`{path}` has {count} elements, there is no [{index}]"), "the first element is [0]".to_owned())
+}
+
+/// What stands before the value in the line that is parsed.
+const BEFORE: &str = "v=";
+
+/// The value as a line of TOML; `None` where it is text without quotes.
+fn toml_line(text: &str) -> Result<Option<String>, String> {
+    let line = format!("{BEFORE}{text}");
+    match DeTable::parse(&line) {
+        Ok(table) if table.get_ref().len() == 1 => Ok(Some(line)),
+        Ok(_) => Err("expected one value".to_owned()),
+        Err(error) if text.trim_start().starts_with(['[', '{', '"', '\'']) => Err(error.message().to_owned()),
+        Err(_) if text.trim().is_empty() => Err("expected a value after `=`".to_owned()),
+        Err(_) => Ok(None),
+    }
+}
+
+fn move_spans(node: &mut Spanned<DeValue<'_>>, change: &impl Fn(usize) -> usize) {
+    match node.get_mut() {
+        DeValue::Table(table) => {
+            for (key, mut value) in std::mem::take(table) {
+                move_spans(&mut value, change);
+                let span = change(key.span().start)..change(key.span().end);
+                table.insert(Spanned::new(span, key.into_inner()), value);
+            }
+        }
+        DeValue::Array(array) => array.iter_mut().for_each(|value| move_spans(value, change)),
+        _ => {}
+    }
+    let span = change(node.span().start)..change(node.span().end);
+    let value = std::mem::replace(node.get_mut(), DeValue::Boolean(false));
+    *node = Spanned::new(span, value);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::Document;
+    use super::*;
+
+    fn set(text: &str, values: &[&str]) -> Result<toml::Table, String> {
+        let overrides = Overrides::parse(values).map_err(|error| error.render())?;
+        let document = Document::parse("f", text, &overrides).map_err(|error| error.render())?;
+        Ok(document.read::<toml::Table>().value)
+    }
+
+    #[test]
+    fn values_replace_those_of_the_file_and_missing_tables_are_made() {
+        let values = ["a=2", "b.c.d=periodic", "e[1].f=[1.5, 2.5]", "g={ h = 1 }", "b.c.i=\"x y\"", "a=3"];
+        let table = set("a = 1\n[[e]]\n[[e]]\n", &values).unwrap();
+        let wanted: toml::Table =
+            "a = 3\nb.c = { d = 'periodic', i = 'x y' }\ng.h = 1\ne = [{}, { f = [1.5, 2.5] }]".parse().unwrap();
+        assert_eq!(table, wanted);
+    }
+
+    #[test]
+    fn what_cannot_be_set_is_refused_at_its_own_place() {
+        for (value, message) in [
+            ("a", "expected KEY=VALUE, found no `=`"),
+            ("=1", "`` is not a key path"),
+            ("a..b=1", "`a..b` is not a key path"),
+            ("a=", "expected a value after `=`"),
+            ("a=[1", "unclosed array"),
+            ("a.b=1", "`a` is not a table in the file"),
+            ("e[2].f=1", "`e` has 1 elements, there is no [2]"),
+            ("e[0][1]=1", "`e[0]` is not an array in the file"),
+        ] {
+            let text = set("a = 1\n[[e]]\n", &[value]).unwrap_err();
+            assert!(text.starts_with(&format!("--set {value}")) && text.contains(message), "{text}");
+        }
+    }
+}
