@@ -254,6 +254,7 @@ mod tests {
     use super::*;
     use crate::analysis::contour::contour;
     use crate::analysis::lattice::Lattice;
+    use crate::analysis::wall::clip;
     use nalgebra::Rotation2;
 
     const H: f64 = 1.5 / 40.0;
@@ -265,9 +266,10 @@ mod tests {
 
     fn angles(color: impl Fn(Vec2) -> f64, wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<ContactLine> {
         let lattice = Lattice::open(Vec2::repeat(-2.5), Vec2::repeat(0.025), [201, 201]);
-        let value = |x: Vec2| if wall(x).distance < 0.0 { f64::NAN } else { color(x) };
+        let value = |x: Vec2| if wall(x).distance < -0.05 { f64::NAN } else { color(x) };
         let values: Vec<f64> = lattice.nodes().into_iter().map(value).collect();
-        contact_lines(&contour(&lattice, &values, 0.5), wall, &ContactSettings::for_smoothing_length(H))
+        let contours = clip(&contour(&lattice, &values, 0.5), wall);
+        contact_lines(&contours, wall, &ContactSettings::for_smoothing_length(H))
     }
 
     #[test]
