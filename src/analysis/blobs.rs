@@ -29,8 +29,8 @@ pub fn blobs(points: &[Vec2], volumes: &[f64], member: &[bool], link: f64, perio
     let places: Vec<Vec2> = chosen.iter().map(|&i| points[i]).collect();
     let cells = Cells::new(&places, link, period);
     let mut parent: Vec<usize> = (0..places.len()).collect();
-    for a in 0..places.len() {
-        cells.for_each_near(places[a], link, |b, _| {
+    for (a, &place) in places.iter().enumerate() {
+        cells.for_each_near(place, link, |b, _| {
             if b < a {
                 let (ra, rb) = (root(&mut parent, a), root(&mut parent, b));
                 // The lower index becomes the root, so the result depends on the particles alone.

@@ -204,7 +204,10 @@ fn meet(
     let (mut before, mut way) = (0.0, 0.0);
     loop {
         let d = distance(way);
-        if !(d > 0.0) {
+        if d.is_nan() {
+            return None;
+        }
+        if d <= 0.0 {
             break;
         }
         before = way;

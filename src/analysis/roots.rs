@@ -10,7 +10,8 @@ pub fn bisect(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64>
     if at_low == 0.0 {
         return Some(low);
     }
-    if !(at_low * at_high <= 0.0) {
+    let product = at_low * at_high;
+    if product.is_nan() || product > 0.0 {
         return None;
     }
     // 200 halvings exhaust the digits of any interval that does not hold 0.
