@@ -1,1 +1,22 @@
-//! Pure functions on points and fields: contours, fits, laws.
+//! Measurement: pure functions on points, fields and closures. No solver, no file, no geometry type.
+//!
+//! The way of a measurement: particles are resampled onto a regular grid ([`resample`]), the c = 0.5 contour of the
+//! smoothed color is traced ([`contour`]), circles are fitted to it ([`circle`]) and extrapolated to the wall, where
+//! they give the contact angle with an error bar ([`contact`]). Sums over particles are in [`phases`] and [`blobs`],
+//! closed forms to compare with in [`laws`] and [`young_laplace`], observed orders in [`convergence`].
+
+pub mod blobs;
+pub mod cells;
+pub mod circle;
+pub mod contact;
+pub mod contour;
+pub mod convergence;
+pub mod lattice;
+pub mod laws;
+pub mod phases;
+pub mod resample;
+pub mod roots;
+pub mod wall;
+pub mod young_laplace;
+
+pub use wall::WallPoint;

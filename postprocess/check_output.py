@@ -1,0 +1,180 @@
+"""Checks an output folder against the output contract.
+
+Every file opens, arrays are present with the right sizes and finite, times ascend and are unique, and each collection
+lists the files that lie in its folder, no more and no fewer.
+
+Usage: check_output.py DIR
+"""
+
+import argparse
+import itertools
+import sys
+from pathlib import Path
+
+import numpy as np
+import pyvista as pv
+
+import results
+
+# Columns of the series that every record must have; the others are NaN where the quantity does not exist.
+ALWAYS_FINITE = ["time_s", "step"]
+
+
+def measure(path: str | Path) -> dict:
+    """What is wrong with the folder (`problems`, empty when nothing is), with the times and counts that were found."""
+    directory = Path(path)
+    problems: list[str] = []
+    found = {
+        "problems": problems,
+        "times": check_collection(directory, "particles", check_particles, problems),
+        "grid-times": check_collection(directory, "grid", check_grid, problems),
+        "interface-times": check_collection(directory, "interface", check_interface, problems),
+        "records": check_series(directory / "series.csv", problems),
+        "status": check_report(directory, problems),
+    }
+    for kind in ("grid-times", "interface-times"):
+        if found[kind] != found["times"]:
+            problems.append(f"the {kind} are not the times of the particles")
+    solid = directory / "solid.vtp"
+    if not solid.is_file():
+        problems.append("solid.vtp is missing")
+    elif not isinstance(results.read(solid), pv.PolyData):
+        problems.append("solid.vtp is not poly data")
+    problems.extend(f"{left.relative_to(directory)} is a temporary file" for left in directory.rglob("*.tmp"))
+    return found
+
+
+def check_collection(directory: Path, name: str, check, problems: list[str]) -> list[float]:
+    """Checks one .pvd and its files; returns the times."""
+    collection = directory / f"{name}.pvd"
+    if not collection.is_file():
+        problems.append(f"{name}.pvd is missing")
+        return []
+    frames = results.frames(collection)
+    times = [frame.time for frame in frames]
+    if not frames:
+        problems.append(f"{name}.pvd lists no file")
+    if any(b <= a for a, b in itertools.pairwise(times)):
+        problems.append(f"{name}.pvd: the times do not ascend: {times}")
+    listed = {frame.file.resolve() for frame in frames}
+    stored = {file.resolve() for file in (directory / name).glob("*.vt?")}
+    problems.extend(f"{file.name} is listed in {name}.pvd but missing" for file in sorted(listed - stored))
+    problems.extend(f"{file.name} is not listed in {name}.pvd" for file in sorted(stored - listed))
+    for frame in frames:
+        if frame.file.is_file():
+            data = results.read(frame.file)
+            place = f"{name}/{frame.file.name}"
+            check_time(data, frame.time, place, problems)
+            check(data, place, problems)
+    return times
+
+
+def check_time(data, time: float, place: str, problems: list[str]) -> None:
+    """The time in the file, where it has one, is that of the collection."""
+    for name in ("time", "TimeValue"):
+        if name in data.field_data and not np.isclose(float(data.field_data[name][0]), time, rtol=1e-9, atol=1e-300):
+            problems.append(f"{place}: field data {name} is {data.field_data[name][0]}, the collection says {time}")
+
+
+def check_arrays(data, arrays: dict[str, int], may_be_nan, place: str, problems: list[str]) -> None:
+    """Arrays on points: present, with the right number of components, finite but where `may_be_nan`."""
+    for name, components in arrays.items():
+        if name not in data.point_data:
+            problems.append(f"{place}: the array {name} is missing")
+            continue
+        values = np.asarray(data.point_data[name])
+        shape = (data.n_points,) if components == 1 else (data.n_points, components)
+        if values.shape != shape:
+            problems.append(f"{place}: {name} has the shape {values.shape}, not {shape}")
+            continue
+        finite = np.isfinite(values) if components == 1 else np.isfinite(values).all(axis=1)
+        wrong = int(np.count_nonzero(~(finite | may_be_nan)))
+        if wrong:
+            problems.append(f"{place}: {name} is not finite at {wrong} of {data.n_points} points")
+
+
+def check_particles(data, place: str, problems: list[str]) -> None:
+    """Each particle is a vertex cell with all arrays; ids are unique and phases known."""
+    if not isinstance(data, pv.UnstructuredGrid) or data.n_points == 0:
+        problems.append(f"{place}: no particles in an unstructured grid")
+        return
+    if data.n_cells != data.n_points or not (data.celltypes == pv.CellType.VERTEX).all():
+        problems.append(f"{place}: {data.n_points} particles but {data.n_cells} cells, or cells that are no vertices")
+    if not ({"time", "TimeValue"} & set(data.field_data.keys())):
+        problems.append(f"{place}: no time in the field data")
+    check_arrays(data, results.PARTICLE_ARRAYS, np.zeros(data.n_points, dtype=bool), place, problems)
+    if "id" in data.point_data and len(np.unique(data.point_data["id"])) != data.n_points:
+        problems.append(f"{place}: ids are not unique")
+    if "phase" in data.point_data and not np.isin(data.point_data["phase"], [0, 1, 2]).all():
+        problems.append(f"{place}: phases other than 0, 1 and 2")
+    for name in ("density", "volume"):
+        if name in data.point_data and not (np.asarray(data.point_data[name]) > 0).all():
+            problems.append(f"{place}: {name} is not positive everywhere")
+
+
+def check_grid(data, place: str, problems: list[str]) -> None:
+    """Fields on a regular grid; they may be missing (NaN) inside of the solids."""
+    if not isinstance(data, pv.ImageData) or data.n_points == 0:
+        problems.append(f"{place}: no regular grid")
+        return
+    solid = np.zeros(data.n_points, dtype=bool)
+    if "wall-distance" in data.point_data:
+        solid = np.asarray(data.point_data["wall-distance"]) <= 0.0
+    check_arrays(data, results.GRID_ARRAYS, solid, place, problems)
+
+
+def check_interface(data, place: str, problems: list[str]) -> None:
+    """Lines with curvature; a state without interface has none. The curvature of very short lines is unknown (NaN)."""
+    if not isinstance(data, pv.PolyData):
+        problems.append(f"{place}: not poly data")
+    elif data.n_points > 0:
+        if data.n_lines == 0:
+            problems.append(f"{place}: {data.n_points} points but no lines")
+        check_arrays(data, results.INTERFACE_ARRAYS, np.ones(data.n_points, dtype=bool), place, problems)
+
+
+def check_series(path: Path, problems: list[str]) -> int:
+    """Columns are present and times ascend; returns the number of records."""
+    if not path.is_file():
+        problems.append("series.csv is missing")
+        return 0
+    columns = results.series(path)
+    problems.extend(f"series.csv: no column {name}" for name in results.SERIES_COLUMNS if name not in columns)
+    for name in ALWAYS_FINITE:
+        if name in columns and not np.isfinite(columns[name]).all():
+            problems.append(f"series.csv: {name} is not finite in every row")
+    times = columns.get("time_s", np.array([]))
+    if (np.diff(times) <= 0).any():
+        problems.append("series.csv: the times do not ascend")
+    if len(times) == 0:
+        problems.append("series.csv: no record")
+    return len(times)
+
+
+def check_report(directory: Path, problems: list[str]) -> str | None:
+    """The report has its parts, and each measure value, unit, uncertainty and method; returns how the run ended."""
+    if not (directory / "report.json").is_file():
+        problems.append("report.json is missing")
+        return None
+    report = results.report(directory)
+    problems.extend(f"report.json: no {key}" for key in ("version", "case", "status", "measures") if key not in report)
+    for name, parts in report.get("measures", {}).items():
+        missing = {"value", "unit", "uncertainty", "method"} - set(parts)
+        problems.extend(f"report.json: the measure {name} has no {part}" for part in sorted(missing))
+    return report.get("status")
+
+
+def main() -> int:
+    """Prints what is wrong; exit code 1 where something is."""
+    parser = argparse.ArgumentParser(description="check an output folder against the output contract")
+    parser.add_argument("directory", type=Path, help="output folder of `meniscus run`")
+    found = measure(parser.parse_args().directory)
+    for problem in found["problems"]:
+        print(problem)
+    if not found["problems"]:
+        print(f"{len(found['times'])} times and {found['records']} records, all as the contract says")
+    return 1 if found["problems"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,130 @@
+"""Reads an output folder of meniscus: collections of VTK files, the series and the report.
+
+The names of the output contract stand here and nowhere else. Everything is in SI units.
+"""
+
+import csv
+import json
+import math
+import re
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pyvista as pv
+
+# Array name -> number of components.
+PARTICLE_ARRAYS = {
+    "id": 1,
+    "phase": 1,
+    "velocity": 3,
+    "pressure": 1,
+    "density": 1,
+    "volume": 1,
+    "color": 1,
+    "normal": 3,
+    "curvature": 1,
+    "surface-force": 3,
+    "line-force": 3,
+    "wall-distance": 1,
+    "wall-normal": 3,
+}
+GRID_ARRAYS = {"velocity": 3, "pressure": 1, "color": 1, "wall-distance": 1}
+INTERFACE_ARRAYS = {"curvature": 1}
+SERIES_COLUMNS = [
+    "time_s",
+    "step",
+    "dt_s",
+    "saturation",
+    "interface_length_m",
+    "wetted_length_m",
+    "capillary_pressure_Pa",
+    "contact_angle_deg",
+    "kinetic_energy_J_per_m",
+    "max_speed_m_per_s",
+    "density_error",
+    "ppe_iterations",
+]
+UNITS = {
+    "velocity": "m/s",
+    "pressure": "Pa",
+    "density": "kg/m³",
+    "volume": "m²",
+    "curvature": "1/m",
+    "surface-force": "N/m³",
+    "line-force": "N/m³",
+    "wall-distance": "m",
+}
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One file of a collection with its time in s."""
+
+    time: float
+    file: Path
+
+
+def frames(collection: Path) -> list[Frame]:
+    """The files of a .pvd collection in the order in which it lists them."""
+    data_sets = ET.parse(collection).getroot().iter("DataSet")
+    return [Frame(float(d.attrib["timestep"]), collection.parent / d.attrib["file"]) for d in data_sets]
+
+
+def series(path: Path) -> dict[str, np.ndarray]:
+    """The columns of series.csv by name; cells that hold no number are NaN."""
+    with path.open(newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    header, rows = rows[0], rows[1:]
+
+    def number(cell: str) -> float:
+        try:
+            return float(cell)
+        except ValueError:
+            return math.nan
+
+    return {name: np.array([number(row[i]) for row in rows]) for i, name in enumerate(header)}
+
+
+def report(directory: Path) -> dict:
+    """The content of report.json."""
+    return json.loads((directory / "report.json").read_text(encoding="utf-8"))
+
+
+def requested_angle(content) -> float | None:
+    """The contact angle in degrees that the case asks for: the first such key anywhere in the resolved case.
+
+    The case may stand in the report as a table or as the text of a case file.
+    """
+    if isinstance(content, str):
+        match = re.search(r"^\s*contact-angle-deg\s*=\s*([-+.\deE_]+)", content, re.MULTILINE)
+        return float(match.group(1)) if match else None
+    items = content.items() if isinstance(content, dict) else enumerate(content) if isinstance(content, list) else ()
+    for key, value in items:
+        if isinstance(value, int | float) and key == "contact-angle-deg":
+            return float(value)
+        if isinstance(value, int | float) and key in ("contact_angle", "contact-angle"):
+            return math.degrees(value)
+        found = requested_angle(value)
+        if found is not None:
+            return found
+    return None
+
+
+def label(field: str) -> str:
+    """Axis label of a field with its unit."""
+    return f"{field} ({UNITS[field]})" if field in UNITS else field
+
+
+def frame_at(collection: Path, time: float | None) -> Frame:
+    """The frame next to a time in s, or the last one."""
+    found = frames(collection)
+    if not found:
+        raise ValueError(f"{collection} lists no file")
+    return found[-1] if time is None else min(found, key=lambda frame: abs(frame.time - time))
+
+
+def read(path: Path):
+    """One VTK file as a pyvista data set."""
+    return pv.read(path)

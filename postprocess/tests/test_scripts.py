@@ -1,0 +1,118 @@
+"""Runs each script on a small folder made here, whole and spoiled. `python -m unittest discover -s tests`."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(SCRIPTS))
+
+import pyvista as pv  # noqa: E402
+
+import angle_and_saturation  # noqa: E402
+import check_output  # noqa: E402
+import field_picture  # noqa: E402
+import movie  # noqa: E402
+import results  # noqa: E402
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import synthetic  # noqa: E402
+
+
+class Scripts(unittest.TestCase):
+    """Every test has its own fresh folder."""
+
+    def setUp(self):
+        """Writes the folder."""
+        self.temporary = tempfile.TemporaryDirectory()
+        self.directory = Path(self.temporary.name) / "out"
+        synthetic.write(self.directory)
+
+    def tearDown(self):
+        """Removes the folder."""
+        self.temporary.cleanup()
+
+    def problems(self) -> str:
+        """What the check says, in one text."""
+        return "\n".join(check_output.measure(self.directory)["problems"])
+
+    def run_script(self, script: str, *arguments: str) -> subprocess.CompletedProcess:
+        """Runs a script as a user does."""
+        command = [sys.executable, str(SCRIPTS / script), str(self.directory), *arguments]
+        return subprocess.run(command, capture_output=True, text=True, check=False)
+
+    def test_a_whole_folder_passes(self):
+        """No problem, and the times are those that were written."""
+        found = check_output.measure(self.directory)
+        self.assertEqual(found["problems"], [])
+        self.assertEqual(found["times"], synthetic.TIMES)
+        self.assertEqual(self.run_script("check_output.py").returncode, 0)
+
+    def test_a_lost_file_is_found(self):
+        """A listed file that is missing."""
+        (self.directory / "grid" / "000001.vti").unlink()
+        self.assertIn("000001.vti is listed in grid.pvd but missing", self.problems())
+        self.assertEqual(self.run_script("check_output.py").returncode, 1)
+
+    def test_a_file_that_no_collection_lists_is_found(self):
+        """As after a restart that forgot a time."""
+        source = self.directory / "particles" / "000001.vtu"
+        (self.directory / "particles" / "000009.vtu").write_bytes(source.read_bytes())
+        self.assertIn("000009.vtu is not listed", self.problems())
+
+    def test_a_doubled_time_is_found(self):
+        """As after a restart that wrote a time twice."""
+        collection = self.directory / "interface.pvd"
+        collection.write_text(collection.read_text().replace('timestep="0.001"', 'timestep="0.0"'))
+        self.assertIn("the times do not ascend", self.problems())
+
+    def test_missing_arrays_and_values_that_are_not_finite_are_found(self):
+        """Both in one file of particles."""
+        path = self.directory / "particles" / "000002.vtu"
+        data = pv.read(path)
+        data.point_data["pressure"][3] = float("nan")
+        del data.point_data["line-force"]
+        data.save(path)
+        self.assertIn("pressure is not finite at 1 of 400 points", self.problems())
+        self.assertIn("the array line-force is missing", self.problems())
+
+    def test_angles_are_measured_and_drawn_beside_the_requested_one(self):
+        """The requested angle comes from the report."""
+        found = angle_and_saturation.measure(self.directory)
+        self.assertAlmostEqual(found["requested-angle"], 40.0)
+        self.assertAlmostEqual(found["last-angle"], 41.0)
+        self.draws("angle_and_saturation.py", "--picture", "figure.png")
+
+    def test_the_requested_angle_is_found_in_the_text_of_a_case(self):
+        """The report may hold the resolved case as text; a case without an angle has none."""
+        text = "[sph.wetting.young]\ncontact-angle-deg = 72.5 # through the oil\n"
+        self.assertEqual(results.requested_angle(text), 72.5)
+        self.assertIsNone(results.requested_angle({"title": "Flow between plates", "end": 1.0}))
+
+    def test_a_field_is_drawn(self):
+        """The pressure of the last time, and the speed of another."""
+        found = field_picture.measure(self.directory)
+        self.assertAlmostEqual(found["max"], 0.03 / (6.0 * synthetic.SPACING))
+        self.draws("field_picture.py", "--picture", "figure.png")
+        self.draws("field_picture.py", "--picture", "speed.png", "--field", "velocity", "--time", "0.001")
+
+    def test_movies_are_made(self):
+        """One range for all frames, both formats."""
+        found = movie.measure(self.directory)
+        self.assertEqual(len(found["frames"]), 3)
+        self.assertAlmostEqual(found["max"], 0.03 / (4.0 * synthetic.SPACING))
+        self.draws("movie.py", "--movie", "movie.gif")
+        self.draws("movie.py", "--movie", "movie.mp4")
+
+    def draws(self, script: str, option: str, name: str, *more: str):
+        """The script ends well and leaves a file of more than a few bytes."""
+        target = self.directory / name
+        done = self.run_script(script, option, str(target), *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(target.stat().st_size, 2000)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,352 @@
+//! Contact angles: a circle fitted to the c = 0.5 contour away from the wall, extrapolated to the wall.
+//!
+//! The vertices nearer to the wall than the exclusion distance (2h) are left out, since there the smoothed color feels the
+//! wall; normals of particles are never used. The fit of a meniscus serves both of its contact lines, unless a window
+//! limits it to the part next to each. The angle is measured through the phase on the left of the contour (the wetting
+//! one). Leaves out gravity: see [`young_laplace`](super::young_laplace).
+
+use nalgebra::Vector3;
+
+use super::circle::{self, CircleFit};
+use super::contour::Polyline;
+use super::wall::WallPoint;
+use crate::math::Vec2;
+
+/// What to fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSettings {
+    /// Vertices nearer to the wall than this are left out, in m; 2h.
+    pub exclusion: f64,
+    /// The end of an open contour is at the wall where it is nearer to it than this, in m.
+    pub reach: f64,
+    /// Only vertices within this way along the contour from the first one used are fitted, in m; infinite: the meniscus.
+    pub window: f64,
+}
+
+impl ContactSettings {
+    /// The settings for a smoothing length in m: 2h left out, ends within 3h of the wall, whole menisci.
+    #[must_use]
+    pub fn for_smoothing_length(h: f64) -> Self {
+        Self { exclusion: 2.0 * h, reach: 3.0 * h, window: f64::INFINITY }
+    }
+}
+
+/// On which side of the contact line the wetting phase touches the wall, for someone who looks from the wall into the pore.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WettingSide {
+    /// On the left: the contour begins here.
+    Left,
+    /// On the right: the contour ends here.
+    Right,
+}
+
+/// Why a contact line has no angle.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ContactProblem {
+    /// The meniscus is too short for a fit.
+    #[error("only {found} contour points are farther than {exclusion:.3e} m from the wall, {LEAST_POINTS} are needed")]
+    TooFewPoints {
+        /// Points beyond the exclusion distance.
+        found: usize,
+        /// The exclusion distance in m.
+        exclusion: f64,
+    },
+    /// The points determine no circle.
+    #[error("no circle fits the contour: {0}")]
+    NoCircle(#[from] circle::CircleError),
+    /// The circle passes by.
+    #[error("the fitted circle does not meet the wall")]
+    NoIntersection,
+}
+
+/// A contact line: in the plane, a point on the wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactLine {
+    /// Where the fitted circle meets the wall, in m; the end of the contour where it does not.
+    pub position: Vec2,
+    /// Angle through the wetting phase in degrees, NaN where there is a problem.
+    pub angle_deg: f64,
+    /// Standard error of the angle in degrees, from the scatter of the contour about the circle.
+    pub uncertainty_deg: f64,
+    /// Curvature of the meniscus in 1/m, positive where the wetting phase is convex.
+    pub curvature: f64,
+    /// Where the wetting phase is.
+    pub side: WettingSide,
+    /// Index of the contour among those given.
+    pub contour: usize,
+    /// Why there is no angle.
+    pub problem: Option<ContactProblem>,
+}
+
+/// The fewest points that are fitted: twice the unknowns.
+pub const LEAST_POINTS: usize = 6;
+
+/// The contact lines of `contours`: both ends of each open contour that come to the wall.
+///
+/// Ends away from walls (at an open side, or at the seam of a periodic one) are no contact lines.
+#[must_use]
+pub fn contact_lines(
+    contours: &[Polyline],
+    wall: &dyn Fn(Vec2) -> WallPoint,
+    settings: &ContactSettings,
+) -> Vec<ContactLine> {
+    let mut lines = Vec::new();
+    for (contour, line) in contours.iter().enumerate().filter(|(_, line)| !line.closed && line.points.len() > 1) {
+        let distances: Vec<f64> = line.points.iter().map(|&p| wall(p).distance).collect();
+        for side in [WettingSide::Left, WettingSide::Right] {
+            let end = if side == WettingSide::Left { 0 } else { line.points.len() - 1 };
+            if distances[end] < settings.reach {
+                let points = fitted_points(line, &distances, side, settings);
+                let found = measure(points, side, wall, settings);
+                lines.push(match found {
+                    Ok(found) => ContactLine { contour, ..found },
+                    Err(problem) => unmeasured(line.points[end], side, contour, problem),
+                });
+            }
+        }
+    }
+    lines
+}
+
+fn unmeasured(position: Vec2, side: WettingSide, contour: usize, problem: ContactProblem) -> ContactLine {
+    let nan = f64::NAN;
+    let problem = Some(problem);
+    ContactLine { position, angle_deg: nan, uncertainty_deg: nan, curvature: nan, side, contour, problem }
+}
+
+/// The run of vertices beyond the exclusion distance that is next to one end, limited to the window.
+fn fitted_points<'a>(
+    line: &'a Polyline,
+    distances: &[f64],
+    side: WettingSide,
+    settings: &ContactSettings,
+) -> &'a [Vec2] {
+    let away = |i: &usize| distances[*i] > settings.exclusion;
+    let count = line.points.len();
+    let walk: Vec<usize> = match side {
+        WettingSide::Left => (0..count).collect(),
+        WettingSide::Right => (0..count).rev().collect(),
+    };
+    let run: Vec<usize> = walk.into_iter().skip_while(|i| !away(i)).take_while(away).collect();
+    let mut way = 0.0;
+    let within = run.windows(2).take_while(|w| {
+        way += (line.points[w[1]] - line.points[w[0]]).norm();
+        way <= settings.window
+    });
+    let used = within.count() + 1;
+    match (run.first(), run.get(used - 1)) {
+        (Some(&first), Some(&last)) => &line.points[first.min(last)..=first.max(last)],
+        _ => &[],
+    }
+}
+
+fn measure(
+    points: &[Vec2],
+    side: WettingSide,
+    wall: &dyn Fn(Vec2) -> WallPoint,
+    settings: &ContactSettings,
+) -> Result<ContactLine, ContactProblem> {
+    let (found, exclusion) = (points.len(), settings.exclusion);
+    if found < LEAST_POINTS {
+        return Err(ContactProblem::TooFewPoints { found, exclusion });
+    }
+    let circle = circle::fit(points)?;
+    let from = if side == WettingSide::Left { points[0] } else { points[found - 1] };
+    let angle_of = |circle: &CircleFit| {
+        let position = meet(circle, from, side, wall, exclusion)?;
+        Some((position, angle(circle.normal_at(position), wall(position).normal)))
+    };
+    let (position, theta) = angle_of(&circle).ok_or(ContactProblem::NoIntersection)?;
+    // Derivatives of the angle by curvature, direction and offset, each by a step of one standard error or a small one.
+    let mut slope = Vector3::zeros();
+    for k in 0..3 {
+        let natural = [1e-6 / exclusion, 1e-6, 1e-6 * exclusion][k];
+        let step = circle.covariance[(k, k)].max(0.0).sqrt().max(natural);
+        let mut change = Vector3::zeros();
+        change[k] = step;
+        let ahead = angle_of(&circle.perturbed(change)).map_or(theta, |(_, a)| a);
+        let behind = angle_of(&circle.perturbed(-change)).map_or(theta, |(_, a)| a);
+        slope[k] = (ahead - behind) / (2.0 * step);
+    }
+    let variance = (slope.transpose() * circle.covariance * slope)[(0, 0)];
+    Ok(ContactLine {
+        position,
+        angle_deg: theta.to_degrees(),
+        uncertainty_deg: variance.max(0.0).sqrt().to_degrees(),
+        curvature: circle.curvature,
+        side,
+        contour: 0,
+        problem: None,
+    })
+}
+
+/// Angle in rad between interface and wall, from the normals into the wetting phase and into the pore.
+fn angle(into_wetting: Vec2, into_pore: Vec2) -> f64 {
+    // cos = -n.e; the two-argument arctangent keeps its accuracy near 0 and 180 degrees.
+    into_wetting.perp(&into_pore).abs().atan2(-into_wetting.dot(&into_pore))
+}
+
+/// Follows the circle from the vertex `from` towards the wall until the wall distance is zero.
+fn meet(
+    circle: &CircleFit,
+    from: Vec2,
+    side: WettingSide,
+    wall: &dyn Fn(Vec2) -> WallPoint,
+    exclusion: f64,
+) -> Option<Vec2> {
+    let direction = if side == WettingSide::Left { -1.0 } else { 1.0 };
+    // An arc that leaves the exclusion band at 10 degrees is six times as long as the band is wide; 20 leave room, and
+    // half of the circle is as far as a contact line can be.
+    let longest = (20.0 * exclusion).min(std::f64::consts::PI * circle.radius());
+    let distance = |way: f64| wall(circle.walk(from, direction * way)).distance;
+    // The wall is never nearer than its distance, so steps of that length cannot pass it; the least step gets through.
+    let least = 1e-3 * exclusion;
+    let (mut before, mut way) = (0.0, 0.0);
+    loop {
+        let d = distance(way);
+        if d.is_nan() {
+            return None;
+        }
+        if d <= 0.0 {
+            break;
+        }
+        before = way;
+        way += d.max(least);
+        if way > longest {
+            return None;
+        }
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (before + way);
+        if distance(middle) > 0.0 { before = middle } else { way = middle }
+    }
+    Some(circle.walk(from, direction * 0.5 * (before + way)))
+}
+
+/// Angles over several contact lines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AngleSummary {
+    /// Mean angle in degrees, NaN where none was measured.
+    pub mean_deg: f64,
+    /// Standard deviation over the contact lines in degrees, 0 for a single one.
+    pub spread_deg: f64,
+    /// Standard error of the mean in degrees: the larger of the fits' and the spread's.
+    pub uncertainty_deg: f64,
+    /// Contact lines with an angle.
+    pub measured: usize,
+    /// Contact lines without one.
+    pub failed: usize,
+}
+
+/// Mean and spread over the contact lines that have an angle.
+#[must_use]
+pub fn summarize(lines: &[ContactLine]) -> AngleSummary {
+    let good: Vec<&ContactLine> = lines.iter().filter(|line| line.angle_deg.is_finite()).collect();
+    let (measured, count) = (good.len(), good.len() as f64);
+    let mean_deg = good.iter().map(|line| line.angle_deg).sum::<f64>() / count;
+    let squares: f64 = good.iter().map(|line| (line.angle_deg - mean_deg).powi(2)).sum();
+    let spread_deg = if measured > 1 { (squares / (count - 1.0)).sqrt() } else { squares.sqrt() };
+    // Both ends of a meniscus share one fit, so fits are not independent: their errors are averaged, not reduced.
+    let from_fits = (good.iter().map(|line| line.uncertainty_deg.powi(2)).sum::<f64>() / count).sqrt();
+    let uncertainty_deg = if measured == 0 { f64::NAN } else { from_fits.max(spread_deg / count.sqrt()) };
+    AngleSummary { mean_deg, spread_deg, uncertainty_deg, measured, failed: lines.len() - measured }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::contour::contour;
+    use crate::analysis::lattice::Lattice;
+    use crate::analysis::wall::clip;
+    use nalgebra::Rotation2;
+
+    const H: f64 = 1.5 / 40.0;
+
+    /// A color that falls over about one smoothing length across a circle.
+    fn tanh_disc(x: Vec2, center: Vec2, radius: f64) -> f64 {
+        0.5 - 0.5 * (((x - center).norm() - radius) / H).tanh()
+    }
+
+    fn angles(color: impl Fn(Vec2) -> f64, wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<ContactLine> {
+        let lattice = Lattice::open(Vec2::repeat(-2.5), Vec2::repeat(0.025), [201, 201]);
+        let value = |x: Vec2| if wall(x).distance < -0.05 { f64::NAN } else { color(x) };
+        let values: Vec<f64> = lattice.nodes().into_iter().map(value).collect();
+        let contours = clip(&contour(&lattice, &values, 0.5), wall);
+        contact_lines(&contours, wall, &ContactSettings::for_smoothing_length(H))
+    }
+
+    #[test]
+    fn a_drop_on_a_turned_wall_has_its_angle_on_both_sides() {
+        for turn in [0.0, 27.0, 90.0, -133.0_f64] {
+            for theta in [20.0, 40.0, 90.0, 140.0, 160.0_f64] {
+                let up = Rotation2::new(turn.to_radians()) * Vec2::y();
+                let wall = |x: Vec2| WallPoint { distance: x.dot(&up) + 0.2, normal: up };
+                // A flat cap of radius 1 would lie within the band of 2h that is left out.
+                let radius = if theta < 30.0 { 3.0 } else { 1.0 };
+                let center = -(0.2 + radius * theta.to_radians().cos()) * up;
+                let lines = angles(|x| tanh_disc(x, center, radius), &wall);
+                assert_eq!(lines.len(), 2, "turn {turn}, angle {theta}");
+                for line in &lines {
+                    assert!((line.angle_deg - theta).abs() < 0.3, "turn {turn}, angle {theta}: {line:?}");
+                    assert!(line.uncertainty_deg < 0.5 && (line.curvature * radius - 1.0).abs() < 0.01, "{line:?}");
+                    assert!(wall(line.position).distance.abs() < 1e-9);
+                }
+                assert_ne!(lines[0].side, lines[1].side);
+            }
+        }
+    }
+
+    #[test]
+    fn a_hollow_in_the_wetting_phase_has_the_supplement_of_the_bubble_angle() {
+        let wall = |x: Vec2| WallPoint { distance: x.y + 0.5, normal: Vec2::y() };
+        let lines = angles(|x| 1.0 - tanh_disc(x, Vec2::new(0.1, -0.2), 0.8), &wall);
+        let bubble = (-0.3_f64 / 0.8).acos().to_degrees();
+        assert_eq!(lines.len(), 2);
+        for line in lines {
+            assert!((line.angle_deg - (180.0 - bubble)).abs() < 0.3, "{line:?}");
+            assert!((line.curvature + 1.25).abs() < 0.02);
+        }
+    }
+
+    #[test]
+    fn a_drop_on_a_disc_has_its_angle() {
+        for theta in [40.0, 90.0, 120.0_f64] {
+            let wall = |x: Vec2| WallPoint { distance: x.norm() - 1.0, normal: x / x.norm().max(1e-12) };
+            let r = 0.7_f64;
+            let c = (1.0 + r * r - 2.0 * r * theta.to_radians().cos()).sqrt();
+            let lines = angles(|x| tanh_disc(x, Vec2::new(0.6 * c, 0.8 * c), r), &wall);
+            let summary = summarize(&lines);
+            assert_eq!((summary.measured, summary.failed), (2, 0), "angle {theta}: {lines:?}");
+            assert!((summary.mean_deg - theta).abs() < 0.5, "angle {theta}: {summary:?}");
+        }
+    }
+
+    #[test]
+    fn a_flat_meniscus_between_plates_has_its_angle() {
+        let wall = |x: Vec2| {
+            let sign = x.y.signum();
+            WallPoint { distance: 0.6 - x.y.abs(), normal: Vec2::new(0.0, -sign) }
+        };
+        let lines = angles(|x| 0.5 - 0.5 * (x.x / H).tanh(), &wall);
+        assert_eq!(lines.len(), 2);
+        for line in &lines {
+            assert!((line.angle_deg - 90.0).abs() < 0.1 && line.curvature.abs() < 0.01, "{line:?}");
+        }
+    }
+
+    #[test]
+    fn a_meniscus_that_is_too_short_is_kept_with_the_reason() {
+        let wall = |x: Vec2| WallPoint { distance: x.y, normal: Vec2::y() };
+        let lines = angles(|x| tanh_disc(x, Vec2::zeros(), 0.08), &wall);
+        assert_eq!(lines.len(), 2);
+        assert!(lines.iter().all(|line| line.angle_deg.is_nan()));
+        assert!(matches!(lines[0].problem, Some(ContactProblem::TooFewPoints { .. })), "{lines:?}");
+        assert_eq!(summarize(&lines).failed, 2);
+    }
+
+    #[test]
+    fn a_free_drop_has_no_contact_line() {
+        let wall = |x: Vec2| WallPoint { distance: x.y + 2.0, normal: Vec2::y() };
+        assert!(angles(|x| tanh_disc(x, Vec2::zeros(), 0.8), &wall).is_empty());
+    }
+}

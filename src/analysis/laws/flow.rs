@@ -1,0 +1,128 @@
+//! Exact solutions for single-phase and layered flow.
+
+use std::f64::consts::PI;
+
+/// Flow between plates at y = 0 and y = H, driven by a body force per volume.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Poiseuille {
+    /// Driving force per volume G in N/m³.
+    pub force: f64,
+    /// Dynamic viscosity in Pa s.
+    pub viscosity: f64,
+    /// Density in kg/m³, for the start-up.
+    pub density: f64,
+    /// Distance of the plates H in m.
+    pub height: f64,
+}
+
+/// Terms of the start-up series: the last is below 1e-7 of the first, at time zero.
+const SERIES_TERMS: usize = 200;
+
+impl Poiseuille {
+    /// Final velocity in m/s at `y` (m): G y (H - y)/(2 mu).
+    #[must_use]
+    pub fn steady(&self, y: f64) -> f64 {
+        self.force * y * (self.height - y) / (2.0 * self.viscosity)
+    }
+
+    /// Velocity in m/s at `y` (m) and `time` (s) after the force sets in on fluid at rest (Fourier series).
+    #[must_use]
+    pub fn at(&self, y: f64, time: f64) -> f64 {
+        let nu = self.viscosity / self.density;
+        let scale = 4.0 * self.force * self.height.powi(2) / (self.viscosity * PI.powi(3));
+        let term = |n: f64| {
+            let rate = nu * (n * PI / self.height).powi(2);
+            (n * PI * y / self.height).sin() * (-rate * time).exp() / n.powi(3)
+        };
+        self.steady(y) - scale * (0..SERIES_TERMS).map(|k| term(2.0 * k as f64 + 1.0)).sum::<f64>()
+    }
+}
+
+/// Two layers between plates at y = 0 and y = H, driven by a force per volume; layer 1 lies below.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LayeredPoiseuille {
+    /// Driving force per volume in N/m³.
+    pub force: f64,
+    /// Thicknesses in m.
+    pub heights: [f64; 2],
+    /// Dynamic viscosities in Pa s.
+    pub viscosities: [f64; 2],
+}
+
+impl LayeredPoiseuille {
+    /// Shear stress in Pa at the lower plate: velocity and stress are continuous at the interface.
+    fn wall_stress(&self) -> f64 {
+        let ([h1, h2], [m1, m2]) = (self.heights, self.viscosities);
+        let load = h1 * h1 / (2.0 * m1) + (h1 * h2 + 0.5 * h2 * h2) / m2;
+        self.force * load / (h1 / m1 + h2 / m2)
+    }
+
+    /// Velocity in m/s at `y` (m).
+    #[must_use]
+    pub fn velocity(&self, y: f64) -> f64 {
+        let ([h1, _], [m1, m2]) = (self.heights, self.viscosities);
+        let momentum = |y: f64| self.wall_stress() * y - 0.5 * self.force * y * y;
+        if y <= h1 { momentum(y) / m1 } else { momentum(h1) / m1 + (momentum(y) - momentum(h1)) / m2 }
+    }
+
+    /// Velocity of the interface in m/s.
+    #[must_use]
+    pub fn interface_velocity(&self) -> f64 {
+        self.velocity(self.heights[0])
+    }
+
+    /// Flow rates of the two layers in m²/s.
+    #[must_use]
+    pub fn flow_rates(&self) -> [f64; 2] {
+        let [h1, h2] = self.heights;
+        // Simpson's rule is exact for parabolas.
+        let rate = |from: f64, thickness: f64| {
+            let at = |part: f64| self.velocity(from + part * thickness);
+            thickness / 6.0 * (at(0.0) + 4.0 * at(0.5) + at(1.0))
+        };
+        [rate(0.0, h1), rate(h1, h2)]
+    }
+}
+
+/// Speed of a Taylor-Green vortex of period `length` (m) over its initial speed: exp(-8 pi² nu t/L²).
+#[must_use]
+pub fn taylor_green_decay(kinematic_viscosity: f64, length: f64, time: f64) -> f64 {
+    (-8.0 * PI * PI * kinematic_viscosity * time / (length * length)).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poiseuille_flow_starts_at_rest_and_ends_as_a_parabola() {
+        let flow = Poiseuille { force: 2.0, viscosity: 0.5, density: 3.0, height: 0.4 };
+        let peak = flow.steady(0.2);
+        assert!((peak - 2.0 * 0.04 / 1.0).abs() < 1e-15);
+        assert!(flow.at(0.2, 0.0).abs() < 1e-5 * peak && flow.at(0.07, 0.0).abs() < 1e-5 * peak);
+        assert!((flow.at(0.13, 50.0) - flow.steady(0.13)).abs() < 1e-15);
+        // Early on the middle has not felt the plates: u = G t/rho.
+        assert!((flow.at(0.2, 1e-3) / (2.0 * 1e-3 / 3.0) - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn layered_flow_has_the_printed_interface_velocity_and_rates() {
+        for (m, interface, below, above) in [
+            (1.0, 0.125, 0.041_666_7, 0.041_666_7),
+            (2.0, 0.166_666_7, 0.052_083_3, 0.0625),
+            (10.0, 0.227_272_7, 0.067_234_8, 0.160_984_8),
+            (100.0, 0.247_524_8, 0.072_297_9, 1.103_547_9),
+        ] {
+            let flow = LayeredPoiseuille { force: 1.0, heights: [0.5, 0.5], viscosities: [1.0, 1.0 / m] };
+            let [q1, q2] = flow.flow_rates();
+            assert!((flow.interface_velocity() - interface).abs() < 1e-7, "m {m}: {}", flow.interface_velocity());
+            assert!((q1 - below).abs() < 1e-7 && (q2 - above).abs() < 1e-7, "m {m}: {q1} {q2}");
+            assert!(flow.velocity(1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn taylor_green_at_reynolds_100_has_decayed_to_the_printed_speed() {
+        assert!((taylor_green_decay(0.01, 1.0, 2.0) - 0.20615).abs() < 0.6e-5);
+    }
+}

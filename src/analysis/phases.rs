@@ -1,0 +1,306 @@
+//! Sums over particles and contours: areas, saturation, wetted length, capillary pressure, Laplace jump, density error.
+//!
+//! Colors are sharp here: above 0.5 is the wetting phase. Solid particles are left out by the caller.
+
+use super::cells::Cells;
+use super::contour::Polyline;
+use super::wall::WallPoint;
+use crate::math::Vec2;
+
+/// Color above which a particle is of the wetting phase.
+pub const WETTING_COLOR: f64 = 0.5;
+
+/// Areas of the phases per depth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PhaseAreas {
+    /// Area of the wetting phase in m².
+    pub wetting: f64,
+    /// Area of the non-wetting phase in m².
+    pub non_wetting: f64,
+}
+
+impl PhaseAreas {
+    /// Sums `volumes` (m²) by `colors`.
+    #[must_use]
+    pub fn new(volumes: &[f64], colors: &[f64]) -> Self {
+        let sum = |wetting: bool| {
+            volumes.iter().zip(colors).filter(|(_, c)| (**c > WETTING_COLOR) == wetting).map(|(v, _)| v).sum()
+        };
+        Self { wetting: sum(true), non_wetting: sum(false) }
+    }
+
+    /// Part of the fluid's area that the wetting phase fills.
+    #[must_use]
+    pub fn saturation(&self) -> f64 {
+        self.wetting / (self.wetting + self.non_wetting)
+    }
+
+    /// Relative change of the wetting and the non-wetting area since `start`; NaN for a phase that was absent.
+    #[must_use]
+    pub fn drift_since(&self, start: &Self) -> [f64; 2] {
+        [self.wetting / start.wetting - 1.0, self.non_wetting / start.non_wetting - 1.0]
+    }
+}
+
+/// Total length of `contours` in m.
+#[must_use]
+pub fn interface_length(contours: &[Polyline]) -> f64 {
+    contours.iter().map(Polyline::length).sum()
+}
+
+/// Lengths of wall that touch the phases.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WettedLength {
+    /// Length under the wetting phase in m.
+    pub wetting: f64,
+    /// Length under the non-wetting phase in m.
+    pub non_wetting: f64,
+}
+
+/// A piece of wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallSample {
+    /// Middle of the piece in m.
+    pub point: Vec2,
+    /// Its length in m.
+    pub length: f64,
+}
+
+/// Cuts wall outlines into pieces no longer than `longest` (m).
+#[must_use]
+pub fn wall_samples(outlines: &[Polyline], longest: f64) -> Vec<WallSample> {
+    let mut samples = Vec::new();
+    for (a, b) in outlines.iter().flat_map(Polyline::segments) {
+        let pieces = ((b - a).norm() / longest).ceil().max(1.0);
+        let length = (b - a).norm() / pieces;
+        samples.extend(
+            (0..pieces as usize).map(|i| WallSample { point: a + (b - a) * ((i as f64 + 0.5) / pieces), length }),
+        );
+    }
+    samples
+}
+
+/// Wetted length from the smoothed color at each sample; samples without one (NaN: no fluid near) are left out.
+#[must_use]
+pub fn wetted_length(samples: &[WallSample], colors: &[f64]) -> WettedLength {
+    let sum = |inside: &dyn Fn(f64) -> bool| {
+        samples.iter().zip(colors).filter(|(_, c)| inside(**c)).map(|(sample, _)| sample.length).sum()
+    };
+    WettedLength { wetting: sum(&|c| c > WETTING_COLOR), non_wetting: sum(&|c| c <= WETTING_COLOR) }
+}
+
+/// Fluid particles whose pressure is measured.
+#[derive(Debug, Clone, Copy)]
+pub struct PressureSamples<'a> {
+    /// Positions in m.
+    pub points: &'a [Vec2],
+    /// Pressures in Pa.
+    pub pressures: &'a [f64],
+    /// Colors.
+    pub colors: &'a [f64],
+    /// Smoothing length h in m.
+    pub smoothing_length: f64,
+    /// Period in m along each axis, where it has one.
+    pub period: [Option<f64>; 2],
+}
+
+/// Mean pressure of the non-wetting phase less that of the wetting phase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CapillaryPressure {
+    /// p_n - p_w in Pa; NaN where a phase has no particle away from the interface.
+    pub value: f64,
+    /// Standard error of the two means in Pa, particles counted as independent.
+    pub standard_error: f64,
+    /// Particles of the wetting and the non-wetting phase that were used.
+    pub counts: [usize; 2],
+    /// Whether particles near walls could be left out too.
+    pub away_from_walls: bool,
+}
+
+/// Smoothing lengths that are left out beside the interface.
+const FROM_INTERFACE: f64 = 3.0;
+/// Smoothing lengths that are left out beside walls, where enough particles remain.
+const FROM_WALLS: f64 = 2.0;
+/// Particles of each phase below which the wall band is used as well: the error of their mean is a fifth of their scatter.
+const ENOUGH: usize = 25;
+
+/// Capillary pressure from particles farther than 3h from `contours`, and than 2h from walls where that leaves enough.
+#[must_use]
+pub fn capillary_pressure(
+    samples: &PressureSamples,
+    contours: &[Polyline],
+    wall: &dyn Fn(Vec2) -> WallPoint,
+) -> CapillaryPressure {
+    let h = samples.smoothing_length;
+    let vertices: Vec<Vec2> = contours.iter().flat_map(|line| line.points.iter().copied()).collect();
+    let cells = Cells::new(&vertices, FROM_INTERFACE * h, samples.period);
+    let far: Vec<bool> = samples
+        .points
+        .iter()
+        .map(|&x| {
+            // Vertices stand closer than a spacing, so their distance serves for that of the line.
+            let mut near = false;
+            cells.for_each_near(x, FROM_INTERFACE * h, |_, _| near = true);
+            !near
+        })
+        .collect();
+    let off_wall: Vec<bool> =
+        samples.points.iter().zip(&far).map(|(&x, &far)| far && wall(x).distance > FROM_WALLS * h).collect();
+    let strict = difference_of_means(samples, &off_wall, true);
+    if strict.counts.iter().all(|&count| count >= ENOUGH) { strict } else { difference_of_means(samples, &far, false) }
+}
+
+fn difference_of_means(samples: &PressureSamples, used: &[bool], away_from_walls: bool) -> CapillaryPressure {
+    let of_phase = |wetting: bool| {
+        let chosen = (0..samples.points.len()).filter(|&i| used[i] && (samples.colors[i] > WETTING_COLOR) == wetting);
+        MeanValue::of(chosen.map(|i| samples.pressures[i]))
+    };
+    let (wetting, non_wetting) = (of_phase(true), of_phase(false));
+    CapillaryPressure {
+        value: non_wetting.mean - wetting.mean,
+        standard_error: wetting.error.hypot(non_wetting.error),
+        counts: [wetting.count, non_wetting.count],
+        away_from_walls,
+    }
+}
+
+/// A mean with its standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeanValue {
+    /// Arithmetic mean, NaN of nothing.
+    pub mean: f64,
+    /// Standard error for independent values, 0 for fewer than two.
+    pub error: f64,
+    /// Number of values.
+    pub count: usize,
+}
+
+impl MeanValue {
+    /// Mean and standard error of `values`.
+    #[must_use]
+    pub fn of(values: impl Iterator<Item = f64>) -> Self {
+        let values: Vec<f64> = values.collect();
+        let count = values.len();
+        let mean = values.iter().sum::<f64>() / count as f64;
+        let squares: f64 = values.iter().map(|v| (v - mean).powi(2)).sum();
+        let error = if count > 1 { (squares / (count as f64 * (count as f64 - 1.0))).sqrt() } else { 0.0 };
+        Self { mean, error, count }
+    }
+}
+
+/// Laplace jump of a free drop in Pa with its standard error: mean p over r < R - 3h less mean p over r > R + 3h.
+#[must_use]
+pub fn laplace_jump(samples: &PressureSamples, center: Vec2, radius: f64) -> MeanValue {
+    let band = FROM_INTERFACE * samples.smoothing_length;
+    let mean = |inside: &dyn Fn(f64) -> bool| {
+        let distance = |x: Vec2| super::cells::nearest_image(x - center, samples.period).norm();
+        let chosen = samples.points.iter().zip(samples.pressures).filter(|(x, _)| inside(distance(**x)));
+        MeanValue::of(chosen.map(|(_, p)| *p))
+    };
+    let (inner, outer) = (mean(&|r| r < radius - band), mean(&|r| r > radius + band));
+    MeanValue { mean: inner.mean - outer.mean, error: inner.error.hypot(outer.error), count: inner.count + outer.count }
+}
+
+/// Root mean square and largest relative deviation of particle volumes from `reference` (m²): the density error.
+#[must_use]
+pub fn density_error(volumes: &[f64], reference: f64) -> [f64; 2] {
+    let off = |v: &f64| reference / v - 1.0;
+    let squares: f64 = volumes.iter().map(|v| off(v).powi(2)).sum();
+    let largest = volumes.iter().map(|v| off(v).abs()).fold(0.0, f64::max);
+    [(squares / volumes.len() as f64).sqrt(), largest]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::lattice::Lattice;
+
+    fn circle(center: Vec2, radius: f64, count: usize) -> Polyline {
+        let at = |i: usize| 2.0 * std::f64::consts::PI * i as f64 / count as f64;
+        let points = (0..count).map(|i| center + radius * Vec2::new(at(i).cos(), at(i).sin())).collect();
+        Polyline { points, closed: true }
+    }
+
+    #[test]
+    fn areas_sum_to_the_fluid_and_drift_is_relative() {
+        let areas = PhaseAreas::new(&[1.0, 2.0, 3.0], &[1.0, 0.0, 0.0]);
+        assert_eq!(areas, PhaseAreas { wetting: 1.0, non_wetting: 5.0 });
+        assert!((areas.saturation() - 1.0 / 6.0).abs() < 1e-15);
+        let later = PhaseAreas { wetting: 1.01, non_wetting: 4.99 };
+        assert!((later.drift_since(&areas)[0] - 0.01).abs() < 1e-12);
+    }
+
+    #[test]
+    fn interface_length_of_a_disc_is_its_circumference() {
+        let length = interface_length(&[circle(Vec2::zeros(), 0.5, 400)]);
+        assert!((length - std::f64::consts::PI).abs() < 1e-4 * std::f64::consts::PI);
+    }
+
+    #[test]
+    fn wetted_length_is_the_part_of_the_wall_with_color_one() {
+        let wall = Polyline { points: vec![Vec2::zeros(), Vec2::new(4.0, 0.0)], closed: false };
+        let samples = wall_samples(&[wall], 0.01);
+        let color = |x: f64| if x > 3.5 { f64::NAN } else { f64::from((1.0..2.5).contains(&x)) };
+        let colors: Vec<f64> = samples.iter().map(|s| color(s.point.x)).collect();
+        let wetted = wetted_length(&samples, &colors);
+        assert!((wetted.wetting - 1.5).abs() < 0.011 && (wetted.non_wetting - 2.0).abs() < 0.011, "{wetted:?}");
+    }
+
+    #[test]
+    fn the_pressure_of_a_drop_is_measured_away_from_its_interface_and_the_walls() {
+        let (radius, h) = (0.5, 0.03);
+        let points = Lattice::open(Vec2::repeat(-1.0), Vec2::repeat(0.02), [101, 101]).nodes();
+        let colors: Vec<f64> = points.iter().map(|p| f64::from(p.norm() < radius)).collect();
+        // A jump of 8 Pa with a wrong band at the interface and at the floor, which must not count.
+        let pressure = |p: &Vec2| {
+            let spoiled = (p.norm() - radius).abs() < 2.9 * h || p.y < -1.0 + 1.9 * h;
+            if spoiled { 100.0 } else { 8.0 * f64::from(p.norm() < radius) + 3.0 }
+        };
+        let pressures: Vec<f64> = points.iter().map(pressure).collect();
+        let samples = PressureSamples {
+            points: &points,
+            pressures: &pressures,
+            colors: &colors,
+            smoothing_length: h,
+            period: [None, None],
+        };
+        let wall = |x: Vec2| WallPoint { distance: x.y + 1.0, normal: Vec2::y() };
+        let found = capillary_pressure(&samples, &[circle(Vec2::zeros(), radius, 200)], &wall);
+        assert!(found.away_from_walls && (found.value + 8.0).abs() < 1e-9, "{found:?}");
+        assert!(found.standard_error < 1e-9);
+    }
+
+    #[test]
+    fn a_phase_without_particles_away_from_the_interface_has_no_pressure() {
+        let samples = PressureSamples {
+            points: &[Vec2::zeros()],
+            pressures: &[1.0],
+            colors: &[1.0],
+            smoothing_length: 0.1,
+            period: [None, None],
+        };
+        let wall = |_| WallPoint { distance: 1.0, normal: Vec2::y() };
+        let found = capillary_pressure(&samples, &[], &wall);
+        assert!(found.value.is_nan() && !found.away_from_walls);
+    }
+
+    #[test]
+    fn the_laplace_jump_leaves_out_a_band_of_six_smoothing_lengths() {
+        let points = Lattice::open(Vec2::repeat(-1.0), Vec2::repeat(0.02), [101, 101]).nodes();
+        let pressures: Vec<f64> = points.iter().map(|p| if p.norm() < 0.5 { 2.0 } else { 0.0 }).collect();
+        let samples = PressureSamples {
+            points: &points,
+            pressures: &pressures,
+            colors: &pressures,
+            smoothing_length: 0.03,
+            period: [None, None],
+        };
+        assert!((laplace_jump(&samples, Vec2::zeros(), 0.52).mean - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn density_error_is_that_of_the_inverse_volume() {
+        let [rms, largest] = density_error(&[1.0, 1.0 / 1.1], 1.0);
+        assert!((largest - 0.1).abs() < 1e-12 && (rms - 0.1 / 2.0_f64.sqrt()).abs() < 1e-12);
+    }
+}

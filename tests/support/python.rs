@@ -1,0 +1,67 @@
+//! A Python environment for the scripts in `postprocess`, made once from its requirements and kept under `target`.
+
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Root of the package.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The interpreter of the environment in `target/postprocess-venv`, which is made anew when the requirements change.
+///
+/// Fails the test with what to install where Python 3.10 or later with venv is missing.
+pub fn interpreter() -> PathBuf {
+    let requirements = root().join("postprocess/requirements.txt");
+    let text = fs::read_to_string(&requirements).expect("postprocess/requirements.txt is readable");
+    let mut hasher = DefaultHasher::new();
+    text.hash(&mut hasher);
+    let wanted = format!("{:016x}", hasher.finish());
+
+    let target = root().join("target");
+    fs::create_dir_all(&target).expect("target can be made");
+    // Two tests, or two test commands, may come here at once: the second one waits until the environment is made.
+    let lock = fs::File::create(target.join("postprocess-venv.lock")).expect("target is writable");
+    lock.lock().expect("the lock of the Python environment");
+
+    let environment = target.join("postprocess-venv");
+    let stamp = environment.join("requirements.hash");
+    let python = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    if fs::read_to_string(&stamp).is_ok_and(|found| found == wanted) && python.is_file() {
+        return python;
+    }
+    if environment.exists() {
+        fs::remove_dir_all(&environment).expect("the old Python environment can be removed");
+    }
+    let mut make = Command::new("python3");
+    make.args(["-m", "venv"]).arg(&environment);
+    run(
+        &mut make,
+        "python3 with venv is needed: install it (Debian, Ubuntu: apt install python3 python3-venv), 3.10 or later",
+    );
+    let mut install = Command::new(&python);
+    install
+        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"])
+        .arg(&requirements);
+    run(
+        &mut install,
+        "the packages of postprocess/requirements.txt could not be installed: is the package index reachable?",
+    );
+    fs::write(&stamp, wanted).expect("the Python environment is writable");
+    python
+}
+
+/// Runs a command to its end and returns its standard output; fails the test with `advice` and what it wrote.
+pub fn run(command: &mut Command, advice: &str) -> String {
+    match command.output() {
+        Err(error) => panic!("{advice}\n{command:?}: {error}"),
+        Ok(output) => {
+            let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+            let (out, err) = (text(&output.stdout), text(&output.stderr));
+            assert!(output.status.success(), "{advice}\n{command:?}: {}\n{out}{err}", output.status);
+            out
+        }
+    }
+}
