@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::sph::method::{Method, ViscousTerm};
 
 /// Courant number on the smoothing length.
-const COURANT: f64 = 0.25;
+const COURANT: f64 = 0.125;
 
 /// Factor on sqrt(ρ̄ h³/(2πσ)). With h = 1.5 dx this is half of Brackbill's limit, which is in terms of dx.
 const CAPILLARY: f64 = 0.25;

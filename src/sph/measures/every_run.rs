@@ -1,0 +1,53 @@
+//! What every run reports: angle, pressures, saturation, lengths and the bookkeeping of areas and densities.
+
+use super::{Subject, measure};
+use crate::analysis::phases::density_error;
+use crate::solver::Measure;
+
+pub fn measures(s: &Subject) -> Vec<Measure> {
+    let fluids = s.flow.particles.fluids;
+    let [rms, largest] = density_error(&s.flow.fields.volume[..fluids], s.flow.method.volume);
+    let mut found = vec![
+        measure("density-error", rms, "", None, "root mean square of V0/V - 1 over fluid particles at the end"),
+        measure("largest-density-error", largest, "", None, "largest |V0/V - 1| over fluid particles at the end"),
+    ];
+    let nearest = (0..fluids).map(|a| (s.flow.wall)(s.flow.particles.position[a]).0).fold(f64::INFINITY, f64::min);
+    if nearest.is_finite() {
+        let method = "signed distance of the fluid particle nearest to a wall; below 0: inside of it";
+        found.push(measure("smallest-wall-distance-m", nearest, "m", None, method));
+    }
+    if s.flow.method.tension > 0.0 {
+        found.extend(two_phases(s));
+    }
+    found
+}
+
+fn two_phases(s: &Subject) -> Vec<Measure> {
+    let drift = s.seen.areas.drift_since(&s.start.areas);
+    let drift = drift.iter().map(|d| d.abs()).fold(0.0, f64::max);
+    let pressure = &s.seen.capillary_pressure;
+    let mut found = vec![
+        measure("saturation", s.seen.areas.saturation(), "", None, "area of the wetting phase over that of both"),
+        measure("area-drift", drift, "", None, "larger relative change of a phase's area since time zero"),
+        measure(
+            "capillary-pressure-Pa",
+            pressure.value,
+            "Pa",
+            Some(pressure.standard_error),
+            "mean p of the non-wetting less that of the wetting particles farther than 3h from the interface",
+        ),
+        measure("interface-length-m", s.seen.interface_length(), "m", None, "length of the c = 0.5 contour"),
+        measure("wetted-length-m", s.seen.wetted_length, "m", None, "length of wall where the smoothed color is above 0.5"),
+        measure("wetting-blobs", s.seen.wetting_blobs.len() as f64, "", None, "connected parts, links up to 1.6 dx"),
+    ];
+    if s.flow.method.wetting.is_some() {
+        let angle = s.seen.angle();
+        let method = format!(
+            "circles fitted to the c = 0.5 contour farther than 2h from walls, extrapolated to the wall; mean of {} contact \
+             lines ({} without a fit), spread {:.2} degrees",
+            angle.measured, angle.failed, angle.spread_deg
+        );
+        found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
+    }
+    found
+}

@@ -1,0 +1,29 @@
+//! Menisci of a wetting liquid between four discs (C8 of the benchmarks), compared with their closed form.
+
+use super::{Subject, measure};
+use crate::solver::Measure;
+
+pub fn measures(s: &Subject) -> Vec<Measure> {
+    let found: Vec<f64> =
+        s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite()).map(|line| line.curvature).collect();
+    let mean = found.iter().sum::<f64>() / found.len() as f64;
+    let spread = (found.iter().map(|k| (k - mean).powi(2)).sum::<f64>() / found.len() as f64).sqrt();
+    let exact = s.disc_pair().and_then(|pair| pair.liquid_between_four(s.seen.areas.wetting));
+    let ratio = exact.map_or(f64::NAN, |exact| -mean / exact.curvature);
+    vec![
+        measure(
+            "interface-curvature-per-m",
+            mean,
+            "1/m",
+            Some(spread),
+            "mean over the fitted menisci, negative where the wetting liquid is concave; the uncertainty is their spread",
+        ),
+        measure(
+            "interface-curvature-ratio",
+            ratio,
+            "",
+            Some(spread / mean.abs()),
+            "curvature over that of the exact menisci with the same area and the requested angle",
+        ),
+    ]
+}

@@ -1,0 +1,54 @@
+//! Laplace jump and parasitic currents of a free drop (B1 of the benchmarks).
+
+use super::{Subject, measure};
+use crate::analysis::phases::{PressureSamples, laplace_jump};
+use crate::math::Vec2;
+use crate::solver::Measure;
+use crate::sph::observe::sharp_color;
+
+/// The parasitic current is the largest speed in this last share of the run.
+const LAST: f64 = 0.1;
+
+pub fn measures(s: &Subject) -> Vec<Measure> {
+    let (flow, fluids) = (s.flow, s.flow.particles.fluids);
+    let colors = sharp_color(flow);
+    let radius = (s.seen.areas.wetting / std::f64::consts::PI).sqrt();
+    let samples = PressureSamples {
+        points: &flow.particles.position[..fluids],
+        pressures: &flow.particles.pressure[..fluids],
+        colors: &colors,
+        smoothing_length: flow.method.kernel.h,
+        period: flow.domain.periods(),
+    };
+    let jump = laplace_jump(&samples, center(s, &colors), radius);
+    let scale = flow.method.tension / radius;
+    let from = flow.time * (1.0 - LAST);
+    let speeds = s.series.column("time_s").zip(s.series.column("max_speed_m_per_s"));
+    let speed = speeds.filter(|(time, _)| *time >= from).map(|(_, speed)| speed).fold(f64::NAN, f64::max);
+    let capillary = flow.method.wetting_fluid.viscosity * speed / flow.method.tension;
+    vec![
+        measure(
+            "laplace-jump-ratio",
+            jump.mean / scale,
+            "",
+            Some(jump.error / scale),
+            "mean p over r < R - 3h less mean p over r > R + 3h, over tension/R with R from the drop's area",
+        ),
+        measure(
+            "parasitic-capillary-number",
+            capillary,
+            "",
+            None,
+            "drop viscosity times the largest speed of the records in the last tenth of the run over the tension",
+        ),
+    ]
+}
+
+/// Center of the drop in m, also where it lies across a periodic side.
+fn center(s: &Subject, colors: &[f64]) -> Vec2 {
+    let domain = &s.flow.domain;
+    let inside = || s.flow.particles.position.iter().zip(colors).filter(|(_, c)| **c > 0.5).map(|(x, _)| *x);
+    let Some(first) = inside().next() else { return domain.bounds.center() };
+    let count = inside().count() as f64;
+    domain.wrapped(first + inside().map(|x| domain.separation(x, first)).sum::<Vec2>() / count)
+}

@@ -1,0 +1,129 @@
+//! What can be seen of a flow at one time: interface, contact lines, phases, pressures. Computed per record, not per step.
+
+use crate::analysis::WallPoint;
+use crate::analysis::blobs::{Blob, LINK, blobs};
+use crate::analysis::contact::{AngleSummary, ContactLine, ContactSettings, contact_lines, summarize};
+use crate::analysis::contour::{Polyline, contour};
+use crate::analysis::lattice::Lattice;
+use crate::analysis::phases::{
+    CapillaryPressure, PhaseAreas, PressureSamples, WallSample, capillary_pressure, interface_length, wetted_length,
+};
+use crate::analysis::resample::{Samples, Stencils};
+use crate::analysis::wall::clip;
+use crate::math::Vec2;
+use crate::sph::particles::Phase;
+use crate::sph::projection::Flow;
+
+/// Grid nodes beyond a wall side, so that the contour reaches the wall before it is cut off there.
+const MARGIN: usize = 2;
+
+/// What is seen at one time.
+#[derive(Debug, Clone)]
+pub struct Observation {
+    /// The c = 0.5 contour in the pore, wetting phase on its left.
+    pub interface: Vec<Polyline>,
+    /// Contact lines with their angles.
+    pub contact_lines: Vec<ContactLine>,
+    /// Areas of the phases.
+    pub areas: PhaseAreas,
+    /// Mean pressure of the non-wetting less that of the wetting phase.
+    pub capillary_pressure: CapillaryPressure,
+    /// Length of wall under the wetting phase in m.
+    pub wetted_length: f64,
+    /// Connected parts of the wetting phase, the largest first.
+    pub wetting_blobs: Vec<Blob>,
+}
+
+impl Observation {
+    /// Looks at the flow; `wall` samples as `analysis::phases::wall_samples` makes them.
+    #[must_use]
+    pub fn of(flow: &Flow, wall: &[WallSample]) -> Self {
+        let fluids = flow.particles.fluids;
+        let color = sharp_color(flow);
+        let volumes = &flow.fields.volume[..fluids];
+        let areas = PhaseAreas::new(volumes, &color);
+        let wall_point = |x: Vec2| {
+            let (distance, normal) = (flow.wall)(x);
+            WallPoint { distance, normal }
+        };
+        let two_phases = flow.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
+        let interface = if two_phases { interface(flow, &color, &wall_point) } else { vec![] };
+        let settings = ContactSettings::for_smoothing_length(flow.method.kernel.h);
+        let samples = PressureSamples {
+            points: &flow.particles.position[..fluids],
+            pressures: &flow.particles.pressure[..fluids],
+            colors: &color,
+            smoothing_length: flow.method.kernel.h,
+            period: flow.domain.periods(),
+        };
+        let points: Vec<Vec2> = wall.iter().map(|s| s.point).collect();
+        let wall_color = Stencils::new(&fluid_samples(flow), &points).scalar(&color);
+        let is_wetting: Vec<bool> = color.iter().map(|c| *c > 0.5).collect();
+        let link = LINK * flow.method.spacing;
+        Self {
+            contact_lines: contact_lines(&interface, &wall_point, &settings),
+            areas,
+            capillary_pressure: capillary_pressure(&samples, &interface, &wall_point),
+            wetted_length: wetted_length(wall, &wall_color).wetting,
+            wetting_blobs: blobs(samples.points, volumes, &is_wetting, link, samples.period),
+            interface,
+        }
+    }
+
+    /// Mean contact angle with its spread over the contact lines.
+    #[must_use]
+    pub fn angle(&self) -> AngleSummary {
+        summarize(&self.contact_lines)
+    }
+
+    /// Length of the interface in m.
+    #[must_use]
+    pub fn interface_length(&self) -> f64 {
+        interface_length(&self.interface)
+    }
+}
+
+/// Color of the fluid particles: 1 in the wetting phase, else 0.
+#[must_use]
+pub fn sharp_color(flow: &Flow) -> Vec<f64> {
+    flow.particles.phase[..flow.particles.fluids].iter().map(|p: &Phase| p.color()).collect()
+}
+
+/// The fluid particles as samples for interpolation.
+#[must_use]
+pub fn fluid_samples(flow: &Flow) -> Samples<'_> {
+    let fluids = flow.particles.fluids;
+    Samples {
+        points: &flow.particles.position[..fluids],
+        volumes: &flow.fields.volume[..fluids],
+        smoothing_length: flow.method.kernel.h,
+        period: flow.domain.periods(),
+    }
+}
+
+/// Nodes about `spacing` (m) apart over the domain, a little beyond its walls.
+#[must_use]
+pub fn nodes(flow: &Flow, spacing: f64) -> Lattice {
+    let (domain, size) = (&flow.domain, flow.domain.bounds.size());
+    let mut lattice = Lattice::open(domain.bounds.min, Vec2::zeros(), [0; 2]);
+    lattice.periodic = domain.periodic;
+    for i in 0..2 {
+        let cells = (size[i] / spacing).round().max(1.0) as usize;
+        lattice.spacing[i] = size[i] / cells as f64;
+        let mirrored = domain.mirrors.iter().any(|m| m.axis == i);
+        if domain.periodic[i] {
+            lattice.counts[i] = cells;
+        } else {
+            let margin = if mirrored { 0 } else { MARGIN };
+            lattice.counts[i] = cells + 1 + 2 * margin;
+            lattice.origin[i] -= margin as f64 * lattice.spacing[i];
+        }
+    }
+    lattice
+}
+
+fn interface(flow: &Flow, color: &[f64], wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
+    let lattice = nodes(flow, flow.method.spacing);
+    let values = Stencils::new(&fluid_samples(flow), &lattice.nodes()).scalar(color);
+    clip(&contour(&lattice, &values, 0.5), wall)
+}

@@ -1,0 +1,110 @@
+//! The flow as output sees it: particles, grid and interface with the names of the output contract.
+
+use std::borrow::Cow;
+
+use crate::analysis::contour::Polyline;
+use crate::analysis::resample::Stencils;
+use crate::math::Vec2;
+use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
+use crate::sph::observe::{Observation, fluid_samples, nodes};
+use crate::sph::projection::Flow;
+
+/// Reach of the circle fit for the curvature along the interface, over h.
+const CURVATURE_REACH: f64 = 2.5;
+
+fn scalar(name: &'static str, unit: &'static str, values: Vec<f64>) -> Field<'static> {
+    Field { name, unit, values: Values::Scalar(Cow::Owned(values)) }
+}
+
+fn vector(name: &'static str, unit: &'static str, values: Vec<Vec2>) -> Field<'static> {
+    Field { name, unit, values: Values::Vector(Cow::Owned(values)) }
+}
+
+fn integer(name: &'static str, values: Vec<i64>) -> Field<'static> {
+    Field { name, unit: "", values: Values::Integer(Cow::Owned(values)) }
+}
+
+/// The state for output; `grid_spacing` in m.
+#[must_use]
+pub fn snapshot(flow: &Flow, observation: &Observation, grid_spacing: f64) -> Snapshot<'static> {
+    let particles = particles(flow);
+    let grid = grid(flow, &particles, grid_spacing);
+    Snapshot {
+        time: flow.time,
+        step: flow.steps,
+        particles,
+        grid: Some(grid),
+        interface: Some(interface(&observation.interface, flow.method.kernel.h)),
+    }
+}
+
+/// Distance and normal of the nearest wall; without any wall the diagonal of the box, so that files hold finite numbers.
+fn wall(flow: &Flow, x: Vec2) -> (f64, Vec2) {
+    let (distance, normal) = (flow.wall)(x);
+    (distance.min(flow.domain.bounds.size().norm()), normal)
+}
+
+fn particles(flow: &Flow) -> Cloud<'static> {
+    let (p, f, n) = (&flow.particles, &flow.fields, flow.particles.len());
+    let on_fluid = |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect();
+    let (distance, normal) = p.position.iter().map(|&x| wall(flow, x)).unzip();
+    let fields = vec![
+        integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
+        integer("phase", p.phase.iter().map(|phase| phase.number()).collect()),
+        vector("velocity", "m/s", p.velocity.clone()),
+        scalar("pressure", "Pa", p.pressure.clone()),
+        scalar("density", "kg/m^3", f.density[..n].to_vec()),
+        scalar("volume", "m^2", f.volume[..n].to_vec()),
+        scalar("color", "", f.color[..n].to_vec()),
+        vector("normal", "1/m", f.normal[..n].to_vec()),
+        scalar("curvature", "1/m", f.curvature[..n].to_vec()),
+        vector("surface-force", "N/m^3", on_fluid(&f.surface_force)),
+        vector("line-force", "N/m^3", on_fluid(&f.line_force)),
+        scalar("wall-distance", "m", distance),
+        vector("wall-normal", "", normal),
+    ];
+    Cloud { points: Cow::Owned(p.position.clone()), fields }
+}
+
+/// The particles' fields on a regular grid over the box, with the signed distance; zero where no fluid is near.
+fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
+    let mut lattice = nodes(flow, spacing);
+    for i in 0..2 {
+        // The grid covers the box: without the nodes beyond walls, and with the last node of a period.
+        let cells = (flow.domain.bounds.size()[i] / lattice.spacing[i]).round() as usize;
+        lattice.counts[i] = cells + 1;
+        lattice.origin[i] = flow.domain.bounds.min[i];
+    }
+    lattice.periodic = [false; 2];
+    let places = lattice.nodes();
+    let stencils = Stencils::new(&fluid_samples(flow), &places);
+    let finite = |v: f64| if v.is_finite() { v } else { 0.0 };
+    let mut fields: Vec<Field> = Vec::new();
+    for field in &particles.fields {
+        match (&field.values, field.name) {
+            (_, "wall-distance" | "wall-normal" | "id" | "phase") | (Values::Integer(_), _) => {}
+            (Values::Scalar(values), name) => {
+                fields.push(scalar(name, field.unit, stencils.scalar(values).into_iter().map(finite).collect()));
+            }
+            (Values::Vector(values), name) => {
+                fields.push(vector(name, field.unit, stencils.vector(values).iter().map(|v| v.map(finite)).collect()));
+            }
+        }
+    }
+    let (distance, normal) = places.iter().map(|&x| wall(flow, x)).unzip();
+    fields.push(scalar("wall-distance", "m", distance));
+    fields.push(vector("wall-normal", "", normal));
+    lattice.grid(fields)
+}
+
+fn interface(lines: &[Polyline], h: f64) -> Lines<'static> {
+    let (mut points, mut curvature, mut indices) = (Vec::new(), Vec::new(), Vec::new());
+    for line in lines {
+        let first = points.len() as u32;
+        let count = line.points.len() as u32;
+        points.extend_from_slice(&line.points);
+        curvature.extend(line.curvature(CURVATURE_REACH * h).into_iter().map(|k| if k.is_finite() { k } else { 0.0 }));
+        indices.push((first..first + count).chain(line.closed.then_some(first)).collect());
+    }
+    Lines { points: Cow::Owned(points), lines: indices, fields: vec![scalar("curvature", "1/m", curvature)] }
+}

@@ -1,0 +1,180 @@
+//! From a checked case and its geometry to a solver: the only SPH file that sees both.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use crate::analysis::contour::Polyline;
+use crate::analysis::phases::wall_samples;
+use crate::case::checked::{self, Case, InitialVelocity, Side, Sph, WettingModel};
+use crate::geometry::Geometry;
+use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
+use crate::math::{Bounds, Vec2};
+use crate::snapshot::Lines;
+use crate::sph::boundary::no_slip::NoSlip;
+use crate::sph::domain::{Domain, ImageVelocity, Mirror};
+use crate::sph::fill::{self, Lattice};
+use crate::sph::kernel::WendlandC2;
+use crate::sph::measures::DiscOf;
+use crate::sph::method::{Fluid, Method, ViscousTerm};
+use crate::sph::particles::Phase;
+use crate::sph::poisson::Tolerance;
+use crate::sph::projection::{Flow, WallQuery};
+use crate::sph::solver::{SphSolver, Surroundings};
+use crate::sph::wetting::{Wetting, YoungForce};
+
+/// Most iterations of a pressure solve; a healthy one takes about ten.
+const ITERATIONS: usize = 300;
+
+/// A case that cannot be filled with particles.
+#[derive(Debug, thiserror::Error)]
+pub enum SetupError {
+    /// A shape is not usable.
+    #[error("{0}")]
+    Geometry(#[from] crate::geometry::GeometryError),
+    /// The box is too small for its periodic sides.
+    #[error(
+        "a periodic domain must be at least {needed:.3e} m long (three kernel supports), found {width:.3e} m by {height:.3e} m; \
+         use a smaller spacing or a longer domain"
+    )]
+    PeriodTooShort {
+        /// Least length in m.
+        needed: f64,
+        /// Width in m.
+        width: f64,
+        /// Height in m.
+        height: f64,
+    },
+    /// No room for a single particle.
+    #[error("no fluid particle fits into the pore at a spacing of {0:.3e} m; use a smaller spacing")]
+    NoFluid(f64),
+}
+
+/// The solids of a case as its solver sees them: periodic sides joined, wall sides closed.
+///
+/// # Errors
+/// [`SetupError::Geometry`] with what is wrong with the shapes.
+pub fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
+    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
+    let walls = sides.map(|side| side == Side::Wall);
+    Ok(Geometry::new(&case.geometry)?.with_periodic(periodic).with_wall_sides(walls))
+}
+
+/// The solver of a case at time zero.
+///
+/// # Errors
+/// See [`SetupError`].
+pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
+    let geometry = Arc::new(geometry(case, sph)?);
+    let bounds = geometry.bounds();
+    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let lattice = Lattice::fitting(bounds, sph.spacing);
+    let method = method(sph, &lattice);
+    let domain = Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides));
+    let support = method.kernel.support();
+    if !fill::fits(&domain, support) {
+        let size = bounds.size();
+        let needed = fill::PERIODIC_SUPPORTS * support;
+        return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
+    }
+    let region = region(case, sph)?;
+    let phase = |x: Vec2| {
+        let inside = region.as_ref().is_some_and(|region| region.signed_distance(x) < 0.0);
+        let wetting = inside != sph.initial.wetting_is_background;
+        if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
+    };
+    let walls = sides.map(|side| side == Side::Wall);
+    let (mut particles, depth) = fill::fill(&lattice, support, walls, |x| geometry.signed_distance(x), phase);
+    if particles.fluids == 0 {
+        return Err(SetupError::NoFluid(sph.spacing));
+    }
+    for a in 0..particles.fluids {
+        particles.velocity[a] = velocity(&sph.initial.velocity, particles.position[a], bounds);
+    }
+    let outline = geometry.outline();
+    let surroundings = Surroundings {
+        wall_samples: wall_samples(&polylines(&outline), 0.5 * sph.spacing),
+        outline,
+        discs: discs(&case.geometry),
+        measures: sph.measure.clone(),
+        grid_spacing: case.output.grid_ratio * sph.spacing,
+    };
+    let query: WallQuery = Box::new(move |x| {
+        let wall = geometry.wall(x);
+        (wall.distance, wall.normal)
+    });
+    Ok(SphSolver::new(Flow::new(method, domain, query, particles, depth), surroundings))
+}
+
+fn method(sph: &Sph, lattice: &Lattice) -> Method {
+    let kernel = lattice.consistent(WendlandC2::new(sph.smoothing_ratio * sph.spacing));
+    let fluid = |f: &checked::Fluid| Fluid { density: f.density, viscosity: f.viscosity };
+    let wetting_fluid = fluid(&sph.wetting);
+    let numerics = &sph.numerics;
+    Method {
+        kernel,
+        spacing: sph.spacing,
+        volume: lattice.volume(&kernel),
+        wetting_fluid,
+        other_fluid: sph.non_wetting.as_ref().map_or(wetting_fluid, fluid),
+        tension: sph.tension,
+        wetting: sph.wetting_model.map(|model| match model {
+            WettingModel::Young { contact_angle } => Wetting::Young(YoungForce { contact_angle }),
+        }),
+        gravity: sph.gravity,
+        no_slip: NoSlip { spacing: sph.spacing, largest_stretch: numerics.wall_stretch },
+        viscous_term: match numerics.viscous_term {
+            checked::ViscousTerm::Szewc => ViscousTerm::Szewc,
+            checked::ViscousTerm::Morris => ViscousTerm::Morris,
+        },
+        drift_source: numerics.drift_source,
+        background_pressure: numerics.background_pressure,
+        shifting: numerics.shifting,
+        tolerance: Tolerance { residual: numerics.pressure_tolerance, iterations: ITERATIONS },
+        time_step_factor: numerics.time_step_factor,
+    }
+}
+
+fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
+    let places = [(0, bounds.min.x), (0, bounds.max.x), (1, bounds.min.y), (1, bounds.max.y)];
+    let mirror = |(side, (axis, at)): (Side, (usize, f64))| match side {
+        Side::Image => Some(Mirror { axis, at, image: ImageVelocity::Reversed }),
+        Side::Symmetry => Some(Mirror { axis, at, image: ImageVelocity::Mirrored }),
+        Side::Periodic | Side::Wall => None,
+    };
+    sides.into_iter().zip(places).filter_map(mirror).collect()
+}
+
+/// The shapes of the initial wetting phase as a solid: negative distance inside of them.
+fn region(case: &Case, sph: &Sph) -> Result<Option<Geometry>, SetupError> {
+    if sph.initial.wetting.is_empty() {
+        return Ok(None);
+    }
+    let shapes = sph.initial.wetting.clone();
+    let spec = GeometrySpec { shapes, solid: SolidSide::Inside, ..case.geometry.clone() };
+    Ok(Some(Geometry::unchecked(&spec)))
+}
+
+fn velocity(initial: &InitialVelocity, x: Vec2, bounds: Bounds) -> Vec2 {
+    match *initial {
+        InitialVelocity::Rest => Vec2::zeros(),
+        InitialVelocity::Uniform(v) => v,
+        InitialVelocity::TaylorGreen(speed) => {
+            let phase = (x - bounds.min).component_div(&bounds.size()) * TAU;
+            speed * Vec2::new(-phase.x.cos() * phase.y.sin(), phase.x.sin() * phase.y.cos())
+        }
+    }
+}
+
+fn discs(spec: &GeometrySpec) -> Vec<DiscOf> {
+    let disc = |shape: &ShapeSpec| match shape {
+        ShapeSpec::Disc(disc) => Some(DiscOf { center: Vec2::from(disc.center), radius: disc.radius }),
+        _ => None,
+    };
+    spec.shapes.iter().filter_map(disc).collect()
+}
+
+fn polylines(outline: &Lines) -> Vec<Polyline> {
+    let line = |line: &Vec<u32>| Polyline { points: line.iter().map(|&i| outline.points[i as usize]).collect(), closed: false };
+    outline.lines.iter().map(line).collect()
+}

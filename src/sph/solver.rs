@@ -1,0 +1,141 @@
+//! The SPH simulation as the simulation loop sees it.
+
+use crate::case::checked::MeasureSet;
+use crate::analysis::phases::{WallSample, density_error};
+use crate::math::Vec2;
+use crate::snapshot::{Lines, Snapshot};
+use crate::solver::{Measure, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo};
+use crate::sph::measures::{DiscOf, Subject, all};
+use crate::sph::observe::Observation;
+use crate::sph::projection::Flow;
+use crate::sph::{output, state};
+
+/// A flow with all that is needed to observe it.
+pub struct SphSolver {
+    /// The flow.
+    pub flow: Flow,
+    start: Observation,
+    surroundings: Surroundings,
+}
+
+/// What stands still around the flow, and what is to be measured.
+pub struct Surroundings {
+    /// Outline of the solids.
+    pub outline: Lines<'static>,
+    /// Pieces of wall for the wetted length.
+    pub wall_samples: Vec<WallSample>,
+    /// The discs among the solids.
+    pub discs: Vec<DiscOf>,
+    /// Groups of measures.
+    pub measures: MeasureSet,
+    /// Distance of grid nodes in m.
+    pub grid_spacing: f64,
+}
+
+impl SphSolver {
+    /// A solver at time zero.
+    #[must_use]
+    pub fn new(flow: Flow, surroundings: Surroundings) -> Self {
+        let start = Observation::of(&flow, &surroundings.wall_samples);
+        Self { flow, start, surroundings }
+    }
+
+    /// What can be seen of the flow now.
+    #[must_use]
+    pub fn observe(&self) -> Observation {
+        Observation::of(&self.flow, &self.surroundings.wall_samples)
+    }
+
+    fn kinetic_energy(&self) -> f64 {
+        let (p, m) = (&self.flow.particles, &self.flow.method);
+        let energy = |a: usize| 0.5 * m.fluid(p.phase[a]).density * m.volume * p.velocity[a].norm_squared();
+        (0..p.fluids).map(energy).sum()
+    }
+
+    fn momentum(&self) -> Vec2 {
+        let (p, m) = (&self.flow.particles, &self.flow.method);
+        (0..p.fluids).map(|a| m.fluid(p.phase[a]).density * m.volume * p.velocity[a]).sum()
+    }
+}
+
+impl Solver for SphSolver {
+    fn time(&self) -> f64 {
+        self.flow.time
+    }
+
+    fn steps(&self) -> u64 {
+        self.flow.steps
+    }
+
+    fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
+        self.flow.step(until)
+    }
+
+    fn snapshot(&self) -> Snapshot<'_> {
+        output::snapshot(&self.flow, &self.observe(), self.surroundings.grid_spacing)
+    }
+
+    fn outline(&self) -> Lines<'_> {
+        self.surroundings.outline.clone()
+    }
+
+    fn sample(&self) -> Vec<Sample> {
+        let (flow, seen) = (&self.flow, self.observe());
+        let fluids = flow.particles.fluids;
+        let [error, _] = density_error(&flow.fields.volume[..fluids], flow.method.volume);
+        let speed = flow.particles.velocity.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        let momentum = self.momentum();
+        let row = [
+            ("time_s", flow.time),
+            ("step", flow.steps as f64),
+            ("dt_s", flow.last.dt),
+            ("saturation", seen.areas.saturation()),
+            ("interface_length_m", seen.interface_length()),
+            ("wetted_length_m", seen.wetted_length),
+            ("capillary_pressure_Pa", seen.capillary_pressure.value),
+            ("contact_angle_deg", seen.angle().mean_deg),
+            ("kinetic_energy_J_per_m", self.kinetic_energy()),
+            ("max_speed_m_per_s", speed),
+            ("density_error", error),
+            ("ppe_iterations", flow.work.last_iterations as f64),
+            ("wetting_area_m2", seen.areas.wetting),
+            ("non_wetting_area_m2", seen.areas.non_wetting),
+            ("contact_lines", seen.contact_lines.len() as f64),
+            ("wetting_blobs", seen.wetting_blobs.len() as f64),
+            ("momentum_x_kg_per_m_s", momentum.x),
+            ("momentum_y_kg_per_m_s", momentum.y),
+        ];
+        row.into_iter().map(|(name, value)| Sample { name, value }).collect()
+    }
+
+    fn measures(&self, series: &Series) -> Vec<Measure> {
+        let seen = self.observe();
+        let discs = &self.surroundings.discs;
+        all(&Subject { flow: &self.flow, seen: &seen, start: &self.start, series, discs }, &self.surroundings.measures)
+    }
+
+    fn state(&self) -> Vec<u8> {
+        state::save(&self.flow)
+    }
+
+    fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
+        state::load(&mut self.flow, state)
+    }
+
+    fn statistics(&self) -> Statistics {
+        let work = &self.flow.work;
+        let per_step = |count: u64| count as f64 / work.steps.max(1) as f64;
+        Statistics {
+            unknowns: self.flow.particles.len(),
+            steps: work.steps,
+            parts: self.flow.part_times(),
+            counts: vec![
+                ("fluid-particles", self.flow.particles.fluids as f64),
+                ("ppe-iterations-per-step", per_step(work.iterations)),
+                ("ppe-relative-residual", work.residual),
+                ("bytes-per-particle", self.flow.bytes() as f64 / self.flow.particles.len().max(1) as f64),
+                ("particles-set-back-from-walls", work.set_back as f64),
+            ],
+        }
+    }
+}

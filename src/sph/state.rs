@@ -1,0 +1,49 @@
+//! What a resumed run needs: everything else follows from the particles.
+
+use serde::{Deserialize, Serialize};
+
+use crate::solver::{StateError, StepInfo};
+use crate::sph::particles::Particles;
+use crate::sph::projection::Flow;
+
+#[derive(Serialize, Deserialize)]
+struct State {
+    time: f64,
+    steps: u64,
+    dt: f64,
+    particles: Particles,
+    wall_depth: Vec<f64>,
+}
+
+/// The state of the flow as bytes.
+#[must_use]
+pub fn save(flow: &Flow) -> Vec<u8> {
+    let state = State {
+        time: flow.time,
+        steps: flow.steps,
+        dt: flow.last.dt,
+        particles: flow.particles.clone(),
+        wall_depth: flow.wall_depth.clone(),
+    };
+    // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
+    postcard::to_stdvec(&state).unwrap_or_default()
+}
+
+/// Takes up a saved state.
+///
+/// # Errors
+/// [`StateError`] where the bytes are no state of a flow with as many particles.
+pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
+    let state: State = postcard::from_bytes(bytes).map_err(|e| StateError(format!("{e}")))?;
+    let (found, expected) = (state.particles.len(), flow.particles.len());
+    if found != expected || state.particles.fluids != flow.particles.fluids {
+        return Err(StateError(format!("it has {found} particles, the case has {expected}")));
+    }
+    flow.time = state.time;
+    flow.steps = state.steps;
+    flow.last = StepInfo { dt: state.dt, limit: "restart" };
+    flow.particles = state.particles;
+    flow.wall_depth = state.wall_depth;
+    flow.prepare();
+    Ok(())
+}
