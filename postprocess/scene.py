@@ -9,7 +9,22 @@ import results
 
 # Pixels of the longer side; a multiple of 16, as video codecs want it.
 LONG_SIDE = 1280
+# Pixels that bar and axes need at least.
+SHORT_SIDE = 480
 SOLID_COLOR = "gray"
+# Height of the picture over that of the data.
+ROOM = 1.4
+# The color bar on the right.
+BAR = {
+    "fmt": "%.3g",
+    "color": "black",
+    "vertical": True,
+    "position_x": 0.86,
+    "position_y": 0.2,
+    "height": 0.6,
+    "title_font_size": 20,
+    "label_font_size": 18,
+}
 
 
 def scalar(data, field: str) -> np.ndarray:
@@ -36,29 +51,58 @@ def window_size(bounds) -> list[int]:
     """Window in pixels for the bounds of a flat data set, its sides multiples of 16."""
     width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
     longer = max(width, height)
-    # A quarter more height leaves room for the bar and the axes.
-    return [max(16 * round(LONG_SIDE * side / longer / 16), 320) for side in (width, 1.25 * height)]
+    return [max(16 * round(LONG_SIDE * side / longer / 16), SHORT_SIDE) for side in (width, height)]
 
 
 def draw(plotter, directory: Path, frame: results.Frame, field: str, limits: tuple[float, float]) -> None:
     """Puts one frame into a plotter, replacing what it shows."""
     plotter.clear()
     grid = results.read(frame.file)
+    bounds = grid.bounds
     grid.point_data["shown"] = scalar(grid, field)
     pore = grid.threshold(0.0, scalars="wall-distance")
     if pore.n_points:
-        bar = {"title": results.label(field), "fmt": "%.3g", "color": "black"}
+        bar = {**BAR, "title": results.label(field)}
         plotter.add_mesh(pore, scalars="shown", clim=limits, cmap="viridis", scalar_bar_args=bar, nan_opacity=0.0)
-    interface = results.frame_at(directory / "interface.pvd", frame.time)
-    lines = results.read(interface.file)
+    # Lines are lifted towards the viewer, or the field in the same plane covers them.
+    lift = (0.0, 0.0, 1e-2 * max(bounds[1] - bounds[0], bounds[3] - bounds[2]))
+    lines = results.read(results.frame_at(directory / "interface.pvd", frame.time).file)
     if lines.n_points:
-        plotter.add_mesh(lines, color="red", line_width=3, scalars=None)
+        plotter.add_mesh(lines.translate(lift), color="red", line_width=4)
     solid = results.read(directory / "solid.vtp")
     if solid.n_points:
-        plotter.add_mesh(solid, color=SOLID_COLOR, line_width=2, scalars=None)
-    plotter.add_text(f"t = {frame.time:.4g} s", font_size=11, color="black")
-    plotter.show_bounds(grid=False, location="outer", xtitle="x (m)", ytitle="y (m)", color="black", fmt="%.2g")
+        plotter.add_mesh(solid.translate(lift), color=SOLID_COLOR, line_width=4)
+    plotter.add_text(f"t = {frame.time:.4g} s", font_size=12, color="black")
+    millimeters = [1e3 * end for end in bounds]
+    plotter.show_bounds(
+        bounds=bounds,
+        axes_ranges=millimeters,
+        xtitle="x (mm)",
+        ytitle="y (mm)",
+        color="black",
+        fmt="%.3g",
+        n_xlabels=3,
+        n_ylabels=3,
+        grid=False,
+        location="outer",
+        font_size=10,
+    )
+    look_down(plotter, bounds)
+
+
+def look_down(plotter, bounds) -> None:
+    """The whole data set without perspective, with room for axes and bar."""
     plotter.view_xy()
+    plotter.enable_parallel_projection()
+    width, height = plotter.window_size
+    half = 0.5 * max(bounds[3] - bounds[2], (bounds[1] - bounds[0]) * height / width)
+    plotter.camera.parallel_scale = ROOM * half
+    # The bar stands on the right, so the scene moves to the left by a part of the room.
+    shift = 0.06 * half * width / height
+    x, y = 0.5 * (bounds[0] + bounds[1]) + shift, 0.5 * (bounds[2] + bounds[3])
+    plotter.camera.focal_point = (x, y, 0.0)
+    plotter.camera.position = (x, y, 10.0 * half)
+    plotter.reset_camera_clipping_range()
 
 
 def plotter(directory: Path, frame: results.Frame):

@@ -13,6 +13,7 @@ pub mod contour;
 pub mod convergence;
 pub mod lattice;
 pub mod laws;
+pub mod lines;
 pub mod phases;
 pub mod resample;
 pub mod roots;

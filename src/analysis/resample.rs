@@ -4,10 +4,13 @@
 //! fields. First order near walls and voids. A color smoothed this way has its c = 0.5 contour displaced towards the
 //! center of curvature by kappa h²/7, which is 0.03 dx for a disc of ten spacings at h = 1.5 dx.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::cells::Cells;
 use crate::math::Vec2;
+use crate::snapshot::{Field, Values};
 
 /// Support of the kernel in smoothing lengths.
 pub const SUPPORT: f64 = 2.0;
@@ -89,6 +92,17 @@ impl Stencils {
         self.apply(|row| row.iter().map(|&(b, weight)| weight * values[b]).sum(), Vec2::repeat(f64::NAN))
     }
 
+    /// A field of the particles at the nodes, with its name and unit; nothing for whole numbers, which have no mean.
+    #[must_use]
+    pub fn field(&self, field: &Field) -> Option<Field<'static>> {
+        let values = match &field.values {
+            Values::Scalar(values) => Values::Scalar(Cow::Owned(self.scalar(values))),
+            Values::Vector(values) => Values::Vector(Cow::Owned(self.vector(values))),
+            Values::Integer(_) => return None,
+        };
+        Some(Field { name: field.name, unit: field.unit, values })
+    }
+
     fn apply<T: Clone + Send + Sync>(&self, sum: impl Fn(&[(usize, f64)]) -> T + Sync, missing: T) -> Vec<T> {
         let row = |node: usize| &self.entries[self.start[node]..self.start[node + 1]];
         (0..self.support.len())
@@ -148,6 +162,19 @@ mod tests {
         let values = Stencils::new(&samples, &[Vec2::new(0.0, 0.3), Vec2::new(1.0, 0.3)]).scalar(&wave);
         assert!((values[0] - values[1]).abs() < 1e-12);
         assert!((values[0] - 1.0).abs() < 0.05, "smoothed crest {}", values[0]);
+    }
+
+    #[test]
+    fn fields_keep_their_names_on_a_grid_and_whole_numbers_have_none() {
+        let (points, volumes) = unit_square(10);
+        let samples = Samples { points: &points, volumes: &volumes, smoothing_length: 0.15, period: [None, None] };
+        let lattice = Lattice::open(Vec2::repeat(0.2), Vec2::repeat(0.1), [3, 4]);
+        let stencils = Stencils::new(&samples, &lattice.nodes());
+        let pressure = Field { name: "pressure", unit: "Pa", values: Values::Scalar(Cow::Borrowed(&volumes)) };
+        let phase = Field { name: "phase", unit: "", values: Values::Integer(Cow::Owned(vec![0; points.len()])) };
+        let grid = lattice.grid([pressure, phase].iter().filter_map(|field| stencils.field(field)).collect());
+        assert_eq!((grid.counts, grid.fields.len(), grid.fields[0].name), ([3, 4], 1, "pressure"));
+        assert!(matches!(&grid.fields[0].values, Values::Scalar(values) if values.len() == 12));
     }
 
     #[test]
