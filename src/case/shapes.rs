@@ -13,8 +13,8 @@ pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<Geo
 
 /// The geometry written at the key path `at` (`geometry`, or empty in a shape file).
 pub(super) fn inline(checker: &mut Checker, at: &str, raw: &RawGeometry) -> Option<GeometrySpec> {
-    let min = checker.require(&join(at, "min"), raw.min, "min = [0.0, 0.0]  # m");
-    let max = checker.require(&join(at, "max"), raw.max, "max = [1.0e-3, 1.0e-3]  # m");
+    let min = checker.require(&join(at, "min"), raw.min, "min = [0.0, 0.0] # m");
+    let max = checker.require(&join(at, "max"), raw.max, "max = [1.0e-3, 1.0e-3] # m");
     let shapes = raw.shapes.clone().unwrap_or_default();
     let before = checker.problems.len();
     for (index, shape) in shapes.iter().enumerate() {
