@@ -11,7 +11,7 @@ const FORMAT: u32 = 1;
 const MOST_RECORDS: f64 = 1.0e5;
 
 /// End times in s: beyond these the schedule would lose its digits.
-const END_RANGE: (f64, f64) = (1.0e-15, 1.0e15);
+const END_RANGE: (f64, f64) = (1.0e-15, 1.0e9);
 
 /// Records of a run where the case says nothing.
 const VTK_RECORDS: f64 = 50.0;

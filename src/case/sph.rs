@@ -241,7 +241,7 @@ fn sides(checker: &mut Checker, raw: &RawSides) -> Option<Sides> {
 fn initial(checker: &mut Checker, raw: &RawInitial, two_phases: bool) -> Option<Initial> {
     let wetting = raw.wetting.clone().unwrap_or_default();
     for (index, shape) in wetting.iter().enumerate() {
-        shape_problems(checker, &format!("sph.initial.wetting[{index}]"), shape);
+        checker.problems.extend(shape_problems(&format!("sph.initial.wetting[{index}]"), shape));
     }
     if two_phases && wetting.is_empty() {
         checker.refuse(
