@@ -235,6 +235,36 @@ fn mistakes_of_the_case_and_of_its_shape_file_come_together() {
 }
 
 #[test]
+fn a_case_can_cut_another_domain_out_of_its_shape_file() {
+    let path = folder("cases/four-discs.toml");
+    let load_with = |values: &[&str]| load(&path, &Overrides::parse(values).unwrap());
+    let case = load_with(&["geometry.max=[1.2e-3, 1.0e-3]"]).unwrap().case;
+    assert_eq!((case.geometry.min, case.geometry.max), ([-1.0e-3, -1.0e-3], [1.2e-3, 1.0e-3]));
+    let error = load_with(&["geometry.max=[-2.0e-3, 1.0e-3]"]).unwrap_err().render();
+    assert!(error.starts_with("--set geometry.max=[-2.0e-3, 1.0e-3]:1:14: "), "{error}");
+}
+
+#[test]
+fn a_file_of_mistakes_ends_with_a_count_and_a_very_deep_one_does_not_exhaust_the_stack() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.toml");
+    let head = "format = 1\nmin = [0, 0]\nmax = [1, 1]\n";
+    let shapes = |shape: &str| format!("{head}shapes = [{}]\n", shape.repeat(200));
+    for (text, last) in [
+        (shapes("{ disc = { center = [0, 0], radius = -1 } },"), "there are 150 more mistakes"),
+        (shapes("{ disc = { center = [0, 0], radios = 1 } },"), "there may be more mistakes"),
+        (format!("{head}{}x = 1\n", "a.".repeat(100_000)), "recursion limit"),
+        (format!("{head}x = {}\n", "[".repeat(100_000)), "cannot recurse further"),
+    ] {
+        std::fs::write(&path, text).unwrap();
+        let error = load_shapes(&path).unwrap_err();
+        assert!(error.mistakes.len() <= 51, "{}", error.mistakes.len());
+        let message = &error.mistakes.last().unwrap().message;
+        assert!(message.contains(last), "{message}");
+    }
+}
+
+#[test]
 fn the_fancy_report_points_at_the_value() {
     let error = set(&["sph.spacing=-1"]).unwrap_err();
     let mut text = String::new();

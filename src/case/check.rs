@@ -10,6 +10,9 @@ const FORMAT: u32 = 1;
 /// Most records of one kind: more files than a folder should hold.
 const MOST_RECORDS: f64 = 1.0e5;
 
+/// End times in s: beyond these the schedule would lose its digits.
+const END_RANGE: (f64, f64) = (1.0e-15, 1.0e9);
+
 /// Records of a run where the case says nothing.
 const VTK_RECORDS: f64 = 50.0;
 const SERIES_RECORDS: f64 = 200.0;
@@ -31,7 +34,7 @@ impl Checker {
         if value.is_none() {
             let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
             let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
-            self.refuse(path, format!("missing key `{key}`{place}"), format!("add `{example}`"));
+            self.refuse(path, format!("missing key `{key}`{place}"), format!("add {example}"));
         }
         value
     }
@@ -72,8 +75,9 @@ impl Checker {
 /// The end of the simulation in s.
 pub(super) fn end(checker: &mut Checker, raw: &RawCase) -> Option<f64> {
     let end = raw.time.as_ref().and_then(|time| time.end);
-    let end = checker.require("time.end", end, "end = 0.01  # s");
-    checker.positive("time.end", end, "an end time in s")
+    let end = checker.require("time.end", end, "end = 0.01 # s");
+    let end = checker.positive("time.end", end, "an end time in s");
+    checker.within("time.end", end, END_RANGE, "an end time in s")
 }
 
 /// What is written and when; `end` is missing where it was wrong.

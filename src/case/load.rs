@@ -124,7 +124,7 @@ fn geometry(
         Origin::Disk(case) => shapes_at(&case.parent().unwrap_or(Path::new("")).join(file), sources),
     };
     match loaded {
-        Ok(spec) => Some(shapes::with_domain(checker, spec, raw)),
+        Ok(spec) => shapes::with_domain(checker, spec, raw),
         Err(error) => {
             for mistake in error.mistakes {
                 // A file that cannot be read is a mistake of the key that names it.

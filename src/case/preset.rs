@@ -74,16 +74,16 @@ impl Preset {
     /// The properties at `celsius`, from [`COLD`] to [`WARM`]; beyond, those at the nearer end.
     #[must_use]
     pub fn at(self, celsius: f64) -> Properties {
-        const MILLI: f64 = 1.0e-3;
+        const PER_MILLI: f64 = 1.0e3;
         let (cold, warm) = self.rows();
         let share = ((celsius - COLD) / (WARM - COLD)).clamp(0.0, 1.0);
         let between = |a: f64, b: f64| (1.0 - share) * a + share * b;
         let tension = match (cold.2, warm.2) {
-            (Some(a), Some(b)) => Some(MILLI * between(a, b)),
-            (None, Some(b)) if share >= 1.0 => Some(MILLI * b),
+            (Some(a), Some(b)) => Some(between(a, b) / PER_MILLI),
+            (None, Some(b)) if share >= 1.0 => Some(b / PER_MILLI),
             _ => None,
         };
-        Properties { density: between(cold.0, warm.0), viscosity: MILLI * between(cold.1, warm.1), tension }
+        Properties { density: between(cold.0, warm.0), viscosity: between(cold.1, warm.1) / PER_MILLI, tension }
     }
 
     fn rows(self) -> (Row, Row) {

@@ -3,6 +3,7 @@
 use super::check::Checker;
 use super::raw::{RawGeometry, RawShapeFile};
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
+use crate::input::Problem;
 
 /// The geometry of a shape file.
 pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<GeometrySpec> {
@@ -13,15 +14,21 @@ pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<Geo
 
 /// The geometry written at the key path `at` (`geometry`, or empty in a shape file).
 pub(super) fn inline(checker: &mut Checker, at: &str, raw: &RawGeometry) -> Option<GeometrySpec> {
-    let min = checker.require(&join(at, "min"), raw.min, "min = [0.0, 0.0]  # m");
-    let max = checker.require(&join(at, "max"), raw.max, "max = [1.0e-3, 1.0e-3]  # m");
+    let min = checker.require(&join(at, "min"), raw.min, "min = [0.0, 0.0] # m");
+    let max = checker.require(&join(at, "max"), raw.max, "max = [1.0e-3, 1.0e-3] # m");
     let shapes = raw.shapes.clone().unwrap_or_default();
+    let solid = raw.solid.unwrap_or_default();
     let before = checker.problems.len();
-    for (index, shape) in shapes.iter().enumerate() {
-        shape_problems(checker, &join(at, &format!("shapes[{index}]")), shape);
+    let (Some(min), Some(max)) = (min, max) else {
+        for (index, shape) in shapes.iter().enumerate() {
+            checker.problems.extend(shape_problems(&join(at, &format!("shapes[{index}]")), shape));
+        }
+        return None;
+    };
+    let spec = GeometrySpec { min, max, solid, shapes };
+    for problem in spec_problems(&spec) {
+        checker.refuse(join(at, &problem.path), problem.message, problem.help);
     }
-    let spec = GeometrySpec { min: min?, max: max?, solid: raw.solid.unwrap_or_default(), shapes };
-    domain(checker, at, &spec);
     (checker.problems.len() == before).then_some(spec)
 }
 
@@ -38,30 +45,41 @@ pub(super) fn refuse_keys_of_file(checker: &mut Checker, raw: &RawGeometry) {
 }
 
 /// The geometry of a file with the domain that the case puts in its place.
-pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &RawGeometry) -> GeometrySpec {
+pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &RawGeometry) -> Option<GeometrySpec> {
+    let before = checker.problems.len();
     spec.min = raw.min.unwrap_or(spec.min);
     spec.max = raw.max.unwrap_or(spec.max);
     if raw.min.is_some() || raw.max.is_some() {
-        domain(checker, "geometry", &spec);
+        for problem in spec_problems(&spec) {
+            // The shapes were right in their file, so that what is wrong now is the domain.
+            let key = if raw.max.is_some() { "geometry.max" } else { "geometry.min" };
+            checker.refuse(key, problem.message, problem.help);
+        }
     }
-    spec
+    (checker.problems.len() == before).then_some(spec)
 }
 
-fn domain(checker: &mut Checker, at: &str, spec: &GeometrySpec) {
+/// What is wrong with a domain and its shapes; key paths within the geometry.
+fn spec_problems(spec: &GeometrySpec) -> Vec<Problem> {
+    let mut checker = Checker::default();
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
         let (min, max) = (spec.min[axis], spec.max[axis]);
         if min >= max {
             checker.refuse(
-                join(at, "max"),
+                "max",
                 format!("the domain is empty along {name}: min is {min:?} m, max is {max:?} m"),
                 "min is the lower left corner, max the upper right one",
             );
         }
     }
+    for (index, shape) in spec.shapes.iter().enumerate() {
+        checker.problems.extend(shape_problems(&format!("shapes[{index}]"), shape));
+    }
+    checker.problems
 }
 
-/// What is wrong with one shape on its own.
-pub(super) fn shape_problems(checker: &mut Checker, at: &str, shape: &ShapeSpec) {
+/// What is wrong with one shape, written at the key path `at`.
+pub(super) fn shape_problems(at: &str, shape: &ShapeSpec) -> Vec<Problem> {
     let (name, lengths) = match shape {
         ShapeSpec::HalfPlane(_) => ("half-plane", vec![]),
         ShapeSpec::Disc(disc) => ("disc", vec![("radius", disc.radius)]),
@@ -76,9 +94,11 @@ pub(super) fn shape_problems(checker: &mut Checker, at: &str, shape: &ShapeSpec)
             ("throat-cosine", vec![("width", t.width), ("throat", t.throat), ("length", t.length)])
         }
     };
+    let mut checker = Checker::default();
     for (key, length) in lengths {
         checker.positive(&format!("{at}.{name}.{key}"), Some(length), "a length in m");
     }
+    checker.problems
 }
 
 fn join(at: &str, key: &str) -> String {

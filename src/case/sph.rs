@@ -24,7 +24,7 @@ const LARGEST_DENSITY_RATIO: f64 = 1.0e4;
 
 /// Checks `[sph]`; `geometry` is missing where it was wrong.
 pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&GeometrySpec>) -> Option<Sph> {
-    let spacing = checker.require("sph.spacing", raw.spacing, "spacing = 2.0e-5  # m");
+    let spacing = checker.require("sph.spacing", raw.spacing, "spacing = 2.0e-5 # m");
     let spacing = checker.positive("sph.spacing", spacing, "a spacing in m");
     if let (Some(spacing), Some(geometry)) = (spacing, geometry) {
         particle_count(checker, spacing, geometry);
@@ -116,12 +116,12 @@ fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
         checker.positive(&path, value, what)
     };
     let density =
-        property("density", raw.density, preset.map(|p| p.density), "density = 998.2  # kg/m3", "a density in kg/m3");
+        property("density", raw.density, preset.map(|p| p.density), "density = 998.2 # kg/m3", "a density in kg/m3");
     let viscosity = property(
         "viscosity",
         raw.viscosity,
         preset.map(|p| p.viscosity),
-        "viscosity = 1.0e-3  # Pa s",
+        "viscosity = 1.0e-3 # Pa s",
         "a viscosity in Pa s",
     );
     Some(Fluid { density: density?, viscosity: viscosity? })
@@ -140,7 +140,7 @@ fn density_ratio(checker: &mut Checker, wetting: &Fluid, other: &Fluid) {
 
 fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<SurfaceForce>) {
     const PATH: &str = "sph.interface.tension";
-    let tension = checker.require(PATH, raw.interface.as_ref().and_then(|i| i.tension), "tension = 0.0276  # N/m");
+    let tension = checker.require(PATH, raw.interface.as_ref().and_then(|i| i.tension), "tension = 0.0276 # N/m");
     let tension = tension.filter(|tension| {
         if *tension < 0.0 {
             checker.refuse(PATH, format!("expected a tension in N/m of at least 0, found {tension:?}"), "");
@@ -241,7 +241,7 @@ fn sides(checker: &mut Checker, raw: &RawSides) -> Option<Sides> {
 fn initial(checker: &mut Checker, raw: &RawInitial, two_phases: bool) -> Option<Initial> {
     let wetting = raw.wetting.clone().unwrap_or_default();
     for (index, shape) in wetting.iter().enumerate() {
-        shape_problems(checker, &format!("sph.initial.wetting[{index}]"), shape);
+        checker.problems.extend(shape_problems(&format!("sph.initial.wetting[{index}]"), shape));
     }
     if two_phases && wetting.is_empty() {
         checker.refuse(
@@ -260,7 +260,7 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
     let Some(raw) = &raw.velocity else { return Some(InitialVelocity::Rest) };
     let speed = raw.taylor_green.as_ref().map(|raw| {
         let path = format!("{PATH}.taylor-green.speed");
-        let speed = checker.require(&path, raw.speed, "speed = 1.0  # m/s");
+        let speed = checker.require(&path, raw.speed, "speed = 1.0 # m/s");
         checker.positive(&path, speed, "a speed in m/s")
     });
     match (raw.rest, raw.uniform, speed) {

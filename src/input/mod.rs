@@ -9,7 +9,7 @@ mod error;
 mod explain;
 mod overrides;
 mod path;
-mod problem;
+pub mod problem;
 mod read;
 mod suggest;
 mod tree;

@@ -215,4 +215,10 @@ mod tests {
             assert!(text.starts_with(&format!("--set {value}")) && text.contains(message), "{text}");
         }
     }
+
+    #[test]
+    fn a_very_deep_key_is_refused_and_does_not_exhaust_the_stack() {
+        let key = format!("{}x=1", "a.".repeat(100_000));
+        assert!(set("", &[&key]).unwrap_err().contains("is not a key path"));
+    }
 }

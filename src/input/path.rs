@@ -11,6 +11,9 @@ pub(super) enum Step {
     Index(usize),
 }
 
+/// Most steps of a path; no file of ours is a quarter as deep.
+const MOST_STEPS: usize = 64;
+
 /// The steps of a path; `None` where it is not one.
 pub(super) fn parse(path: &str) -> Option<Vec<Step>> {
     let mut steps = Vec::new();
@@ -25,7 +28,7 @@ pub(super) fn parse(path: &str) -> Option<Vec<Step>> {
             steps.push(Step::Index(piece.strip_suffix(']')?.parse().ok()?));
         }
     }
-    Some(steps)
+    (steps.len() <= MOST_STEPS).then_some(steps)
 }
 
 /// The path as it is written.

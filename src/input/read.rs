@@ -19,7 +19,7 @@ use super::problem::Problem;
 use super::tree::{Container, container, find, node, node_span, place, value_at, visit};
 
 /// Mistakes after which a file is not read further; a file with more of them is no case file.
-const MOST_MISTAKES: usize = 100;
+const MOST_MISTAKES: usize = 50;
 
 /// The place of what stands in for a missing value; no text is as long.
 const NOWHERE: Range<usize> = usize::MAX - 1..usize::MAX;
@@ -35,6 +35,8 @@ pub struct Reading<'d, T> {
     document: &'d Document,
     mistakes: Vec<(Range<usize>, Mistake)>,
     removed: Removed,
+    /// Whether the file was read to its end.
+    complete: bool,
 }
 
 /// What has been taken out of the tree.
@@ -56,11 +58,12 @@ impl Document {
             mistakes: Vec::new(),
             removed: Removed::default(),
             filled: Vec::new(),
+            complete: true,
         };
         reader.refuse_non_finite();
         let value = reader.read();
         reader.refuse_long_arrays(&value);
-        Reading { value, document: self, mistakes: reader.mistakes, removed: reader.removed }
+        Reading { value, document: self, mistakes: reader.mistakes, removed: reader.removed, complete: reader.complete }
     }
 }
 
@@ -77,7 +80,8 @@ impl<T> Reading<'_, T> {
         let mut mistakes = self.mistakes;
         let tree = self.document.tree();
         let mut more = 0;
-        for problem in problems {
+        // What was not read is not missing.
+        for problem in problems.into_iter().filter(|_| self.complete) {
             let steps = path::parse(&problem.path).unwrap_or_default();
             let steps = self.removed.in_file(&steps);
             if self.removed.explains(&path::write(&steps)) {
@@ -94,8 +98,14 @@ impl<T> Reading<'_, T> {
         mistakes.sort_by_key(|(range, _)| range.start);
         let mut mistakes: Vec<Mistake> = mistakes.into_iter().map(|(_, mistake)| mistake).collect();
         mistakes.dedup_by(|a, b| a.place == b.place && a.name == b.name && a.message == b.message);
-        if more > 0 {
-            mistakes.push(Mistake::of_file(self.document.name(), format!("there are {more} more mistakes"), ""));
+        if more > 0 || !self.complete {
+            mistakes.truncate(MOST_MISTAKES);
+            let more = if more > 0 {
+                format!("there are {more} more mistakes")
+            } else {
+                "there may be more mistakes".to_owned()
+            };
+            mistakes.push(Mistake::of_file(self.document.name(), more, ""));
         }
         mistakes
     }
@@ -107,7 +117,8 @@ impl Document {
     /// # Errors
     /// [`InputError`] with all problems.
     pub fn refuse(&self, problems: Vec<Problem>) -> Result<(), InputError> {
-        let reading = Reading { value: (), document: self, mistakes: Vec::new(), removed: Removed::default() };
+        let reading =
+            Reading { value: (), document: self, mistakes: Vec::new(), removed: Removed::default(), complete: true };
         let mistakes = reading.refuse(problems);
         if mistakes.is_empty() { Ok(()) } else { Err(InputError { mistakes }) }
     }
@@ -159,6 +170,7 @@ struct Reader<'d> {
     removed: Removed,
     /// The places of tables that lack keys and hold fillings for them.
     filled: Vec<Range<usize>>,
+    complete: bool,
 }
 
 impl<'d> Reader<'d> {
@@ -182,6 +194,7 @@ impl<'d> Reader<'d> {
                 break;
             }
         }
+        self.complete = false;
         T::default()
     }
 
