@@ -224,3 +224,20 @@ fn corners(pieces: &[Piece], tolerance: f64) -> Vec<[Option<Vec2>; 2]> {
     }
     corners
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_circle_across_a_side_of_a_box_is_cut_there_whatever_the_rounding_of_its_radius() {
+        let domain = Bounds { min: Vec2::repeat(-2.0), max: Vec2::repeat(2.0) };
+        let frame = Body::of_box(0, domain);
+        for k in 0..1000 {
+            let circle = Curve::circle(Vec2::new(-1.9, -0.5), 0.1 + 1e-4 * f64::from(k));
+            let parts = split(&circle, frame.curves.iter(), 4e-9);
+            let inside = parts.iter().filter(|p| frame.place(p.point(0.5), 4e-9) == Place::In).count();
+            assert_eq!(inside, 1, "{k} {parts:?}");
+        }
+    }
+}

@@ -2,7 +2,7 @@
 //!
 //! Points are found by a parameter `u` from 0 (start) to 1 (end). A full circle is an arc that ends where it starts.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::math::{Bounds, Vec2, perpendicular};
 
@@ -135,11 +135,11 @@ impl Curve {
     pub fn bounds(&self) -> Bounds {
         let (p, q) = (self.point(0.0), self.point(1.0));
         let mut bounds = Bounds { min: p.inf(&q), max: p.sup(&q) };
-        if let Self::Arc { center, radius, .. } = *self {
-            for direction in [Vec2::x(), Vec2::y(), -Vec2::x(), -Vec2::y()] {
-                let extreme = center + direction * radius;
-                let foot = self.project(extreme);
-                if (foot.point - extreme).norm() <= radius * f64::EPSILON * 8.0 {
+        if let Self::Arc { center, radius, start, sweep } = *self {
+            for (k, direction) in [Vec2::x(), Vec2::y(), -Vec2::x(), -Vec2::y()].into_iter().enumerate() {
+                let turned = (FRAC_PI_2 * k as f64 - start) * sweep.signum();
+                if turned.rem_euclid(TAU) <= sweep.abs() {
+                    let extreme = center + direction * radius;
                     bounds.min = bounds.min.inf(&extreme);
                     bounds.max = bounds.max.sup(&extreme);
                 }

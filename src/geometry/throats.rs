@@ -19,6 +19,10 @@ use crate::math::{Bounds, Vec2, perpendicular};
 /// Relative size of differences in width that are rounding.
 const ROUNDING: f64 = 1e-7;
 
+/// Steps along the medial axis away from a throat, over its width: near enough to see a short minimum, then along a level part.
+const FIRST_STEP: f64 = 0.02;
+const NEXT_STEP: f64 = 0.1;
+
 /// A narrow passage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Throat {
@@ -168,16 +172,12 @@ fn is_throat(geometry: &Geometry, throat: &Throat) -> bool {
     // The width along the medial axis must not fall on either side, nor be level on one side and fall on the other.
     let across = (throat.ends[1] - throat.ends[0]) / throat.width;
     let along = perpendicular(across);
+    let longest = domain.size().norm();
     [1.0, -1.0].into_iter().all(|side| {
-        let mut step = 0.02 * throat.width;
-        let mut at = throat.center;
-        // A level part is followed to its end, or to the end of the domain.
-        const STEPS: usize = 10_000;
-        for _ in 0..STEPS {
-            at += along * (side * step);
-            if !domain.contains(at) {
-                return true;
-            }
+        // A level part is followed to its end, or to the end of the domain; the first step may leave it.
+        let mut travel = FIRST_STEP * throat.width;
+        while travel < longest {
+            let at = throat.center + along * (side * travel);
             let radius = radius_across(geometry, at, across, half);
             if radius > half + slack {
                 return true;
@@ -185,7 +185,10 @@ fn is_throat(geometry: &Geometry, throat: &Throat) -> bool {
             if radius < half - slack {
                 return false;
             }
-            step = 0.1 * throat.width;
+            if !domain.contains(geometry.wrapped(at)) {
+                return true;
+            }
+            travel += NEXT_STEP * throat.width;
         }
         true
     })
