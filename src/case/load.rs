@@ -153,13 +153,7 @@ pub fn load_shapes(path: &Path) -> Result<GeometrySpec, InputError> {
         return shape_text(&name, &read(path, "the shape file is looked for beside the case file")?);
     }
     read(path, "the shape file is looked for beside the case file")?;
-    foreign_shapes(path).map_err(|message| Mistake::of_file(&name, message, "").into())
-}
-
-/// Shape files that are not TOML.
-fn foreign_shapes(path: &Path) -> Result<GeometrySpec, String> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-    Err(format!("shape files of type `{extension}` are not yet available"))
+    crate::geometry::load(path).map_err(|error| Mistake::of_file(&name, error.to_string(), "").into())
 }
 
 fn shape_text(name: &str, text: &str) -> Result<GeometrySpec, InputError> {

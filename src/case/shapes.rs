@@ -61,44 +61,12 @@ pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &R
 
 /// What is wrong with a domain and its shapes; key paths within the geometry.
 fn spec_problems(spec: &GeometrySpec) -> Vec<Problem> {
-    let mut checker = Checker::default();
-    for (axis, name) in ["x", "y"].into_iter().enumerate() {
-        let (min, max) = (spec.min[axis], spec.max[axis]);
-        if min >= max {
-            checker.refuse(
-                "max",
-                format!("the domain is empty along {name}: min is {min:?} m, max is {max:?} m"),
-                "min is the lower left corner, max the upper right one",
-            );
-        }
-    }
-    for (index, shape) in spec.shapes.iter().enumerate() {
-        checker.problems.extend(shape_problems(&format!("shapes[{index}]"), shape));
-    }
-    checker.problems
+    spec.problems()
 }
 
 /// What is wrong with one shape, written at the key path `at`.
 pub(super) fn shape_problems(at: &str, shape: &ShapeSpec) -> Vec<Problem> {
-    let (name, lengths) = match shape {
-        ShapeSpec::HalfPlane(_) => ("half-plane", vec![]),
-        ShapeSpec::Disc(disc) => ("disc", vec![("radius", disc.radius)]),
-        ShapeSpec::Rectangle(r) => ("rectangle", vec![("size[0]", r.size[0]), ("size[1]", r.size[1])]),
-        ShapeSpec::Capsule(capsule) => ("capsule", vec![("radius", capsule.radius)]),
-        ShapeSpec::Polygon(_) => ("polygon", vec![]),
-        ShapeSpec::Channel(channel) => ("channel", vec![("width", channel.width)]),
-        ShapeSpec::ThroatDiscs(t) => {
-            ("throat-discs", vec![("radii[0]", t.radii[0]), ("radii[1]", t.radii[1]), ("gap", t.gap)])
-        }
-        ShapeSpec::ThroatCosine(t) => {
-            ("throat-cosine", vec![("width", t.width), ("throat", t.throat), ("length", t.length)])
-        }
-    };
-    let mut checker = Checker::default();
-    for (key, length) in lengths {
-        checker.positive(&format!("{at}.{name}.{key}"), Some(length), "a length in m");
-    }
-    checker.problems
+    shape.problems(at)
 }
 
 fn join(at: &str, key: &str) -> String {

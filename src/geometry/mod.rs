@@ -1,3 +1,23 @@
 //! Pore geometry: shapes, the signed distance to their surface and its normal, shape files and measures.
+//!
+//! A written shape ([`spec`]) becomes closed bodies with surface curves (segments and arcs); `boundary` unites them;
+//! [`Geometry`] answers distance and normal; [`measures`] and [`throats`] tell porosity, wall length and narrow passages.
 
+pub(crate) mod body;
+pub(crate) mod boundary;
+pub(crate) mod cosine;
+pub(crate) mod curve;
+pub(crate) mod disc_list;
+pub(crate) mod intersect;
+pub mod measures;
+pub mod outline;
+pub mod shape_file;
+pub mod solid;
 pub mod spec;
+pub mod throats;
+pub mod validate;
+pub(crate) mod well_known_text;
+
+pub use shape_file::{ShapeFileError, load};
+pub use solid::{Geometry, GeometryError, Wall};
+pub use throats::Throat;

@@ -1,12 +1,28 @@
-//! One mistake of a user's file, named by key path; the reader of the file finds its line.
+//! A mistake in an input file: where it is, what is wrong, and a way out. Plain data, no source text.
 
-/// Something wrong with a value that a user wrote.
+use std::fmt;
+
+/// One mistake in what a user wrote.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// Key path such as `shapes[2].disc.radius`; empty for the file as a whole.
+    /// Key path, such as `shapes[2].disc.radius`.
     pub path: String,
-    /// What was expected and what was found, lower case.
+    /// What is wrong, with what was found and what was expected.
     pub message: String,
-    /// A way out; empty where the message says it all.
+    /// A way out.
     pub help: String,
+}
+
+impl Problem {
+    /// A problem at `path`.
+    #[must_use]
+    pub fn new(path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { path: path.into(), message: message.into(), help: help.into() }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} ({})", self.path, self.message, self.help)
+    }
 }

@@ -1,0 +1,275 @@
+//! Closed solid bodies: each written shape becomes one or two, with oriented surface curves and an inside test.
+//!
+//! The inside test is parry's where parry has the shape (ball, cuboid, capsule, half-space, oriented polyline); the cosine
+//! wall is told by its own curves. Parry's vectors (glam) appear in this file and in `boundary` only.
+
+use parry2d_f64::math::{Pose, Rotation, Vector};
+use parry2d_f64::shape::{Polyline, PolylineFlags, SharedShape};
+
+use crate::geometry::cosine;
+use crate::geometry::curve::{Curve, Foot, unit};
+use crate::geometry::spec::{Capsule, HalfPlane, Polygon, Rectangle, ShapeSpec, ThroatCosine, ThroatDiscs};
+use crate::math::{Bounds, Vec2, perpendicular};
+
+/// Straight walls without end are built this many box diagonals long: far beyond any query, and rounding stays small.
+const REACH: f64 = 64.0;
+
+/// How a body tells in from out.
+#[derive(Clone)]
+enum Inside {
+    /// A shape of parry at a place.
+    Parry(Pose, SharedShape),
+    /// The side of the nearest of these surface curves; right for smooth chains only.
+    Chain(Vec<Curve>),
+    /// The part of another body within a box.
+    Within(Box<Inside>, Bounds),
+}
+
+/// A closed solid.
+#[derive(Clone)]
+pub(crate) struct Body {
+    /// Index of the written shape it comes from.
+    pub shape: u32,
+    /// Its surface, solid on the left.
+    pub curves: Vec<Curve>,
+    /// A box around the surface, for culling; a body without end has a box without end.
+    pub bounds: Bounds,
+    inside: Inside,
+}
+
+/// Where a point lies relative to a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// Deeper than the tolerance.
+    In,
+    /// Farther than the tolerance.
+    Out,
+    /// On the surface, whose outward normal is given.
+    On(Vec2),
+}
+
+fn glam(x: Vec2) -> Vector {
+    Vector::new(x.x, x.y)
+}
+
+fn pose(angle: f64, by: Vec2) -> Pose {
+    Pose::from_parts(glam(by), Rotation::new(angle))
+}
+
+fn everywhere() -> Bounds {
+    Bounds { min: Vec2::repeat(f64::NEG_INFINITY), max: Vec2::repeat(f64::INFINITY) }
+}
+
+fn bounds_of(curves: &[Curve]) -> Bounds {
+    let empty = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
+    curves.iter().map(Curve::bounds).fold(empty, |a, b| Bounds { min: a.min.inf(&b.min), max: a.max.sup(&b.max) })
+}
+
+/// The nearest of some curves to `x`.
+pub(crate) fn nearest_curve(curves: &[Curve], x: Vec2) -> Option<(&Curve, Foot)> {
+    curves
+        .iter()
+        .map(|curve| (curve, curve.project(x)))
+        .min_by(|a, b| (a.1.point - x).norm_squared().total_cmp(&(b.1.point - x).norm_squared()))
+}
+
+impl Body {
+    fn finite(shape: u32, curves: Vec<Curve>, place: Pose, parry: SharedShape) -> Self {
+        let bounds = bounds_of(&curves);
+        Self { shape, curves, bounds, inside: Inside::Parry(place, parry) }
+    }
+
+    /// The bodies of a written shape, number `shape` of its list. The box tells how far endless walls must reach.
+    pub fn of(spec: &ShapeSpec, shape: u32, domain: Bounds) -> Vec<Self> {
+        match spec {
+            ShapeSpec::HalfPlane(HalfPlane { point, rotation_deg }) => {
+                vec![Self::half_plane(shape, Vec2::from(*point), rotation_deg.to_radians(), domain)]
+            }
+            ShapeSpec::Disc(disc) => vec![Self::disc(shape, Vec2::from(disc.center), disc.radius)],
+            ShapeSpec::Rectangle(rectangle) => vec![Self::rectangle(shape, rectangle)],
+            ShapeSpec::Capsule(capsule) => vec![Self::capsule(shape, capsule)],
+            ShapeSpec::Polygon(polygon) => vec![Self::polygon(shape, polygon)],
+            ShapeSpec::Channel(channel) => {
+                let angle = channel.rotation_deg.to_radians();
+                let up = perpendicular(unit(angle)) * (0.5 * channel.width);
+                let center = Vec2::from(channel.center);
+                vec![
+                    Self::half_plane(shape, center - up, angle, domain),
+                    Self::half_plane(shape, center + up, angle + std::f64::consts::PI, domain),
+                ]
+            }
+            ShapeSpec::ThroatDiscs(throat) => Self::throat_discs(shape, throat),
+            ShapeSpec::ThroatCosine(throat) => Self::throat_cosine(shape, throat, domain),
+        }
+    }
+
+    /// The half-plane below the line through `point`, turned by `angle` in rad.
+    pub fn half_plane(shape: u32, point: Vec2, angle: f64, domain: Bounds) -> Self {
+        let along = unit(angle);
+        let middle = point + along * along.dot(&(domain.center() - point));
+        let reach = along * (REACH * domain.size().norm());
+        let curves = vec![Curve::Segment { a: middle + reach, b: middle - reach }];
+        let inside = Inside::Parry(pose(0.0, point), SharedShape::halfspace(glam(perpendicular(along))));
+        Self { shape, curves, bounds: everywhere(), inside }
+    }
+
+    fn disc(shape: u32, center: Vec2, radius: f64) -> Self {
+        Self::finite(shape, vec![Curve::circle(center, radius)], pose(0.0, center), SharedShape::ball(radius))
+    }
+
+    fn rectangle(shape: u32, rectangle: &Rectangle) -> Self {
+        let half = 0.5 * Vec2::from(rectangle.size);
+        let (angle, center) = (rectangle.rotation_deg.to_radians(), Vec2::from(rectangle.center));
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .map(|(x, y)| center + nalgebra::Rotation2::new(angle) * Vec2::new(x * half.x, y * half.y));
+        Self::finite(shape, ring(&corners), pose(angle, center), SharedShape::cuboid(half.x, half.y))
+    }
+
+    /// A box as a body.
+    pub fn of_box(shape: u32, bounds: Bounds) -> Self {
+        let rectangle = Rectangle { center: bounds.center().into(), size: bounds.size().into(), rotation_deg: 0.0 };
+        Self::rectangle(shape, &rectangle)
+    }
+
+    fn capsule(shape: u32, capsule: &Capsule) -> Self {
+        let [a, b] = capsule.ends.map(Vec2::from);
+        let radius = capsule.radius;
+        let Some(t) = (b - a).try_normalize(0.0) else { return Self::disc(shape, a, radius) };
+        let side = perpendicular(t) * radius;
+        let half_turn = std::f64::consts::PI;
+        let angle = side.y.atan2(side.x);
+        let curves = vec![
+            Curve::Segment { a: a - side, b: b - side },
+            Curve::Arc { center: b, radius, start: angle - half_turn, sweep: half_turn },
+            Curve::Segment { a: b + side, b: a + side },
+            Curve::Arc { center: a, radius, start: angle, sweep: half_turn },
+        ];
+        Self::finite(shape, curves, Pose::IDENTITY, SharedShape::capsule(glam(a), glam(b), radius))
+    }
+
+    fn polygon(shape: u32, polygon: &Polygon) -> Self {
+        let turn = nalgebra::Rotation2::new(polygon.rotation_deg.to_radians());
+        let (mut curves, mut vertices, mut edges) = (Vec::new(), Vec::new(), Vec::new());
+        for points in std::iter::once(&polygon.outer).chain(&polygon.holes) {
+            let points: Vec<Vec2> =
+                points.iter().map(|&p| turn * Vec2::from(p) + Vec2::from(polygon.position)).collect();
+            curves.extend(ring(&points));
+            let (first, count) = (vertices.len() as u32, points.len() as u32);
+            edges.extend((0..count).map(|k| [first + k, first + (k + 1) % count]));
+            vertices.extend(points.into_iter().map(glam));
+        }
+        let polyline = Polyline::with_flags(vertices, Some(edges), PolylineFlags::ORIENTED);
+        Self::finite(shape, curves, Pose::IDENTITY, SharedShape::new(polyline))
+    }
+
+    fn throat_discs(shape: u32, throat: &ThroatDiscs) -> Vec<Self> {
+        let up = perpendicular(unit(throat.rotation_deg.to_radians()));
+        let center = Vec2::from(throat.center);
+        [(-1.0, throat.radii[0]), (1.0, throat.radii[1])]
+            .into_iter()
+            .map(|(side, radius)| Self::disc(shape, center + up * (side * (0.5 * throat.gap + radius)), radius))
+            .collect()
+    }
+
+    fn throat_cosine(shape: u32, throat: &ThroatCosine, domain: Bounds) -> Vec<Self> {
+        let center = Vec2::from(throat.center);
+        let reach = REACH * domain.size().norm() + (center - domain.center()).norm();
+        let wall = cosine::upper_wall(throat, reach);
+        let angle = throat.rotation_deg.to_radians();
+        [angle, angle + std::f64::consts::PI]
+            .into_iter()
+            .map(|angle| {
+                let curves: Vec<Curve> = wall.iter().map(|piece| piece.placed(angle, center)).collect();
+                Self { shape, inside: Inside::Chain(curves.clone()), curves, bounds: everywhere() }
+            })
+            .collect()
+    }
+
+    /// Whether the body has no end (half-planes, channel and cosine walls).
+    pub fn is_endless(&self) -> bool {
+        !self.bounds.min.x.is_finite()
+    }
+
+    /// The body shifted by `by` in m.
+    pub fn shifted(&self, by: Vec2) -> Self {
+        Self {
+            shape: self.shape,
+            curves: self.curves.iter().map(|curve| curve.shifted(by)).collect(),
+            bounds: shift(self.bounds, by),
+            inside: self.inside.shifted(by),
+        }
+    }
+
+    /// The part of the body within a box, given the curves around that part.
+    pub fn within(&self, bounds: Bounds, curves: Vec<Curve>) -> Self {
+        Self { shape: self.shape, curves, bounds, inside: Inside::Within(Box::new(self.inside.clone()), bounds) }
+    }
+
+    /// Distance from the surface in m, below 0 in the body; near corners of clipped bodies only its sign is exact.
+    pub fn signed_distance(&self, x: Vec2) -> f64 {
+        self.inside.signed_distance(&self.curves, x)
+    }
+
+    /// Where `x` lies, up to a tolerance in m.
+    pub fn place(&self, x: Vec2, tolerance: f64) -> Place {
+        if !self.bounds.grown(tolerance).contains(x) {
+            return Place::Out;
+        }
+        let distance = self.signed_distance(x);
+        if distance > tolerance {
+            Place::Out
+        } else if distance < -tolerance {
+            Place::In
+        } else {
+            match nearest_curve(&self.curves, x) {
+                Some((curve, foot)) => Place::On(curve.normal(foot.u)),
+                None => Place::Out,
+            }
+        }
+    }
+}
+
+impl Inside {
+    fn shifted(&self, by: Vec2) -> Self {
+        match self {
+            Self::Parry(place, shape) => {
+                let mut place = *place;
+                place.translation += glam(by);
+                Self::Parry(place, shape.clone())
+            }
+            Self::Chain(curves) => Self::Chain(curves.iter().map(|curve| curve.shifted(by)).collect()),
+            Self::Within(inner, bounds) => Self::Within(Box::new(inner.shifted(by)), shift(*bounds, by)),
+        }
+    }
+
+    fn signed_distance(&self, curves: &[Curve], x: Vec2) -> f64 {
+        match self {
+            Self::Parry(place, shape) => {
+                let found = shape.project_point(place, glam(x), false);
+                let distance = (found.point - glam(x)).length();
+                let sign = if found.is_inside { -1.0 } else { 1.0 };
+                // Parry divides by zero at the center of a ball.
+                if distance.is_nan() { sign * distance_to(curves, x) } else { sign * distance }
+            }
+            Self::Chain(chain) => nearest_curve(chain, x)
+                .map_or(f64::INFINITY, |(curve, foot)| (x - foot.point).dot(&curve.normal(foot.u))),
+            Self::Within(inner, bounds) => {
+                let out = (bounds.min - x).sup(&(x - bounds.max)).max();
+                inner.signed_distance(curves, x).max(out)
+            }
+        }
+    }
+}
+
+fn distance_to(curves: &[Curve], x: Vec2) -> f64 {
+    nearest_curve(curves, x).map_or(f64::INFINITY, |(_, foot)| (foot.point - x).norm())
+}
+
+fn shift(bounds: Bounds, by: Vec2) -> Bounds {
+    Bounds { min: bounds.min + by, max: bounds.max + by }
+}
+
+/// The segments of a closed ring.
+fn ring(points: &[Vec2]) -> Vec<Curve> {
+    (0..points.len()).map(|i| Curve::Segment { a: points[i], b: points[(i + 1) % points.len()] }).collect()
+}

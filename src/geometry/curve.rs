@@ -1,0 +1,238 @@
+//! Oriented segments and circular arcs, the pieces of every wall: the solid lies on their left, the pore on their right.
+//!
+//! Points are found by a parameter `u` from 0 (start) to 1 (end). A full circle is an arc that ends where it starts.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use crate::math::{Bounds, Vec2, perpendicular};
+
+/// A segment or an arc, solid on the left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Curve {
+    /// A straight piece.
+    Segment {
+        /// Start in m.
+        a: Vec2,
+        /// End in m.
+        b: Vec2,
+    },
+    /// A piece of a circle, counter-clockwise (convex solid) where `sweep` is above 0.
+    Arc {
+        /// Center in m.
+        center: Vec2,
+        /// Radius in m.
+        radius: f64,
+        /// Polar angle of the start in rad.
+        start: f64,
+        /// Signed angle from start to end in rad, at most 2π in size.
+        sweep: f64,
+    },
+}
+
+/// The nearest point of a curve.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Foot {
+    /// Parameter, 0 to 1; exactly 0 or 1 where the nearest point is an end.
+    pub u: f64,
+    /// Position in m.
+    pub point: Vec2,
+}
+
+/// The unit vector of polar angle `angle` in rad.
+pub(crate) fn unit(angle: f64) -> Vec2 {
+    Vec2::new(angle.cos(), angle.sin())
+}
+
+/// The z component of the cross product.
+pub(crate) fn cross(a: Vec2, b: Vec2) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+impl Curve {
+    /// A full circle: a disc's surface.
+    pub fn circle(center: Vec2, radius: f64) -> Self {
+        Self::Arc { center, radius, start: 0.0, sweep: TAU }
+    }
+
+    /// The arc that leaves `a` along the unit tangent `t` and ends in `b`; a segment where it is straight.
+    pub fn arc_from_tangent(a: Vec2, t: Vec2, b: Vec2) -> Self {
+        // A bend below this (sagitta / chord) is lost to rounding in the center's position.
+        const STRAIGHT: f64 = 1e-7;
+        let chord = b - a;
+        let bend = cross(t, chord);
+        if bend.abs() < STRAIGHT * chord.norm() {
+            return Self::Segment { a, b };
+        }
+        let center = a + perpendicular(t) * (chord.norm_squared() / (2.0 * bend));
+        let from = a - center;
+        Self::Arc { center, radius: from.norm(), start: from.y.atan2(from.x), sweep: 2.0 * bend.atan2(t.dot(&chord)) }
+    }
+
+    /// Whether this is a full circle, which has no ends.
+    pub fn is_closed(&self) -> bool {
+        // Only exact circles are built with this sweep.
+        matches!(self, Self::Arc { sweep, .. } if sweep.abs() >= TAU)
+    }
+
+    /// Length in m.
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Segment { a, b } => (b - a).norm(),
+            Self::Arc { radius, sweep, .. } => radius * sweep.abs(),
+        }
+    }
+
+    /// The point at `u`.
+    pub fn point(&self, u: f64) -> Vec2 {
+        match self {
+            Self::Segment { a, b } => a + (b - a) * u,
+            Self::Arc { center, radius, start, sweep } => center + unit(start + sweep * u) * *radius,
+        }
+    }
+
+    /// The unit tangent at `u`.
+    pub fn tangent(&self, u: f64) -> Vec2 {
+        match self {
+            Self::Segment { a, b } => (b - a).try_normalize(0.0).unwrap_or_else(Vec2::x),
+            Self::Arc { start, sweep, .. } => perpendicular(unit(start + sweep * u)) * sweep.signum(),
+        }
+    }
+
+    /// The unit normal at `u`, out of the solid.
+    pub fn normal(&self, u: f64) -> Vec2 {
+        -perpendicular(self.tangent(u))
+    }
+
+    /// The nearest point to `x`. At the center of an arc all its points are nearest: the middle is returned.
+    pub fn project(&self, x: Vec2) -> Foot {
+        match *self {
+            Self::Segment { a, b } => {
+                let d = b - a;
+                let u = ((x - a).dot(&d) / d.norm_squared()).clamp(0.0, 1.0);
+                // An exact end keeps shared vertices recognizable.
+                let point = if u == 1.0 { b } else { a + d * u };
+                Foot { u, point }
+            }
+            Self::Arc { center, radius, start, sweep } => {
+                let r = x - center;
+                let distance = r.norm();
+                if distance == 0.0 {
+                    return Foot { u: 0.5, point: self.point(0.5) };
+                }
+                let angle = r.y.atan2(r.x);
+                let turned = ((angle - start) * sweep.signum()).rem_euclid(TAU) / sweep.abs();
+                if turned <= 1.0 {
+                    return Foot { u: turned, point: center + r * (radius / distance) };
+                }
+                let ends = [self.point(0.0), self.point(1.0)];
+                let u = if (ends[0] - x).norm_squared() <= (ends[1] - x).norm_squared() { 0.0 } else { 1.0 };
+                Foot { u, point: self.point(u) }
+            }
+        }
+    }
+
+    /// The smallest box around the curve.
+    pub fn bounds(&self) -> Bounds {
+        let (p, q) = (self.point(0.0), self.point(1.0));
+        let mut bounds = Bounds { min: p.inf(&q), max: p.sup(&q) };
+        if let Self::Arc { center, radius, start, sweep } = *self {
+            for (k, direction) in [Vec2::x(), Vec2::y(), -Vec2::x(), -Vec2::y()].into_iter().enumerate() {
+                let turned = (FRAC_PI_2 * k as f64 - start) * sweep.signum();
+                if turned.rem_euclid(TAU) <= sweep.abs() {
+                    let extreme = center + direction * radius;
+                    bounds.min = bounds.min.inf(&extreme);
+                    bounds.max = bounds.max.sup(&extreme);
+                }
+            }
+        }
+        bounds
+    }
+
+    /// The piece between two parameters; `to` may pass 1 on a full circle.
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        match *self {
+            Self::Segment { .. } => Self::Segment { a: self.point(from), b: self.point(to) },
+            Self::Arc { center, radius, start, sweep } => {
+                Self::Arc { center, radius, start: start + sweep * from, sweep: sweep * (to - from) }
+            }
+        }
+    }
+
+    /// The same points run through backwards: solid and pore change places.
+    pub fn reversed(&self) -> Self {
+        match *self {
+            Self::Segment { a, b } => Self::Segment { a: b, b: a },
+            Self::Arc { center, radius, start, sweep } => {
+                Self::Arc { center, radius, start: start + sweep, sweep: -sweep }
+            }
+        }
+    }
+
+    /// The curve shifted by `by`.
+    pub fn shifted(&self, by: Vec2) -> Self {
+        match *self {
+            Self::Segment { a, b } => Self::Segment { a: a + by, b: b + by },
+            Self::Arc { center, radius, start, sweep } => Self::Arc { center: center + by, radius, start, sweep },
+        }
+    }
+
+    /// The curve turned by `angle` (rad) about the origin, then shifted by `by`.
+    pub fn placed(&self, angle: f64, by: Vec2) -> Self {
+        let turn = |v: Vec2| nalgebra::Rotation2::new(angle) * v + by;
+        match *self {
+            Self::Segment { a, b } => Self::Segment { a: turn(a), b: turn(b) },
+            Self::Arc { center, radius, start, sweep } => {
+                Self::Arc { center: turn(center), radius, start: start + angle, sweep }
+            }
+        }
+    }
+
+    /// ½ ∫ (x dy − y dx) about `origin`, in m²: summed over a closed outline it is the area on its left (Green).
+    pub fn area_about(&self, origin: Vec2) -> f64 {
+        match *self {
+            Self::Segment { a, b } => 0.5 * cross(a - origin, b - origin),
+            Self::Arc { center, radius, sweep, .. } => {
+                let chord = self.point(1.0) - self.point(0.0);
+                0.5 * (radius * radius * sweep + cross(center - origin, chord))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arc_from_a_tangent_ends_where_it_should() {
+        let (a, t, b) = (Vec2::new(1.0, 2.0), unit(0.3), Vec2::new(2.0, 1.5));
+        let arc = Curve::arc_from_tangent(a, t, b);
+        assert!((arc.point(0.0) - a).norm() < 1e-14);
+        assert!((arc.point(1.0) - b).norm() < 1e-14);
+        assert!((arc.tangent(0.0) - t).norm() < 1e-14);
+    }
+
+    #[test]
+    fn a_circle_encloses_its_area_and_its_box() {
+        let circle = Curve::circle(Vec2::new(3.0, -1.0), 2.0);
+        assert!((circle.area_about(Vec2::zeros()) - 2.0 * TAU).abs() < 1e-12);
+        let bounds = circle.bounds();
+        assert!((bounds.min - Vec2::new(1.0, -3.0)).norm() < 1e-12);
+        assert!((bounds.max - Vec2::new(5.0, 1.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn the_normal_of_a_counter_clockwise_circle_points_outwards() {
+        let circle = Curve::circle(Vec2::zeros(), 2.0);
+        assert!((circle.normal(0.1) - unit(0.1 * TAU)).norm() < 1e-14);
+        assert!((circle.reversed().normal(0.1) + circle.reversed().point(0.1) / 2.0).norm() < 1e-14);
+    }
+
+    #[test]
+    fn the_nearest_point_of_an_arc_may_be_an_end() {
+        let arc = Curve::Arc { center: Vec2::zeros(), radius: 1.0, start: 0.0, sweep: TAU / 4.0 };
+        let foot = arc.project(Vec2::new(0.5, -1.0));
+        assert_eq!(foot.u, 0.0);
+        assert!((foot.point - Vec2::x()).norm() < 1e-15);
+    }
+}

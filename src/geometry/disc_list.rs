@@ -1,0 +1,90 @@
+//! Disc lists: `x y r` in m per line, separated by spaces, tabs, commas or semicolons; one header line is allowed.
+
+use crate::geometry::shape_file::{LineProblem, domain_comment, shortened, words};
+use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
+
+const EXPECTED: &str =
+    "three numbers `x y r` in m, the radius above 0, separated by spaces, tabs, commas or semicolons";
+
+/// Reads the text of a disc list.
+pub(crate) fn parse(text: &str) -> Result<GeometrySpec, Vec<LineProblem>> {
+    let (mut discs, mut bad, mut domain) = (Vec::new(), Vec::new(), None);
+    let mut may_be_header = true;
+    for (line, row) in (1..).zip(text.lines().map(str::trim)) {
+        if row.starts_with('#') {
+            match domain_comment(line, row) {
+                Some(Ok(numbers)) => domain = Some(numbers),
+                Some(Err(problem)) => bad.push(problem),
+                None => {}
+            }
+            continue;
+        }
+        let data = row.split('#').next().unwrap_or_default();
+        if words(data).next().is_none() {
+            continue;
+        }
+        let is_header = may_be_header && words(data).all(|word| word.parse::<f64>().is_err());
+        may_be_header = false;
+        if is_header {
+            continue;
+        }
+        match disc(data) {
+            Some(disc) => discs.push(disc),
+            None => bad.push(LineProblem { line, text: shortened(row), expected: EXPECTED.to_owned() }),
+        }
+    }
+    if bad.is_empty() && discs.is_empty() {
+        bad.push(LineProblem { line: 1, text: "no disc at all".to_owned(), expected: EXPECTED.to_owned() });
+    }
+    if !bad.is_empty() {
+        return Err(bad);
+    }
+    let edge = |i: usize, side: f64| discs.iter().map(move |d: &Disc| d.center[i] + side * d.radius);
+    let [x0, y0, x1, y1] = domain.unwrap_or_else(|| {
+        [
+            edge(0, -1.0).fold(f64::INFINITY, f64::min),
+            edge(1, -1.0).fold(f64::INFINITY, f64::min),
+            edge(0, 1.0).fold(f64::NEG_INFINITY, f64::max),
+            edge(1, 1.0).fold(f64::NEG_INFINITY, f64::max),
+        ]
+    });
+    let shapes = discs.into_iter().map(ShapeSpec::Disc).collect();
+    Ok(GeometrySpec { min: [x0, y0], max: [x1, y1], solid: SolidSide::Inside, shapes })
+}
+
+fn disc(data: &str) -> Option<Disc> {
+    let numbers: Vec<f64> = words(data).map(str::parse).collect::<Result<_, _>>().ok()?;
+    let [x, y, radius] = numbers.try_into().ok()?;
+    let is_good = [x, y, radius].iter().all(|v: &f64| v.is_finite()) && radius > 0.0;
+    is_good.then_some(Disc { center: [x, y], radius })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_separators_a_header_and_comments_are_read() {
+        let spec = parse("x,y,r\n# a comment\n0 0 1 # first\n3,0,1\n\t0;3;\t1\n").unwrap();
+        assert_eq!(spec.shapes.len(), 3);
+        assert_eq!((spec.min, spec.max), ([-1.0, -1.0], [4.0, 4.0]));
+    }
+
+    #[test]
+    fn a_domain_comment_sets_the_domain() {
+        let spec = parse("# domain -5 -6 7 8\n0 0 1\n").unwrap();
+        assert_eq!((spec.min, spec.max), ([-5.0, -6.0], [7.0, 8.0]));
+    }
+
+    #[test]
+    fn all_bad_lines_are_named_at_once_with_their_text() {
+        let bad = parse("0 0 1\n1 2\n1 2 -3\n1 2 x\n").unwrap_err();
+        assert_eq!(bad.iter().map(|b| b.line).collect::<Vec<_>>(), [2, 3, 4]);
+        assert_eq!(bad[2].text, "1 2 x");
+    }
+
+    #[test]
+    fn an_empty_list_is_refused() {
+        assert_eq!(parse("# nothing\n").unwrap_err().len(), 1);
+    }
+}

@@ -1,0 +1,104 @@
+//! Where one curve meets another: the parameters at which it has to be split before its parts are told in from out.
+//!
+//! Crossings of segments and circles in closed form. Where two curves run together, the ends of the other curve are the
+//! places to split. Touching circles give one place or two near ones; an extra split does no harm.
+
+use crate::geometry::curve::{Curve, cross};
+use crate::math::{Vec2, perpendicular};
+
+/// Adds to `found` the parameters on `curve` where `other` meets it, up to `tolerance` in m.
+pub(crate) fn meeting_places(curve: &Curve, other: &Curve, tolerance: f64, found: &mut Vec<f64>) {
+    let mut keep = |x: Vec2| {
+        let (here, there) = (curve.project(x), other.project(x));
+        if (here.point - x).norm() <= tolerance && (there.point - x).norm() <= tolerance {
+            found.push(here.u);
+        }
+    };
+    if !other.is_closed() {
+        keep(other.point(0.0));
+        keep(other.point(1.0));
+    }
+    match (*curve, *other) {
+        (Curve::Segment { a, b }, Curve::Segment { a: c, b: d }) => {
+            if let Some(x) = line_line(a, b - a, c, d - c) {
+                keep(x);
+            }
+        }
+        (Curve::Segment { a, b }, Curve::Arc { center, radius, .. })
+        | (Curve::Arc { center, radius, .. }, Curve::Segment { a, b }) => {
+            line_circle(a, b - a, center, radius).into_iter().flatten().for_each(keep);
+        }
+        (Curve::Arc { center, radius, .. }, Curve::Arc { center: c, radius: r, .. }) => {
+            circle_circle(center, radius, c, r).into_iter().flatten().for_each(keep);
+        }
+    }
+}
+
+fn line_line(a: Vec2, along: Vec2, c: Vec2, other: Vec2) -> Option<Vec2> {
+    let determinant = cross(along, other);
+    // Parallel to rounding: the ends of the pieces are the only places to split.
+    if determinant.abs() <= 1e-14 * along.norm() * other.norm() {
+        return None;
+    }
+    Some(a + along * (cross(c - a, other) / determinant))
+}
+
+fn line_circle(a: Vec2, along: Vec2, center: Vec2, radius: f64) -> [Option<Vec2>; 2] {
+    let Some(t) = along.try_normalize(0.0) else { return [None, None] };
+    let middle = a + t * (center - a).dot(&t);
+    let miss = (center - middle).norm();
+    // A line that touches within rounding still counts; `keep` has the last word.
+    let half =
+        if miss > radius * (1.0 + 1e-9) { return [None, None] } else { (radius - miss).max(0.0) * (radius + miss) };
+    let half = half.sqrt();
+    [Some(middle - t * half), Some(middle + t * half)]
+}
+
+fn circle_circle(c1: Vec2, r1: f64, c2: Vec2, r2: f64) -> [Option<Vec2>; 2] {
+    let between = c2 - c1;
+    let distance = between.norm();
+    let slack = 1e-9 * (r1 + r2);
+    if distance == 0.0 || distance > r1 + r2 + slack || distance < (r1 - r2).abs() - slack {
+        return [None, None];
+    }
+    let t = between / distance;
+    let along = 0.5 * (distance + (r1 - r2) * (r1 + r2) / distance);
+    let half = ((r1 - along) * (r1 + along)).max(0.0).sqrt();
+    let n = perpendicular(t);
+    [Some(c1 + t * along + n * half), Some(c1 + t * along - n * half)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn places(a: &Curve, b: &Curve) -> Vec<f64> {
+        let mut found = Vec::new();
+        meeting_places(a, b, 1e-9, &mut found);
+        found.sort_by(f64::total_cmp);
+        found
+    }
+
+    #[test]
+    fn crossing_circles_meet_twice_at_points_of_both() {
+        let (a, b) = (Curve::circle(Vec2::zeros(), 1.0), Curve::circle(Vec2::new(1.0, 0.5), 0.7));
+        let found = places(&a, &b);
+        assert_eq!(found.len(), 2);
+        for u in found {
+            assert!(((a.point(u) - Vec2::new(1.0, 0.5)).norm() - 0.7).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn segments_that_share_a_part_are_split_at_its_ends() {
+        let a = Curve::Segment { a: Vec2::zeros(), b: Vec2::new(4.0, 0.0) };
+        let b = Curve::Segment { a: Vec2::new(3.0, 0.0), b: Vec2::new(1.0, 0.0) };
+        assert_eq!(places(&a, &b), [0.25, 0.75]);
+    }
+
+    #[test]
+    fn a_segment_that_ends_short_of_a_circle_does_not_meet_it() {
+        let segment = Curve::Segment { a: Vec2::new(-3.0, 0.0), b: Vec2::new(-1.5, 0.0) };
+        assert!(places(&segment, &Curve::circle(Vec2::zeros(), 1.0)).is_empty());
+    }
+}

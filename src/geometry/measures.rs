@@ -1,0 +1,99 @@
+//! Porosity, specific surface and a grid of wall distances.
+//!
+//! The porosity is exact: Green's theorem over the segments and arcs that bound the solid within the domain. Its error
+//! estimate is the gap by which that outline fails to close.
+
+use std::borrow::Cow;
+
+use crate::geometry::body::{Body, Place};
+use crate::geometry::boundary::split;
+use crate::geometry::curve::Curve;
+use crate::geometry::solid::Geometry;
+use crate::math::Vec2;
+use crate::snapshot::{Field, Grid, Values};
+
+/// A pure number with its error bar.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Porosity {
+    /// Share of the domain that is not solid, 0 to 1.
+    pub value: f64,
+    /// Estimated error.
+    pub uncertainty: f64,
+}
+
+impl Geometry {
+    /// The share of the domain that is not solid.
+    #[must_use]
+    pub fn porosity(&self) -> Porosity {
+        let domain = self.bounds();
+        let outline = self.solid_outline();
+        let solid: f64 = outline.iter().map(|curve| curve.area_about(domain.center())).sum();
+        let gap: Vec2 = outline.iter().map(|curve| curve.point(1.0) - curve.point(0.0)).sum();
+        let rounding = f64::EPSILON * outline.len() as f64;
+        Porosity {
+            value: (1.0 - solid / domain.area()).clamp(0.0, 1.0),
+            uncertainty: gap.norm() * domain.size().norm() / domain.area() + rounding,
+        }
+    }
+
+    /// Wall length per area of the domain in 1/m.
+    #[must_use]
+    pub fn specific_surface(&self) -> f64 {
+        self.wall_length() / self.bounds().area()
+    }
+
+    /// Closed outline of the solid within the domain: its walls, and the domain's sides where they cut solid.
+    fn solid_outline(&self) -> Vec<Curve> {
+        let tolerance = self.tolerance();
+        let frame = Body::of_box(u32::MAX, self.bounds());
+        let mut outline = Vec::new();
+        for piece in self.visible_pieces() {
+            let keep = match frame.place(piece.curve.point(0.5), tolerance) {
+                Place::In => true,
+                Place::Out => false,
+                // A wall on a side of the domain bounds solid within the domain only if it faces outwards.
+                Place::On(outwards) => outwards.dot(&piece.curve.normal(0.5)) > 0.0,
+            };
+            if keep {
+                outline.push(piece.curve);
+            }
+        }
+        let walls: Vec<Curve> = self.boundary.pieces.iter().map(|piece| piece.curve).collect();
+        for side in &frame.curves {
+            for part in split(side, walls.iter(), tolerance) {
+                if self.signed_distance(part.point(0.5)) < -tolerance {
+                    outline.push(part);
+                }
+            }
+        }
+        outline
+    }
+
+    /// Wall distance (m) and wall normal on a regular grid over the domain, about `spacing` (m) apart.
+    ///
+    /// The spacing is fitted so that nodes lie on all sides of the domain. No wall: distance infinite, normal zero.
+    #[must_use]
+    pub fn distance_grid(&self, spacing: f64) -> Grid<'static> {
+        use rayon::prelude::*;
+        let domain = self.bounds();
+        // A grid of more cells per side than this cannot be meant.
+        const MOST_CELLS: f64 = 20_000.0;
+        let cells = domain.size().map(|side| (side / spacing).round().clamp(1.0, MOST_CELLS));
+        let step = domain.size().component_div(&cells);
+        let counts = [cells.x as usize + 1, cells.y as usize + 1];
+        let walls: Vec<_> = (0..counts[0] * counts[1])
+            .into_par_iter()
+            .map(|k| {
+                let index = Vec2::new((k % counts[0]) as f64, (k / counts[0]) as f64);
+                self.wall(domain.min + step.component_mul(&index))
+            })
+            .collect();
+        let distances = walls.iter().map(|wall| wall.distance).collect();
+        let normals = walls.iter().map(|wall| wall.normal).collect();
+        let fields = vec![
+            Field { name: "wall-distance", unit: "m", values: Values::Scalar(Cow::Owned(distances)) },
+            Field { name: "wall-normal", unit: "", values: Values::Vector(Cow::Owned(normals)) },
+        ];
+        Grid { origin: domain.min, spacing: step, counts, fields }
+    }
+}

@@ -1,0 +1,252 @@
+//! The pore geometry: signed distance to the solid, its normal, and the domain.
+//!
+//! The surface of the solid is kept as exact segments and circular arcs (the cosine wall to 1e-8 of its length), so that
+//! distances are exact in the pore and in the solid, overlaps included. Endless shapes in a periodic domain are repeated
+//! as their part within the domain; all others are repeated whole.
+
+use crate::geometry::body::Body;
+use crate::geometry::boundary::{Boundary, Nearest, clip_body, complement, union};
+use crate::geometry::spec::{GeometrySpec, SolidSide};
+use crate::input::problem::Problem;
+use crate::math::{Bounds, Vec2};
+
+/// Lengths below this share of the domain's larger side count as zero where curves meet.
+const TOLERANCE: f64 = 1e-9;
+
+/// The wall nearest to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wall {
+    /// Distance to the wall in m, above 0 in the pore; infinite where there is no solid.
+    pub distance: f64,
+    /// Unit normal into the pore, the gradient of the distance; zero where there is no solid.
+    pub normal: Vec2,
+    /// Index of the nearest shape; walls on the domain's sides come after the shapes of the file; `u32::MAX`: none.
+    pub shape: u32,
+}
+
+/// What is wrong with a geometry.
+#[derive(Debug, thiserror::Error)]
+pub enum GeometryError {
+    /// The written shapes make no sense.
+    #[error("the geometry has {} problem(s): {}", .0.len(), list(.0))]
+    Invalid(Vec<Problem>),
+}
+
+fn list(problems: &[Problem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+/// Domain and solids.
+#[derive(Clone)]
+pub struct Geometry {
+    domain: Bounds,
+    side: SolidSide,
+    shapes: Vec<Body>,
+    periodic: [bool; 2],
+    wall_sides: [bool; 4],
+    shape_count: u32,
+    bodies: Vec<Body>,
+    walls: Vec<Body>,
+    pub(crate) boundary: Boundary,
+}
+
+impl std::fmt::Debug for Geometry {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Geometry")
+            .field("domain", &self.domain)
+            .field("shapes", &self.shape_count)
+            .field("pieces", &self.boundary.pieces.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Geometry {
+    /// The geometry of a shape file.
+    ///
+    /// # Errors
+    /// [`GeometryError::Invalid`] with all problems found.
+    pub fn new(spec: &GeometrySpec) -> Result<Self, GeometryError> {
+        let problems = spec.problems();
+        if problems.is_empty() { Ok(Self::unchecked(spec)) } else { Err(GeometryError::Invalid(problems)) }
+    }
+
+    /// The geometry of a specification whose sizes are known to be good.
+    pub(crate) fn unchecked(spec: &GeometrySpec) -> Self {
+        let domain = Bounds { min: Vec2::from(spec.min), max: Vec2::from(spec.max) };
+        let shapes = spec.shapes.iter().zip(0..).flat_map(|(shape, i)| Body::of(shape, i, domain)).collect();
+        Self {
+            domain,
+            side: spec.solid,
+            shapes,
+            periodic: [false; 2],
+            wall_sides: [false; 4],
+            shape_count: spec.shapes.len() as u32,
+            bodies: Vec::new(),
+            walls: Vec::new(),
+            boundary: Boundary::new(Vec::new(), 0.0),
+        }
+        .rebuilt()
+    }
+
+    /// The domain.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.domain
+    }
+
+    /// Number of written shapes; walls on the left, right, bottom and top side have the four indices that follow.
+    #[must_use]
+    pub fn shape_count(&self) -> u32 {
+        self.shape_count
+    }
+
+    /// Whether the domain is joined along x and y.
+    #[must_use]
+    pub fn periodic(&self) -> [bool; 2] {
+        self.periodic
+    }
+
+    /// The same solids seen through the periodic images of the domain along x and y.
+    #[must_use]
+    pub fn with_periodic(self, periodic: [bool; 2]) -> Self {
+        Self { periodic, ..self }.rebuilt()
+    }
+
+    /// The same solids and solid half-planes outside of the chosen sides: left, right, bottom, top.
+    #[must_use]
+    pub fn with_wall_sides(self, wall_sides: [bool; 4]) -> Self {
+        Self { wall_sides, ..self }.rebuilt()
+    }
+
+    /// Lengths in m below this count as zero.
+    pub(crate) fn tolerance(&self) -> f64 {
+        TOLERANCE * self.domain.size().max()
+    }
+
+    fn rebuilt(mut self) -> Self {
+        let tolerance = self.tolerance();
+        self.bodies = self.shapes.iter().flat_map(|body| self.images(body)).collect();
+        self.walls = self.side_walls();
+        let pieces = match self.side {
+            SolidSide::Inside => {
+                let all: Vec<Body> = self.bodies.iter().chain(&self.walls).cloned().collect();
+                union(&all, tolerance)
+            }
+            SolidSide::Outside => complement(&self.bodies, &self.walls, tolerance),
+        };
+        // Ends come from intersections computed twice, once on each curve.
+        const ROUNDING: f64 = 10.0;
+        self.boundary = Boundary::new(pieces, ROUNDING * tolerance);
+        self
+    }
+
+    /// The body and its periodic images that can be nearest to a point of the domain: those that reach into the domain
+    /// grown by its own size (the nearest point of a periodic solid is never farther than half a period along that axis).
+    fn images(&self, body: &Body) -> Vec<Body> {
+        if self.periodic == [false; 2] {
+            return vec![body.clone()];
+        }
+        let size = self.domain.size();
+        let mut body = body.clone();
+        if body.is_endless() {
+            // Far beyond all queries along the axis that is not periodic.
+            const FAR: f64 = 32.0;
+            let mut strip = self.domain.grown(FAR * size.norm());
+            for i in (0..2).filter(|&i| self.periodic[i]) {
+                (strip.min[i], strip.max[i]) = (self.domain.min[i], self.domain.max[i]);
+            }
+            body = clip_body(&body, strip, self.tolerance());
+        }
+        let shifts = |i: usize| -> Vec<f64> {
+            if !self.periodic[i] {
+                return vec![0.0];
+            }
+            let first = ((self.domain.min[i] - size[i] - body.bounds.max[i]) / size[i]).ceil() as i64;
+            let last = ((self.domain.max[i] + size[i] - body.bounds.min[i]) / size[i]).floor() as i64;
+            (first..=last).map(|k| k as f64 * size[i]).collect()
+        };
+        let rows = shifts(1);
+        let mut images = Vec::new();
+        for dx in shifts(0) {
+            images.extend(rows.iter().map(|&dy| body.shifted(Vec2::new(dx, dy))));
+        }
+        images
+    }
+
+    fn side_walls(&self) -> Vec<Body> {
+        use std::f64::consts::{FRAC_PI_2, PI};
+        let Bounds { min, max } = self.domain;
+        // A half-plane is solid below its line before the turn.
+        [(min, -FRAC_PI_2), (max, FRAC_PI_2), (min, 0.0), (max, PI)]
+            .into_iter()
+            .enumerate()
+            .filter(|(side, _)| self.wall_sides[*side])
+            .map(|(side, (point, turn))| Body::half_plane(self.shape_count + side as u32, point, turn, self.domain))
+            .collect()
+    }
+
+    /// `x` brought into the domain along the periodic axes.
+    #[must_use]
+    pub fn wrapped(&self, x: Vec2) -> Vec2 {
+        let (min, size) = (self.domain.min, self.domain.size());
+        let mut y = x;
+        for i in (0..2).filter(|&i| self.periodic[i]) {
+            if !(min[i] <= x[i] && x[i] <= self.domain.max[i]) {
+                y[i] = min[i] + (x[i] - min[i]).rem_euclid(size[i]);
+            }
+        }
+        y
+    }
+
+    /// Whether `x` lies in the solid, told by the shapes themselves.
+    #[must_use]
+    pub fn is_solid(&self, x: Vec2) -> bool {
+        let x = self.wrapped(x);
+        let within = |body: &Body| body.bounds.contains(x) && body.signed_distance(x) < 0.0;
+        let in_shapes = self.bodies.iter().any(within);
+        (in_shapes == (self.side == SolidSide::Inside)) || self.walls.iter().any(within)
+    }
+
+    /// Distance and normal of the nearest wall at `x`. Exact up to a box's size outside of the domain.
+    ///
+    /// On a corner the normal is the mean of both sides; where several walls are equally near, one of them is taken.
+    #[must_use]
+    pub fn wall(&self, x: Vec2) -> Wall {
+        let x = self.wrapped(x);
+        match self.boundary.nearest(x) {
+            Some(nearest) => self.wall_at(x, nearest),
+            None if self.is_solid(x) => Wall { distance: f64::NEG_INFINITY, normal: Vec2::zeros(), shape: u32::MAX },
+            None => Wall { distance: f64::INFINITY, normal: Vec2::zeros(), shape: u32::MAX },
+        }
+    }
+
+    fn wall_at(&self, x: Vec2, Nearest { piece, foot }: Nearest) -> Wall {
+        let curve = &self.boundary.pieces[piece].curve;
+        let shape = self.boundary.pieces[piece].shape;
+        let offset = x - foot.point;
+        let flat = curve.normal(foot.u);
+        if curve.is_closed() || (foot.u > 0.0 && foot.u < 1.0) {
+            return Wall { distance: offset.dot(&flat), normal: flat, shape };
+        }
+        let corner = self.boundary.corners[piece][usize::from(foot.u > 0.5)];
+        let distance = offset.norm();
+        // So near to the corner the direction is lost to rounding.
+        const AT_CORNER: f64 = 1e-3;
+        if distance <= AT_CORNER * self.tolerance() {
+            return Wall { distance: 0.0, normal: corner.unwrap_or(flat), shape };
+        }
+        let in_pore = match corner {
+            // The nearest corner is seen within the cone of its two normals, or within the opposite cone.
+            Some(mean) => offset.dot(&mean) > 0.0,
+            None => !self.is_solid(x),
+        };
+        let sign = if in_pore { 1.0 } else { -1.0 };
+        Wall { distance: sign * distance, normal: offset * (sign / distance), shape }
+    }
+
+    /// Distance to the wall at `x` in m, above 0 in the pore.
+    #[must_use]
+    pub fn signed_distance(&self, x: Vec2) -> f64 {
+        self.wall(x).distance
+    }
+}

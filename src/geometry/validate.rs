@@ -1,0 +1,257 @@
+//! What can be wrong with written shapes: sizes, rings, and how the shapes lie in the domain. All problems, not the first.
+//!
+//! Ring checks that name a point are made here; self-intersection and holes that leave their ring are told by crate `geo`.
+
+use geo::algorithm::Validation;
+use geo::algorithm::validation::InvalidPolygon;
+
+use crate::geometry::body::{Body, Place};
+use crate::geometry::boundary::split;
+use crate::geometry::curve::cross;
+use crate::geometry::solid::Geometry;
+use crate::geometry::spec::{GeometrySpec, Polygon, ShapeSpec, SolidSide};
+use crate::input::problem::Problem;
+use crate::math::{Bounds, Vec2};
+
+/// A domain with less pore than this share of its area has none: it is rounding.
+const NO_PORE: f64 = 1e-9;
+
+impl GeometrySpec {
+    /// All that is wrong with the domain and the shapes; paths as in a shape file, such as `shapes[2].disc.radius`.
+    #[must_use]
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut problems = self.domain_problems();
+        for (i, shape) in self.shapes.iter().enumerate() {
+            problems.extend(shape.problems(&format!("shapes[{i}]")));
+        }
+        if problems.is_empty() {
+            problems.extend(self.position_problems());
+        }
+        problems
+    }
+
+    fn domain_problems(&self) -> Vec<Problem> {
+        let mut found = Vec::new();
+        for (i, axis) in ["x", "y"].into_iter().enumerate() {
+            let (min, max) = (self.min[i], self.max[i]);
+            if !(min.is_finite() && max.is_finite()) {
+                let path = if min.is_finite() { "max" } else { "min" };
+                found.push(Problem::new(path, format!("{axis} is not a finite number"), "give both corners in m"));
+            } else if min >= max {
+                found.push(Problem::new(
+                    "max",
+                    format!("{axis} of max is {max:e} m, which is not above {axis} of min, {min:e} m"),
+                    "`min` is the lower left corner of the domain and `max` the upper right one, in m",
+                ));
+            }
+        }
+        found
+    }
+
+    fn position_problems(&self) -> Vec<Problem> {
+        let domain = Bounds { min: Vec2::from(self.min), max: Vec2::from(self.max) };
+        let mut found = Vec::new();
+        for (shape, i) in self.shapes.iter().zip(0..) {
+            if !Body::of(shape, i, domain).iter().any(|body| reaches(body, domain)) {
+                found.push(Problem::new(
+                    format!("shapes[{i}].{}", shape.key()),
+                    format!(
+                        "the shape lies wholly outside of the domain, which spans ({:e}, {:e}) to ({:e}, {:e}) m",
+                        domain.min.x, domain.min.y, domain.max.x, domain.max.y
+                    ),
+                    "move the shape, enlarge the domain by `min` and `max`, or remove the shape; are all lengths in m?",
+                ));
+            }
+        }
+        if found.is_empty() && Geometry::unchecked(self).porosity().value < NO_PORE {
+            let help = match self.solid {
+                SolidSide::Inside => "shrink or remove shapes; if the shapes are the pore, set `solid = \"outside\"`",
+                SolidSide::Outside => "with `solid = \"outside\"` the shapes are the pore: add one that fluid can fill",
+            };
+            found.push(Problem::new("shapes", "the domain is wholly solid: there is no pore left", help));
+        }
+        found
+    }
+}
+
+/// Whether a body and the domain have more than a point in common.
+fn reaches(body: &Body, domain: Bounds) -> bool {
+    let tolerance = 1e-9 * domain.size().max();
+    let frame = Body::of_box(0, domain);
+    let inner = frame.curves.iter().any(|side| {
+        split(side, body.curves.iter(), tolerance)
+            .iter()
+            .any(|part| body.place(part.point(0.5), tolerance) == Place::In)
+    });
+    inner
+        || body.curves.iter().any(|curve| {
+            split(curve, frame.curves.iter(), tolerance)
+                .iter()
+                .any(|part| frame.place(part.point(0.5), tolerance) == Place::In)
+        })
+}
+
+impl ShapeSpec {
+    /// The table name of the shape.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::HalfPlane(_) => "half-plane",
+            Self::Disc(_) => "disc",
+            Self::Rectangle(_) => "rectangle",
+            Self::Capsule(_) => "capsule",
+            Self::Polygon(_) => "polygon",
+            Self::Channel(_) => "channel",
+            Self::ThroatDiscs(_) => "throat-discs",
+            Self::ThroatCosine(_) => "throat-cosine",
+        }
+    }
+
+    /// All that is wrong with the shape by itself; `at` is its place, such as `shapes[2]`.
+    #[must_use]
+    pub fn problems(&self, at: &str) -> Vec<Problem> {
+        let mut check = Check { at: format!("{at}.{}", self.key()), found: Vec::new() };
+        match self {
+            Self::HalfPlane(s) => {
+                check.finite("point", &s.point);
+                check.finite("rotation-deg", &[s.rotation_deg]);
+            }
+            Self::Disc(s) => {
+                check.finite("center", &s.center);
+                check.positive("radius", &[s.radius]);
+            }
+            Self::Rectangle(s) => {
+                check.finite("center", &s.center);
+                check.positive("size", &s.size);
+                check.finite("rotation-deg", &[s.rotation_deg]);
+            }
+            Self::Capsule(s) => {
+                check.finite("ends", s.ends.as_flattened());
+                check.positive("radius", &[s.radius]);
+            }
+            Self::Polygon(s) => check.polygon(s),
+            Self::Channel(s) => {
+                check.finite("center", &s.center);
+                check.positive("width", &[s.width]);
+                check.finite("rotation-deg", &[s.rotation_deg]);
+            }
+            Self::ThroatDiscs(s) => {
+                check.finite("center", &s.center);
+                check.positive("radii", &s.radii);
+                check.positive("gap", &[s.gap]);
+                check.finite("rotation-deg", &[s.rotation_deg]);
+            }
+            Self::ThroatCosine(s) => {
+                check.finite("center", &s.center);
+                check.positive("width", &[s.width]);
+                check.positive("throat", &[s.throat]);
+                check.positive("length", &[s.length]);
+                check.finite("rotation-deg", &[s.rotation_deg]);
+                if s.throat > s.width {
+                    check.add(
+                        "throat",
+                        format!("the throat, {:e} m, is wider than the channel, {:e} m", s.throat, s.width),
+                        "make `throat` at most `width`",
+                    );
+                }
+            }
+        }
+        check.found
+    }
+}
+
+/// Collects the problems of one shape.
+struct Check {
+    at: String,
+    found: Vec<Problem>,
+}
+
+impl Check {
+    fn add(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        self.found.push(Problem::new(format!("{}.{key}", self.at), message, help));
+    }
+
+    fn finite(&mut self, key: &str, values: &[f64]) {
+        if let Some(bad) = values.iter().find(|v| !v.is_finite()) {
+            self.add(key, format!("{bad} is not a finite number"), "give a finite number");
+        }
+    }
+
+    fn positive(&mut self, key: &str, values: &[f64]) {
+        if let Some(bad) = values.iter().find(|v| !(v.is_finite() && **v > 0.0)) {
+            self.add(key, format!("{bad} m is not a size above 0"), "give a finite length above 0, in m");
+        }
+    }
+
+    fn polygon(&mut self, polygon: &Polygon) {
+        self.finite("position", &polygon.position);
+        self.finite("rotation-deg", &[polygon.rotation_deg]);
+        self.ring("outer", &polygon.outer, true);
+        for (k, hole) in polygon.holes.iter().enumerate() {
+            self.ring(&format!("holes[{k}]"), hole, false);
+        }
+        if self.found.is_empty() {
+            for error in to_geo(polygon).validation_errors() {
+                self.invalid(&error);
+            }
+        }
+    }
+
+    fn ring(&mut self, key: &str, points: &[[f64; 2]], is_outer: bool) {
+        let count = points.len();
+        if count < 3 {
+            self.add(key, format!("the ring has {count} point(s)"), "a ring needs at least three points");
+            return;
+        }
+        if points.iter().flatten().any(|v| !v.is_finite()) {
+            self.finite(key, points.as_flattened());
+            return;
+        }
+        if points[0] == points[count - 1] {
+            self.add(key, "the last point repeats the first", "remove the last point: rings close by themselves");
+            return;
+        }
+        if let Some(i) = (1..count).find(|&i| points[i] == points[i - 1]) {
+            let [x, y] = points[i];
+            self.add(key, format!("points {} and {i} are both ({x:e}, {y:e})", i - 1), "remove one of them");
+            return;
+        }
+        let area = ring_area(points);
+        let (direction, wanted) = if area > 0.0 {
+            ("counter-clockwise", "a hole runs clockwise: reverse its points")
+        } else {
+            ("clockwise", "the outer ring runs counter-clockwise: reverse its points")
+        };
+        if area == 0.0 {
+            self.add(key, "the ring encloses no area", "its points must not lie on one line");
+        } else if (area > 0.0) != is_outer {
+            self.add(key, format!("the ring runs {direction}"), wanted);
+        }
+    }
+
+    fn invalid(&mut self, error: &InvalidPolygon) {
+        let (key, help) = match error {
+            InvalidPolygon::InteriorRingNotContainedInExteriorRing(_) => {
+                ("holes", "each hole must lie wholly within the outer ring")
+            }
+            InvalidPolygon::IntersectingRingsOnALine(..) | InvalidPolygon::IntersectingRingsOnAnArea(..) => {
+                ("holes", "rings of a polygon must not overlap: join overlapping holes into one")
+            }
+            _ => ("outer", "a ring must not cross or touch itself: move or remove the points of the loop"),
+        };
+        self.add(key, error.to_string(), help);
+    }
+}
+
+/// Signed area of a ring in m², above 0 where it runs counter-clockwise.
+pub(crate) fn ring_area(points: &[[f64; 2]]) -> f64 {
+    let Some(&first) = points.first() else { return 0.0 };
+    let origin = Vec2::from(first);
+    points.windows(2).map(|w| 0.5 * cross(Vec2::from(w[0]) - origin, Vec2::from(w[1]) - origin)).sum()
+}
+
+/// The rings as crate `geo` takes them, closed.
+pub(crate) fn to_geo(polygon: &Polygon) -> geo::Polygon<f64> {
+    let ring = |points: &[[f64; 2]]| geo::LineString::from(points.to_vec());
+    geo::Polygon::new(ring(&polygon.outer), polygon.holes.iter().map(|hole| ring(hole)).collect())
+}
