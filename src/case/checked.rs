@@ -142,8 +142,12 @@ pub struct Numerics {
     pub viscous_term: ViscousTerm,
     /// Share of the density error taken back per step: gamma of the drift source, 0 to 1.
     pub drift_source: f64,
-    /// Background pressure in units of sigma/h (or of rho U²/2 without tension), at least 0.
+    /// Background pressure in units of sigma/h (or of rho v² without tension), at least 0.
     pub background_pressure: f64,
+    /// Particle shifting: A in δr = −A h v_max Δt ∇C, at least 0.
+    pub shifting: f64,
+    /// Largest stretch β of velocity differences at walls, at least 1: 10 is no slip, 1.5 slips by a quarter of dx.
+    pub wall_stretch: f64,
     /// Largest relative residual of the pressure solve.
     pub pressure_tolerance: f64,
     /// Factor on all three limits of the time step, above 0 and at most 1.

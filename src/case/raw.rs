@@ -183,10 +183,16 @@ tables! {
     pub struct RawNumerics {
         /// Form of the viscous term (default `morris`).
         pub viscous_term: RawViscousTerm,
-        /// Share of the density error taken back per step, 0 to 1 (default 0.02).
+        /// Share of the density error taken back per step, 0 to 1 (default 0.02, without tension 0).
         pub drift_source: f64,
-        /// Background pressure in units of tension over smoothing length, or of density times speed squared (default 0.5).
+        /// Background pressure in units of tension over smoothing length, or of density times speed squared (default
+        /// 0.5, without tension 0).
         pub background_pressure: f64,
+        /// Particle shifting against crowding, over h times the largest speed times the step (default 0, without tension 2).
+        pub shifting: f64,
+        /// Largest stretch of velocity differences at walls: 10 for no slip, less lets contact lines slip (default 10,
+        /// with a wetting model 1.5: a slip length of a quarter of the spacing).
+        pub wall_stretch: f64,
         /// Largest relative residual of the pressure solve (default 1e-6).
         pub pressure_tolerance: f64,
         /// Factor on all limits of the time step, above 0 and at most 1 (default 1).

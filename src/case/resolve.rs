@@ -116,6 +116,8 @@ fn raw_numerics(numerics: &Numerics) -> RawNumerics {
         }),
         drift_source: Some(numerics.drift_source),
         background_pressure: Some(numerics.background_pressure),
+        shifting: Some(numerics.shifting),
+        wall_stretch: Some(numerics.wall_stretch),
         pressure_tolerance: Some(numerics.pressure_tolerance),
         time_step_factor: Some(numerics.time_step_factor),
     }

@@ -47,7 +47,8 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
     }
     let sides = sides(checker, &raw.sides.clone().unwrap_or_default());
     let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
-    let numerics = numerics(checker, &raw.numerics.clone().unwrap_or_default());
+    let default = default_numerics(tension.is_some_and(|tension| tension > 0.0), wetting_model.is_some());
+    let numerics = numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
     Some(Sph {
         spacing: spacing?,
         smoothing_ratio: ratio.unwrap_or(DEFAULT_SMOOTHING_RATIO),
@@ -279,26 +280,55 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
     }
 }
 
-fn numerics(checker: &mut Checker, raw: &RawNumerics) -> Numerics {
-    let drift = checker.within("sph.numerics.drift-source", raw.drift_source, (0.0, 1.0), "a share");
-    let background =
-        checker.within("sph.numerics.background-pressure", raw.background_pressure, (0.0, 1.0e3), "a factor");
-    let tolerance = checker.within(
-        "sph.numerics.pressure-tolerance",
-        raw.pressure_tolerance,
-        (1.0e-13, 0.1),
-        "a relative residual",
-    );
-    let step = checker.within("sph.numerics.time-step-factor", raw.time_step_factor, (1.0e-3, 1.0), "a factor");
+/// Defaults by what flows. With tension the paper's form keeps its particles in order by background pressure and drift
+/// source, without tension shifting does it (docs/numerics). A wall that a contact line moves along must slip a little.
+fn default_numerics(has_tension: bool, has_contact_lines: bool) -> Numerics {
+    let with_tension = |there: f64, else_: f64| if has_tension { there } else { else_ };
+    Numerics {
+        viscous_term: ViscousTerm::Morris,
+        drift_source: with_tension(0.02, 0.0),
+        background_pressure: with_tension(0.5, 0.0),
+        shifting: with_tension(0.0, 2.0),
+        wall_stretch: if has_contact_lines { 1.5 } else { 10.0 },
+        pressure_tolerance: 1.0e-6,
+        time_step_factor: 1.0,
+    }
+}
+
+fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numerics) -> Numerics {
+    let mut within = |key: &str, given: Option<f64>, range: (f64, f64), what: &str, default: f64| {
+        checker.within(&format!("sph.numerics.{key}"), given, range, what).unwrap_or(default)
+    };
     Numerics {
         viscous_term: match raw.viscous_term {
-            None | Some(RawViscousTerm::Morris) => ViscousTerm::Morris,
+            None => default.viscous_term,
+            Some(RawViscousTerm::Morris) => ViscousTerm::Morris,
             Some(RawViscousTerm::Szewc) => ViscousTerm::Szewc,
         },
-        drift_source: drift.unwrap_or(0.02),
-        background_pressure: background.unwrap_or(0.5),
-        pressure_tolerance: tolerance.unwrap_or(1.0e-6),
-        time_step_factor: step.unwrap_or(1.0),
+        drift_source: within("drift-source", raw.drift_source, (0.0, 1.0), "a share", default.drift_source),
+        background_pressure: within(
+            "background-pressure",
+            raw.background_pressure,
+            (0.0, 1.0e3),
+            "a factor",
+            default.background_pressure,
+        ),
+        shifting: within("shifting", raw.shifting, (0.0, 100.0), "a factor", default.shifting),
+        wall_stretch: within("wall-stretch", raw.wall_stretch, (1.0, 1.0e3), "a factor", default.wall_stretch),
+        pressure_tolerance: within(
+            "pressure-tolerance",
+            raw.pressure_tolerance,
+            (1.0e-13, 0.1),
+            "a relative residual",
+            default.pressure_tolerance,
+        ),
+        time_step_factor: within(
+            "time-step-factor",
+            raw.time_step_factor,
+            (1.0e-3, 1.0),
+            "a factor",
+            default.time_step_factor,
+        ),
     }
 }
 
