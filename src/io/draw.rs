@@ -10,17 +10,6 @@ use super::picture::PictureError;
 /// A color as red, green, blue.
 pub type Rgb = [u8; 3];
 
-/// Where a text stands relative to its anchor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Align {
-    /// The anchor is the left end of the base line.
-    Left,
-    /// The anchor is the middle of the base line.
-    Center,
-    /// The anchor is the right end of the base line.
-    Right,
-}
-
 /// What is drawn on. Lengths in pixels, y downwards.
 pub struct Canvas {
     pixels: Pixmap,
@@ -77,15 +66,9 @@ impl Canvas {
         text.chars().map(|c| font.h_advance(font.glyph_id(c))).sum()
     }
 
-    /// A line of text.
-    pub fn text(&mut self, text: &str, anchor: [f32; 2], size: f32, align: Align) {
-        let width = self.text_width(text, size);
-        let mut x = anchor[0]
-            - match align {
-                Align::Left => 0.0,
-                Align::Center => 0.5 * width,
-                Align::Right => width,
-            };
+    /// A line of text from the left end of its base line.
+    pub fn text(&mut self, text: &str, anchor: [f32; 2], size: f32) {
+        let mut x = anchor[0];
         let scale = PxScale::from(size);
         for character in text.chars() {
             let id = self.font.glyph_id(character);

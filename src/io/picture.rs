@@ -2,7 +2,7 @@
 //!
 //! Gray is solid: the fluids are drawn over it as dots that just touch. Leaves out every field but `phase`; those are for ParaView.
 
-use super::draw::{Align, Canvas, Rgb};
+use super::draw::{Canvas, Rgb};
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot, Values};
 
@@ -115,8 +115,8 @@ pub fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Res
     }
     frame(&mut canvas, &view, height as f32);
     let title = canvas.fitted(title, TITLE_SIZE, WIDTH as f32 - 2.0 * RIM);
-    canvas.text(&title, [RIM, 44.0], TITLE_SIZE, Align::Left);
-    canvas.text(&time_text(snapshot.time), [RIM, 82.0], TEXT_SIZE, Align::Left);
+    canvas.text(&title, [RIM, 44.0], TITLE_SIZE);
+    canvas.text(&time_text(snapshot.time), [RIM, 82.0], TEXT_SIZE);
     scale_bar(&mut canvas, &view);
     legend(&mut canvas, &view);
     canvas.png()
@@ -174,7 +174,7 @@ fn scale_bar(canvas: &mut Canvas, view: &View) {
     let pixels = (length * view.scale) as f32;
     let y = view.corner[1] + view.size[1] + 30.0;
     canvas.rectangle([RIM, y - 4.0], [pixels, 8.0], BLACK);
-    canvas.text(&length_text(length), [RIM, y + 38.0], TEXT_SIZE, Align::Left);
+    canvas.text(&length_text(length), [RIM, y + 38.0], TEXT_SIZE);
 }
 
 fn legend(canvas: &mut Canvas, view: &View) {
@@ -184,7 +184,7 @@ fn legend(canvas: &mut Canvas, view: &View) {
         FLUIDS.iter().map(|phase| (phase.name, phase.color)).chain([("solid", SOLID), ("interface", INTERFACE)]);
     for (name, color) in entries.collect::<Vec<_>>().into_iter().rev() {
         x -= canvas.text_width(name, TEXT_SIZE);
-        canvas.text(name, [x, y], TEXT_SIZE, Align::Left);
+        canvas.text(name, [x, y], TEXT_SIZE);
         x -= 22.0;
         canvas.circles([[x, y - 8.0]].into_iter(), 11.0, color);
         x -= 40.0;
