@@ -41,10 +41,14 @@ struct Phase {
     core: Rgb,
 }
 
-/// The fluids; blue and yellow keep apart for color-blind eyes and in print.
-const FLUIDS: [Phase; 2] = [
+/// Number of the phase of a pore without a fluid, in the picture of a geometry.
+pub const PORE: i64 = 3;
+
+/// What fills the pore; blue and yellow keep apart for color-blind eyes and in print.
+const FLUIDS: [Phase; 3] = [
     Phase { number: 0, name: "wetting", color: [86, 146, 204], core: [58, 116, 176] },
     Phase { number: 1, name: "non-wetting", color: [248, 232, 176], core: [236, 212, 136] },
+    Phase { number: PORE, name: "pore", color: [228, 238, 246], core: [228, 238, 246] },
 ];
 
 /// A picture that cannot be drawn.
@@ -118,7 +122,7 @@ pub fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Res
     canvas.text(&title, [RIM, 44.0], TITLE_SIZE);
     canvas.text(&time_text(snapshot.time), [RIM, 82.0], TEXT_SIZE);
     scale_bar(&mut canvas, &view);
-    legend(&mut canvas, &view);
+    legend(&mut canvas, &view, snapshot);
     canvas.png()
 }
 
@@ -127,12 +131,15 @@ fn hull<'a>(mut points: impl Iterator<Item = &'a Vec2>) -> Option<Bounds> {
     Some(points.fold(Bounds { min: first, max: first }, |b, x| Bounds { min: b.min.inf(x), max: b.max.sup(x) }))
 }
 
-fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f64) {
-    let phases = snapshot.particles.fields.iter().find(|field| field.name == "phase").map(|field| &field.values);
-    let of = |a: usize| match phases {
+/// The phase of particle `a`; particles without phases are drawn as the first one.
+fn phase_of(snapshot: &Snapshot<'_>, a: usize) -> Option<i64> {
+    match snapshot.particles.fields.iter().find(|field| field.name == "phase").map(|field| &field.values) {
         Some(Values::Integer(values)) => values.get(a).copied(),
         _ => Some(FLUIDS[0].number),
-    };
+    }
+}
+
+fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f64) {
     let radius = (spacing * view.scale) as f32;
     for (cover, is_core) in [(COVER * radius, false), (CORE * radius, true)] {
         if is_core && cover < SMALLEST_CORE {
@@ -140,7 +147,8 @@ fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f6
         }
         for phase in &FLUIDS {
             let centers = snapshot.particles.points.iter().enumerate();
-            let centers = centers.filter(|(a, _)| of(*a) == Some(phase.number)).map(|(_, &x)| view.place(x));
+            let centers =
+                centers.filter(|(a, _)| phase_of(snapshot, *a) == Some(phase.number)).map(|(_, &x)| view.place(x));
             canvas.circles(centers, cover.max(1.0), if is_core { phase.core } else { phase.color });
         }
     }
@@ -177,12 +185,15 @@ fn scale_bar(canvas: &mut Canvas, view: &View) {
     canvas.text(&length_text(length), [RIM, y + 38.0], TEXT_SIZE);
 }
 
-fn legend(canvas: &mut Canvas, view: &View) {
+/// Names what is in the drawing, from the right.
+fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
     let y = view.corner[1] + view.size[1] + 38.0;
     let mut x = WIDTH as f32 - RIM;
-    let entries =
-        FLUIDS.iter().map(|phase| (phase.name, phase.color)).chain([("solid", SOLID), ("interface", INTERFACE)]);
-    for (name, color) in entries.collect::<Vec<_>>().into_iter().rev() {
+    let present = |number| (0..snapshot.particles.points.len()).any(|a| phase_of(snapshot, a) == Some(number));
+    let interface = snapshot.interface.as_ref().map(|_| ("interface", INTERFACE));
+    let fluids = FLUIDS.iter().filter(|phase| present(phase.number)).map(|phase| (phase.name, phase.color));
+    let entries: Vec<_> = fluids.chain([("solid", SOLID)]).chain(interface).collect();
+    for (name, color) in entries.into_iter().rev() {
         x -= canvas.text_width(name, TEXT_SIZE);
         canvas.text(name, [x, y], TEXT_SIZE);
         x -= 22.0;

@@ -13,4 +13,4 @@ pub mod setup;
 pub mod simulation;
 pub mod sink;
 #[cfg(test)]
-mod toy;
+pub(crate) mod toy;
