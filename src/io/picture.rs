@@ -103,11 +103,7 @@ pub fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Res
     let points = &snapshot.particles.points;
     let finite = |x: &&Vec2| x.iter().all(|c| c.is_finite());
     let tight = hull(points.iter().filter(finite)).ok_or(PictureError::Empty)?;
-    let spacing = (tight.size().x.max(f64::MIN_POSITIVE) * tight.size().y.max(f64::MIN_POSITIVE) / points.len() as f64)
-        .sqrt()
-        .max(tight.size().max() / points.len() as f64);
-    // A single particle has no extent: show it in a square of one meter rather than nothing.
-    let spacing = if spacing > 0.0 { spacing } else { 1.0 };
+    let spacing = particle_spacing(snapshot, &tight);
     let view = View::new(tight.grown(0.5 * spacing));
     let height = (HEAD + view.size[1] + FOOT).ceil() as u32;
     let mut canvas = Canvas::new(WIDTH, height)?;
@@ -124,6 +120,18 @@ pub fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Res
     scale_bar(&mut canvas, &view);
     legend(&mut canvas, &view, snapshot);
     canvas.png()
+}
+
+/// The distance of neighboring particles in m: from the mean of the field `volume`, else from the area they fill.
+fn particle_spacing(snapshot: &Snapshot<'_>, tight: &Bounds) -> f64 {
+    let count = snapshot.particles.points.len() as f64;
+    let volume = snapshot.particles.fields.iter().find(|field| field.name == "volume").map(|field| &field.values);
+    let mean = match volume {
+        Some(Values::Scalar(volumes)) => volumes.iter().filter(|v| v.is_finite()).sum::<f64>() / count,
+        _ => tight.area() / count,
+    };
+    // Particles in a row fill no area, a single one has no extent at all: then any spacing is better than none.
+    [mean.sqrt(), tight.size().max() / count].into_iter().find(|&spacing| spacing > 0.0).unwrap_or(1.0)
 }
 
 fn hull<'a>(mut points: impl Iterator<Item = &'a Vec2>) -> Option<Bounds> {

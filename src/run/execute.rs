@@ -314,6 +314,46 @@ mod tests {
         assert!(message.contains("another case"), "{message}");
     }
 
+    /// Puts a file where the next grid files should go, as a full disk would come: in the middle of a run.
+    struct Spoiler<'a>(&'a Path);
+
+    impl Watcher for Spoiler<'_> {
+        fn stepped(&mut self, progress: &crate::run::simulation::Progress) {
+            if progress.step == 12 {
+                std::fs::remove_dir_all(self.0.join("grid")).unwrap();
+                std::fs::write(self.0.join("grid"), "").unwrap();
+            }
+        }
+    }
+
+    #[test]
+    fn a_record_that_cannot_be_written_stops_the_run_with_a_report_that_says_so() {
+        let folder = tempfile::tempdir().unwrap();
+        let never = AtomicBool::new(false);
+        let mut spoiler = Spoiler(folder.path());
+        let case = case();
+        let job = job(&case, folder.path(), Mode::New);
+        let error = execute(&job, &mut ToySolver::new(), &never, &mut spoiler).unwrap_err().to_string();
+        assert!(error.contains("grid") && error.contains("--out DIR"), "{error}");
+        assert_eq!(json(folder.path())["status"], "failed");
+        assert_eq!(json(folder.path())["error"], error);
+        assert_eq!(crate::io::restart::load(folder.path()).unwrap().time, 0.0);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_that_may_not_be_written_to_is_refused() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o555)).unwrap();
+        let refused = run(&case(), &folder.path().join("out"), Mode::New);
+        std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o755)).unwrap();
+        // The administrator may write anywhere; then there is nothing to refuse.
+        if let Err(error) = refused {
+            assert!(error.to_string().contains("permission denied; choose a folder that you may write to"), "{error}");
+        }
+    }
+
     #[test]
     fn a_folder_below_a_file_is_refused() {
         let folder = tempfile::tempdir().unwrap();
