@@ -48,7 +48,7 @@ pub enum Command {
 pub struct RunArguments {
     /// Case file; the built-in case where there is none
     pub case: Option<PathBuf>,
-    /// Output folder, new or empty; out/<name of the case> where there is none
+    /// Output folder, new or empty; out/NAME where there is none, NAME being that of the case file
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Change a value of the case, as in --set sph.wetting.young.contact-angle-deg=60

@@ -1,6 +1,6 @@
 //! The command line: the one place that prints. Results go to standard output, progress and errors to standard error.
 //!
-//! [`arguments`] says what can be written, [`exit`] what the exit codes mean, [`source`] where cases and shapes come from;
+//! [`arguments`] says what can be written, [`exit`] what the exit codes mean, `source` where cases and shapes come from;
 //! each command has a file of its own.
 
 pub mod arguments;

@@ -263,9 +263,6 @@ mod tests {
             interface: None,
         };
         let png = picture(&snapshot, &Lines::default(), "A disc of liquid on a floor").unwrap();
-        if let Some(path) = std::env::var_os("MENISCUS_KEEP_PICTURE") {
-            std::fs::write(path, &png).unwrap();
-        }
         let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
         assert_eq!(pixels.width(), WIDTH);
         for color in [FLUIDS[0].color, FLUIDS[1].color, SOLID] {

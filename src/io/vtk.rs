@@ -2,7 +2,8 @@
 //!
 //! Points of the plane get z = 0 and vectors three components. Arrays are compressed by LZ4, which ParaView and pyvista read.
 //! `vtkio` knows neither field data nor double-precision grids, so the time and the grid's origin and spacing are put into
-//! the text it writes. Units stand in `units.json` of the output folder.
+//! the text it writes. Nor does it write a readable file without points (it leaves out the count), so that one is written
+//! here: an interface may vanish. Units stand in `units.json` of the output folder.
 
 use vtkio::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, Extent, IOBuffer, ImageDataPiece, Piece,
@@ -40,6 +41,9 @@ pub enum VtkError {
 /// [`VtkError`].
 pub fn points(cloud: &Cloud<'_>, time: f64) -> Result<Vec<u8>, VtkError> {
     let count = cloud.points.len();
+    if count == 0 {
+        return Ok(empty("UnstructuredGrid", "Cells", &cloud.fields, time));
+    }
     let piece = UnstructuredGridPiece {
         points: IOBuffer::F64(spatial(&cloud.points)),
         cells: Cells {
@@ -83,6 +87,9 @@ pub fn grid(grid: &Grid<'_>, time: f64) -> Result<Vec<u8>, VtkError> {
 /// # Errors
 /// [`VtkError`].
 pub fn lines(lines: &Lines<'_>, time: f64) -> Result<Vec<u8>, VtkError> {
+    if lines.points.is_empty() {
+        return Ok(empty("PolyData", "Lines", &lines.fields, time));
+    }
     let connectivity = lines.lines.iter().flatten().map(|&index| u64::from(index)).collect();
     let offsets = lines
         .lines
@@ -142,15 +149,52 @@ fn attributes(fields: &[Field<'_>], points: usize) -> Result<Attributes, VtkErro
     Ok(Attributes { point, cell: Vec::new() })
 }
 
+/// A file of the given type without a point, with the names of the fields.
+fn empty(kind: &str, cells: &str, fields: &[Field<'_>], time: f64) -> Vec<u8> {
+    let array = |kind: &str, name: &str, components: u32| {
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\"></DataArray>"
+        )
+    };
+    let fields: String = fields
+        .iter()
+        .map(|field| match field.values {
+            Values::Scalar(_) => array("Float64", field.name, 1),
+            Values::Vector(_) => array("Float64", field.name, 3),
+            Values::Integer(_) => array("Int64", field.name, 1),
+        })
+        .collect();
+    let points = array("Float64", "Points", 3);
+    let mut topology = array("Int64", "connectivity", 1) + &array("Int64", "offsets", 1);
+    let mut counts = "NumberOfPoints=\"0\" NumberOfCells=\"0\"";
+    if kind == "PolyData" {
+        counts =
+            "NumberOfPoints=\"0\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\"";
+    } else {
+        topology += &array("UInt8", "types", 1);
+    }
+    let time = time_data(time);
+    format!(
+        "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"><{kind}>{time}\
+         <Piece {counts}><PointData>{fields}</PointData><Points>{points}</Points><{cells}>{topology}</{cells}></Piece>\
+         </{kind}></VTKFile>"
+    )
+    .into_bytes()
+}
+
+/// The time in s as field data; ParaView shows it.
+fn time_data(time: f64) -> String {
+    format!(
+        "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray></FieldData>"
+    )
+}
+
 /// Puts the time as field data behind the first tag that begins with `tag`.
 fn with_time(bytes: &[u8], time: f64, tag: &str) -> Result<Vec<u8>, VtkError> {
     let behind = find(bytes, tag)
         .and_then(|start| bytes[start..].iter().position(|&byte| byte == b'>').map(|length| start + length + 1))
         .ok_or_else(|| VtkError::Library(format!("no {tag} in the file")))?;
-    let data = format!(
-        "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray></FieldData>"
-    );
-    Ok([&bytes[..behind], data.as_bytes(), &bytes[behind..]].concat())
+    Ok([&bytes[..behind], time_data(time).as_bytes(), &bytes[behind..]].concat())
 }
 
 /// Gives the first attribute `name` another value.
@@ -225,8 +269,13 @@ mod tests {
     }
 
     #[test]
-    fn no_lines_at_all_are_a_valid_file() {
-        assert!(matches!(parse(&lines(&Lines::default(), 0.0).unwrap()).data, DataSet::PolyData { .. }));
+    fn files_without_points_tell_their_counts_and_the_names_of_their_fields() {
+        let nothing = Lines { fields: fields(0), ..Lines::default() };
+        let bytes = lines(&nothing, 0.0).unwrap();
+        assert!(matches!(parse(&bytes).data, DataSet::PolyData { .. }));
+        assert!(find(&bytes, "<Piece NumberOfPoints=\"0\"").is_some() && find(&bytes, "Name=\"velocity\"").is_some());
+        let bytes = points(&Cloud { points: Cow::default(), fields: fields(0) }, 0.0).unwrap();
+        assert!(matches!(parse(&bytes).data, DataSet::UnstructuredGrid { .. }));
     }
 
     #[test]
