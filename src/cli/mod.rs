@@ -1,1 +1,20 @@
-//! The command line; the only module that prints.
+//! The command line: the one place that prints. Results go to standard output, progress and errors to standard error.
+//!
+//! [`arguments`] says what can be written, [`exit`] what the exit codes mean, `source` where cases and shapes come from;
+//! each command has a file of its own.
+
+pub mod arguments;
+mod check;
+mod entry;
+pub mod exit;
+mod geometry;
+mod interrupt;
+mod list;
+mod new;
+mod output;
+mod progress;
+mod run;
+mod source;
+mod summary;
+
+pub use entry::main;

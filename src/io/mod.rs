@@ -1,1 +1,15 @@
-//! Files: VTK, series, restart; each appears whole or not at all.
+//! Files: everything that a run writes, each file whole or not at all.
+//!
+//! [`atomic`] is the one way to a file. [`vtk`] turns snapshots into VTK files, [`pvd`] joins them to time series, [`series`]
+//! keeps `series.csv`, [`restart`] the saved state, [`picture`] draws. Nothing here knows a solver or a case.
+
+pub mod atomic;
+pub mod checksum;
+mod draw;
+pub mod picture;
+pub mod pvd;
+pub mod restart;
+pub mod series;
+pub mod vtk;
+
+pub use atomic::FileError;

@@ -1,0 +1,63 @@
+//! `meniscus check`: builds the solver, does a few steps without any file, and tells what a run would be like.
+
+use std::time::Instant;
+
+use super::arguments::CheckArguments;
+use super::exit::{BAD_INPUT, DONE, Failure, SOLVER_FAILED};
+use super::output::{duration, readable, say};
+use super::source;
+use crate::case::checked::Model;
+use crate::run::{numbers, setup};
+
+/// Steps that are tried; the first ones set up what later ones reuse.
+const TRIAL_STEPS: usize = 5;
+
+/// Tells what a run of the case would be like.
+pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
+    let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
+    let case = &source.case;
+    let mut solver = setup::build(case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+    let clock = Instant::now();
+    let mut info = None;
+    for _ in 0..TRIAL_STEPS {
+        info = Some(solver.step(case.end).map_err(|error| Failure::new(SOLVER_FAILED, &error))?);
+        if solver.time() >= case.end {
+            break;
+        }
+    }
+    let per_step = clock.elapsed().as_secs_f64() / solver.steps().max(1) as f64;
+    let Model::Sph(sph) = &case.model;
+    say(&case.title);
+    say(format_args!("  particles   {} at a spacing of {} m", solver.statistics().unknowns, readable(sph.spacing)));
+    if let Some(memory) = memory() {
+        say(format_args!("  memory      {memory}"));
+    }
+    if let Some(info) = info {
+        let steps = (case.end / info.dt).ceil();
+        say(format_args!("  time step   {} s, ruled by {}", readable(info.dt), info.limit));
+        say(format_args!(
+            "  run         {} s in about {steps} steps, about {}",
+            readable(case.end),
+            duration(steps * per_step)
+        ));
+    }
+    let speed = (sph.tension / (sph.wetting.density * numbers::reference_length(case))).sqrt();
+    for number in numbers::numbers(case, speed) {
+        say(format_args!("  {:<11} {:<12} {}", number.symbol, readable(number.value), number.formula));
+    }
+    say(format_args!(
+        "              L = {} m, shorter side of the domain; U = sqrt(sigma / rho L) = {} m/s",
+        readable(numbers::reference_length(case)),
+        readable(speed)
+    ));
+    Ok(DONE)
+}
+
+/// The most memory that the program has used so far, where the system tells.
+fn memory() -> Option<String> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let kibibytes: f64 =
+        status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?.split_whitespace().next()?.parse().ok()?;
+    const KIBIBYTES_PER_MEBIBYTE: f64 = 1024.0;
+    Some(format!("{:.0} MiB", kibibytes / KIBIBYTES_PER_MEBIBYTE))
+}

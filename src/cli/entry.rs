@@ -1,0 +1,60 @@
+//! From the arguments to a command and its exit code.
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use super::arguments::{Arguments, Command, RunArguments};
+use super::exit::{BUG, DONE, Failure, USAGE};
+use super::output::{say, tell};
+use super::{check, geometry, list, new, run, source};
+
+/// Reads the command line and does what it says.
+#[must_use]
+pub fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(|panic| {
+        let place = panic.location().map_or(String::new(), |place| format!(" ({}:{})", place.file(), place.line()));
+        let payload = panic.payload();
+        let what =
+            payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+        let what = what.unwrap_or("no message");
+        tell(format_args!("bug in meniscus: {what}{place}. Please report this line together with the case file."));
+        std::process::exit(i32::from(BUG));
+    }));
+    let arguments = Arguments::parse();
+    let code = dispatch(arguments.command).unwrap_or_else(|failure| {
+        tell(failure.message.trim_end());
+        failure.code
+    });
+    ExitCode::from(code)
+}
+
+fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
+    match command {
+        None => run::run(&RunArguments::default()),
+        Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Check(arguments)) => check::check(&arguments),
+        Some(Command::Geometry(arguments)) => geometry::geometry(&arguments),
+        Some(Command::New(arguments)) => new::new(&arguments),
+        Some(Command::List) => {
+            list::list();
+            Ok(DONE)
+        }
+        Some(Command::Schema) => {
+            say(source::schema()?.trim_end());
+            Ok(DONE)
+        }
+        Some(Command::Completions(arguments)) => {
+            let mut script = Vec::new();
+            clap_complete::generate(arguments.shell, &mut Arguments::command(), "meniscus", &mut script);
+            say(String::from_utf8_lossy(&script).trim_end());
+            Ok(DONE)
+        }
+        Some(Command::Network(_)) => Err(not_yet("network")),
+        Some(Command::Study(_)) => Err(not_yet("study")),
+    }
+}
+
+fn not_yet(command: &str) -> Failure {
+    Failure::new(USAGE, &format_args!("`{command}` is not yet available"))
+}

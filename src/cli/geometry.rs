@@ -1,0 +1,82 @@
+//! `meniscus geometry`: measures of a shape file, its outline, its signed distance and a picture.
+
+use std::path::Path;
+
+use super::arguments::GeometryArguments;
+use super::exit::{BUG, DONE, Failure, USAGE};
+use super::output::{readable, say};
+use super::source::{self, Shapes};
+use crate::io::picture::{PORE, picture};
+use crate::io::{atomic, vtk};
+use crate::math::Vec2;
+use crate::snapshot::{Cloud, Field, Snapshot, Values};
+
+/// Measures a shape file and writes what can be seen of it.
+pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
+    let shapes = source::load_shapes(&arguments.file)?;
+    let width = shapes.measures.iter().map(|measure| measure.name.len()).max().unwrap_or(0);
+    for measure in &shapes.measures {
+        say(format_args!("{:<width$}  {} {}", measure.name, readable(measure.value), measure.unit));
+    }
+    if let Some(folder) = &arguments.out {
+        let title = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        write(folder, &shapes, &title)?;
+        say(format_args!("wrote solid.vtp, distance.vti and picture.png to {}", folder.display()));
+    }
+    Ok(DONE)
+}
+
+fn write(folder: &Path, shapes: &Shapes, title: &str) -> Result<(), Failure> {
+    let bug = |error: &dyn std::fmt::Display| Failure::new(BUG, error);
+    let files = [
+        ("solid.vtp", vtk::lines(&shapes.outline, 0.0).map_err(|error| bug(&error))?),
+        ("distance.vti", vtk::grid(&shapes.distance, 0.0).map_err(|error| bug(&error))?),
+        ("picture.png", picture(&pore(shapes), &shapes.outline, title).map_err(|error| Failure::new(USAGE, &error))?),
+    ];
+    files
+        .iter()
+        .try_for_each(|(name, content)| atomic::write(&folder.join(name), content))
+        .map_err(|error| Failure::new(USAGE, &error))
+}
+
+/// The nodes of the grid as points, those in the pore marked as such.
+fn pore(shapes: &Shapes) -> Snapshot<'static> {
+    const SOLID: i64 = 2;
+    let grid = &shapes.distance;
+    let node = |i: usize| {
+        let [x, y] = [i % grid.counts[0].max(1), i / grid.counts[0].max(1)];
+        grid.origin + Vec2::new(x as f64, y as f64).component_mul(&grid.spacing)
+    };
+    let points: Vec<Vec2> = (0..grid.counts[0] * grid.counts[1]).map(node).collect();
+    let distance = grid.fields.iter().find(|field| field.name == "wall-distance").map(|field| &field.values);
+    let is_pore = |i: usize| matches!(distance, Some(Values::Scalar(d)) if d.get(i).is_some_and(|&d| d > 0.0));
+    let phase = (0..points.len()).map(|i| if is_pore(i) { PORE } else { SOLID }).collect();
+    let fields = vec![Field { name: "phase", unit: "", values: Values::Integer(phase) }];
+    Snapshot { time: 0.0, step: 0, particles: Cloud { points: points.into(), fields }, grid: None, interface: None }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::snapshot::{Grid, Lines};
+
+    #[test]
+    fn outline_distance_and_picture_of_a_geometry_are_written() {
+        let distance = (0..30 * 20).map(|i| f64::from(i % 30) * 1.0e-6 - 1.0e-5).collect::<Vec<_>>();
+        let distance = Field { name: "wall-distance", unit: "m", values: Values::Scalar(distance.into()) };
+        let outline = Lines {
+            points: vec![Vec2::new(1.0e-5, 0.0), Vec2::new(1.0e-5, 2.0e-5)].into(),
+            lines: vec![vec![0, 1]],
+            fields: Vec::new(),
+        };
+        let distance =
+            Grid { origin: Vec2::zeros(), spacing: Vec2::repeat(1.0e-6), counts: [30, 20], fields: vec![distance] };
+        let shapes = Shapes { outline, distance, measures: Vec::new() };
+        let folder = tempfile::tempdir().unwrap();
+        write(folder.path(), &shapes, "half a plane").unwrap();
+        let mut names: Vec<_> =
+            std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["distance.vti", "picture.png", "solid.vtp"]);
+    }
+}

@@ -1,0 +1,64 @@
+//! Printing that never panics: a reader that closed the pipe is no error of ours.
+
+use std::fmt::Display;
+use std::io::{IsTerminal, Write};
+
+/// A line of results, on standard output.
+pub fn say(line: impl Display) {
+    // A closed pipe, as by `| head`, leaves no one to tell.
+    let _ = writeln!(std::io::stdout(), "{line}");
+}
+
+/// A line of progress or an error, on standard error.
+pub fn tell(line: impl Display) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+/// The word in red where standard error is a terminal that shows colors.
+pub fn red(word: &str) -> String {
+    if std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
+        format!("\u{1b}[1;31m{word}\u{1b}[0m")
+    } else {
+        word.to_owned()
+    }
+}
+
+/// A number as people read it: four significant digits, an exponent only where it helps.
+pub fn readable(value: f64) -> String {
+    const SMALLEST_FIXED: f64 = 1.0e-2;
+    const LARGEST_FIXED: f64 = 1.0e5;
+    let size = value.abs();
+    if value == 0.0 || !value.is_finite() {
+        format!("{value}")
+    } else if (SMALLEST_FIXED..LARGEST_FIXED).contains(&size) {
+        let decimals = (3.0 - size.log10().floor()).max(0.0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+/// A duration as people read it.
+pub fn duration(seconds: f64) -> String {
+    const MINUTE: f64 = 60.0;
+    const HOUR: f64 = 3600.0;
+    if seconds < MINUTE {
+        format!("{seconds:.1} s")
+    } else if seconds < HOUR {
+        format!("{} min {:02} s", (seconds / MINUTE).floor(), (seconds % MINUTE).floor())
+    } else {
+        format!("{} h {:02} min", (seconds / HOUR).floor(), (seconds % HOUR / MINUTE).floor())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_durations_are_short() {
+        let numbers = [0.0, 41.23456, 0.0276, 12345.678, 2.0e-5, -1.5e7, f64::NAN].map(readable);
+        assert_eq!(numbers, ["0", "41.23", "0.02760", "12346", "2.000e-5", "-1.500e7", "NaN"]);
+        assert_eq!([3.12, 75.0, 7322.0].map(duration), ["3.1 s", "1 min 15 s", "2 h 02 min"]);
+    }
+}

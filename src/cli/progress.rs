@@ -1,0 +1,100 @@
+//! Progress of a run on standard error: a bar on a terminal, else a line now and then.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::output::{duration, readable, tell};
+use crate::run::simulation::{Progress, Watcher};
+
+/// Length of the bar: tenths of a percent.
+const LENGTH: u64 = 1000;
+/// Time between lines where there is no terminal.
+const BETWEEN_LINES: Duration = Duration::from_secs(15);
+/// Time between updates of the bar's text.
+const BETWEEN_UPDATES: Duration = Duration::from_millis(200);
+
+/// Shows where a run stands, how long it will take and which limit rules its time step.
+pub struct ProgressDisplay {
+    bar: Option<ProgressBar>,
+    begun: Instant,
+    shown: Instant,
+    /// Time of the first step that was seen, in s: a resumed run does not begin at zero.
+    from: Option<f64>,
+}
+
+impl ProgressDisplay {
+    /// A display that begins now.
+    pub fn new() -> Self {
+        let bar = console_bar();
+        Self { bar, begun: Instant::now(), shown: Instant::now(), from: None }
+    }
+
+    /// Removes the bar.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+
+    /// Seconds left at the mean speed so far, where there is one.
+    fn left(&self, progress: &Progress) -> Option<f64> {
+        let done = progress.time - self.from?;
+        (done > 0.0).then(|| self.begun.elapsed().as_secs_f64() * (progress.end - progress.time) / done)
+    }
+}
+
+fn console_bar() -> Option<ProgressBar> {
+    use std::io::IsTerminal;
+    if !std::io::stderr().is_terminal() {
+        return None;
+    }
+    let bar = ProgressBar::with_draw_target(Some(LENGTH), ProgressDrawTarget::stderr());
+    let style = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}").ok()?;
+    bar.set_style(style.progress_chars("━━─"));
+    Some(bar)
+}
+
+/// One line that says where a run stands.
+fn line(progress: &Progress, left: Option<f64>) -> String {
+    let left = left.map_or(String::new(), |seconds| format!(", about {} left", duration(seconds)));
+    format!(
+        "t = {} of {} s, step {}, dt = {} s ({}){left}",
+        readable(progress.time),
+        readable(progress.end),
+        progress.step,
+        readable(progress.dt),
+        progress.limit
+    )
+}
+
+impl Watcher for ProgressDisplay {
+    fn stepped(&mut self, progress: &Progress) {
+        self.from.get_or_insert(progress.time - progress.dt);
+        let pause = if self.bar.is_some() { BETWEEN_UPDATES } else { BETWEEN_LINES };
+        if self.shown.elapsed() < pause {
+            return;
+        }
+        self.shown = Instant::now();
+        let text = line(progress, self.left(progress));
+        match &self.bar {
+            Some(bar) => {
+                bar.set_position((LENGTH as f64 * progress.time / progress.end) as u64);
+                bar.set_message(text);
+            }
+            None => tell(format_args!("{:3.0} %  {text}", 100.0 * progress.time / progress.end)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_names_the_limit_and_the_time_left() {
+        let progress = Progress { time: 0.005, end: 0.02, step: 120, dt: 4.1e-5, limit: "surface tension" };
+        let expected = "t = 5.000e-3 of 0.02000 s, step 120, dt = 4.100e-5 s (surface tension), about 1 min 15 s left";
+        assert_eq!(line(&progress, Some(75.0)), expected);
+    }
+}

@@ -1,0 +1,60 @@
+//! `meniscus run`.
+
+use std::path::PathBuf;
+
+use super::arguments::RunArguments;
+use super::exit::{BAD_INPUT, BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
+use super::output::{say, tell};
+use super::progress::ProgressDisplay;
+use super::summary::summary;
+use super::{interrupt, source};
+use crate::run::execute::{Finished, Job, Mode, RunError, execute};
+use crate::run::report::Status;
+use crate::run::setup;
+
+/// Runs a case; the exit code says how it ended.
+pub fn run(arguments: &RunArguments) -> Result<u8, Failure> {
+    let source = source::load_case(arguments.case.as_deref(), &arguments.overrides)?;
+    let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&source.name));
+    let mode = if arguments.resume { Mode::Resume } else { Mode::New };
+    let job = Job { case: &source.case, resolved: &source.resolved, folder, mode };
+    let finished = pool(arguments)?.install(|| -> Result<Finished, Failure> {
+        let mut solver = setup::build(job.case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+        tell(format_args!("{} -> {}", job.case.title, job.folder.display()));
+        let flag = interrupt::flag();
+        let mut display = ProgressDisplay::new();
+        let finished = execute(&job, solver.as_mut(), &flag, &mut display);
+        display.finish();
+        finished.map_err(|error| failure(&error))
+    })?;
+    say(summary(&finished).trim_end());
+    ending(&finished)
+}
+
+/// The thread pool that the run works in.
+fn pool(arguments: &RunArguments) -> Result<rayon::ThreadPool, Failure> {
+    let threads = arguments.threads.map_or(0, usize::from);
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| Failure::new(USAGE, &format_args!("cannot start {threads} threads: {error}; use fewer")))
+}
+
+fn failure(error: &RunError) -> Failure {
+    let code = match error {
+        RunError::Folder(_) | RunError::File(_) | RunError::State(_) => USAGE,
+        RunError::Case(_) => BUG,
+    };
+    Failure::new(code, error)
+}
+
+fn ending(finished: &Finished) -> Result<u8, Failure> {
+    match finished.report.status {
+        Status::Done => Ok(DONE),
+        Status::Interrupted => Ok(INTERRUPTED),
+        Status::ExpectationFailed => Ok(EXPECTATION_FAILED),
+        Status::Failed => {
+            Err(Failure::new(SOLVER_FAILED, &finished.report.error.as_deref().unwrap_or("the solver failed")))
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! What a run prints at its end: the angle asked for beside the angle measured, measures, numbers, files.
+
+use std::fmt::Write as _;
+
+use super::output::{duration, readable};
+use crate::case::checked::{Case, Model, WettingModel};
+use crate::run::execute::Finished;
+use crate::run::report::{Reading, Report, Status};
+
+/// Name of the measure that stands beside the angle that the case asks for.
+const ANGLE: &str = "contact-angle-deg";
+
+/// The summary of a run as lines of text.
+#[must_use]
+pub fn summary(finished: &Finished) -> String {
+    let report = &finished.report;
+    let mut text = format!("{}\n{}\n", report.case.title, ending(report));
+    push_angles(&mut text, report);
+    push_measures(&mut text, report);
+    push_expectations(&mut text, report);
+    push_numbers(&mut text, report);
+    let show = |name: &str| finished.folder.join(name).display().to_string();
+    let picture = match &finished.picture {
+        Ok(path) => path.display().to_string(),
+        Err(error) => format!("none: {error}"),
+    };
+    for (name, value) in [
+        ("ParaView", show("particles.pvd")),
+        ("picture", picture),
+        ("series", show("series.csv")),
+        ("report", show("report.json")),
+        ("wall time", duration(report.wall_time_s.total)),
+    ] {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {name:<11} {value}");
+    }
+    text
+}
+
+fn ending(report: &Report) -> String {
+    let at = format!("t = {} s, step {}", readable(report.time_s), report.steps);
+    match report.status {
+        Status::Done => format!("done at {at}"),
+        Status::ExpectationFailed => format!("done at {at}, but not as expected"),
+        Status::Interrupted => format!("interrupted at {at}; go on with --resume"),
+        Status::Failed => format!("FAILED at {at}; the last good state is in the output folder"),
+    }
+}
+
+/// The angle that the case asks for, in degrees.
+fn requested_angle(case: &Case) -> Option<f64> {
+    let Model::Sph(sph) = &case.model;
+    sph.wetting_model.map(|WettingModel::Young { contact_angle }| contact_angle.to_degrees())
+}
+
+fn with_uncertainty(reading: &Reading) -> String {
+    let Some(value) = reading.value else { return format!("not measured ({})", reading.method) };
+    let uncertainty = reading.uncertainty.map_or(String::new(), |u| format!(" +- {}", readable(u)));
+    format!("{}{uncertainty} {}", readable(value), reading.unit).trim_end().to_owned()
+}
+
+fn push_angles(text: &mut String, report: &Report) {
+    let measured = report.measures.get(ANGLE);
+    if let Some(requested) = requested_angle(&report.case) {
+        let measured = measured.map_or("nothing".to_owned(), with_uncertainty);
+        let _ = writeln!(
+            text,
+            "  contact angle through the wetting phase: requested {requested:.1} deg, measured {measured}"
+        );
+    }
+}
+
+fn push_measures(text: &mut String, report: &Report) {
+    let asked_for = requested_angle(&report.case).is_some();
+    let width = report.measures.keys().map(String::len).max().unwrap_or(0);
+    for (name, reading) in report.measures.iter().filter(|(name, _)| !(asked_for && *name == ANGLE)) {
+        let _ = writeln!(text, "  {name:<width$}  {}", with_uncertainty(reading));
+    }
+}
+
+fn push_expectations(text: &mut String, report: &Report) {
+    for verdict in &report.expectations {
+        let word = match verdict.pass {
+            Some(true) => "met   ",
+            Some(false) => "MISSED",
+            None => "open  ",
+        };
+        let measured = verdict.measured.map_or("not measured".to_owned(), readable);
+        let (value, tolerance) = (readable(verdict.value), readable(verdict.tolerance));
+        let _ = writeln!(text, "  {word}  {}: expected {value} +- {tolerance}, measured {measured}", verdict.measure);
+    }
+}
+
+fn push_numbers(text: &mut String, report: &Report) {
+    let numbers: Vec<String> =
+        report.numbers.iter().map(|number| format!("{} {}", number.symbol, readable(number.value))).collect();
+    let _ = writeln!(text, "  {}  (L: shorter side of the domain, U: fastest speed recorded)", numbers.join("  "));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::execute::{Job, Mode, execute};
+    use crate::run::simulation::Unwatched;
+    use crate::run::toy::{ToySolver, case};
+
+    #[test]
+    fn the_summary_shows_both_angles_measures_and_files() {
+        let mut case = case();
+        let Model::Sph(sph) = &mut case.model;
+        sph.wetting_model = Some(WettingModel::Young { contact_angle: 40.0_f64.to_radians() });
+        let folder = tempfile::tempdir().unwrap();
+        let job = Job { case: &case, resolved: "", folder: folder.path().to_path_buf(), mode: Mode::New };
+        let never = std::sync::atomic::AtomicBool::new(false);
+        let mut finished = execute(&job, &mut ToySolver::new(), &never, &mut Unwatched).unwrap();
+        assert!(summary(&finished).contains("requested 40.0 deg, measured nothing"));
+        let angle =
+            Reading { value: Some(41.3), unit: "deg".into(), uncertainty: Some(1.2), method: "circle fit".into() };
+        finished.report.measures.insert(ANGLE.into(), angle);
+        let text = summary(&finished);
+        for words in [
+            "Particles on circles\ndone at t = 1.000 s, step 50",
+            "requested 40.0 deg, measured 41.30 +- 1.200 deg",
+            "radius-m           0.3333 +- 1.000e-9 m",
+            "missing-angle-deg  not measured (there is no contact line)",
+            "met     radius-m: expected 0.3333",
+            "particles.pvd",
+            "picture.png",
+            "wall time",
+        ] {
+            assert!(text.contains(words), "`{words}` is missing in\n{text}");
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! Writing a file whole or not at all: to a temporary file in the same folder, then a rename over the old one.
+//!
+//! A killed program leaves the old file or the new one. Data is not forced to the disk, so a power cut may still lose a
+//! file; what must survive that carries a checksum (see [`super::restart`]).
+
+use std::fs;
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// A file or folder that cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// A file cannot be written.
+    #[error("cannot write {}: {}; {}", path.display(), cause(source), way_out(source))]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A folder cannot be made.
+    #[error("cannot make the folder {}: {}; {}", path.display(), cause(source), way_out(source))]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A file cannot be read.
+    #[error("cannot read {}: {}", path.display(), cause(source))]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A file was read but does not hold what it should.
+    #[error("{} does not hold what it should: {what}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and a way out.
+        what: String,
+    },
+    /// Data that a file format cannot hold.
+    #[error("{} cannot hold the data: {what}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
+}
+
+impl FileError {
+    /// A [`FileError::Write`], for `map_err`.
+    pub fn write(path: &Path) -> impl Fn(io::Error) -> Self {
+        move |source| Self::Write { path: path.to_path_buf(), source }
+    }
+
+    /// A [`FileError::Read`], for `map_err`.
+    pub fn read(path: &Path) -> impl Fn(io::Error) -> Self {
+        move |source| Self::Read { path: path.to_path_buf(), source }
+    }
+}
+
+/// What happened, in words.
+fn cause(source: &io::Error) -> String {
+    match source.kind() {
+        ErrorKind::StorageFull | ErrorKind::WriteZero => "the disk is full".into(),
+        ErrorKind::QuotaExceeded => "the disk quota is used up".into(),
+        ErrorKind::ReadOnlyFilesystem => "the disk is read-only".into(),
+        ErrorKind::PermissionDenied => "permission denied".into(),
+        ErrorKind::NotFound => "no such file or folder".into(),
+        ErrorKind::NotADirectory => "part of its path is a file, not a folder".into(),
+        ErrorKind::AlreadyExists => "a file of that name exists".into(),
+        ErrorKind::IsADirectory => "a folder of that name exists".into(),
+        _ => source.to_string(),
+    }
+}
+
+/// What the user can do about it.
+fn way_out(source: &io::Error) -> &'static str {
+    match source.kind() {
+        ErrorKind::StorageFull | ErrorKind::WriteZero | ErrorKind::QuotaExceeded => {
+            "free some space or choose another place with --out, then go on with --resume"
+        }
+        ErrorKind::ReadOnlyFilesystem | ErrorKind::PermissionDenied => {
+            "choose a folder that you may write to with --out DIR"
+        }
+        _ => "choose another folder with --out DIR",
+    }
+}
+
+/// Makes a folder and all above it; no error where it exists.
+///
+/// # Errors
+/// [`FileError::Folder`].
+pub fn make_folder(path: &Path) -> Result<(), FileError> {
+    fs::create_dir_all(path).map_err(|source| FileError::Folder { path: path.to_path_buf(), source })
+}
+
+/// Writes `bytes` to `path`, replacing what was there; makes the folder where it is missing.
+///
+/// # Errors
+/// [`FileError`]; then the old file, if any, is as it was and nothing else is left behind.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        make_folder(folder)?;
+    }
+    let temporary = temporary_name(path);
+    let done =
+        fs::File::create(&temporary).and_then(|file| fill(file, bytes)).and_then(|()| fs::rename(&temporary, path));
+    if done.is_err() {
+        // Best effort: the first error is the one to tell.
+        let _ = fs::remove_file(&temporary);
+    }
+    done.map_err(FileError::write(path))
+}
+
+fn fill(mut file: fs::File, bytes: &[u8]) -> io::Result<()> {
+    file.write_all(bytes)?;
+    file.flush()
+}
+
+/// A name in the same folder that no other process uses: hidden, with the process number.
+fn temporary_name(path: &Path) -> PathBuf {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    path.with_file_name(format!(".{name}.{}.part", std::process::id()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_and_no_temporary_file_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("new/folder/data.txt");
+        write(&path, b"old").unwrap();
+        write(&path, b"new").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_path_below_a_file_is_refused_with_a_way_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, "").unwrap();
+        let message = write(&file.join("below/data"), b"x").unwrap_err().to_string();
+        assert!(message.contains("cannot make the folder") && message.contains("--out"), "{message}");
+    }
+
+    #[test]
+    fn a_failed_rename_keeps_what_was_there_and_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("taken");
+        fs::create_dir(&path).unwrap();
+        let message = write(&path, b"x").unwrap_err().to_string();
+        assert!(message.contains("a folder of that name exists"), "{message}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_disk_is_called_by_its_name() {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let source = fill(full, &[0; 100]).unwrap_err();
+        let message = FileError::Write { path: "out/series.csv".into(), source }.to_string();
+        assert_eq!(
+            message,
+            "cannot write out/series.csv: the disk is full; free some space or choose another place with --out, then go \
+             on with --resume"
+        );
+    }
+
+    #[test]
+    fn read_only_and_forbidden_places_are_called_by_their_names() {
+        for (kind, words) in [
+            (ErrorKind::ReadOnlyFilesystem, "the disk is read-only; choose a folder"),
+            (ErrorKind::PermissionDenied, "permission denied; choose a folder"),
+        ] {
+            let message = FileError::Folder { path: "out".into(), source: kind.into() }.to_string();
+            assert!(message.contains(words), "{message}");
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! A canvas in pixels: filled circles, polylines, rectangles (`tiny-skia`) and text (`ab_glyph`, DejaVu Sans built in).
+
+use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont};
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, Transform,
+};
+
+use super::picture::PictureError;
+
+/// A color as red, green, blue.
+pub type Rgb = [u8; 3];
+
+/// What is drawn on. Lengths in pixels, y downwards.
+pub struct Canvas {
+    pixels: Pixmap,
+    font: FontRef<'static>,
+}
+
+fn paint(color: Rgb) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(color[0], color[1], color[2], u8::MAX);
+    paint.anti_alias = true;
+    paint
+}
+
+impl Canvas {
+    /// A white canvas.
+    pub fn new(width: u32, height: u32) -> Result<Self, PictureError> {
+        let mut pixels = Pixmap::new(width, height).ok_or(PictureError::Size { width, height })?;
+        pixels.fill(Color::WHITE);
+        let font = FontRef::try_from_slice(dejavu::sans::regular()).map_err(|_| PictureError::Font)?;
+        Ok(Self { pixels, font })
+    }
+
+    /// A filled rectangle from the upper left corner.
+    pub fn rectangle(&mut self, corner: [f32; 2], size: [f32; 2], color: Rgb) {
+        if let Some(rect) = Rect::from_xywh(corner[0], corner[1], size[0], size[1]) {
+            self.pixels.fill_rect(rect, &paint(color), Transform::identity(), None);
+        }
+    }
+
+    /// Filled circles of one color and radius.
+    pub fn circles(&mut self, centers: impl Iterator<Item = [f32; 2]>, radius: f32, color: Rgb) {
+        for [x, y] in centers {
+            if let Some(circle) = PathBuilder::from_circle(x, y, radius) {
+                self.pixels.fill_path(&circle, &paint(color), FillRule::Winding, Transform::identity(), None);
+            }
+        }
+    }
+
+    /// A polyline with round joins.
+    pub fn polyline(&mut self, vertices: impl Iterator<Item = [f32; 2]>, width: f32, color: Rgb) {
+        let mut builder = PathBuilder::new();
+        for [x, y] in vertices {
+            if builder.is_empty() { builder.move_to(x, y) } else { builder.line_to(x, y) }
+        }
+        if let Some(path) = builder.finish() {
+            let stroke = Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+            self.pixels.stroke_path(&path, &paint(color), &stroke, Transform::identity(), None);
+        }
+    }
+
+    /// The width of a text of the given height in pixels.
+    pub fn text_width(&self, text: &str, size: f32) -> f32 {
+        let font = self.font.as_scaled(PxScale::from(size));
+        text.chars().map(|c| font.h_advance(font.glyph_id(c))).sum()
+    }
+
+    /// A line of text from the left end of its base line.
+    pub fn text(&mut self, text: &str, anchor: [f32; 2], size: f32) {
+        let mut x = anchor[0];
+        let scale = PxScale::from(size);
+        for character in text.chars() {
+            let id = self.font.glyph_id(character);
+            let glyph = id.with_scale_and_position(scale, ab_glyph::point(x, anchor[1]));
+            self.glyph(glyph);
+            x += self.font.as_scaled(scale).h_advance(id);
+        }
+    }
+
+    /// The longest beginning of `text` that fits into `width` pixels, with an ellipsis where it was cut.
+    pub fn fitted(&self, text: &str, size: f32, width: f32) -> String {
+        if self.text_width(text, size) <= width {
+            return text.to_owned();
+        }
+        let mut shorter: String = text.to_owned();
+        while shorter.pop().is_some() {
+            let candidate = format!("{}…", shorter.trim_end());
+            if self.text_width(&candidate, size) <= width {
+                return candidate;
+            }
+        }
+        shorter
+    }
+
+    fn glyph(&mut self, glyph: Glyph) {
+        let Some(outline) = self.font.outline_glyph(glyph) else { return };
+        let corner = outline.px_bounds().min;
+        let (width, height) = (self.pixels.width(), self.pixels.height());
+        let pixels = self.pixels.pixels_mut();
+        outline.draw(|x, y, coverage| {
+            let (column, row) = (corner.x + x as f32, corner.y + y as f32);
+            if column < 0.0 || row < 0.0 || column >= width as f32 || row >= height as f32 {
+                return;
+            }
+            if let Some(pixel) = pixels.get_mut(row as usize * width as usize + column as usize) {
+                let darken = |value: u8| (f32::from(value) * (1.0 - coverage.clamp(0.0, 1.0))).round() as u8;
+                let [red, green, blue] = [pixel.red(), pixel.green(), pixel.blue()].map(darken);
+                *pixel = PremultipliedColorU8::from_rgba(red, green, blue, pixel.alpha()).unwrap_or(*pixel);
+            }
+        });
+    }
+
+    /// The canvas as a PNG file.
+    pub fn png(&self) -> Result<Vec<u8>, PictureError> {
+        self.pixels.encode_png().map_err(|error| PictureError::Encode(error.to_string()))
+    }
+}

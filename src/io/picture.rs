@@ -1,0 +1,289 @@
+//! `picture.png`: the particles by phase, the solids, the interface, a scale bar, title and time.
+//!
+//! Gray is solid: the fluids are drawn over it as dots that just touch. Leaves out every field but `phase`; those are for ParaView.
+
+use super::draw::{Canvas, Rgb};
+use crate::math::{Bounds, Vec2};
+use crate::snapshot::{Lines, Snapshot, Values};
+
+/// Width of the picture in pixels.
+const WIDTH: u32 = 1200;
+/// Largest height of the drawing in pixels: a tall pore must still fit on a screen.
+const TALLEST: f32 = 1400.0;
+/// White rim in pixels.
+const RIM: f32 = 30.0;
+/// Room above the drawing for title and time, in pixels.
+const HEAD: f32 = 100.0;
+/// Room below the drawing for scale bar and legend, in pixels.
+const FOOT: f32 = 90.0;
+/// Heights of the letters in pixels.
+const TITLE_SIZE: f32 = 32.0;
+const TEXT_SIZE: f32 = 24.0;
+/// Radius of a dot over the particle spacing: half the diagonal of a square, so that dots on a lattice leave no hole.
+const COVER: f32 = 0.71;
+/// Radius of the inner dot, which shows where each particle is.
+const CORE: f32 = 0.38;
+/// Below this radius in pixels an inner dot is only noise.
+const SMALLEST_CORE: f32 = 1.5;
+/// The scale bar takes at most this share of the drawing's width.
+const BAR_SHARE: f64 = 0.25;
+
+const SOLID: Rgb = [196, 192, 186];
+const OUTLINE: Rgb = [84, 80, 76];
+const INTERFACE: Rgb = [178, 34, 52];
+const BLACK: Rgb = [0, 0, 0];
+
+/// A phase of the drawing: number in the field `phase`, name, color, color of the inner dot.
+struct Phase {
+    number: i64,
+    name: &'static str,
+    color: Rgb,
+    core: Rgb,
+}
+
+/// Number of the phase of a pore without a fluid, in the picture of a geometry.
+pub const PORE: i64 = 3;
+
+/// What fills the pore; blue and yellow keep apart for color-blind eyes and in print.
+const FLUIDS: [Phase; 3] = [
+    Phase { number: 0, name: "wetting", color: [86, 146, 204], core: [58, 116, 176] },
+    Phase { number: 1, name: "non-wetting", color: [248, 232, 176], core: [236, 212, 136] },
+    Phase { number: PORE, name: "pore", color: [228, 238, 246], core: [228, 238, 246] },
+];
+
+/// A picture that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// Nothing to draw.
+    #[error("there is no particle with a finite position to draw")]
+    Empty,
+    /// A canvas of that size cannot be made.
+    #[error("a picture of {width} x {height} pixels cannot be made")]
+    Size {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+    /// The built-in font is damaged.
+    #[error("the built-in font cannot be read")]
+    Font,
+    /// The PNG encoder failed.
+    #[error("the picture cannot be encoded: {0}")]
+    Encode(String),
+}
+
+/// From meters to pixels.
+struct View {
+    bounds: Bounds,
+    scale: f64,
+    corner: [f32; 2],
+    size: [f32; 2],
+}
+
+impl View {
+    fn new(bounds: Bounds) -> Self {
+        let room = f64::from(WIDTH as f32 - 2.0 * RIM);
+        let scale = (room / bounds.size().x).min(f64::from(TALLEST) / bounds.size().y);
+        let size = [(scale * bounds.size().x) as f32, (scale * bounds.size().y) as f32];
+        Self { bounds, scale, corner: [0.5 * (WIDTH as f32 - size[0]), HEAD], size }
+    }
+
+    fn place(&self, x: Vec2) -> [f32; 2] {
+        let from = (x - self.bounds.min) * self.scale;
+        [self.corner[0] + from.x as f32, self.corner[1] + self.size[1] - from.y as f32]
+    }
+}
+
+/// Draws a snapshot and the outline of its solids as a PNG file.
+///
+/// # Errors
+/// [`PictureError`].
+pub fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
+    let points = &snapshot.particles.points;
+    let finite = |x: &&Vec2| x.iter().all(|c| c.is_finite());
+    let tight = hull(points.iter().filter(finite)).ok_or(PictureError::Empty)?;
+    let spacing = particle_spacing(snapshot, &tight);
+    let view = View::new(tight.grown(0.5 * spacing));
+    let height = (HEAD + view.size[1] + FOOT).ceil() as u32;
+    let mut canvas = Canvas::new(WIDTH, height)?;
+    canvas.rectangle(view.corner, view.size, SOLID);
+    fluids(&mut canvas, &view, snapshot, spacing);
+    strokes(&mut canvas, &view, outline, 2.5, OUTLINE);
+    if let Some(interface) = &snapshot.interface {
+        strokes(&mut canvas, &view, interface, 3.5, INTERFACE);
+    }
+    frame(&mut canvas, &view, height as f32);
+    let title = canvas.fitted(title, TITLE_SIZE, WIDTH as f32 - 2.0 * RIM);
+    canvas.text(&title, [RIM, 44.0], TITLE_SIZE);
+    canvas.text(&time_text(snapshot.time), [RIM, 82.0], TEXT_SIZE);
+    scale_bar(&mut canvas, &view);
+    legend(&mut canvas, &view, snapshot);
+    canvas.png()
+}
+
+/// The distance of neighboring particles in m: from the mean of the field `volume`, else from the area they fill.
+fn particle_spacing(snapshot: &Snapshot<'_>, tight: &Bounds) -> f64 {
+    let count = snapshot.particles.points.len() as f64;
+    let volume = snapshot.particles.fields.iter().find(|field| field.name == "volume").map(|field| &field.values);
+    let mean = match volume {
+        Some(Values::Scalar(volumes)) => volumes.iter().filter(|v| v.is_finite()).sum::<f64>() / count,
+        _ => tight.area() / count,
+    };
+    // Particles in a row fill no area, a single one has no extent at all: then any spacing is better than none.
+    [mean.sqrt(), tight.size().max() / count].into_iter().find(|&spacing| spacing > 0.0).unwrap_or(1.0)
+}
+
+fn hull<'a>(mut points: impl Iterator<Item = &'a Vec2>) -> Option<Bounds> {
+    let first = *points.next()?;
+    Some(points.fold(Bounds { min: first, max: first }, |b, x| Bounds { min: b.min.inf(x), max: b.max.sup(x) }))
+}
+
+/// The phase of particle `a`; particles without phases are drawn as the first one.
+fn phase_of(snapshot: &Snapshot<'_>, a: usize) -> Option<i64> {
+    match snapshot.particles.fields.iter().find(|field| field.name == "phase").map(|field| &field.values) {
+        Some(Values::Integer(values)) => values.get(a).copied(),
+        _ => Some(FLUIDS[0].number),
+    }
+}
+
+fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f64) {
+    let radius = (spacing * view.scale) as f32;
+    for (cover, is_core) in [(COVER * radius, false), (CORE * radius, true)] {
+        if is_core && cover < SMALLEST_CORE {
+            continue;
+        }
+        for phase in &FLUIDS {
+            let centers = snapshot.particles.points.iter().enumerate();
+            let centers =
+                centers.filter(|(a, _)| phase_of(snapshot, *a) == Some(phase.number)).map(|(_, &x)| view.place(x));
+            canvas.circles(centers, cover.max(1.0), if is_core { phase.core } else { phase.color });
+        }
+    }
+}
+
+fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, width: f32, color: Rgb) {
+    for line in &lines.lines {
+        canvas.polyline(
+            line.iter().filter_map(|&i| lines.points.get(i as usize)).map(|&x| view.place(x)),
+            width,
+            color,
+        );
+    }
+}
+
+/// Wipes what reached over the drawing's edge and draws the edge.
+fn frame(canvas: &mut Canvas, view: &View, height: f32) {
+    const WHITE: Rgb = [255, 255, 255];
+    let ([x, y], [width, tall]) = (view.corner, view.size);
+    let all = WIDTH as f32;
+    canvas.rectangle([0.0, 0.0], [all, y], WHITE);
+    canvas.rectangle([0.0, y + tall], [all, height - y - tall], WHITE);
+    canvas.rectangle([0.0, 0.0], [x, height], WHITE);
+    canvas.rectangle([x + width, 0.0], [all - x - width, height], WHITE);
+    let corners = [[x, y], [x + width, y], [x + width, y + tall], [x, y + tall], [x, y]];
+    canvas.polyline(corners.into_iter(), 1.5, OUTLINE);
+}
+
+fn scale_bar(canvas: &mut Canvas, view: &View) {
+    let length = round_length(BAR_SHARE * view.bounds.size().x.max(0.5 * view.bounds.size().y));
+    let pixels = (length * view.scale) as f32;
+    let y = view.corner[1] + view.size[1] + 30.0;
+    canvas.rectangle([RIM, y - 4.0], [pixels, 8.0], BLACK);
+    canvas.text(&length_text(length), [RIM, y + 38.0], TEXT_SIZE);
+}
+
+/// Names what is in the drawing, from the right.
+fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
+    let y = view.corner[1] + view.size[1] + 38.0;
+    let mut x = WIDTH as f32 - RIM;
+    let present = |number| (0..snapshot.particles.points.len()).any(|a| phase_of(snapshot, a) == Some(number));
+    let interface = snapshot.interface.as_ref().map(|_| ("interface", INTERFACE));
+    let fluids = FLUIDS.iter().filter(|phase| present(phase.number)).map(|phase| (phase.name, phase.color));
+    let entries: Vec<_> = fluids.chain([("solid", SOLID)]).chain(interface).collect();
+    for (name, color) in entries.into_iter().rev() {
+        x -= canvas.text_width(name, TEXT_SIZE);
+        canvas.text(name, [x, y], TEXT_SIZE);
+        x -= 22.0;
+        canvas.circles([[x, y - 8.0]].into_iter(), 11.0, color);
+        x -= 40.0;
+    }
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is at most `length`, in m.
+fn round_length(length: f64) -> f64 {
+    let power = 10_f64.powf(length.log10().floor());
+    [5.0, 2.0].into_iter().map(|digit| digit * power).find(|&candidate| candidate <= length).unwrap_or(power)
+}
+
+/// A value with at most six digits and the prefix that suits it.
+fn with_prefix(value: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 4] = [(1.0, ""), (1.0e-3, "m"), (1.0e-6, "µ"), (1.0e-9, "n")];
+    // A tenth of a thousandth of slack, so that a rounded 1 mm does not become 1000 µm.
+    let fits = |factor: f64| value.abs() >= factor * (1.0 - 1.0e-4);
+    let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| fits(*factor)).unwrap_or((1.0, ""));
+    let digits = format!("{:.5}", value / factor);
+    format!("{} {prefix}{unit}", digits.trim_end_matches('0').trim_end_matches('.'))
+}
+
+fn length_text(length: f64) -> String {
+    with_prefix(length, "m")
+}
+
+fn time_text(time: f64) -> String {
+    format!("t = {}", with_prefix(time, "s"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::snapshot::{Cloud, Field};
+
+    fn disc_in_a_box() -> (Vec<Vec2>, Vec<i64>) {
+        let points: Vec<Vec2> =
+            (0..40 * 30).map(|i| Vec2::new(f64::from(i % 40) + 0.5, f64::from(i / 40) + 0.5) * 1.0e-5).collect();
+        let phase = |x: &Vec2| match x {
+            x if x.y < 4.0e-5 => 2,
+            x if (x - Vec2::new(2.0e-4, 1.5e-4)).norm() < 9.0e-5 => 0,
+            _ => 1,
+        };
+        let phases = points.iter().map(phase).collect();
+        (points, phases)
+    }
+
+    #[test]
+    fn a_picture_shows_both_fluids_and_is_1200_pixels_wide() {
+        let (points, phases) = disc_in_a_box();
+        let fields = vec![Field { name: "phase", unit: "", values: Values::Integer(phases.into()) }];
+        let snapshot = Snapshot {
+            time: 2.5e-3,
+            step: 10,
+            particles: Cloud { points: points.into(), fields },
+            grid: None,
+            interface: None,
+        };
+        let png = picture(&snapshot, &Lines::default(), "A disc of liquid on a floor").unwrap();
+        let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
+        assert_eq!(pixels.width(), WIDTH);
+        for color in [FLUIDS[0].color, FLUIDS[1].color, SOLID] {
+            let count = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == color).count();
+            assert!(count > 10_000, "{count} pixels of {color:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_to_draw_is_an_error_and_one_particle_is_not() {
+        let mut snapshot = Snapshot { time: 0.0, step: 0, particles: Cloud::default(), grid: None, interface: None };
+        assert!(matches!(picture(&snapshot, &Lines::default(), ""), Err(PictureError::Empty)));
+        snapshot.particles.points = vec![Vec2::zeros()].into();
+        picture(&snapshot, &Lines::default(), &"A very long title ".repeat(20)).unwrap();
+    }
+
+    #[test]
+    fn lengths_and_times_read_as_people_write_them() {
+        assert_eq!(length_text(round_length(3.7e-4)), "200 µm");
+        assert_eq!(length_text(round_length(1.0e-3)), "1 mm");
+        assert_eq!(time_text(0.02), "t = 20 ms");
+        assert_eq!(time_text(0.0), "t = 0 s");
+    }
+}

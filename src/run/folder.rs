@@ -1,0 +1,73 @@
+//! The folder of a run: new and empty, or that of a run to go on with.
+
+use std::path::{Path, PathBuf};
+
+use crate::io::restart::{self, Saved};
+use crate::io::{FileError, atomic};
+
+/// A folder that a run cannot use.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// There are files in it.
+    #[error(
+        "the output folder {} is not empty; choose another one with --out DIR, go on with the run in it with --resume, or \
+         delete it", .0.display()
+    )]
+    NotEmpty(PathBuf),
+    /// There is no saved state in it.
+    #[error("there is no run to resume in {}: no {}; start it without --resume", folder.display(), state.display())]
+    NothingToResume {
+        /// The folder.
+        folder: PathBuf,
+        /// The missing file.
+        state: PathBuf,
+    },
+    /// The run in it is of another case.
+    #[error(
+        "the run in {} is of another case, or its case file was changed (saved {saved:016x}, now {now:016x}); take the case \
+         it was started with, or start a new run with another --out DIR", folder.display()
+    )]
+    OtherCase {
+        /// The folder.
+        folder: PathBuf,
+        /// Hash of the case of the saved state.
+        saved: u64,
+        /// Hash of the present case.
+        now: u64,
+    },
+    /// It cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+/// Makes the folder of a new run, and tries whether it can be written to.
+///
+/// # Errors
+/// [`FolderError::NotEmpty`] where there is something in it, [`FolderError::File`].
+pub fn create(folder: &Path) -> Result<(), FolderError> {
+    atomic::make_folder(folder)?;
+    let mut entries = std::fs::read_dir(folder).map_err(FileError::read(folder))?;
+    if entries.next().is_some() {
+        return Err(FolderError::NotEmpty(folder.to_path_buf()));
+    }
+    let probe = folder.join("restart").join("probe");
+    atomic::write(&probe, b"")?;
+    std::fs::remove_file(&probe).map_err(FileError::write(&probe))?;
+    Ok(())
+}
+
+/// The saved state of the run in `folder`.
+///
+/// # Errors
+/// [`FolderError`] where there is none, where it is damaged, or where it belongs to another case.
+pub fn resume(folder: &Path, case_hash: u64) -> Result<Saved, FolderError> {
+    let state = restart::path(folder);
+    if !state.exists() {
+        return Err(FolderError::NothingToResume { folder: folder.to_path_buf(), state });
+    }
+    let saved = restart::load(folder)?;
+    if saved.case_hash != case_hash {
+        return Err(FolderError::OtherCase { folder: folder.to_path_buf(), saved: saved.case_hash, now: case_hash });
+    }
+    Ok(saved)
+}

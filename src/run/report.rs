@@ -1,0 +1,189 @@
+//! `report.json`: how a run ended and what came out of it. A value that does not exist (NaN) is `null`.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::numbers::Number;
+use crate::case::checked::{Case, Expectation};
+use crate::io::{FileError, atomic};
+use crate::solver::{Measure, PartTime, Statistics};
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// It reached the end, and all that was expected came out.
+    Done,
+    /// It was stopped by the user and can be resumed.
+    Interrupted,
+    /// The solver failed, or a file could not be written.
+    Failed,
+    /// It reached the end, but a measure is not what was expected.
+    ExpectationFailed,
+}
+
+/// The machine that a run ran on.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Machine {
+    /// Number of cores that the system offers.
+    pub cores: usize,
+    /// Number of threads that the run used.
+    pub threads: usize,
+    /// Operating system and processor.
+    pub os: String,
+}
+
+impl Machine {
+    /// This machine and the present thread pool.
+    #[must_use]
+    pub fn present() -> Self {
+        Self {
+            cores: std::thread::available_parallelism().map_or(1, usize::from),
+            threads: rayon::current_num_threads(),
+            os: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+        }
+    }
+}
+
+/// A measure without its name, which is the key in the report.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Reading {
+    /// Value in `unit`; absent where it could not be measured.
+    pub value: Option<f64>,
+    /// Unit, empty for pure numbers.
+    pub unit: String,
+    /// One standard uncertainty in `unit`, where one is known.
+    pub uncertainty: Option<f64>,
+    /// How it was measured.
+    pub method: String,
+}
+
+/// An expectation and what came out.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Name of the measure.
+    pub measure: String,
+    /// Expected value in the measure's unit.
+    pub value: f64,
+    /// Largest accepted deviation, same unit.
+    pub tolerance: f64,
+    /// What was measured; absent where it could not be.
+    pub measured: Option<f64>,
+    /// Whether it is within the tolerance; absent where the run did not reach its end.
+    pub pass: Option<bool>,
+}
+
+/// Wall time in s, of this process.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WallTime {
+    /// From the start to the report.
+    pub total: f64,
+    /// By part, of the solver and of the output.
+    pub parts: BTreeMap<&'static str, f64>,
+}
+
+/// The report of a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Report {
+    /// Version of the program.
+    pub version: &'static str,
+    /// How the run ended.
+    pub status: Status,
+    /// What went wrong, where something did.
+    pub error: Option<String>,
+    /// Time reached in s.
+    pub time_s: f64,
+    /// Steps since time zero.
+    pub steps: u64,
+    /// The final measures by name.
+    pub measures: BTreeMap<String, Reading>,
+    /// Expectations of the case.
+    pub expectations: Vec<Verdict>,
+    /// Dimensionless numbers at the fastest speed that was recorded, by symbol.
+    pub numbers: Vec<Number>,
+    /// The case, every value present, in SI units.
+    pub case: Case,
+    /// The case file with all that was filled in, as TOML.
+    pub resolved_case: String,
+    /// The machine.
+    pub machine: Machine,
+    /// Wall time in s.
+    pub wall_time_s: WallTime,
+    /// Unknowns, steps and counts of the solver, of this process.
+    pub solver: SolverReport,
+}
+
+/// What the solver tells of its work.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SolverReport {
+    /// Number of unknowns.
+    pub unknowns: usize,
+    /// Steps done by this process.
+    pub steps: u64,
+    /// Further counts by name.
+    pub counts: BTreeMap<&'static str, f64>,
+}
+
+impl From<&Statistics> for SolverReport {
+    fn from(statistics: &Statistics) -> Self {
+        Self {
+            unknowns: statistics.unknowns,
+            steps: statistics.steps,
+            counts: statistics.counts.iter().copied().collect(),
+        }
+    }
+}
+
+/// Wall time by part, as the report holds it.
+#[must_use]
+pub fn wall_time(total: f64, parts: impl Iterator<Item = PartTime>) -> WallTime {
+    WallTime { total, parts: parts.map(|part| (part.part, part.seconds)).collect() }
+}
+
+/// Measures by name.
+#[must_use]
+pub fn readings(measures: Vec<Measure>) -> BTreeMap<String, Reading> {
+    let finite = |value: f64| value.is_finite().then_some(value);
+    measures
+        .into_iter()
+        .map(|m| {
+            let uncertainty = m.uncertainty.and_then(finite);
+            (m.name, Reading { value: finite(m.value), unit: m.unit, uncertainty, method: m.method })
+        })
+        .collect()
+}
+
+/// Each expectation beside what was measured; a measure that is missing or NaN misses.
+#[must_use]
+pub fn verdicts(expectations: &[Expectation], readings: &BTreeMap<String, Reading>) -> Vec<Verdict> {
+    expectations
+        .iter()
+        .map(|expected| {
+            let measured = readings.get(&expected.measure).and_then(|reading| reading.value);
+            let within = |value: f64| (value - expected.value).abs() <= expected.tolerance;
+            Verdict {
+                measure: expected.measure.clone(),
+                value: expected.value,
+                tolerance: expected.tolerance,
+                measured,
+                pass: Some(measured.is_some_and(within)),
+            }
+        })
+        .collect()
+}
+
+impl Report {
+    /// Writes `report.json` in `folder`.
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn write(&self, folder: &Path) -> Result<(), FileError> {
+        let path = folder.join("report.json");
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
+        atomic::write(&path, (text + "\n").as_bytes())
+    }
+}

@@ -1,0 +1,163 @@
+//! The loop of a run: steps the solver to each stop of the schedule and records what is due.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use super::schedule::{Due, Schedule};
+use super::sink::{Frame, RestartSink, SeriesSink, Sink, Start, vtk_sinks};
+use crate::io::{FileError, atomic, vtk};
+use crate::solver::{PartTime, Series, Solver, SolverError};
+
+/// How a run ended.
+#[derive(Debug)]
+pub enum Outcome {
+    /// It reached the end.
+    Done,
+    /// It was asked to stop, and can be resumed.
+    Interrupted,
+    /// The solver failed; its last good state was saved.
+    Failed(SolverError),
+}
+
+/// Where a run stands after a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Time in s.
+    pub time: f64,
+    /// End of the run in s.
+    pub end: f64,
+    /// Steps since time zero.
+    pub step: u64,
+    /// The last time step in s.
+    pub dt: f64,
+    /// The limit that ruled it.
+    pub limit: &'static str,
+}
+
+/// Someone who is told of each step: a progress bar, say.
+pub trait Watcher {
+    /// A step was done.
+    fn stepped(&mut self, progress: &Progress);
+}
+
+/// No one.
+pub struct Unwatched;
+
+impl Watcher for Unwatched {
+    fn stepped(&mut self, _: &Progress) {}
+}
+
+/// All that a run writes while it goes on, and the wall time it takes.
+pub struct Records {
+    series: SeriesSink,
+    vtk: Vec<Box<dyn Sink>>,
+    restart: RestartSink,
+    seconds: [f64; 3],
+}
+
+impl Records {
+    /// The records of a run in `folder`, which exists.
+    ///
+    /// # Errors
+    /// [`FileError`] where files of a resumed run cannot be read.
+    pub fn new(folder: &Path, case_hash: u64, start: Start) -> Result<Self, FileError> {
+        Ok(Self {
+            series: SeriesSink::new(folder, start)?,
+            vtk: vtk_sinks(folder, start)?,
+            restart: RestartSink::new(folder, case_hash),
+            seconds: [0.0; 3],
+        })
+    }
+
+    /// The rows of the series so far.
+    #[must_use]
+    pub fn series(&self) -> &Series {
+        self.series.series()
+    }
+
+    /// Wall time of writing, by part, in s.
+    #[must_use]
+    pub fn parts(&self) -> Vec<PartTime> {
+        let names = ["output: series", "output: vtk", "output: restart"];
+        names.into_iter().zip(self.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
+    }
+
+    /// Records what is due. The saved state comes last: it never runs ahead of the other files.
+    fn record(&mut self, solver: &dyn Solver, due: Due) -> Result<(), FileError> {
+        let frame = Frame::new(solver);
+        let mut clock = Instant::now();
+        let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
+        if due.series {
+            self.series.record(&frame)?;
+        }
+        self.seconds[0] += lap();
+        if due.vtk {
+            self.vtk.iter_mut().try_for_each(|sink| sink.record(&frame))?;
+        }
+        self.seconds[1] += lap();
+        if due.restart {
+            self.restart.record(&frame)?;
+        }
+        self.seconds[2] += lap();
+        Ok(())
+    }
+}
+
+/// A run in progress.
+pub struct Simulation<'a> {
+    /// The solver.
+    pub solver: &'a mut dyn Solver,
+    /// When to record.
+    pub schedule: Schedule,
+    /// What records.
+    pub records: &'a mut Records,
+    /// Set by others to stop the run after the present step.
+    pub interrupt: &'a AtomicBool,
+    /// Who is told of each step.
+    pub watcher: &'a mut dyn Watcher,
+}
+
+impl Simulation<'_> {
+    /// Writes `solid.vtp` and the record of time zero.
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn begin(&mut self, folder: &Path) -> Result<(), FileError> {
+        let path = folder.join("solid.vtp");
+        let outline = vtk::lines(&self.solver.outline(), 0.0)
+            .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
+        atomic::write(&path, &outline)?;
+        self.records.record(self.solver, Due::ALL)
+    }
+
+    /// Runs to the end, to an interrupt or to an error of the solver; in the last two cases a state is saved.
+    ///
+    /// # Errors
+    /// [`FileError`] where a record cannot be written.
+    pub fn run(&mut self) -> Result<Outcome, FileError> {
+        while let Some(stop) = self.schedule.next_after(self.solver.time()) {
+            while self.solver.time() < stop.time {
+                if self.interrupt.load(Ordering::Relaxed) {
+                    self.records.record(self.solver, Due::TO_RESUME)?;
+                    return Ok(Outcome::Interrupted);
+                }
+                match self.solver.step(stop.time) {
+                    Ok(info) => self.watcher.stepped(&Progress {
+                        time: self.solver.time(),
+                        end: self.schedule.end(),
+                        step: self.solver.steps(),
+                        dt: info.dt,
+                        limit: info.limit,
+                    }),
+                    Err(error) => {
+                        self.records.record(self.solver, Due::LAST_GOOD_STATE)?;
+                        return Ok(Outcome::Failed(error));
+                    }
+                }
+            }
+            self.records.record(self.solver, stop.due)?;
+        }
+        Ok(Outcome::Done)
+    }
+}

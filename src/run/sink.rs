@@ -1,0 +1,189 @@
+//! Sinks: what is written at a stop. Each sees a [`Frame`], the solver at rest with its snapshot made at most once.
+
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::io::pvd::Collection;
+use crate::io::restart::{self, Saved};
+use crate::io::series::SeriesFile;
+use crate::io::vtk::{self, VtkError};
+use crate::io::{FileError, atomic};
+use crate::snapshot::Snapshot;
+use crate::solver::{Series, Solver};
+
+/// The solver between two steps.
+pub struct Frame<'a> {
+    /// The solver.
+    pub solver: &'a dyn Solver,
+    snapshot: OnceCell<Snapshot<'a>>,
+}
+
+impl<'a> Frame<'a> {
+    /// A frame of the solver's present state.
+    #[must_use]
+    pub fn new(solver: &'a dyn Solver) -> Self {
+        Self { solver, snapshot: OnceCell::new() }
+    }
+
+    /// The snapshot; computed when first asked for.
+    pub fn snapshot(&self) -> &Snapshot<'a> {
+        self.snapshot.get_or_init(|| self.solver.snapshot())
+    }
+}
+
+/// Something that records a frame in a file.
+pub trait Sink {
+    /// Records the frame. A time that was recorded before is replaced, never doubled.
+    ///
+    /// # Errors
+    /// [`FileError`] with the path and a way out.
+    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError>;
+}
+
+/// Where a run's files begin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Start {
+    /// With a new folder.
+    New,
+    /// With what stands in the folder up to and with this time in s.
+    At(f64),
+}
+
+fn format_error(path: PathBuf) -> impl Fn(VtkError) -> FileError {
+    move |error| FileError::Format { path: path.clone(), what: error.to_string() }
+}
+
+fn collection(
+    folder: &Path,
+    name: &'static str,
+    extension: &'static str,
+    start: Start,
+) -> Result<Collection, FileError> {
+    match start {
+        Start::New => Ok(Collection::new(folder, name, extension)),
+        Start::At(time) => Collection::resume(folder, name, extension, time),
+    }
+}
+
+/// `particles.pvd` and its files.
+pub struct ParticleFiles(Collection);
+
+/// `grid.pvd` and its files, where the solver offers a grid.
+pub struct GridFiles(Collection);
+
+/// `interface.pvd` and its files, where there is an interface.
+pub struct InterfaceFiles(Collection);
+
+/// `units.json`: the unit of each field by file series and name.
+pub struct UnitFile(PathBuf);
+
+/// The VTK sinks of a run.
+///
+/// # Errors
+/// [`FileError`] where files of a resumed run cannot be read.
+pub fn vtk_sinks(folder: &Path, start: Start) -> Result<Vec<Box<dyn Sink>>, FileError> {
+    Ok(vec![
+        Box::new(UnitFile(folder.join("units.json"))),
+        Box::new(ParticleFiles(collection(folder, "particles", "vtu", start)?)),
+        Box::new(GridFiles(collection(folder, "grid", "vti", start)?)),
+        Box::new(InterfaceFiles(collection(folder, "interface", "vtp", start)?)),
+    ])
+}
+
+impl Sink for ParticleFiles {
+    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
+        let snapshot = frame.snapshot();
+        let content = vtk::points(&snapshot.particles, snapshot.time).map_err(format_error(self.0.path()))?;
+        self.0.record(snapshot.time, &content)
+    }
+}
+
+impl Sink for GridFiles {
+    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
+        let snapshot = frame.snapshot();
+        let Some(grid) = &snapshot.grid else { return Ok(()) };
+        let content = vtk::grid(grid, snapshot.time).map_err(format_error(self.0.path()))?;
+        self.0.record(snapshot.time, &content)
+    }
+}
+
+impl Sink for InterfaceFiles {
+    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
+        let snapshot = frame.snapshot();
+        let Some(interface) = &snapshot.interface else { return Ok(()) };
+        let content = vtk::lines(interface, snapshot.time).map_err(format_error(self.0.path()))?;
+        self.0.record(snapshot.time, &content)
+    }
+}
+
+impl Sink for UnitFile {
+    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
+        let snapshot = frame.snapshot();
+        let groups = [
+            ("particles", Some(&snapshot.particles.fields)),
+            ("grid", snapshot.grid.as_ref().map(|grid| &grid.fields)),
+            ("interface", snapshot.interface.as_ref().map(|lines| &lines.fields)),
+        ];
+        let units: BTreeMap<&str, BTreeMap<&str, &str>> = groups
+            .into_iter()
+            .filter_map(|(name, fields)| Some((name, fields?.iter().map(|field| (field.name, field.unit)).collect())))
+            .collect();
+        let text = serde_json::to_string_pretty(&units)
+            .map_err(|error| FileError::Format { path: self.0.clone(), what: error.to_string() })?;
+        atomic::write(&self.0, (text + "\n").as_bytes())
+    }
+}
+
+/// `series.csv`.
+pub struct SeriesSink(SeriesFile);
+
+impl SeriesSink {
+    /// The series of a run.
+    ///
+    /// # Errors
+    /// [`FileError`] where the file of a resumed run cannot be read.
+    pub fn new(folder: &Path, start: Start) -> Result<Self, FileError> {
+        Ok(Self(match start {
+            Start::New => SeriesFile::new(folder),
+            Start::At(time) => SeriesFile::resume(folder, time)?,
+        }))
+    }
+
+    /// All rows so far.
+    #[must_use]
+    pub fn series(&self) -> &Series {
+        self.0.series()
+    }
+}
+
+impl Sink for SeriesSink {
+    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
+        let (columns, row): (Vec<&str>, Vec<f64>) =
+            frame.solver.sample().iter().map(|sample| (sample.name, sample.value)).unzip();
+        self.0.record(&columns, row)
+    }
+}
+
+/// `restart/`.
+pub struct RestartSink {
+    folder: PathBuf,
+    case_hash: u64,
+}
+
+impl RestartSink {
+    /// Saves states of the case with the given hash.
+    #[must_use]
+    pub fn new(folder: &Path, case_hash: u64) -> Self {
+        Self { folder: folder.to_path_buf(), case_hash }
+    }
+}
+
+impl Sink for RestartSink {
+    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
+        let solver = frame.solver;
+        let saved =
+            Saved { case_hash: self.case_hash, time: solver.time(), step: solver.steps(), state: solver.state() };
+        restart::save(&self.folder, &saved)
+    }
+}

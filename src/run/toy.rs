@@ -1,0 +1,177 @@
+//! A solver with a known solution, for tests of the run: particles on circles, stepped by a turn that rounds differently
+//! for different time steps, so that a run which stops elsewhere or loses a bit of its state is found out.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::simulation::{Progress, Watcher};
+use crate::case::checked::{
+    Case, Expectation, Fluid, Initial, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides, Sph,
+    ViscousTerm,
+};
+use crate::geometry::spec::{GeometrySpec, SolidSide};
+use crate::math::{Vec2, perpendicular};
+use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
+use crate::solver::{Measure, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo};
+
+/// Angular speed in rad/s.
+const TURN: f64 = 2.0;
+/// Time step in s, no divisor of the records' intervals.
+const STEP: f64 = 0.0234;
+
+/// Particles on circles about the origin.
+#[derive(Debug, Clone)]
+pub struct ToySolver {
+    time: f64,
+    dt: f64,
+    steps: u64,
+    points: Vec<Vec2>,
+    /// Fails in the step after this one.
+    pub fails_after: Option<u64>,
+}
+
+impl ToySolver {
+    pub fn new() -> Self {
+        let points = (1..=36).map(|i| Vec2::new(f64::from(i % 6 + 1) / 6.0, f64::from(i / 6) / 6.0)).collect();
+        Self { time: 0.0, dt: 0.0, steps: 0, points, fails_after: None }
+    }
+}
+
+impl Solver for ToySolver {
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
+        if self.fails_after.is_some_and(|last| self.steps >= last) {
+            let place = Vec2::new(1.0, 0.0);
+            return Err(SolverError::BlowUp { what: "speed inf m/s".into(), time: self.time, step: self.steps, place });
+        }
+        let lands = self.time + STEP >= until;
+        self.dt = if lands { until - self.time } else { STEP };
+        self.time = if lands { until } else { self.time + STEP };
+        self.steps += 1;
+        for x in &mut self.points {
+            *x = (*x + TURN * self.dt * perpendicular(*x)) / (1.0 + (TURN * self.dt).powi(2)).sqrt();
+        }
+        Ok(StepInfo { dt: self.dt, limit: if lands { "record" } else { "velocity" } })
+    }
+
+    fn snapshot(&self) -> Snapshot<'_> {
+        let phase = (0..self.points.len() as i64).map(|i| i % 3).collect();
+        let velocity: Vec<Vec2> = self.points.iter().map(|&x| TURN * perpendicular(x)).collect();
+        let fields = vec![
+            Field { name: "phase", unit: "", values: Values::Integer(phase) },
+            Field { name: "velocity", unit: "m/s", values: Values::Vector(velocity.into()) },
+        ];
+        let distance = Field { name: "wall-distance", unit: "m", values: Values::Scalar(vec![self.time; 12].into()) };
+        Snapshot {
+            time: self.time,
+            step: self.steps,
+            particles: Cloud { points: (&self.points).into(), fields },
+            grid: Some(Grid {
+                origin: Vec2::zeros(),
+                spacing: Vec2::repeat(0.5),
+                counts: [4, 3],
+                fields: vec![distance],
+            }),
+            interface: Some(Lines {
+                points: (&self.points[..3]).into(),
+                lines: vec![vec![0, 1, 2, 0]],
+                fields: Vec::new(),
+            }),
+        }
+    }
+
+    fn outline(&self) -> Lines<'_> {
+        Lines { points: vec![Vec2::zeros(), Vec2::new(1.0, 0.0)].into(), lines: vec![vec![0, 1]], fields: Vec::new() }
+    }
+
+    fn sample(&self) -> Vec<Sample> {
+        let sample = |name, value| Sample { name, value };
+        vec![
+            sample("time_s", self.time),
+            sample("step", self.steps as f64),
+            sample("dt_s", self.dt),
+            sample("contact_angle_deg", f64::NAN),
+            sample("max_speed_m_per_s", self.points.iter().map(|x| TURN * x.norm()).fold(0.0, f64::max)),
+        ]
+    }
+
+    fn measures(&self, series: &Series) -> Vec<Measure> {
+        let measure = |name: &str, value, unit: &str, method: &str| Measure {
+            name: name.into(),
+            value,
+            unit: unit.into(),
+            uncertainty: Some(1.0e-9),
+            method: method.into(),
+        };
+        vec![
+            measure("radius-m", self.points[0].norm(), "m", "distance of the first particle from the origin"),
+            measure("missing-angle-deg", f64::NAN, "deg", "there is no contact line"),
+            measure("records", series.rows.len() as f64, "", "rows of the series"),
+        ]
+    }
+
+    fn state(&self) -> Vec<u8> {
+        postcard::to_stdvec(&(self.time, self.dt, self.steps, &self.points)).unwrap()
+    }
+
+    fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
+        (self.time, self.dt, self.steps, self.points) =
+            postcard::from_bytes(state).map_err(|error| StateError(error.to_string()))?;
+        Ok(())
+    }
+
+    fn statistics(&self) -> Statistics {
+        Statistics { unknowns: self.points.len(), steps: self.steps, ..Statistics::default() }
+    }
+}
+
+/// Stops the run after some steps.
+pub struct Interrupter<'a> {
+    pub steps: u64,
+    pub interrupt: &'a AtomicBool,
+}
+
+impl Watcher for Interrupter<'_> {
+    fn stepped(&mut self, progress: &Progress) {
+        self.interrupt.store(progress.step >= self.steps, Ordering::Relaxed);
+    }
+}
+
+/// A case of one second with 11 rows, 6 VTK records and 3 saved states after time zero; what it says of SPH is not used.
+pub fn case() -> Case {
+    let wetting = Fluid { density: 1000.0, viscosity: 1.0e-3 };
+    let sph = Sph {
+        spacing: 1.0 / 6.0,
+        smoothing_ratio: 1.5,
+        wetting,
+        non_wetting: None,
+        tension: 0.0,
+        surface_force: None,
+        wetting_model: None,
+        gravity: Vec2::zeros(),
+        sides: Sides { left: Side::Wall, right: Side::Wall, bottom: Side::Wall, top: Side::Wall },
+        initial: Initial { wetting: Vec::new(), wetting_is_background: true, velocity: InitialVelocity::Rest },
+        numerics: Numerics {
+            viscous_term: ViscousTerm::Szewc,
+            drift_source: 0.02,
+            background_pressure: 0.0,
+            pressure_tolerance: 1.0e-6,
+            time_step_factor: 1.0,
+        },
+        measure: MeasureSet::default(),
+    };
+    Case {
+        title: "Particles on circles".into(),
+        geometry: GeometrySpec { min: [0.0; 2], max: [1.0; 2], solid: SolidSide::Inside, shapes: Vec::new() },
+        model: Model::Sph(Box::new(sph)),
+        end: 1.0,
+        output: Output { series_every: 0.1, vtk_every: 0.2, grid_ratio: 1.0, restart_every: 0.4 },
+        expect: vec![Expectation { measure: "radius-m".into(), value: 1.0 / 3.0, tolerance: 1.0e-9 }],
+    }
+}
