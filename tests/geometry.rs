@@ -596,3 +596,38 @@ fn a_quarter_turn_of_a_half_plane_puts_the_solid_on_the_right() {
     assert!((g.signed_distance(v(0.0, 0.3)) - 0.5).abs() < 1e-12);
     assert!((g.wall(v(0.0, 0.3)).normal - v(-1.0, 0.0)).norm() < 1e-12);
 }
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    #[test]
+    fn periodic_discs_are_as_far_as_the_nearest_of_their_images(
+        x in (-2.0..2.0_f64, -2.0..2.0_f64),
+        discs in proptest::collection::vec((-2.0..2.0_f64, -2.0..2.0_f64, 0.05..0.6_f64), 1..8),
+    ) {
+        let x = v(x.0, x.1);
+        let g = solid(discs.iter().map(|d| disc(d.0, d.1, d.2)).collect()).with_periodic([true, true]);
+        let images = (-1..=1).flat_map(|i| (-1..=1).map(move |j| v(4.0 * f64::from(i), 4.0 * f64::from(j))));
+        let nearest = images
+            .flat_map(|by| discs.iter().map(move |d| (x - by - v(d.0, d.1)).norm() - d.2))
+            .fold(f64::INFINITY, f64::min);
+        let found = g.signed_distance(x);
+        prop_assert_eq!(found > 0.0, nearest > 0.0);
+        if nearest > 0.0 {
+            prop_assert!((found - nearest).abs() < 1e-12);
+        } else {
+            prop_assert!(found <= nearest + 1e-12);
+        }
+        prop_assert!(g.porosity().uncertainty < 1e-9);
+    }
+}
+
+#[test]
+fn at_the_contact_of_touching_discs_signs_are_right() {
+    let g = solid(vec![disc(-0.5, 0.0, 0.5), disc(0.5, 0.0, 0.5)]);
+    for (x, is_solid) in [(v(0.0, 1e-3), false), (v(0.0, -1e-3), false), (v(1e-3, 0.0), true), (v(-1e-3, 0.0), true)] {
+        assert_eq!(g.signed_distance(x) < 0.0, is_solid, "{x}");
+    }
+    let contact = g.wall(v(0.0, 0.0));
+    assert!(contact.distance.abs() < 1e-12 && (contact.normal.norm() - 1.0).abs() < 1e-12);
+}
