@@ -41,7 +41,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
             Ok(DONE)
         }
         Some(Command::Schema) => {
-            say(source::schema()?.trim_end());
+            say(source::schema().trim_end());
             Ok(DONE)
         }
         Some(Command::Completions(arguments)) => {

@@ -12,7 +12,7 @@ pub fn new(arguments: &NewArguments) -> Result<u8, Failure> {
     if file.exists() {
         return Err(Failure::new(USAGE, &format_args!("{} exists; name another file", file.display())));
     }
-    let text = source::starter_case()?;
+    let text = source::starter_case();
     atomic::write(file, text.as_bytes()).map_err(|error| Failure::new(USAGE, &error))?;
     say(format_args!("wrote {0}; try: meniscus check {0}, then: meniscus run {0}", file.display()));
     Ok(DONE)

@@ -4,8 +4,22 @@ use std::path::Path;
 
 use super::exit::{BAD_INPUT, Failure};
 use crate::case::checked::Case;
+use crate::case::{self, Loaded};
+use crate::geometry::Geometry;
+use crate::geometry::throats::throats;
+use crate::input::{InputError, Overrides};
+use crate::run::setup;
 use crate::snapshot::{Grid, Lines};
 use crate::solver::Measure;
+
+/// Name of the output folder of the built-in case.
+const DEFAULT_NAME: &str = "four-discs";
+
+/// Nodes of the distance grid along the longer side of a shape file's domain.
+const GRID_NODES: f64 = 400.0;
+
+/// So many of the narrowest throats are told.
+const THROATS: usize = 10;
 
 /// A checked case with the name of its output folder.
 #[derive(Debug)]
@@ -29,26 +43,61 @@ pub struct Shapes {
     pub measures: Vec<Measure>,
 }
 
-fn not_linked(what: &str) -> Failure {
-    Failure::new(BAD_INPUT, &format_args!("{what} is not linked"))
+/// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
+pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Failure> {
+    let name = path.and_then(Path::file_stem).map_or_else(|| DEFAULT_NAME.into(), |stem| stem.to_string_lossy().into());
+    let loaded = load(path, overrides).map_err(Failure::input)?;
+    let problems = setup::problems(&loaded.case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+    loaded.refuse(problems).map_err(Failure::input)?;
+    Ok(Source { case: loaded.case, resolved: loaded.resolved, name })
 }
 
-/// Loads a case file, or the built-in case where there is none.
-pub fn load_case(_path: Option<&Path>, _overrides: &[String]) -> Result<Source, Failure> {
-    Err(not_linked("the case reader"))
+fn load(path: Option<&Path>, overrides: &[String]) -> Result<Loaded, InputError> {
+    let overrides = Overrides::parse(overrides)?;
+    match path {
+        Some(path) => case::load(path, &overrides),
+        None => case::load_default(&overrides),
+    }
 }
 
 /// Loads and measures a shape file.
-pub fn load_shapes(_path: &Path) -> Result<Shapes, Failure> {
-    Err(not_linked("the geometry"))
+pub fn load_shapes(path: &Path) -> Result<Shapes, Failure> {
+    let spec = case::load_shapes(path).map_err(Failure::input)?;
+    let geometry = Geometry::new(&spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+    let spacing = geometry.bounds().size().max() / GRID_NODES;
+    Ok(Shapes { outline: geometry.outline(), distance: geometry.distance_grid(spacing), measures: measures(&geometry) })
+}
+
+fn measures(geometry: &Geometry) -> Vec<Measure> {
+    let porosity = geometry.porosity();
+    let measure = |name: &str, value: f64, unit: &str, method: &str| Measure {
+        name: name.into(),
+        value,
+        unit: unit.into(),
+        uncertainty: None,
+        method: method.into(),
+    };
+    let mut found = vec![
+        Measure {
+            uncertainty: Some(porosity.uncertainty),
+            ..measure("porosity", porosity.value, "", "share of the domain that is not solid, exact along the outline")
+        },
+        measure("specific-surface-per-m", geometry.specific_surface(), "1/m", "wall length over the area of the domain"),
+    ];
+    for (number, throat) in throats(geometry).iter().take(THROATS).enumerate() {
+        let (c, name) = (throat.center, format!("throat-{}-width-m", number + 1));
+        let method = format!("shortest way from wall to wall, middle at ({:.4e}, {:.4e}) m", c.x, c.y);
+        found.push(measure(&name, throat.width, "m", &method));
+    }
+    found
 }
 
 /// The commented starter case.
-pub fn starter_case() -> Result<String, Failure> {
-    Err(not_linked("the case reader"))
+pub fn starter_case() -> &'static str {
+    case::starter_case()
 }
 
 /// The JSON schema of a case file.
-pub fn schema() -> Result<String, Failure> {
-    Err(not_linked("the case reader"))
+pub fn schema() -> String {
+    format!("{:#}", case::schema())
 }

@@ -1,20 +1,41 @@
 //! From a checked case to its solver: the one place that knows both.
 
-use crate::case::checked::Case;
+use crate::case::checked::{Case, Model};
+use crate::case::{Facts, check_against};
+use crate::input::Problem;
 use crate::solver::Solver;
+use crate::sph;
 
 /// A case that no solver can be made for.
 #[derive(Debug, thiserror::Error)]
 pub enum SetupError {
-    /// The program has no solver for the model.
-    #[error("solver not linked")]
-    NotLinked,
+    /// The direct simulation cannot be set up.
+    #[error("{0}")]
+    Sph(#[from] sph::setup::SetupError),
 }
 
 /// The solver of a case, in its initial state.
 ///
 /// # Errors
 /// [`SetupError`].
-pub fn build(_case: &Case) -> Result<Box<dyn Solver>, SetupError> {
-    Err(SetupError::NotLinked)
+pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
+    match &case.model {
+        Model::Sph(sph) => Ok(Box::new(sph::setup::build(case, sph)?)),
+    }
+}
+
+/// What is wrong with a case on its real geometry: throats that are not resolved, phases inside the solid.
+///
+/// # Errors
+/// [`SetupError`] where the shapes themselves are not usable.
+pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
+    let Model::Sph(sph) = &case.model;
+    let geometry = sph::setup::geometry(case, sph)?;
+    let regions: Vec<_> = sph.initial.wetting.iter().map(|shape| sph::setup::region(case, &[shape.clone()])).collect();
+    let facts = Facts {
+        throat: geometry.narrowest_throat().map(|throat| (throat.width, throat.center)),
+        wall_distance: &|x| geometry.signed_distance(x),
+        in_initial_shape: &|index, x| regions[index].signed_distance(x) < 0.0,
+    };
+    Ok(check_against(case, &facts))
 }

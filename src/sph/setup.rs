@@ -77,9 +77,9 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         let needed = fill::PERIODIC_SUPPORTS * support;
         return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
     }
-    let region = region(case, sph)?;
+    let region = region(case, &sph.initial.wetting);
     let phase = |x: Vec2| {
-        let inside = region.as_ref().is_some_and(|region| region.signed_distance(x) < 0.0);
+        let inside = region.signed_distance(x) < 0.0;
         let wetting = inside != sph.initial.wetting_is_background;
         if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
     };
@@ -145,14 +145,10 @@ fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
     sides.into_iter().zip(places).filter_map(mirror).collect()
 }
 
-/// The shapes of the initial wetting phase as a solid: negative distance inside of them.
-fn region(case: &Case, sph: &Sph) -> Result<Option<Geometry>, SetupError> {
-    if sph.initial.wetting.is_empty() {
-        return Ok(None);
-    }
-    let shapes = sph.initial.wetting.clone();
-    let spec = GeometrySpec { shapes, solid: SolidSide::Inside, ..case.geometry.clone() };
-    Ok(Some(Geometry::unchecked(&spec)))
+/// Shapes of the initial wetting phase as a solid: negative distance inside of them.
+#[must_use]
+pub fn region(case: &Case, shapes: &[ShapeSpec]) -> Geometry {
+    Geometry::unchecked(&GeometrySpec { shapes: shapes.to_vec(), solid: SolidSide::Inside, ..case.geometry.clone() })
 }
 
 fn velocity(initial: &InitialVelocity, x: Vec2, bounds: Bounds) -> Vec2 {

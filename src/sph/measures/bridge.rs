@@ -1,6 +1,7 @@
 //! A capillary bridge between two discs (C9 of the benchmarks), compared with its closed form.
 
 use super::{Subject, measure};
+use crate::math::Vec2;
 use crate::solver::Measure;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
@@ -8,13 +9,13 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     let axis = (b.center - a.center).normalize();
     let middle = 0.5 * (a.center + b.center);
     let good = || s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite());
-    let filling = |disc: &super::DiscOf, axis: crate::math::Vec2| {
-        let near = move |x: crate::math::Vec2| ((x - disc.center).norm() - disc.radius).abs() < 0.1 * disc.radius;
+    let filling = |disc: super::DiscOf, axis: Vec2| {
+        let near = move |x: Vec2| ((x - disc.center).norm() - disc.radius).abs() < 0.1 * disc.radius;
         good().filter(move |l| near(l.position)).map(move |l| (l.position - disc.center).angle(&axis).to_degrees())
     };
-    let angles: Vec<f64> = filling(a, axis).chain(filling(b, -axis)).collect();
+    let angles: Vec<f64> = filling(*a, axis).chain(filling(*b, -axis)).collect();
     let mean = angles.iter().sum::<f64>() / angles.len() as f64;
-    let across = |x: &crate::math::Vec2| (x - middle).perp(&axis).abs();
+    let across = |x: &Vec2| (x - middle).perp(&axis).abs();
     let contour = || s.seen.interface.iter().flat_map(|line| &line.points);
     let neck = contour().map(across).fold(f64::INFINITY, f64::min);
     let exact = s.disc_pair().and_then(|pair| pair.bridge(s.seen.areas.wetting));

@@ -38,13 +38,13 @@ pub struct Subject<'a> {
 
 impl Subject<'_> {
     /// The two nearest discs as a pair with the requested contact angle, where there are two of one radius.
-    fn disc_pair(&self) -> Option<crate::analysis::laws::DiscPair> {
+    fn disc_pair(&self) -> Option<crate::analysis::laws::pores::DiscPair> {
         let [a, rest @ ..] = self.discs else { return None };
         let distance = |b: &&DiscOf| (b.center - a.center).norm();
         let b = rest.iter().min_by(|b, c| distance(b).total_cmp(&distance(c)))?;
         let half_gap = 0.5 * distance(&b) - a.radius;
         let angle = self.flow.method.wetting?.static_angle();
-        ((a.radius - b.radius).abs() < 1e-9 * a.radius).then_some(crate::analysis::laws::DiscPair {
+        ((a.radius - b.radius).abs() < 1e-9 * a.radius).then_some(crate::analysis::laws::pores::DiscPair {
             radius: a.radius,
             half_gap,
             angle,

@@ -1,7 +1,7 @@
 //! Error of the velocity against plane Poiseuille flow (A1 of the benchmarks), with its start-up.
 
 use super::{Subject, measure};
-use crate::analysis::laws::Poiseuille;
+use crate::analysis::laws::flow::Poiseuille;
 use crate::solver::Measure;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {

@@ -1,7 +1,7 @@
 //! Decay rate of Taylor-Green vortices (A3 of the benchmarks).
 
 use super::{Subject, measure};
-use crate::analysis::laws::taylor_green_decay;
+use crate::analysis::laws::flow::taylor_green_decay;
 use crate::solver::Measure;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
