@@ -4,11 +4,18 @@
 
 use crate::math::Vec2;
 use crate::sph::boundary::carry;
+use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::method::Method;
 use crate::sph::pairs::{GRAIN, Pairs};
 use crate::sph::particles::{Particles, Phase};
+use crate::sph::projection::WallQuery;
+use crate::sph::surface_force::SurfaceForce;
+use crate::sph::surface_force::fit::InterfaceFit;
+use crate::sph::surface_force::jump::Jump;
+use crate::sph::surface_force::points::{PointFields, interface_points};
 use crate::sph::terms::{color, curvature, density, surface_tension};
+use crate::sph::wetting::Wetting;
 use crate::sph::wetting::contact_line::{LineFields, line_force};
 
 use rayon::prelude::*;
@@ -40,8 +47,8 @@ pub struct Fields {
     pub wall_distance: Vec<f64>,
     /// Wall normal into the fluid, zero far away.
     pub wall_normal: Vec<Vec2>,
-    /// Number of contact lines.
-    pub contact_lines: usize,
+    /// Sides and curvatures for the pressure jump, in that form of the surface force.
+    pub jump: Option<Jump>,
 }
 
 impl Fields {
@@ -84,7 +91,14 @@ impl Fields {
     }
 
     /// Normals, curvature and the forces of interface and contact lines [Huber2013, Eqs. 18-23].
-    pub fn update_interface(&mut self, (particles, pairs, images): (&Particles, &Pairs, &Images), method: &Method) {
+    pub fn update_interface(
+        &mut self,
+        neighborhood: (&Particles, &Pairs, &Images),
+        method: &Method,
+        domain: &Domain,
+        wall: &WallQuery,
+    ) {
+        let (particles, pairs, images) = neighborhood;
         let (n, fluids) = (particles.len(), particles.fluids);
         for field in [&mut self.surface_force, &mut self.line_force] {
             field.clear();
@@ -100,36 +114,71 @@ impl Fields {
         images.extend(&mut sharp);
         self.color.clear();
         self.color.extend_from_slice(&sharp[..n]);
-        self.contact_lines = 0;
+        self.jump = None;
         if method.tension == 0.0 {
             return;
         }
         color::smoothed_color(pairs, &self.fluid_volume, &sharp, &mut self.color);
         images.extend(&mut self.color);
+        match method.surface_force {
+            SurfaceForce::Csf => self.continuum_forces(neighborhood, method),
+            SurfaceForce::PressureJump => self.pressure_jump(neighborhood, &sharp, method, (domain, wall)),
+        }
+    }
+
+    /// The paper's forces: normals and curvature in a band, surface force and line force [Huber2013, Eqs. 18-23].
+    fn continuum_forces(&mut self, (particles, pairs, images): (&Particles, &Pairs, &Images), method: &Method) {
+        let fluids = particles.fluids;
         color::color_gradient(pairs, &self.fluid_volume, &self.color, &mut self.normal[..fluids]);
         images.extend_reflected(&mut self.normal);
         curvature::unit_normal(&self.normal[..fluids], method.kernel.h, &mut self.unit_normal[..fluids]);
         images.extend_reflected(&mut self.unit_normal);
         curvature::curvature(pairs, &self.fluid_volume, &self.unit_normal, &mut self.curvature[..fluids]);
-        surface_tension::surface_force(
-            (method.tension, method.mean_density()),
-            &self.curvature,
-            &self.normal,
-            &self.density,
-            &mut self.surface_force,
-        );
+        let weight: Vec<f64> = self.density[..fluids].iter().map(|&rho| method.force_weight(rho)).collect();
+        surface_tension::surface_force(method.tension, &self.curvature, &self.normal, &weight, &mut self.surface_force);
         if let Some(wetting) = &method.wetting {
-            let relative_density: Vec<f64> = self.density[..fluids].iter().map(|r| r / method.mean_density()).collect();
             let fields = LineFields {
                 normal: &self.normal,
                 unit_normal: &self.unit_normal,
                 wall_distance: &self.wall_distance,
                 wall_normal: &self.wall_normal,
                 volume: &self.volume,
-                relative_density: &relative_density,
+                weight: &weight,
             };
             let law = (wetting, method.tension);
-            self.contact_lines = line_force(pairs, images, &fields, &method.kernel, law, &mut self.line_force);
+            line_force(pairs, images, &fields, &method.kernel, law, &mut self.line_force);
         }
+    }
+    /// Sides and curvatures for the pressure jump; the normal is the consistent gradient of the smoothed color.
+    fn pressure_jump(
+        &mut self,
+        (particles, pairs, images): (&Particles, &Pairs, &Images),
+        sharp: &[f64],
+        method: &Method,
+        (domain, wall): (&Domain, &WallQuery),
+    ) {
+        let (n, fluids, position) = (particles.len(), particles.fluids, &particles.position);
+        let r_ab = |a: usize, b: usize| domain.separation(position[a], images.position(b, position));
+        let normal = &mut self.normal[..fluids];
+        color::consistent_gradient(pairs, &self.fluid_volume, &self.color, r_ab, normal);
+        images.extend_reflected(&mut self.normal);
+        let fields = PointFields {
+            position,
+            color: &self.color,
+            gradient: &self.normal,
+            wall_distance: &self.wall_distance,
+            wall_normal: &self.wall_normal,
+        };
+        let lengths = (method.spacing, method.kernel.h);
+        let points = interface_points((pairs, images), domain, &fields, fluids, lengths);
+        let angle = method.wetting.as_ref().map(Wetting::static_angle);
+        let fit = InterfaceFit::new(&points, domain, lengths, angle, wall);
+        let side: Vec<f64> = sharp[..fluids].iter().chain(&self.color[fluids..n]).copied().collect();
+        let mut jump = Jump::default();
+        jump.update((pairs, images, fluids), &side, position, &fit);
+        for (kappa, found) in self.curvature.iter_mut().zip(&jump.curvature) {
+            *kappa = if found.is_nan() { 0.0 } else { *found };
+        }
+        self.jump = Some(jump);
     }
 }

@@ -20,6 +20,7 @@ pub mod projection;
 pub mod setup;
 pub mod solver;
 mod state;
+pub mod surface_force;
 pub mod terms;
 pub mod time_step;
 pub mod wetting;

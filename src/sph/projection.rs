@@ -8,7 +8,7 @@ use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
 use crate::sph::fields::Fields;
 use crate::sph::images::Images;
-use crate::sph::method::{Method, ViscousTerm};
+use crate::sph::method::{Method, PressureGradient, ViscousTerm};
 use crate::sph::pairs::{Pairs, each, largest};
 use crate::sph::particles::{Particles, Phase};
 use crate::sph::poisson::{PressureSolve, Unknowns, assemble, parts};
@@ -20,11 +20,17 @@ use crate::sph::time_step::landing;
 /// The particles are put in the order of their cells every so many steps, so that neighbors are near in memory.
 const REORDER_EVERY: u64 = 20;
 
+/// Share of the capillary speed in the speed that shifting is scaled with: still drops need order too.
+const CAPILLARY_SHARE: f64 = 0.1;
+
 /// A particle that moves farther than this share of h in a step has run away.
 const LARGEST_MOVE: f64 = 0.5;
 
 /// A fluid particle nearer to a wall than this share of dx is set back to it: the pressure of a rough wall can leak.
 const CLOSEST_TO_WALL: f64 = 0.05;
+
+/// Above this density ratio the multigrid keeps light and heavy particles apart.
+const LARGEST_SMOOTH_RATIO: f64 = 5.0;
 
 /// The signed distance in m (above 0 in the pore) and the wall normal at a point.
 pub type WallQuery = Box<dyn Fn(Vec2) -> (f64, Vec2) + Send + Sync>;
@@ -128,7 +134,7 @@ impl Flow {
         let after = Instant::now();
         let neighborhood = (&self.particles, &self.pairs, &self.images);
         self.fields.update_bulk(neighborhood, &self.method, &self.wall);
-        self.fields.update_interface(neighborhood, &self.method);
+        self.fields.update_interface(neighborhood, &self.method, &self.domain, &self.wall);
         self.work.seconds[0] += (after - start).as_secs_f64();
         self.work.seconds[1] += after.elapsed().as_secs_f64();
     }
@@ -240,7 +246,7 @@ impl Flow {
 
     fn background_acceleration(&self, speed: f64) -> Vec<Vec2> {
         let mut acceleration = vec![Vec2::zeros(); self.particles.fluids];
-        if !self.method.is_symmetric() {
+        if self.method.pressure_gradient() == PressureGradient::Difference && self.method.background_pressure > 0.0 {
             let over_density = self.background_pressure(speed) / self.method.mean_density();
             pressure_gradient::background(&self.pairs, &self.fields.volume, over_density, &mut acceleration);
         }
@@ -264,6 +270,9 @@ impl Flow {
         let mut matrix = std::mem::take(&mut self.pressure.matrix);
         let r_ab = |a: usize, b: usize| self.separation(a, b);
         assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density, r_ab, method.zeta());
+        if let Some(jump) = &f.jump {
+            jump.subtract_from(&mut b, &matrix, &self.pairs, method.tension);
+        }
         self.pressure.matrix = matrix;
         let kind = self.kinds();
         let unknowns = Unknowns {
@@ -293,7 +302,8 @@ impl Flow {
     /// 0 in and near the heavy fluid, 1 in and near the light one, so that the multigrid keeps them apart.
     fn kinds(&self) -> Vec<u8> {
         let (w, o) = (self.method.wetting_fluid.density, self.method.other_fluid.density);
-        let between = if self.method.is_symmetric() { 0.0 } else { (w * o).sqrt() };
+        let is_jump = self.method.density_ratio() > LARGEST_SMOOTH_RATIO;
+        let between = if is_jump { (w * o).sqrt() } else { 0.0 };
         self.fields.density[..self.particles.len()].iter().map(|&rho| u8::from(rho < between)).collect()
     }
 
@@ -302,17 +312,23 @@ impl Flow {
         let (fluids, f) = (self.particles.fluids, &self.fields);
         let mut p = pressure.to_vec();
         let mut acceleration = vec![Vec2::zeros(); fluids];
-        if self.method.is_symmetric() {
-            // The constant matters in Eq. (15): all pressures at or above the background order the particles.
+        let form = self.method.pressure_gradient();
+        if form != PressureGradient::Difference {
+            // The constant matters in these forms: all pressures at or above the background order the particles.
             let speed = largest(fluids, |a| self.particles.velocity[a].norm()).map_or(0.0, |l| l.1);
             let lowest = p.iter().fold(f64::INFINITY, |m, p| m.min(*p));
             let shift = self.background_pressure(speed) - lowest;
             p.iter_mut().for_each(|p| *p += shift);
-            self.images.extend(&mut p);
-            pressure_gradient::symmetric(&self.pairs, &f.volume, &f.density, &p, &mut acceleration);
-        } else {
-            self.images.extend(&mut p);
-            pressure_gradient::difference(&self.pairs, &f.volume, &f.density, &p, &mut acceleration);
+        }
+        self.images.extend(&mut p);
+        let (pairs, volume, density) = (&self.pairs, &f.volume, &f.density);
+        match form {
+            PressureGradient::Symmetric => pressure_gradient::symmetric(pairs, volume, density, &p, &mut acceleration),
+            PressureGradient::Weighted => pressure_gradient::weighted(pairs, volume, density, &p, &mut acceleration),
+            PressureGradient::Difference => {
+                let jump = |a: usize, b: usize| f.jump.as_ref().map_or(0.0, |jump| self.method.tension * jump.of(a, b));
+                pressure_gradient::difference(pairs, volume, density, &p, jump, &mut acceleration);
+            }
         }
         acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a).collect()
     }
@@ -348,7 +364,7 @@ impl Flow {
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
         let (fluids, m) = (self.particles.fluids, &self.method);
         let speed = largest(fluids, |a| velocity[a].norm()).map_or(0.0, |l| l.1);
-        let diffusion = m.shifting * m.kernel.h * speed * dt;
+        let diffusion = m.shifting * m.kernel.h * (speed + CAPILLARY_SHARE * m.capillary_speed()) * dt;
         if diffusion == 0.0 {
             return;
         }

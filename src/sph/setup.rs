@@ -20,6 +20,7 @@ use crate::sph::particles::Phase;
 use crate::sph::poisson::Tolerance;
 use crate::sph::projection::{Flow, WallQuery};
 use crate::sph::solver::{SphSolver, Surroundings};
+use crate::sph::surface_force::SurfaceForce;
 use crate::sph::wetting::{Wetting, YoungForce};
 
 /// Most iterations of a pressure solve; a healthy one takes about ten.
@@ -118,6 +119,9 @@ fn method(sph: &Sph, lattice: &Lattice) -> Method {
         wetting_fluid,
         other_fluid: sph.non_wetting.as_ref().map_or(wetting_fluid, fluid),
         tension: sph.tension,
+        surface_force: match sph.surface_force {
+            Some(checked::SurfaceForce::Csf) | None => SurfaceForce::Csf,
+        },
         wetting: sph.wetting_model.map(|model| match model {
             WettingModel::Young { contact_angle } => Wetting::Young(YoungForce { contact_angle }),
         }),
@@ -171,6 +175,9 @@ fn discs(spec: &GeometrySpec) -> Vec<DiscOf> {
 }
 
 fn polylines(outline: &Lines) -> Vec<Polyline> {
-    let line = |line: &Vec<u32>| Polyline { points: line.iter().map(|&i| outline.points[i as usize]).collect(), closed: false };
+    let line = |line: &Vec<u32>| Polyline {
+        points: line.iter().map(|&i| outline.points[i as usize]).collect(),
+        closed: false,
+    };
     outline.lines.iter().map(line).collect()
 }

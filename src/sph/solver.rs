@@ -1,7 +1,7 @@
 //! The SPH simulation as the simulation loop sees it.
 
-use crate::case::checked::MeasureSet;
 use crate::analysis::phases::{WallSample, density_error};
+use crate::case::checked::MeasureSet;
 use crate::math::Vec2;
 use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{Measure, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo};

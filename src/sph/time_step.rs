@@ -7,8 +7,8 @@ use crate::sph::method::{Method, ViscousTerm};
 /// Courant number on the smoothing length.
 const COURANT: f64 = 0.125;
 
-/// Factor on sqrt(ρ̄ h³/(2πσ)). With h = 1.5 dx this is half of Brackbill's limit, which is in terms of dx.
-const CAPILLARY: f64 = 0.25;
+/// Factor on sqrt(ρ̄ h³/(2πσ)): Brackbill's limit, which is in terms of dx, is .54 at h = 1.5 dx.
+const CAPILLARY: f64 = 0.5;
 
 /// Szewc's form acts along the line of centers with four times the coefficient of Morris's, half of it on average.
 const SZEWC_OVER_MORRIS: f64 = 2.0;

@@ -23,8 +23,20 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     let tension = s.flow.method.tension;
     let pressure = s.seen.capillary_pressure.value;
     vec![
-        measure("filling-angle-deg", mean, "deg", None, "contact points of the fitted circles from the line of centers"),
-        measure("neck-half-width-m", neck, "m", None, "smallest distance of the c = 0.5 contour from the line of centers"),
+        measure(
+            "filling-angle-deg",
+            mean,
+            "deg",
+            None,
+            "contact points of the fitted circles from the line of centers",
+        ),
+        measure(
+            "neck-half-width-m",
+            neck,
+            "m",
+            None,
+            "smallest distance of the c = 0.5 contour from the line of centers",
+        ),
         measure(
             "capillary-pressure-ratio",
             ratio(pressure, exact.map(|e| tension * e.curvature)),

@@ -37,7 +37,13 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
             "mean p of the non-wetting less that of the wetting particles farther than 3h from the interface",
         ),
         measure("interface-length-m", s.seen.interface_length(), "m", None, "length of the c = 0.5 contour"),
-        measure("wetted-length-m", s.seen.wetted_length, "m", None, "length of wall where the smoothed color is above 0.5"),
+        measure(
+            "wetted-length-m",
+            s.seen.wetted_length,
+            "m",
+            None,
+            "length of wall where the smoothed color is above 0.5",
+        ),
         measure("wetting-blobs", s.seen.wetting_blobs.len() as f64, "", None, "connected parts, links up to 1.6 dx"),
     ];
     if s.flow.method.wetting.is_some() {

@@ -7,7 +7,8 @@ use crate::solver::Measure;
 pub fn measures(s: &Subject) -> Vec<Measure> {
     let lines: Vec<_> = s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite()).collect();
     let base = match lines[..] {
-        [a, b] => s.flow.domain.separation(a.position, b.position).norm(),
+        // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
+        [a, b] => (a.position - b.position).norm(),
         _ => f64::NAN,
     };
     let distance = |x: &Vec2| (s.flow.wall)(*x).0;

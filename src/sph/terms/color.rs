@@ -1,7 +1,10 @@
 //! The color function and its gradient, the normal of the interface [Huber2013, Eq. 18].
 
-use crate::math::Vec2;
+use crate::math::{Mat2, Vec2};
 use crate::sph::pairs::{Pairs, each};
+
+/// The moment matrix is 1 inside the fluid and about 1/4 in a right corner; below this its inverse is not to be trusted.
+const SMALLEST_DETERMINANT: f64 = 0.05;
 
 /// ĉ_a = Σ_b V_b c_b W_ab / Σ_b V_b W_ab over fluid, the particle itself included (Shepard average).
 ///
@@ -20,4 +23,27 @@ pub fn smoothed_color(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], smooth
 /// n_a = (1/[c]) Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m, [c] = 1, over fluid [Huber2013, Eq. 18]. Points into the wetting phase.
 pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], normal: &mut [Vec2]) {
     pairs.sum_into(normal, |a, ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w);
+}
+
+/// The gradient of Eq. (18) made exact for linear fields: g_a = B_a Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m over fluid.
+///
+/// B_a is the inverse of −Σ_b V_b r_ab ⊗ ∇_a W_ab (Bonet & Lok 1999); where that is near singular the plain gradient is kept.
+/// `r_ab(a, b)` in m.
+pub fn consistent_gradient(
+    pairs: &Pairs,
+    fluid_volume: &[f64],
+    color: &[f64],
+    r_ab: impl Fn(usize, usize) -> Vec2 + Sync,
+    gradient: &mut [Vec2],
+) {
+    each(gradient, |a| {
+        let (mut plain, mut moment) = (Vec2::zeros(), Mat2::zeros());
+        for ab in pairs.of(a) {
+            let v_b = fluid_volume[ab.b];
+            plain += v_b * (color[ab.b] - color[a]) * ab.grad_w;
+            moment -= v_b * ab.grad_w * r_ab(a, ab.b).transpose();
+        }
+        let is_regular = moment.determinant() > SMALLEST_DETERMINANT;
+        moment.try_inverse().filter(|_| is_regular).map_or(plain, |inverse| inverse * plain)
+    });
 }

@@ -10,14 +10,36 @@ pub fn symmetric(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64
     pairs.sum_into(acceleration, |a, ab| -volume[ab.b] * (pressure[a] + pressure[ab.b]) / density[a] * ab.grad_w);
 }
 
+/// −(1/m_a) Σ_b (V_a² + V_b²) (ρ_b p_a + ρ_a p_b)/(ρ_a + ρ_b) ∇_a W_ab in m/s² [HuAdams2006, Eqs. 25, 29].
+///
+/// Keeps momentum and is continuous in ∇p/ρ across the interface; the constant in p orders the particles as in
+/// [`symmetric`], to which it comes down for equal densities and volumes.
+pub fn weighted(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], acceleration: &mut [Vec2]) {
+    pairs.sum_into(acceleration, |a, ab| {
+        let b = ab.b;
+        let between = (density[b] * pressure[a] + density[a] * pressure[b]) / (density[a] + density[b]);
+        let volumes = volume[a] * volume[a] + volume[b] * volume[b];
+        -volumes * between / (density[a] * volume[a]) * ab.grad_w
+    });
+}
+
 /// −Σ_b V_b 2 (p_b − p_a)/(ρ_a + ρ_b) ∇_a W_ab in m/s²: the gradient whose Laplacian is Eq. (30).
 ///
 /// Continuous in ∇p/ρ across the interface, so it holds at any density ratio; the constant in p does nothing, and momentum is kept only
 /// as well as the particles are ordered.
-pub fn difference(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], acceleration: &mut [Vec2]) {
+///
+/// `jump(a, b)` in Pa is the jump of the pressure from a to b where an interface lies between them, else zero.
+pub fn difference(
+    pairs: &Pairs,
+    volume: &[f64],
+    density: &[f64],
+    pressure: &[f64],
+    jump: impl Fn(usize, usize) -> f64 + Sync,
+    acceleration: &mut [Vec2],
+) {
     pairs.sum_into(acceleration, |a, ab| {
         let b = ab.b;
-        -volume[b] * 2.0 * (pressure[b] - pressure[a]) / (density[a] + density[b]) * ab.grad_w
+        -volume[b] * 2.0 * (pressure[b] - pressure[a] - jump(a, b)) / (density[a] + density[b]) * ab.grad_w
     });
 }
 

@@ -26,8 +26,8 @@ pub struct LineFields<'a> {
     pub wall_normal: &'a [Vec2],
     /// Volume in m².
     pub volume: &'a [f64],
-    /// ρ_a/ρ̄: 1 for equal densities; else the force is shared out by mass, as in the surface force.
-    pub relative_density: &'a [f64],
+    /// Weights w_a by which a line's force is shared out, as in the surface force.
+    pub weight: &'a [f64],
 }
 
 /// A particle that a contact line acts on.
@@ -60,13 +60,13 @@ pub fn line_force(
     for (p, &line) in particles.iter().zip(&line_of) {
         let weight = fields.volume[p.a] * p.delta;
         norm[line] += weight;
-        share[line] += weight * fields.relative_density[p.a];
+        share[line] += weight * fields.weight[p.a];
     }
     let smallest = SMALLEST_LINE * kernel.line_integral();
     for (p, &line) in particles.iter().zip(&line_of) {
         let n = share[line] * (smallest / norm[line]).max(1.0);
         let f = wetting.driving_force(&LineState { cos_alpha: p.cos_alpha, tension });
-        force[p.a] = f * p.delta * fields.relative_density[p.a] / n * p.tangent;
+        force[p.a] = f * p.delta * fields.weight[p.a] / n * p.tangent;
     }
     norm.iter().filter(|&&n| n >= smallest).count()
 }

@@ -1,0 +1,266 @@
+//! Curvature of the interface from local circle fits, free in the bulk and held to the contact angle at walls.
+//!
+//! A circle through points (u, v) in the frame of tangent and normal obeys v = a + b u + k (u² + v²)/2 with curvature
+//! k/√(1 + b² − 2ka): linear in a, b and k, and exact for circles. At a wall the circle leaves the contact point with the
+//! angle θ of the wetting law, so that only its curvature and the place of the contact point along the wall are free.
+
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+
+use crate::math::{Vec2, perpendicular};
+use crate::sph::cells::Cells;
+use crate::sph::domain::Domain;
+use crate::sph::surface_force::points::InterfacePoint;
+
+/// Radius of the window of a fit over h.
+pub const WINDOW: f64 = 2.5;
+
+/// Points whose normal turns away more than this (cosine) belong to another piece of interface.
+const SAME_PIECE: f64 = 0.3;
+
+/// Fewest points of a fit: three unknowns and some redundancy.
+const FEWEST: usize = 5;
+
+/// Largest curvature over 1/h: smaller drops are not resolved.
+const LARGEST_CURVATURE: f64 = 0.75;
+
+/// Share of the normal along the wall below which the interface runs parallel to it and has no contact line.
+const SMALLEST_TANGENT: f64 = 0.1;
+
+/// Way along the interface to the wall, over h, below which the fit is held to the contact angle; fades in over 2h.
+const REACH: f64 = 3.0;
+
+/// Largest difference of the angle used from the present one, so that far starts move and do not tear: 45 degrees.
+const LARGEST_PULL: f64 = std::f64::consts::FRAC_PI_4;
+
+/// Angles nearer than this to 0 or 180 degrees have no contact point to hold on to, in rad.
+const SMALLEST_ANGLE: f64 = 0.2;
+
+/// The interface touches the wall only where it comes as near as this, in units of dx: a film between them bears no line.
+const TOUCHING: f64 = 1.2;
+
+/// Signed distance in m and normal of the wall at a point.
+pub type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
+
+/// The interface, ready for fits.
+pub struct InterfaceFit<'a> {
+    points: &'a [InterfacePoint],
+    cells: Cells,
+    h: f64,
+    spacing: f64,
+    /// Angle of the wetting law in rad, where there is one.
+    angle: Option<f64>,
+    wall: &'a Wall<'a>,
+}
+
+/// A point of the window relative to the nearest one, with its weight.
+struct Near {
+    index: usize,
+    x: Vec2,
+    weight: f64,
+}
+
+impl<'a> InterfaceFit<'a> {
+    /// Sorts the points; `angle` in rad through the wetting phase.
+    #[must_use]
+    pub fn new(
+        points: &'a [InterfacePoint],
+        domain: &Domain,
+        (spacing, h): (f64, f64),
+        angle: Option<f64>,
+        wall: &'a Wall<'a>,
+    ) -> Self {
+        let places: Vec<Vec2> = points.iter().map(|p| p.x).collect();
+        let cells = Cells::build(&places, domain, WINDOW * h);
+        Self { points, cells, h, spacing, angle, wall }
+    }
+
+    /// Curvature in 1/m of the interface nearest to `x`, none where there is no interface within the window.
+    #[must_use]
+    pub fn curvature(&self, x: Vec2) -> Option<f64> {
+        let (p, from_p) = self.nearest(x)?;
+        let point = &self.points[p];
+        let near = self.window(point, x - from_p);
+        let free = free_fit(&near, point.normal);
+        let limit = LARGEST_CURVATURE / self.h;
+        let held = self.held_fit(point, &near);
+        let kappa = match (held, free) {
+            (Some((held, share)), Some(free)) => share * held + (1.0 - share) * free,
+            (Some((held, _)), None) => held,
+            (None, free) => free?,
+        };
+        kappa.is_finite().then(|| kappa.clamp(-limit, limit))
+    }
+
+    /// Index of the nearest point and x − x_p; the first of equals.
+    fn nearest(&self, x: Vec2) -> Option<(usize, Vec2)> {
+        let mut best: Option<(usize, Vec2)> = None;
+        self.cells.visit_near(x, |i, r| {
+            if best.is_none_or(|(_, b)| r.norm_squared() < b.norm_squared()) {
+                best = Some((i as usize, r));
+            }
+        });
+        best.filter(|(_, r)| r.norm() < WINDOW * self.h)
+    }
+
+    /// The points of the same piece within the window around `x_p`, the place of `point` next to the particle asked for.
+    fn window(&self, point: &InterfacePoint, x_p: Vec2) -> Vec<Near> {
+        let reach2 = (WINDOW * self.h).powi(2);
+        let mut near = Vec::new();
+        self.cells.visit_near(x_p, |i, r| {
+            let index = i as usize;
+            let d2 = r.norm_squared();
+            if d2 < reach2 && self.points[index].normal.dot(&point.normal) > SAME_PIECE {
+                near.push(Near { index, x: -r, weight: (1.0 - d2 / reach2).powi(2) });
+            }
+        });
+        near
+    }
+
+    /// The curvature held to the contact angle, and its share, where the interface meets a wall near `point`.
+    fn held_fit(&self, point: &InterfacePoint, near: &[Near]) -> Option<(f64, f64)> {
+        let angle = self.angle?;
+        if !point.wall_distance.is_finite() {
+            return None;
+        }
+        let along = |n: Vec2, e: Vec2| n - n.dot(&e) * e;
+        let slope = along(point.normal, point.wall_normal).norm();
+        let way = point.wall_distance.max(0.0) / slope.max(2.0 * SMALLEST_TANGENT);
+        let share = ((REACH * self.h - way) / (2.0 * self.h)).clamp(0.0, 1.0);
+        let touches = near.iter().any(|q| self.points[q.index].wall_distance < TOUCHING * self.spacing);
+        if slope < SMALLEST_TANGENT || share == 0.0 || !touches || near.len() < FEWEST {
+            return None;
+        }
+        // Down along the interface to the wall, then onto it.
+        let mut down = perpendicular(point.normal);
+        if down.dot(&point.wall_normal) > 0.0 {
+            down = -down;
+        }
+        let foot = point.x + way * down;
+        let (distance, normal) = (self.wall)(foot);
+        let contact = foot - distance * normal - point.x;
+        let outwards = -along(point.normal, normal).try_normalize(0.5 * SMALLEST_TANGENT)?;
+        let present = (-point.normal.dot(&normal)).clamp(-1.0, 1.0).acos();
+        let angle = angle
+            .clamp(present - LARGEST_PULL, present + LARGEST_PULL)
+            .clamp(SMALLEST_ANGLE, std::f64::consts::PI - SMALLEST_ANGLE);
+        let n_e = -angle.sin() * outwards - angle.cos() * normal;
+        let t_e = angle.sin() * normal - angle.cos() * outwards;
+        Some((fit_from_contact(near, contact, (t_e, n_e), angle)?, share))
+    }
+}
+
+/// Least squares of v = a + b u + k (u² + v²)/2 in the frame of `normal`; the curvature is k/√(1 + b² − 2ka).
+fn free_fit(near: &[Near], normal: Vec2) -> Option<f64> {
+    if near.len() < FEWEST {
+        return None;
+    }
+    let tangent = -perpendicular(normal);
+    let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for q in near {
+        let (u, v) = (q.x.dot(&tangent), q.x.dot(&normal));
+        let row = Vector3::new(1.0, u, 0.5 * (u * u + v * v));
+        matrix += q.weight * row * row.transpose();
+        right += q.weight * v * row;
+    }
+    let solution = matrix.cholesky()?.solve(&right);
+    let (a, b, k) = (solution[0], solution[1], solution[2]);
+    let square = 1.0 + b * b - 2.0 * k * a;
+    (square > 0.0).then(|| k / square.sqrt())
+}
+
+/// Steps of the fixed-point iteration for the place of the contact point; it converges within three.
+const ITERATIONS: usize = 4;
+
+/// Curvature of the circle that leaves the wall at `contact` + δ ν with tangent `t_e` and normal `n_e`; δ is fitted too.
+fn fit_from_contact(near: &[Near], contact: Vec2, (t_e, n_e): (Vec2, Vec2), angle: f64) -> Option<f64> {
+    let (mut delta, mut kappa) = (0.0, None);
+    for _ in 0..ITERATIONS {
+        let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
+        for q in near {
+            let x = q.x - contact;
+            let v_0 = x.dot(&n_e);
+            let (u, v) = (x.dot(&t_e) + delta * angle.cos(), v_0 + delta * angle.sin());
+            let row = Vector2::new(1.0, 0.5 * (u * u + v * v));
+            matrix += q.weight * row * row.transpose();
+            right += q.weight * v_0 * row;
+        }
+        let solution = matrix.cholesky()?.solve(&right);
+        delta = -solution[0] / angle.sin();
+        kappa = Some(solution[1]);
+    }
+    kappa
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Bounds;
+
+    const H: f64 = 0.15;
+
+    fn domain() -> Domain {
+        Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![])
+    }
+
+    /// Points of a circle of radius 1 about (0, `height`) above the floor y = 0.
+    fn circle(height: f64) -> Vec<InterfacePoint> {
+        (0..400)
+            .map(|i| std::f64::consts::TAU * f64::from(i) / 400.0)
+            .map(|t| Vec2::new(t.cos(), t.sin()))
+            .map(|n| (n + Vec2::new(0.0, height), -n))
+            .filter(|(x, _)| x.y > 0.0)
+            .map(|(x, normal)| InterfacePoint { x, normal, wall_distance: x.y, wall_normal: Vec2::y() })
+            .collect()
+    }
+
+    fn floor(x: Vec2) -> (f64, Vec2) {
+        (x.y, Vec2::y())
+    }
+
+    #[test]
+    fn the_curvature_of_a_circle_is_one_over_its_radius() {
+        let points = circle(2.0);
+        let fit = InterfaceFit::new(&points, &domain(), (0.1, H), None, &floor);
+        for t in [0.0_f64, 0.7, 2.0, 4.0] {
+            let x = Vec2::new(0.0, 2.0) + 1.1 * Vec2::new(t.cos(), t.sin());
+            let kappa = fit.curvature(x).unwrap();
+            assert!((kappa - 1.0).abs() < 1e-9, "{kappa}");
+        }
+        assert_eq!(fit.curvature(Vec2::new(0.0, 2.0)), None);
+    }
+
+    #[test]
+    fn a_cap_at_its_contact_angle_has_one_curvature_up_to_the_wall() {
+        for degrees in [30.0_f64, 60.0, 90.0, 120.0, 150.0] {
+            let angle = degrees.to_radians();
+            let points = circle(-angle.cos());
+            let fit = InterfaceFit::new(&points, &domain(), (0.1, H), Some(angle), &floor);
+            for height in [0.02, 0.1, 0.3] {
+                let x = Vec2::new((1.0 - (height + angle.cos()).powi(2)).sqrt(), height);
+                let kappa = fit.curvature(x).unwrap();
+                assert!((kappa - 1.0).abs() < 1e-6, "at {degrees} degrees, height {height}: {kappa}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_cap_that_is_too_steep_bends_outwards_at_the_wall() {
+        let points = circle(0.0);
+        let fit = |angle: f64| {
+            InterfaceFit::new(&points, &domain(), (0.1, H), Some(angle), &floor)
+                .curvature(Vec2::new(1.0, 0.02))
+                .unwrap()
+        };
+        assert!(fit(60_f64.to_radians()) < fit(90_f64.to_radians()));
+        assert!(fit(120_f64.to_radians()) > fit(90_f64.to_radians()));
+    }
+
+    #[test]
+    fn an_interface_that_only_comes_near_the_wall_feels_no_angle() {
+        let points = circle(1.0 + 2.0 * 0.1);
+        let free = InterfaceFit::new(&points, &domain(), (0.1, H), None, &floor);
+        let held = InterfaceFit::new(&points, &domain(), (0.1, H), Some(0.5), &floor);
+        let x = Vec2::new(0.3, 0.3);
+        assert_eq!(free.curvature(x), held.curvature(x));
+    }
+}

@@ -1,0 +1,92 @@
+//! The pressure jump J_ab = σ κ̄_ab (c_b − c_a) between particles on the two sides of the interface.
+
+use rayon::prelude::*;
+
+use crate::sph::images::Images;
+use crate::sph::pairs::{GRAIN, Pairs, each};
+use crate::sph::poisson::Matrix;
+use crate::sph::surface_force::fit::InterfaceFit;
+
+/// What decides the jump of each pair; slices over particles and images.
+#[derive(Debug, Clone, Default)]
+pub struct Jump {
+    /// Side of the interface: 1 in the wetting phase, 0 in the other; wall particles take that of the fluid nearby.
+    pub side: Vec<f64>,
+    /// Curvature in 1/m of the interface near the particle, NaN where there is none.
+    pub curvature: Vec<f64>,
+}
+
+impl Jump {
+    /// Sides and curvatures; `color` is sharp on fluid particles and smoothed on walls.
+    pub fn update(
+        &mut self,
+        (pairs, images, fluids): (&Pairs, &Images, usize),
+        color: &[f64],
+        position: &[crate::math::Vec2],
+        fit: &InterfaceFit,
+    ) {
+        let n = pairs.rows();
+        self.side.clear();
+        self.side.extend(color[..n].iter().map(|&c| if c > 0.5 { 1.0 } else { 0.0 }));
+        images.extend(&mut self.side);
+        let side = &self.side;
+        let unlike = |a: usize| pairs.of(a).any(|ab| side[ab.b] != side[a]);
+        let on_fluid: Vec<f64> = (0..fluids)
+            .into_par_iter()
+            .with_min_len(GRAIN / 8)
+            .map(|a| if unlike(a) { fit.curvature(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
+            .collect();
+        self.curvature.clear();
+        self.curvature.extend(on_fluid);
+        self.curvature.resize(n, f64::NAN);
+        images.extend(&mut self.curvature);
+        // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
+        for _ in 0..2 {
+            let known = self.curvature.clone();
+            each(&mut self.curvature[fluids..n], |i| {
+                let a = fluids + i;
+                if known[a].is_finite() { known[a] } else { mean(pairs, &known, a) }
+            });
+            images.extend(&mut self.curvature);
+        }
+    }
+
+    /// J_ab in units of the tension: κ̄_ab (c_b − c_a) in 1/m, κ̄ the mean of the curvatures that exist.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, a: usize, b: usize) -> f64 {
+        let step = self.side[b] - self.side[a];
+        if step == 0.0 {
+            return 0.0;
+        }
+        let (k_a, k_b) = (self.curvature[a], self.curvature[b]);
+        let kappa = match (k_a.is_nan(), k_b.is_nan()) {
+            (false, false) => 0.5 * (k_a + k_b),
+            (false, true) => k_a,
+            (true, false) => k_b,
+            (true, true) => 0.0,
+        };
+        kappa * step
+    }
+
+    /// Takes Σ_b A_ab J_ab off the right side of the pressure equation; `tension` in N/m.
+    pub fn subtract_from(&self, right: &mut [f64], matrix: &Matrix, pairs: &Pairs, tension: f64) {
+        let jumps: Vec<f64> = (0..right.len())
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|a| {
+                let coupling = &matrix.coupling[pairs.row(a)];
+                pairs.of(a).zip(coupling).map(|(ab, coupling)| coupling * self.of(a, ab.b)).sum()
+            })
+            .collect();
+        right.iter_mut().zip(&jumps).for_each(|(right, jump)| *right -= tension * jump);
+    }
+}
+
+fn mean(pairs: &Pairs, curvature: &[f64], a: usize) -> f64 {
+    let (sum, norm) = pairs
+        .of(a)
+        .filter(|ab| curvature[ab.b].is_finite())
+        .fold((0.0, 0.0), |(sum, norm), ab| (sum + ab.w * curvature[ab.b], norm + ab.w));
+    if norm > 0.0 { sum / norm } else { f64::NAN }
+}

@@ -1,0 +1,19 @@
+//! The two forms of the surface force, behind one seam.
+//!
+//! [`SurfaceForce::Csf`] is the paper's: a volume force in a band, with the contact line force beside it. In
+//! [`SurfaceForce::PressureJump`] the jump σκ enters the pressure differences across the interface, as in the ghost fluid method
+//! (Fedkiw et al. 1999; Kang et al. 2000), and the wetting law is the angle at which the interface meets the wall.
+//! `points` finds the interface, `fit` its curvature, `jump` carries it to the pairs.
+
+pub mod fit;
+pub mod jump;
+pub mod points;
+
+/// The forms of the surface force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SurfaceForce {
+    /// Continuum surface force and contact line force [Huber2013, Eqs. 20 and 23].
+    Csf,
+    /// Pressure jump with fitted curvature.
+    PressureJump,
+}

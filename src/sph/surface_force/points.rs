@@ -1,0 +1,110 @@
+//! Points of the interface: where the smoothed color passes 1/2 between two near particles.
+
+use crate::math::Vec2;
+use crate::sph::domain::Domain;
+use crate::sph::images::Images;
+use crate::sph::pairs::Pairs;
+
+/// Pairs nearer than this, in units of dx, are looked at: nearest and diagonal neighbors of the lattice.
+const LINK: f64 = 1.6;
+
+/// Below this color gradient, in units of 1/h, there is no interface.
+const SMALLEST_GRADIENT: f64 = 0.05;
+
+/// The level of the smoothed color that is the interface.
+const LEVEL: f64 = 0.5;
+
+/// A point of the interface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InterfacePoint {
+    /// Position in m.
+    pub x: Vec2,
+    /// Unit normal into the wetting phase.
+    pub normal: Vec2,
+    /// Distance to the wall in m, infinite where none is in reach.
+    pub wall_distance: f64,
+    /// Wall normal into the fluid, zero where none is in reach.
+    pub wall_normal: Vec2,
+}
+
+/// What the search for points needs; slices over particles and images, those of walls over fluid particles.
+pub struct PointFields<'a> {
+    /// Positions of the particles in m.
+    pub position: &'a [Vec2],
+    /// Smoothed color.
+    pub color: &'a [f64],
+    /// Consistent gradient of the smoothed color in 1/m.
+    pub gradient: &'a [Vec2],
+    /// Wall distance in m of fluid particles, infinite where no wall is in reach.
+    pub wall_distance: &'a [f64],
+    /// Wall normal at fluid particles.
+    pub wall_normal: &'a [Vec2],
+}
+
+/// All interface points between the first `fluids` particles, with images near mirrors. `(spacing, h)` in m.
+#[must_use]
+pub fn interface_points(
+    (pairs, images): (&Pairs, &Images),
+    domain: &Domain,
+    fields: &PointFields,
+    fluids: usize,
+    (spacing, h): (f64, f64),
+) -> Vec<InterfacePoint> {
+    let mut points = Vec::new();
+    let link2 = (LINK * spacing).powi(2);
+    for a in 0..fluids {
+        let c_a = fields.color[a] - LEVEL;
+        for ab in pairs.of(a) {
+            let source = images.source(ab.b);
+            let is_image = source != ab.b;
+            // Each pair of particles once; a particle and an image from the particle's side.
+            if source >= fluids || (!is_image && ab.b < a) {
+                continue;
+            }
+            let c_b = fields.color[ab.b] - LEVEL;
+            if (c_a > 0.0) == (c_b > 0.0) {
+                continue;
+            }
+            let x_a = fields.position[a];
+            let r_ba = -domain.separation(x_a, images.position(ab.b, fields.position));
+            let f = c_a / (c_a - c_b);
+            let g = (1.0 - f) * fields.gradient[a] + f * fields.gradient[ab.b];
+            if r_ba.norm_squared() < link2 && g.norm() > SMALLEST_GRADIENT / h {
+                let (wall_distance, wall_normal) = wall_between(fields, a, source, f);
+                points.push(InterfacePoint { x: x_a + f * r_ba, normal: g.normalize(), wall_distance, wall_normal });
+            }
+        }
+    }
+    reflect(&mut points, domain, 3.0 * h);
+    points
+}
+
+/// Wall distance and normal at the share `f` of the way from a to b.
+fn wall_between(fields: &PointFields, a: usize, b: usize, f: f64) -> (f64, Vec2) {
+    let (d_a, d_b) = (fields.wall_distance[a], fields.wall_distance[b]);
+    match (d_a.is_finite(), d_b.is_finite()) {
+        (true, true) => {
+            let normal = (1.0 - f) * fields.wall_normal[a] + f * fields.wall_normal[b];
+            // Opposite walls cancel: take the nearer one.
+            let nearer = if d_a < d_b { fields.wall_normal[a] } else { fields.wall_normal[b] };
+            ((1.0 - f) * d_a + f * d_b, normal.try_normalize(0.5).unwrap_or(nearer))
+        }
+        (true, false) => (d_a, fields.wall_normal[a]),
+        (false, true) => (d_b, fields.wall_normal[b]),
+        (false, false) => (f64::INFINITY, Vec2::zeros()),
+    }
+}
+
+fn reflect(points: &mut Vec<InterfacePoint>, domain: &Domain, reach: f64) {
+    for mirror in &domain.mirrors {
+        for i in 0..points.len() {
+            let point = points[i];
+            if (point.x[mirror.axis] - mirror.at).abs() < reach {
+                let mut x = point.x;
+                x[mirror.axis] = 2.0 * mirror.at - x[mirror.axis];
+                let (normal, wall_normal) = (mirror.reflect(point.normal), mirror.reflect(point.wall_normal));
+                points.push(InterfacePoint { x, normal, wall_normal, ..point });
+            }
+        }
+    }
+}
