@@ -82,7 +82,12 @@ fn measures(geometry: &Geometry) -> Vec<Measure> {
             uncertainty: Some(porosity.uncertainty),
             ..measure("porosity", porosity.value, "", "share of the domain that is not solid, exact along the outline")
         },
-        measure("specific-surface-per-m", geometry.specific_surface(), "1/m", "wall length over the area of the domain"),
+        measure(
+            "specific-surface-per-m",
+            geometry.specific_surface(),
+            "1/m",
+            "wall length over the area of the domain",
+        ),
     ];
     for (number, throat) in throats(geometry).iter().take(THROATS).enumerate() {
         let (c, name) = (throat.center, format!("throat-{}-width-m", number + 1));
