@@ -39,3 +39,11 @@ pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
     };
     Ok(check_against(case, &facts))
 }
+
+/// Width of the narrowest throat of a case in m; none where there is no throat, or no usable geometry.
+#[must_use]
+pub fn throat(case: &Case) -> Option<f64> {
+    let Model::Sph(sph) = &case.model;
+    let geometry = sph::setup::geometry(case, sph).ok()?;
+    geometry.narrowest_throat().map(|throat| throat.width)
+}
