@@ -3,7 +3,7 @@
 #[path = "support/program.rs"]
 mod program;
 
-use program::{assert_code, meniscus, shipped, stderr, stdout};
+use program::{assert_code, folder_with_small_case, meniscus, shipped, stderr, stdout};
 
 /// What follows `label` on its line of `text`.
 #[track_caller]
@@ -37,20 +37,25 @@ fn check_tells_what_a_run_of_each_case_would_be_like() {
 
 #[test]
 fn check_tells_the_resolution_of_the_narrowest_throat_and_takes_it_as_length() {
-    let folder = tempfile::tempdir().unwrap();
-    let case = shipped("cases", &["toml"]).into_iter().find(|case| case.ends_with("four-discs.toml")).unwrap();
-    // With sides that are joined, the gaps between the discs and not those to the sides of the box are the narrowest.
-    let sides = ["left", "right", "bottom", "top"].map(|side| format!("--set=sph.sides.{side}=periodic"));
-    let mut arguments = vec!["check", case.to_str().unwrap()];
-    arguments.extend(sides.iter().map(String::as_str));
-    let text = stdout(&meniscus(folder.path(), &arguments));
-    // Discs of R = 0.4 mm whose centers are 1 mm apart leave 0.2 mm between them: ten particles of 20 um.
-    assert!(line(&text, "throat").starts_with("10.0 particles across the narrowest one, 2.000e-4 m"), "{text}");
-    assert!(line(&text, "L ").starts_with("= 2.000e-4 m, width of the narrowest throat"), "{text}");
-    // La = sigma rho L/mu^2 of n-hexadecane.
-    assert!(line(&text, "La").starts_with("352.3"), "{text}");
-    arguments.push("--set=sph.spacing=5e-5");
-    let coarse = meniscus(folder.path(), &arguments);
+    let folder = folder_with_small_case();
+    // Two discs of R = 0.2 mm with 0.1 mm between them, in a periodic box.
+    let arguments = [
+        "check",
+        "drop.toml",
+        "--set=geometry.shapes=[{ disc = { center = [2.5e-4, 3.0e-4], radius = 2.0e-4 } }, \
+         { disc = { center = [7.5e-4, 3.0e-4], radius = 2.0e-4 } }]",
+        "--set=sph.sides.bottom=periodic",
+        "--set=sph.sides.top=periodic",
+        "--set=sph.spacing=1e-5",
+    ];
+    let output = meniscus(folder.path(), &arguments);
+    assert_code(&output, 0);
+    let text = stdout(&output);
+    assert!(line(&text, "throat").starts_with("10.0 particles across the narrowest one, 1.000e-4 m"), "{text}");
+    assert!(line(&text, "L ").starts_with("= 1.000e-4 m, width of the narrowest throat"), "{text}");
+    // La = sigma rho L/mu^2 = 0.02 x 800 x 1e-4/(8e-3)^2.
+    assert!(line(&text, "La").starts_with("25.00"), "{text}");
+    let coarse = meniscus(folder.path(), &[&arguments[..5], &["--set=sph.spacing=2.5e-5"]].concat());
     assert_code(&coarse, 3);
     assert!(stderr(&coarse).contains("has 4.0 particles, at least 5 are needed"), "{}", stderr(&coarse));
 }

@@ -31,7 +31,8 @@ pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
 pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
     let Model::Sph(sph) = &case.model;
     let geometry = sph::setup::geometry(case, sph)?;
-    let regions: Vec<_> = sph.initial.wetting.iter().map(|shape| sph::setup::region(case, &[shape.clone()])).collect();
+    let region = |shape| sph::setup::region(case, std::slice::from_ref(shape));
+    let regions: Vec<_> = sph.initial.wetting.iter().map(region).collect();
     let facts = Facts {
         throat: geometry.narrowest_throat().map(|throat| (throat.width, throat.center)),
         wall_distance: &|x| geometry.signed_distance(x),
