@@ -76,7 +76,6 @@ fn the_scripts_pass_their_own_tests() {
 }
 
 #[test]
-#[ignore = "needs the run command, which is not yet linked to the solver"]
 fn fresh_output_keeps_the_contract_and_is_drawn() {
     let directory = tempfile::tempdir().expect("a temporary folder");
     let out = fresh_output(directory.path());

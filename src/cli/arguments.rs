@@ -48,7 +48,8 @@ pub enum Command {
 pub struct RunArguments {
     /// Case file; the built-in case where there is none
     pub case: Option<PathBuf>,
-    /// Output folder, new or empty; out/NAME where there is none, NAME being that of the case file
+    /// Output folder, new or empty; where there is none: out/NAME, NAME being that of the case file, or where an earlier run
+    /// is in it out/NAME-2, out/NAME-3, ...
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Change a value of the case, as in --set sph.wetting.young.contact-angle-deg=60
@@ -57,7 +58,7 @@ pub struct RunArguments {
     /// Number of threads; all cores where there is none. The results do not depend on it
     #[arg(long, value_name = "N")]
     pub threads: Option<std::num::NonZeroUsize>,
-    /// Go on with the run in the output folder
+    /// Go on with the run in the output folder; without --out in the last one of out/NAME, out/NAME-2, ...
     #[arg(long)]
     pub resume: bool,
 }

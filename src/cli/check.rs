@@ -7,7 +7,8 @@ use super::exit::{BAD_INPUT, DONE, Failure, SOLVER_FAILED};
 use super::output::{duration, readable, say};
 use super::source;
 use crate::case::checked::Model;
-use crate::run::{numbers, setup};
+use crate::run::numbers::{self, Length, expected_speed};
+use crate::run::setup;
 
 /// Steps that are tried; the first ones set up what later ones reuse.
 const TRIAL_STEPS: usize = 5;
@@ -29,6 +30,14 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let Model::Sph(sph) = &case.model;
     say(&case.title);
     say(format_args!("  particles   {} at a spacing of {} m", solver.statistics().unknowns, readable(sph.spacing)));
+    match setup::throat(case) {
+        Some(width) => say(format_args!(
+            "  throat      {:.1} particles across the narrowest one, {} m",
+            width / sph.spacing,
+            readable(width)
+        )),
+        None => say("  throat      none"),
+    }
     if let Some(memory) = memory() {
         say(format_args!("  memory      {memory}"));
     }
@@ -41,15 +50,13 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
             duration(steps * per_step)
         ));
     }
-    let speed = (sph.tension / (sph.wetting.density * numbers::reference_length(case))).sqrt();
-    for number in numbers::numbers(case, speed) {
+    let length = Length::of(case);
+    let (speed, formula) = expected_speed(case, length);
+    for number in numbers::numbers(case, length, speed) {
         say(format_args!("  {:<11} {:<12} {}", number.symbol, readable(number.value), number.formula));
     }
-    say(format_args!(
-        "              L = {} m, shorter side of the domain; U = sqrt(sigma / rho L) = {} m/s",
-        readable(numbers::reference_length(case)),
-        readable(speed)
-    ));
+    say(format_args!("  L           = {} m, {}", readable(length.value), length.name));
+    say(format_args!("  U           = {} m/s, {formula}", readable(speed)));
     Ok(DONE)
 }
 

@@ -1,6 +1,6 @@
 //! `meniscus run`.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use super::arguments::RunArguments;
 use super::exit::{BAD_INPUT, BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
@@ -10,13 +10,16 @@ use super::summary::summary;
 use super::{interrupt, source};
 use crate::run::execute::{Finished, Job, Mode, RunError, execute};
 use crate::run::report::Status;
-use crate::run::setup;
+use crate::run::{folder, setup};
 
 /// Runs a case; the exit code says how it ended.
 pub fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     let source = source::load_case(arguments.case.as_deref(), &arguments.overrides)?;
-    let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&source.name));
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
+    let folder = arguments.out.clone().unwrap_or_else(|| {
+        let base = Path::new("out").join(&source.name);
+        if mode == Mode::Resume { folder::last_used(&base) } else { folder::next_free(&base) }
+    });
     let job = Job { case: &source.case, resolved: &source.resolved, folder, mode };
     let finished = pool(arguments)?.install(|| -> Result<Finished, Failure> {
         let mut solver = setup::build(job.case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
@@ -27,6 +30,9 @@ pub fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         display.finish();
         finished.map_err(|error| failure(&error))
     })?;
+    if finished.was_at_end {
+        tell(format_args!("the run in {} is already at its end; nothing was left to do", finished.folder.display()));
+    }
     say(summary(&finished).trim_end());
     ending(&finished)
 }

@@ -94,7 +94,8 @@ fn push_expectations(text: &mut String, report: &Report) {
 fn push_numbers(text: &mut String, report: &Report) {
     let numbers: Vec<String> =
         report.numbers.iter().map(|number| format!("{} {}", number.symbol, readable(number.value))).collect();
-    let _ = writeln!(text, "  {}  (L: shorter side of the domain, U: fastest speed recorded)", numbers.join("  "));
+    let length = report.length_of_numbers.name;
+    let _ = writeln!(text, "  {}  (L: {length}, U: fastest speed recorded)", numbers.join("  "));
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use super::folder::{self, FolderError};
-use super::numbers;
-use super::report::{Machine, Report, SolverReport, Status, readings, verdicts, wall_time};
+use super::numbers::{self, Length};
+use super::report::{Machine, REPORT, Report, SolverReport, Status, readings, verdicts, wall_time};
 use super::schedule::Schedule;
 use super::simulation::{Outcome, Records, Simulation, Watcher};
 use super::sink::Start;
@@ -64,6 +64,8 @@ pub struct Finished {
     pub folder: PathBuf,
     /// The picture, or why there is none.
     pub picture: Result<PathBuf, PictureError>,
+    /// Whether a resumed run was at its end already, so that nothing was done.
+    pub was_at_end: bool,
 }
 
 /// The hash that tells whether a saved state belongs to a case: equal for equal values, however they were written.
@@ -88,6 +90,7 @@ pub fn execute(
     let clock = Instant::now();
     let hash = case_hash(job.case)?;
     let start = prepare(job, solver, hash)?;
+    let was_at_end = start != Start::New && solver.time() >= job.case.end;
     let mut records = Records::new(&job.folder, hash, start)?;
     let schedule = Schedule::new(&job.case.output, job.case.end);
     let mut simulation = Simulation { solver, schedule, records: &mut records, interrupt, watcher };
@@ -102,12 +105,14 @@ pub fn execute(
     let mut report = report(job, solver, &records, status);
     report.error = error;
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
-    let written = report.write(&job.folder);
+    // The report of the run that reached the end tells more: its wall time, its machine.
+    let is_told = was_at_end && job.folder.join(REPORT).exists();
+    let written = if is_told { Ok(()) } else { report.write(&job.folder) };
     // The record that could not be written is the error to tell, not the report after it.
     ended?;
     written?;
     let picture = draw(job, solver)?;
-    Ok(Finished { report, folder: job.folder.clone(), picture })
+    Ok(Finished { report, folder: job.folder.clone(), picture, was_at_end })
 }
 
 /// Makes the folder, or takes up the saved state in it.
@@ -125,6 +130,7 @@ fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<Start, R
 fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status) -> Report {
     let statistics = solver.statistics();
     let fastest = records.series().column("max_speed_m_per_s").filter(|speed| speed.is_finite()).fold(0.0, f64::max);
+    let length = Length::of(job.case);
     let measures = readings(solver.measures(records.series()));
     let mut expectations = verdicts(&job.case.expect, &measures);
     let mut status = status;
@@ -141,7 +147,8 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
         steps: solver.steps(),
         measures,
         expectations,
-        numbers: numbers::numbers(job.case, fastest),
+        numbers: numbers::numbers(job.case, length, fastest),
+        length_of_numbers: length,
         case: job.case.clone(),
         resolved_case: job.resolved.to_owned(),
         machine: Machine::present(),

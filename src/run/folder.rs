@@ -40,6 +40,39 @@ pub enum FolderError {
     File(#[from] FileError),
 }
 
+/// The folder of a new run that was given no name of its own: `base`, or where that is in use `base-2`, `base-3`, ...
+///
+/// An earlier run is never touched.
+#[must_use]
+pub fn next_free(base: &Path) -> PathBuf {
+    numbered(base).find(|folder| is_free(folder)).unwrap_or_else(|| base.to_path_buf())
+}
+
+/// The last folder that [`next_free`] gave away, to go on with; `base` where there is none.
+#[must_use]
+pub fn last_used(base: &Path) -> PathBuf {
+    numbered(base).take_while(|folder| !is_free(folder)).last().unwrap_or_else(|| base.to_path_buf())
+}
+
+/// `base`, `base-2`, `base-3`, ...
+fn numbered(base: &Path) -> impl Iterator<Item = PathBuf> {
+    let name = base.file_name().unwrap_or_default().to_os_string();
+    let next = move |number: u32| {
+        let mut name = name.clone();
+        name.push(format!("-{number}"));
+        base.with_file_name(name)
+    };
+    std::iter::once(base.to_path_buf()).chain((2..).map(next))
+}
+
+/// Whether there is nothing at `folder`, or an empty folder.
+fn is_free(folder: &Path) -> bool {
+    match std::fs::read_dir(folder) {
+        Ok(mut entries) => entries.next().is_none(),
+        Err(_) => !folder.exists(),
+    }
+}
+
 /// Makes the folder of a new run, and tries whether it can be written to.
 ///
 /// # Errors

@@ -1,12 +1,14 @@
 //! The dimensionless numbers of a case and the limits of its time step, by formulas that are stated with them.
 //!
-//! With rho, mu of the wetting phase, sigma the tension, L the shorter side of the domain, U a speed:
+//! With rho, mu of the wetting phase, sigma the tension, L the width of the narrowest throat (without one: the shorter side of
+//! the domain), U a speed:
 //! Re = rho U L/mu, Ca = mu U/sigma, We = rho U² L/sigma, Bo = |rho_w - rho_n| g L²/sigma (rho_w alone in single-phase flow),
 //! La = sigma rho L/mu², Oh = La^(-1/2).
 
 use serde::Serialize;
 
-use crate::case::checked::{Case, Model};
+use super::setup;
+use crate::case::checked::{Case, InitialVelocity, Model};
 use crate::math::Vec2;
 
 /// A dimensionless number.
@@ -20,12 +22,56 @@ pub struct Number {
     pub formula: &'static str,
 }
 
+/// The length L of the numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Length {
+    /// In m.
+    pub value: f64,
+    /// What it is the length of.
+    pub name: &'static str,
+}
+
+impl Length {
+    /// The width of the narrowest throat of a case, or the shorter side of its domain where there is no throat.
+    #[must_use]
+    pub fn of(case: &Case) -> Self {
+        match setup::throat(case) {
+            Some(value) => Self { value, name: "width of the narrowest throat" },
+            None => {
+                let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
+                Self { value: size.min(), name: "shorter side of the domain" }
+            }
+        }
+    }
+}
+
+/// A speed to expect, in m/s, with its formula: what is known before a run.
+#[must_use]
+pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
+    let Model::Sph(sph) = &case.model;
+    let (rho, mu, g, l) = (sph.wetting.density, sph.wetting.viscosity, sph.gravity.norm(), length.value);
+    let initial = match sph.initial.velocity {
+        InitialVelocity::Rest => 0.0,
+        InitialVelocity::Uniform(v) => v.norm(),
+        InitialVelocity::TaylorGreen(speed) => speed,
+    };
+    if initial > 0.0 {
+        (initial, "initial speed")
+    } else if sph.tension > 0.0 {
+        ((sph.tension / (rho * l)).sqrt(), "sqrt(sigma / rho L)")
+    } else {
+        // In the middle of a gap of width L; a body force cannot make more of the fall through L than free fall.
+        let (viscous, free) = (rho * g * l * l / (8.0 * mu), (2.0 * g * l).sqrt());
+        if viscous < free { (viscous, "rho g L^2 / 8 mu") } else { (free, "sqrt(2 g L)") }
+    }
+}
+
 /// The numbers of a case at the speed `speed` in m/s; those that need a tension are absent without one.
 #[must_use]
-pub fn numbers(case: &Case, speed: f64) -> Vec<Number> {
+pub fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
     let Model::Sph(sph) = &case.model;
     let (rho, mu, sigma) = (sph.wetting.density, sph.wetting.viscosity, sph.tension);
-    let length = reference_length(case);
+    let length = length.value;
     let difference = (rho - sph.non_wetting.map_or(0.0, |fluid| fluid.density)).abs();
     let number = |symbol, value, formula| Number { symbol, value, formula };
     let mut all = vec![number("Re", rho * speed * length / mu, "rho U L / mu")];
@@ -40,10 +86,4 @@ pub fn numbers(case: &Case, speed: f64) -> Vec<Number> {
         ]);
     }
     all
-}
-
-/// The length L of the numbers: the shorter side of the domain in m.
-#[must_use]
-pub fn reference_length(case: &Case) -> f64 {
-    (Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min)).min()
 }

@@ -5,10 +5,13 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::numbers::Number;
+use super::numbers::{Length, Number};
 use crate::case::checked::{Case, Expectation};
 use crate::io::{FileError, atomic};
 use crate::solver::{Measure, PartTime, Statistics};
+
+/// Name of the file.
+pub const REPORT: &str = "report.json";
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -104,6 +107,8 @@ pub struct Report {
     pub expectations: Vec<Verdict>,
     /// Dimensionless numbers at the fastest speed that was recorded, by symbol.
     pub numbers: Vec<Number>,
+    /// The length L in them.
+    pub length_of_numbers: Length,
     /// The case, every value present, in SI units.
     pub case: Case,
     /// The case file with all that was filled in, as TOML.
@@ -181,7 +186,7 @@ impl Report {
     /// # Errors
     /// [`FileError`].
     pub fn write(&self, folder: &Path) -> Result<(), FileError> {
-        let path = folder.join("report.json");
+        let path = folder.join(REPORT);
         let text = serde_json::to_string_pretty(self)
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
         atomic::write(&path, (text + "\n").as_bytes())

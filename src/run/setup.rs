@@ -31,11 +31,20 @@ pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
 pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
     let Model::Sph(sph) = &case.model;
     let geometry = sph::setup::geometry(case, sph)?;
-    let regions: Vec<_> = sph.initial.wetting.iter().map(|shape| sph::setup::region(case, &[shape.clone()])).collect();
+    let region = |shape| sph::setup::region(case, std::slice::from_ref(shape));
+    let regions: Vec<_> = sph.initial.wetting.iter().map(region).collect();
     let facts = Facts {
         throat: geometry.narrowest_throat().map(|throat| (throat.width, throat.center)),
         wall_distance: &|x| geometry.signed_distance(x),
         in_initial_shape: &|index, x| regions[index].signed_distance(x) < 0.0,
     };
     Ok(check_against(case, &facts))
+}
+
+/// Width of the narrowest throat of a case in m; none where there is no throat, or no usable geometry.
+#[must_use]
+pub fn throat(case: &Case) -> Option<f64> {
+    let Model::Sph(sph) = &case.model;
+    let geometry = sph::setup::geometry(case, sph).ok()?;
+    geometry.narrowest_throat().map(|throat| throat.width)
 }

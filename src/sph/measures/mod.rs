@@ -57,11 +57,14 @@ fn measure(name: &str, value: f64, unit: &str, uncertainty: Option<f64>, method:
     Measure { name: name.into(), value, unit: unit.into(), uncertainty, method: method.into() }
 }
 
+/// A group of measures.
+type Group = fn(&Subject) -> Vec<Measure>;
+
 /// All measures of a run.
 #[must_use]
 pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
     let mut measures = every_run::measures(subject);
-    let groups: [(bool, fn(&Subject) -> Vec<Measure>); 6] = [
+    let groups: [(bool, Group); 6] = [
         (set.sessile_drop, sessile_drop::measures),
         (set.laplace_drop, laplace_drop::measures),
         (set.poiseuille, poiseuille::measures),

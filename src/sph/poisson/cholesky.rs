@@ -46,11 +46,11 @@ impl SparseCholesky {
 fn lower_triangle(matrix: &Matrix, part: &[u32]) -> Result<SparseColMat<usize, f64>, FactorizationError> {
     let mut seen = Vec::new();
     let mut entries = Vec::with_capacity(matrix.column.len() / 2 + matrix.rows());
-    for a in 0..matrix.rows() {
+    for (a, part) in part.iter().enumerate().take(matrix.rows()) {
         // Doubling one diagonal entry per part holds that unknown near zero without a change of the range's solution.
-        let first = !seen.contains(&part[a]);
+        let first = !seen.contains(&part);
         if first {
-            seen.push(part[a]);
+            seen.push(part);
         }
         entries.push(Triplet::new(a, a, matrix.diagonal[a] * if first { 2.0 } else { 1.0 }));
         for (b, coupling) in matrix.row(a).filter(|&(b, _)| b <= a) {

@@ -39,7 +39,7 @@ pub struct Multigrid {
 
 impl Multigrid {
     /// Builds the hierarchy for `matrix`, whose unknowns lie at `points` about `spacing` (m) apart; `kind` as in
-    /// [`Aggregates::by_cell`].
+    /// `Aggregates::by_cell`.
     #[must_use]
     pub fn new(matrix: &Matrix, points: &[Vec2], kind: &[u8], spacing: f64) -> Self {
         let mut coarse: Vec<Level> = Vec::new();

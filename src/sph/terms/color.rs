@@ -20,7 +20,7 @@ pub fn smoothed_color(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], smooth
     });
 }
 
-/// n_a = (1/[c]) Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m, [c] = 1, over fluid [Huber2013, Eq. 18]. Points into the wetting phase.
+/// n_a = (1/\[c\]) Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m, \[c\] = 1, over fluid [Huber2013, Eq. 18]. Points into the wetting phase.
 pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], normal: &mut [Vec2]) {
     pairs.sum_into(normal, |a, ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w);
 }

@@ -1,0 +1,102 @@
+//! What the program tells without a run: `check`, `geometry`, `list`, `new`.
+
+#[path = "support/program.rs"]
+mod program;
+
+use program::{assert_code, folder_with_small_case, meniscus, shipped, stderr, stdout};
+
+/// What follows `label` on its line of `text`.
+#[track_caller]
+fn line<'a>(text: &'a str, label: &str) -> &'a str {
+    let found = text.lines().find_map(|line| line.trim_start().strip_prefix(label)).map(str::trim);
+    found.unwrap_or_else(|| panic!("no line `{label}` in\n{text}"))
+}
+
+#[test]
+fn check_tells_what_a_run_of_each_case_would_be_like() {
+    let folder = tempfile::tempdir().unwrap();
+    for case in shipped("cases", &["toml"]) {
+        let output = meniscus(folder.path(), &["check", case.to_str().unwrap()]);
+        assert_code(&output, 0);
+        let text = stdout(&output);
+        let particles: usize = line(&text, "particles").split(' ').next().unwrap().parse().unwrap();
+        assert!((100..100_000).contains(&particles), "{}: {particles}", case.display());
+        for label in ["memory", "time step", "run", "throat", "Re"] {
+            line(&text, label);
+        }
+        assert!(line(&text, "time step").contains("ruled by"), "{text}");
+        if std::fs::read_to_string(&case).unwrap().contains("[sph.interface]") {
+            for number in ["Ca", "We", "Bo", "Oh", "La"] {
+                line(&text, number);
+            }
+            assert!(line(&text, "L ").contains("throat") || line(&text, "L ").contains("shorter side"), "{text}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "check writes nothing");
+    }
+}
+
+#[test]
+fn check_tells_the_resolution_of_the_narrowest_throat_and_takes_it_as_length() {
+    let folder = folder_with_small_case();
+    // Two discs of R = 0.2 mm with 0.1 mm between them, in a periodic box.
+    let arguments = [
+        "check",
+        "drop.toml",
+        "--set=geometry.shapes=[{ disc = { center = [2.5e-4, 3.0e-4], radius = 2.0e-4 } }, \
+         { disc = { center = [7.5e-4, 3.0e-4], radius = 2.0e-4 } }]",
+        "--set=sph.sides.bottom=periodic",
+        "--set=sph.sides.top=periodic",
+        "--set=sph.spacing=1e-5",
+    ];
+    let output = meniscus(folder.path(), &arguments);
+    assert_code(&output, 0);
+    let text = stdout(&output);
+    assert!(line(&text, "throat").starts_with("10.0 particles across the narrowest one, 1.000e-4 m"), "{text}");
+    assert!(line(&text, "L ").starts_with("= 1.000e-4 m, width of the narrowest throat"), "{text}");
+    // La = sigma rho L/mu^2 = 0.02 x 800 x 1e-4/(8e-3)^2.
+    assert!(line(&text, "La").starts_with("25.00"), "{text}");
+    let coarse = meniscus(folder.path(), &[&arguments[..5], &["--set=sph.spacing=2.5e-5"]].concat());
+    assert_code(&coarse, 3);
+    assert!(stderr(&coarse).contains("4.0 particles, at least 5 are needed"), "{}", stderr(&coarse));
+}
+
+#[test]
+fn geometry_measures_and_draws_every_shape_file() {
+    let folder = tempfile::tempdir().unwrap();
+    for file in shipped("geometries", &["toml", "xyr", "wkt"]) {
+        let out = folder.path().join(file.file_name().unwrap());
+        let output = meniscus(folder.path(), &["geometry", file.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+        assert_code(&output, 0);
+        let text = stdout(&output);
+        let porosity: f64 = line(&text, "porosity").parse().unwrap();
+        assert!(porosity > 0.1 && porosity < 1.0, "{}: {porosity}", file.display());
+        assert!(line(&text, "specific-surface-per-m").ends_with("1/m"), "{text}");
+        for name in ["solid.vtp", "distance.vti", "picture.png"] {
+            let length = std::fs::metadata(out.join(name)).unwrap().len();
+            assert!(length > 500, "{}: {name} has {length} bytes", file.display());
+        }
+    }
+}
+
+#[test]
+fn the_list_names_every_model_with_its_source() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = stdout(&meniscus(folder.path(), &["list"]));
+    for (model, source) in [
+        ("[sph]", "Huber et al. 2013"),
+        ("[sph.surface-force.csf]", "Brackbill et al. 1992"),
+        ("[sph.wetting.young]", "Huber et al. 2013, Eqs. 7 and 23"),
+        ("\"szewc\"", "Szewc et al. 2012"),
+        ("\"morris\"", "Morris et al. 1997"),
+        ("sph.sides: image", "Huber et al. 2013"),
+    ] {
+        assert!(text.lines().any(|line| line.contains(model) && line.contains(source)), "{model} {source}\n{text}");
+    }
+}
+
+#[test]
+fn the_starter_case_can_be_checked_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    assert_code(&meniscus(folder.path(), &["new"]), 0);
+    assert_code(&meniscus(folder.path(), &["check", "case.toml"]), 0);
+}

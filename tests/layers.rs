@@ -1,0 +1,245 @@
+//! The layers of the source tree: low may not import high, and each foreign library has its one place.
+//!
+//! Reads the sources as text: comments are cut off, every path that begins with `crate::` counts.
+
+use std::path::{Path, PathBuf};
+
+/// What each module of the crate may import besides itself. Output code sees snapshots, so `io` sees neither case nor solver
+/// modules; `sph` and `analysis` never meet but in one direction: `analysis` is pure.
+const MAY_IMPORT: [(&str, &[&str]); 11] = [
+    ("math", &[]),
+    ("input", &["math"]),
+    ("snapshot", &["math"]),
+    ("solver", &["math", "snapshot"]),
+    ("geometry", &["math", "input", "snapshot"]),
+    ("case", &["math", "input", "geometry"]),
+    ("analysis", &["math", "snapshot", "geometry"]),
+    ("sph", &["math", "geometry", "snapshot", "solver", "case", "analysis"]),
+    ("io", &["math", "snapshot", "solver"]),
+    ("run", &["math", "input", "geometry", "snapshot", "solver", "case", "analysis", "sph", "io"]),
+    ("cli", &["math", "input", "geometry", "snapshot", "solver", "case", "analysis", "io", "run"]),
+];
+
+/// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
+const ONE_PLACE: [(&str, &[&str]); 13] = [
+    ("parry2d_f64", &["geometry/"]),
+    ("clap", &["cli/"]),
+    ("clap_complete", &["cli/"]),
+    ("indicatif", &["cli/"]),
+    ("ctrlc", &["cli/"]),
+    // Errors in input carry their place as `miette` wants it; only the command line prints them.
+    ("miette", &["cli/", "input/error.rs"]),
+    ("println!", &["cli/"]),
+    ("eprintln!", &["cli/"]),
+    ("print!", &["cli/"]),
+    ("eprint!", &["cli/"]),
+    ("dbg!", &[]),
+    ("stdout", &["cli/"]),
+    ("stderr", &["cli/"]),
+];
+
+/// A source file: its path below `src` and its lines without comments.
+struct Source {
+    path: String,
+    lines: Vec<String>,
+}
+
+impl Source {
+    /// The module of the crate it belongs to: `sph` for `sph/poisson/solve.rs`, `math` for `math.rs`.
+    fn module(&self) -> &str {
+        self.path.split('/').next().unwrap_or_default().trim_end_matches(".rs")
+    }
+
+    fn place(&self, line: usize) -> String {
+        format!("src/{}:{}", self.path, line + 1)
+    }
+}
+
+fn sources() -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    collect(&root, &mut files);
+    files.sort();
+    let source = |file: PathBuf| Source {
+        path: file.strip_prefix(&root).unwrap().to_string_lossy().replace('\\', "/"),
+        lines: std::fs::read_to_string(&file).unwrap().lines().map(|line| without_comment(line).to_owned()).collect(),
+    };
+    files.into_iter().map(source).collect()
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+}
+
+/// The line up to `//` outside of a string literal.
+fn without_comment(line: &str) -> &str {
+    let (mut in_string, mut escaped) = (false, false);
+    for (i, c) in line.char_indices() {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' if in_string => escaped = true,
+            '"' => in_string = !in_string,
+            '/' if !in_string && line[i..].starts_with("//") => return &line[..i],
+            _ => {}
+        }
+    }
+    line
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_' || c == '!'
+}
+
+/// Whether `line` holds `word` with no letter beside it.
+fn holds(line: &str, word: &str) -> bool {
+    line.match_indices(word).any(|(at, _)| {
+        !line[..at].ends_with(is_word)
+            && !line[at + word.len()..].starts_with(|c: char| c.is_alphanumeric() || c == '_')
+    })
+}
+
+/// The first parts of the paths behind each `crate::` of a file with their lines; `crate::{a::B, c}` has two.
+fn imports(source: &Source) -> Vec<(usize, String)> {
+    let text = source.lines.join("\n");
+    let mut found = Vec::new();
+    for (at, path) in text.match_indices("crate::") {
+        let line = text[..at].matches('\n').count();
+        let rest = &text[at + path.len()..];
+        if let Some(group) = rest.strip_prefix('{') {
+            found.extend(group_heads(group).into_iter().map(|head| (line, head)));
+        } else {
+            found.push((line, rest.chars().take_while(|&c| is_word(c)).collect()));
+        }
+    }
+    found
+}
+
+/// The first part of each path of an import group, given what follows its opening brace.
+fn group_heads(group: &str) -> Vec<String> {
+    let (mut depth, mut heads, mut head, mut taking) = (1, Vec::new(), String::new(), true);
+    for c in group.chars() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 || (depth == 1 && c == ',') {
+            heads.push(std::mem::take(&mut head));
+            taking = true;
+        } else if depth == 1 && taking && is_word(c) {
+            head.push(c);
+        } else if !c.is_whitespace() {
+            taking = false;
+        }
+        if depth == 0 {
+            break;
+        }
+    }
+    heads.retain(|head| !head.is_empty());
+    heads
+}
+
+fn assert_none(violations: &[String]) {
+    assert!(violations.is_empty(), "\n{}", violations.join("\n"));
+}
+
+#[test]
+fn low_layers_do_not_import_high_ones() {
+    let mut violations = Vec::new();
+    for source in sources().iter().filter(|source| !matches!(source.path.as_str(), "main.rs" | "lib.rs")) {
+        let module = source.module();
+        let Some((_, allowed)) = MAY_IMPORT.iter().find(|(name, _)| *name == module) else {
+            violations.push(format!("src/{}: the module `{module}` has no layer in tests/layers.rs", source.path));
+            continue;
+        };
+        for (line, import) in imports(source) {
+            if import != module && !allowed.contains(&import.as_str()) {
+                violations.push(format!("{}: `{module}` may not import `{import}`", source.place(line)));
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn no_file_climbs_out_of_its_module_by_super() {
+    let mut violations = Vec::new();
+    for source in sources() {
+        let folders = source.path.matches('/').count();
+        let own = if source.path.ends_with("mod.rs") { folders - 1 } else { folders };
+        let mut inner = 0;
+        for (number, line) in source.lines.iter().enumerate() {
+            inner += usize::from(line.trim_start().starts_with("mod ") && line.trim_end().ends_with('{'));
+            let longest = (1..=8).rev().find(|&n| line.contains(&"super::".repeat(n))).unwrap_or(0);
+            if longest > own + inner {
+                violations.push(format!("{}: `super` leads to the root of the crate", source.place(number)));
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn only_setup_and_the_choice_of_measures_see_the_case() {
+    let mut violations = Vec::new();
+    for source in sources().iter().filter(|source| source.module() == "sph" && !source.path.ends_with("/setup.rs")) {
+        for (number, line) in source.lines.iter().enumerate() {
+            if line.contains("crate::case") && line.trim() != "use crate::case::checked::MeasureSet;" {
+                violations.push(format!("{}: only setup.rs sees the case: {}", source.place(number), line.trim()));
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn foreign_libraries_and_printing_keep_to_their_place() {
+    let mut violations = Vec::new();
+    for source in sources() {
+        for (number, line) in source.lines.iter().enumerate() {
+            for (word, places) in ONE_PLACE {
+                if holds(line, word) && !places.iter().any(|place| source.path.starts_with(place)) {
+                    violations.push(format!("{}: `{word}` belongs to {places:?}", source.place(number)));
+                }
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn the_physics_touches_no_file() {
+    let mut violations = Vec::new();
+    for source in sources().iter().filter(|source| matches!(source.module(), "math" | "sph" | "analysis")) {
+        for (number, line) in source.lines.iter().enumerate() {
+            if ["std::fs", "std::io", "std::env", "std::process"].iter().any(|name| line.contains(name)) {
+                violations.push(format!("{}: {}", source.place(number), line.trim()));
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn the_reader_of_imports_reads_what_rust_reads() {
+    let lines = [
+        "use crate::math::Vec2; // crate::cli",
+        "use crate::{io::{atomic, vtk}, run,",
+        "    solver};",
+        "let a = \"//\"; crate::sph::x()",
+    ];
+    let source =
+        Source { path: "a.rs".into(), lines: lines.iter().map(|line| without_comment(line).to_owned()).collect() };
+    let found: Vec<_> = imports(&source).into_iter().map(|(line, head)| format!("{line} {head}")).collect();
+    assert_eq!(found, ["0 math", "1 io", "1 run", "1 solver", "3 sph"]);
+    assert!(
+        holds("    println!(\"a\")", "println!") && !holds("eprintln!()", "println!") && !holds("overclap", "clap")
+    );
+}

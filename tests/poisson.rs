@@ -1,0 +1,130 @@
+//! The pressure equation: its matrix, and that the iteration finds what a direct factorization finds.
+
+#[path = "support/cloud.rs"]
+mod cloud;
+
+use cloud::{Cloud, Dice};
+use meniscus::sph::poisson::{
+    Matrix, Multigrid, PressureSolve, Tolerance, Unknowns, assemble, conjugate_gradients, parts,
+};
+use nalgebra::{DMatrix, DVector};
+
+/// Density of each particle in kg/m³, light in a stripe, heavy elsewhere: the shape the multigrid must cope with.
+fn stripe(cloud: &Cloud, ratio: f64) -> Vec<f64> {
+    cloud.points.iter().map(|x| if (0.3..0.7).contains(&x.x) { 1000.0 / ratio } else { 1000.0 }).collect()
+}
+
+fn matrix(cloud: &Cloud, density: &[f64]) -> Matrix {
+    let mut matrix = Matrix::default();
+    let r_ab = |a: usize, b: usize| cloud.separation(a, b);
+    assemble(&mut matrix, (&cloud.pairs, &cloud.images), &cloud.volume, density, r_ab, cloud.zeta());
+    matrix
+}
+
+/// A right side that sums to zero.
+fn right_side(count: usize) -> Vec<f64> {
+    let mut dice = Dice::new(23);
+    let values: Vec<f64> = (0..count).map(|_| dice.between(-1.0, 1.0)).collect();
+    let mean = values.iter().sum::<f64>() / count as f64;
+    values.iter().map(|value| value - mean).collect()
+}
+
+fn without_mean(mut values: Vec<f64>) -> Vec<f64> {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    values.iter_mut().for_each(|value| *value -= mean);
+    values
+}
+
+/// The solution with mean zero by a dense Cholesky factorization with one unknown held.
+fn direct(matrix: &Matrix, b: &[f64]) -> Vec<f64> {
+    let n = matrix.rows();
+    let mut dense = DMatrix::from_diagonal(&DVector::from_column_slice(&matrix.diagonal));
+    for a in 0..n {
+        matrix.row(a).for_each(|(b, coupling)| dense[(a, b)] -= coupling);
+    }
+    dense[(0, 0)] *= 2.0;
+    let solution = dense.cholesky().expect("positive definite").solve(&DVector::from_column_slice(b));
+    without_mean(solution.as_slice().to_vec())
+}
+
+fn iterative(cloud: &Cloud, matrix: &Matrix, density: &[f64], b: &[f64], tolerance: f64) -> (Vec<f64>, usize, f64) {
+    let kind: Vec<u8> = density.iter().map(|rho| u8::from(*rho < 500.0)).collect();
+    let multigrid = Multigrid::new(matrix, &cloud.points, &kind, cloud.spacing);
+    let mut x = vec![0.0; b.len()];
+    let found = conjugate_gradients(matrix, b, &mut x, (tolerance, 300), |r, z| multigrid.precondition(matrix, r, z));
+    (without_mean(x), found.iterations, found.residual)
+}
+
+/// |x − y| over |y|.
+fn difference(x: &[f64], y: &[f64]) -> f64 {
+    let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
+    squares(&mut x.iter().zip(y).map(|(x, y)| x - y)) / squares(&mut y.iter().copied())
+}
+
+#[test]
+fn the_matrix_is_symmetric_with_row_sums_of_zero() {
+    for ratio in [1.0, 10.0, 1000.0] {
+        let cloud = Cloud::new(20, true, 0.3);
+        let matrix = matrix(&cloud, &stripe(&cloud, ratio));
+        for a in 0..matrix.rows() {
+            let mut sum = 0.0;
+            for (b, coupling) in matrix.row(a) {
+                let back = matrix.row(b).find(|(c, _)| *c == a).map(|(_, coupling)| coupling);
+                assert!(coupling >= 0.0, "{a} {b}: {coupling}");
+                // The separation is found from both ends, so that they may differ in the last bits.
+                assert!(back.is_some_and(|back| (back - coupling).abs() <= 1e-12 * coupling.abs()), "{a} {b}");
+                sum += coupling;
+            }
+            assert!((matrix.diagonal[a] - sum).abs() <= 1e-14 * sum, "row {a}");
+        }
+    }
+}
+
+#[test]
+fn the_iteration_finds_the_solution_of_the_factorization() {
+    for ratio in [1.0, 1000.0] {
+        let cloud = Cloud::new(24, true, 0.3);
+        let density = stripe(&cloud, ratio);
+        let matrix = matrix(&cloud, &density);
+        let b = right_side(matrix.rows());
+        let (found, iterations, residual) = iterative(&cloud, &matrix, &density, &b, 1e-10);
+        let error = difference(&found, &direct(&matrix, &b));
+        println!("ratio {ratio}: {iterations} iterations, residual {residual:.1e}, difference {error:.1e}");
+        assert!(residual <= 1e-10, "ratio {ratio}: stopped at {residual:.1e} after {iterations} iterations");
+        // The condition number is about N times the density ratio.
+        assert!(error < 1e-6, "ratio {ratio}: {error:.1e}");
+    }
+}
+
+#[test]
+fn small_systems_are_solved_directly() {
+    let cloud = Cloud::new(17, true, 0.3);
+    let density = stripe(&cloud, 10.0);
+    let mut solver = PressureSolve::default();
+    solver.matrix = matrix(&cloud, &density);
+    let n = cloud.points.len();
+    let (kind, part) = (vec![0; n], parts(&cloud.pairs, &cloud.images));
+    assert!(part.iter().all(|part| *part == 0), "one pore, one part");
+    let unknowns = Unknowns { position: &cloud.points, kind: &kind, part: &part, spacing: cloud.spacing };
+    let (mut b, mut p) = (right_side(n), vec![0.0; n]);
+    let wanted = direct(&solver.matrix, &b);
+    let found = solver.solve(&unknowns, &cloud.volume, &mut b, &mut p, Tolerance { residual: 1e-6, iterations: 300 });
+    assert_eq!(found.iterations, 1);
+    assert!(found.residual < 1e-12, "{}", found.residual);
+    assert!(difference(&p, &wanted) < 1e-10);
+}
+
+#[test]
+fn the_number_of_iterations_hardly_grows_with_the_number_of_particles() {
+    for ratio in [1.0, 1000.0] {
+        let iterations = [24, 96].map(|side| {
+            let cloud = Cloud::new(side, true, 0.2);
+            let density = stripe(&cloud, ratio);
+            let matrix = matrix(&cloud, &density);
+            iterative(&cloud, &matrix, &density, &right_side(matrix.rows()), 1e-6).1
+        });
+        println!("ratio {ratio}: {iterations:?}");
+        // Measured: about ten. Twice that means that the cycle has lost its grip.
+        assert!(iterations.iter().all(|count| *count <= 20), "ratio {ratio}: {iterations:?}");
+    }
+}

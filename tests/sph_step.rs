@@ -1,0 +1,255 @@
+//! Whole steps of the solver: what must not happen, and that turned or renamed problems have turned or renamed solutions.
+//!
+//! Boxes of at most 300 particles, walls included: their pressure is solved directly, so that two runs of the same problem
+//! in other words differ by rounding only.
+
+use meniscus::case::checked::{Case, Model};
+use meniscus::input::Overrides;
+use meniscus::math::Vec2;
+use meniscus::sph::projection::Flow;
+use meniscus::sph::setup;
+
+/// Particles along a side of the box of 1 mm.
+const SPACING: &str = "1.0e-4";
+
+/// The flow of a case given as text, at time zero.
+fn flow(text: &str) -> Flow {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("case.toml");
+    std::fs::write(&path, text).unwrap();
+    let case: Case =
+        meniscus::case::load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error:?}")).case;
+    let Model::Sph(sph) = &case.model;
+    setup::build(&case, sph).unwrap().flow
+}
+
+/// A case in a box of 1 mm; `rest` holds the tables that differ.
+fn case(rest: &str) -> String {
+    format!(
+        "format = 1\ntitle = \"A box\"\n[geometry]\nmin = [-5.0e-4, -5.0e-4]\nmax = [5.0e-4, 5.0e-4]\n[time]\nend = 1.0\n\
+         [sph]\nspacing = {SPACING}\n{rest}"
+    )
+}
+
+const PERIODIC: &str =
+    "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
+
+/// Steps of equal length (s), so that flows in different motion take the same ones.
+fn steps(flow: &mut Flow, count: usize, dt: f64) {
+    for _ in 0..count {
+        let until = flow.time + dt;
+        flow.step(until).unwrap();
+        assert_eq!(flow.time, until, "the step must be short enough to be taken whole");
+    }
+}
+
+/// Moves the fluid particles off the lattice: each by a tenth of the spacing in a direction that depends on its place.
+fn shake(flow: &mut Flow) {
+    let spacing = flow.method.spacing;
+    for a in 0..flow.particles.fluids {
+        let x = flow.particles.position[a] / spacing;
+        let by = Vec2::new((7.1 * x.x + 3.3 * x.y).sin(), (5.7 * x.y - 2.9 * x.x).cos());
+        flow.particles.position[a] = flow.domain.wrapped(flow.particles.position[a] + 0.1 * spacing * by);
+    }
+    flow.prepare();
+}
+
+/// The particle of `flow` nearest to `x`, which must be nearer than `reach` (m).
+fn nearest(flow: &Flow, x: Vec2, reach: f64) -> usize {
+    let distance = |a: &usize| flow.domain.separation(flow.particles.position[*a], x).norm();
+    let found = (0..flow.particles.fluids).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
+    assert!(distance(&found) < reach, "no particle at {x:?}: the nearest is {:.1e} m away", distance(&found));
+    found
+}
+
+fn fastest(flow: &Flow) -> f64 {
+    flow.particles.velocity.iter().map(|v| v.norm()).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_uniform_flow_of_one_fluid_stays_uniform() {
+    let text = case(&format!(
+        "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n{PERIODIC}[sph.initial.velocity]\nuniform = [0.3, -0.1]\n"
+    ));
+    let mut flow = flow(&text);
+    for _ in 0..20 {
+        flow.step(1.0).unwrap();
+    }
+    let change = flow.particles.velocity.iter().map(|v| (v - Vec2::new(0.3, -0.1)).norm()).fold(0.0, f64::max);
+    assert!(change < 1e-9 * 0.3, "rounding of twenty steps on the lattice: {change:.1e} m/s");
+}
+
+#[test]
+fn a_uniform_flow_of_two_fluids_without_tension_stays_uniform() {
+    let text = case(&format!(
+        "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n[sph.phases.non-wetting]\ndensity = 10.0\nviscosity = 1.0e-5\n\
+         [sph.interface]\ntension = 0.0\n{PERIODIC}[sph.initial.velocity]\nuniform = [0.3, -0.1]\n\
+         [[sph.initial.wetting]]\ndisc = {{ center = [0.0, 0.0], radius = 3.0e-4 }}\n"
+    ));
+    let mut flow = flow(&text);
+    for _ in 0..20 {
+        flow.step(1.0).unwrap();
+    }
+    let change = flow.particles.velocity.iter().map(|v| (v - Vec2::new(0.3, -0.1)).norm()).fold(0.0, f64::max);
+    assert!(change < 1e-9 * 0.3, "rounding of twenty steps on the lattice: {change:.1e} m/s");
+}
+
+/// An oblong drop in a periodic box, with tension.
+fn drop(density: f64, velocity: [f64; 2]) -> String {
+    case(&format!(
+        "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n\
+         [sph.phases.non-wetting]\ndensity = {density:?}\nviscosity = 5.0e-3\n\
+         [sph.interface]\ntension = 0.02\n{PERIODIC}[sph.initial.velocity]\nuniform = {velocity:?}\n\
+         [[sph.initial.wetting]]\nrectangle = {{ center = [0.0, 0.0], size = [6.0e-4, 4.0e-4] }}\n"
+    ))
+}
+
+#[test]
+fn a_moving_observer_sees_the_same_flow() {
+    const DT: f64 = 2.0e-6;
+    let by = Vec2::new(0.02, -0.03);
+    for density in [1000.0, 100.0] {
+        let (mut still, mut moving) = (flow(&drop(density, [0.0, 0.0])), flow(&drop(density, [by.x, by.y])));
+        shake(&mut still);
+        shake(&mut moving);
+        steps(&mut still, 10, DT);
+        steps(&mut moving, 10, DT);
+        let speed = fastest(&still);
+        assert!(speed > 1e-3, "nothing moves: {speed:.1e} m/s");
+        let place =
+            |flow: &Flow, a: usize| flow.particles.id[..flow.particles.fluids].iter().position(|id| *id == a as u32);
+        for a in 0..still.particles.fluids {
+            let (here, there) = (place(&still, a).unwrap(), place(&moving, a).unwrap());
+            let change = moving.particles.velocity[there] - by - still.particles.velocity[here];
+            assert!(change.norm() < 1e-7 * speed, "particle {a}: {:.1e} of {speed:.1e} m/s", change.norm());
+        }
+    }
+}
+
+#[test]
+fn momentum_is_kept_at_equal_densities() {
+    let mut flow = flow(&drop(1000.0, [0.0, 0.0]));
+    shake(&mut flow);
+    let momentum = |flow: &Flow| -> Vec2 { flow.particles.velocity.iter().sum() };
+    let force: Vec2 = flow.fields.surface_force.iter().zip(&flow.fields.volume).map(|(f, v)| *v * f).sum();
+    let sizes: f64 = flow.fields.surface_force.iter().zip(&flow.fields.volume).map(|(f, v)| v * f.norm()).sum();
+    // The continuum surface force is no sum of pair forces: on shaken particles this much of it is left over.
+    println!("surface force left over: {:.1e}", force.norm() / sizes);
+    for _ in 0..10 {
+        flow.step(1.0).unwrap();
+    }
+    let size: f64 = flow.particles.velocity.iter().map(|v| v.norm()).sum();
+    println!("momentum over sizes after ten steps: {:.1e}", momentum(&flow).norm() / size);
+    assert!(momentum(&flow).norm() < 0.02 * size, "{:.1e}", momentum(&flow).norm() / size);
+}
+
+/// Walls at the bottom and at the top, or left and right; the other two sides are joined. There are no corners: where two
+/// walls are equally near, the nearest wall and with it the line force is a matter of choice.
+const WALLS_BELOW_AND_ABOVE: &str = "left = \"periodic\"\nright = \"periodic\"\n";
+const WALLS_LEFT_AND_RIGHT: &str = "bottom = \"periodic\"\ntop = \"periodic\"\n";
+
+/// A box of 1 mm between two walls; the phase that is not the `background` fills a rectangle (center and size in m).
+fn liquid_on_a_wall(
+    (center, size): ([f64; 2], [f64; 2]),
+    gravity: [f64; 2],
+    angle: f64,
+    sides: &str,
+    background: &str,
+) -> String {
+    format!(
+        "format = 1\ntitle = \"A box\"\n[geometry]\nmin = [-5.0e-4, -5.0e-4]\nmax = [5.0e-4, 5.0e-4]\n[time]\nend = 1.0\n\
+         [sph]\nspacing = {SPACING}\ngravity = {gravity:?}\n\
+         [sph.phases.wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n\
+         [sph.phases.non-wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n[sph.interface]\ntension = 0.02\n\
+         [sph.wetting.young]\ncontact-angle-deg = {angle:?}\n[sph.sides]\n{sides}[sph.initial]\nbackground = \"{background}\"\n\
+         [[sph.initial.wetting]]\nrectangle = {{ center = {center:?}, size = {size:?} }}\n"
+    )
+}
+
+#[test]
+fn a_problem_turned_by_ninety_degrees_has_the_turned_solution() {
+    const DT: f64 = 2.0e-6;
+    let mut upright = flow(&liquid_on_a_wall(
+        ([-1.0e-4, -4.0e-4], [4.0e-4, 6.0e-4]),
+        [0.3, -9.81],
+        60.0,
+        WALLS_BELOW_AND_ABOVE,
+        "non-wetting",
+    ));
+    let mut turned = flow(&liquid_on_a_wall(
+        ([4.0e-4, -1.0e-4], [6.0e-4, 4.0e-4]),
+        [9.81, 0.3],
+        60.0,
+        WALLS_LEFT_AND_RIGHT,
+        "non-wetting",
+    ));
+    assert!(upright.particles.len() <= 300, "{}", upright.particles.len());
+    assert_eq!(upright.fields.contact_lines, 2);
+    steps(&mut upright, 10, DT);
+    steps(&mut turned, 10, DT);
+    let turn = |v: Vec2| Vec2::new(-v.y, v.x);
+    let speed = fastest(&upright);
+    let pressures = upright.particles.pressure.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+    for a in 0..upright.particles.fluids {
+        let b = nearest(&turned, turn(upright.particles.position[a]), 1e-6 * upright.method.spacing);
+        assert_eq!(upright.particles.phase[a], turned.particles.phase[b]);
+        let change = (turned.particles.velocity[b] - turn(upright.particles.velocity[a])).norm();
+        assert!(change < 1e-8 * speed, "{change:.1e} of {speed:.1e} m/s at {:?}", upright.particles.position[a]);
+        let change = (turned.particles.pressure[b] - upright.particles.pressure[a]).abs();
+        assert!(change < 1e-8 * pressures, "{change:.1e} of {pressures:.1e} Pa");
+    }
+}
+
+#[test]
+fn exchanged_phases_with_the_supplementary_angle_feel_the_same_forces() {
+    for angle in [0.0, 60.0, 135.0] {
+        let shape = ([-1.0e-4, -4.0e-4], [4.0e-4, 6.0e-4]);
+        let mut flows = [(angle, "non-wetting"), (180.0 - angle, "wetting")].map(|(angle, background)| {
+            flow(&liquid_on_a_wall(shape, [0.0, -9.81], angle, WALLS_BELOW_AND_ABOVE, background))
+        });
+        let [one, other] = &flows;
+        let sizes =
+            [&one.fields.surface_force, &one.fields.line_force].map(|f| f.iter().map(|f| f.norm()).fold(0.0, f64::max));
+        assert!(sizes.iter().all(|size| *size > 0.0), "{sizes:?}");
+        for a in 0..one.particles.fluids {
+            assert_eq!(one.particles.position[a], other.particles.position[a]);
+            assert!(one.particles.phase[a] != other.particles.phase[a]);
+            let change = (one.fields.surface_force[a] - other.fields.surface_force[a]).norm();
+            assert!(change < 1e-9 * sizes[0], "surface force of particle {a}: {:.1e}", change / sizes[0]);
+            let change = (one.fields.line_force[a] - other.fields.line_force[a]).norm();
+            assert!(change < 1e-9 * sizes[1], "line force of particle {a}: {:.1e}", change / sizes[1]);
+        }
+        flows.iter_mut().for_each(|flow| steps(flow, 10, 2.0e-6));
+        let [one, other] = &flows;
+        let speed = fastest(one);
+        for a in 0..one.particles.fluids {
+            let change = (one.particles.velocity[a] - other.particles.velocity[a]).norm();
+            assert!(change < 1e-8 * speed, "velocity of particle {a}: {:.1e}", change / speed);
+        }
+    }
+}
+
+#[test]
+fn the_lines_of_a_drop_sum_to_the_driving_force_in_a_whole_flow() {
+    // At first the interface stands upright on the wall: cos alpha = 0, and each line is driven by sigma cos theta.
+    for angle in [30.0_f64, 90.0, 150.0] {
+        let flow = flow(&liquid_on_a_wall(
+            ([0.0, -4.0e-4], [4.0e-4, 6.0e-4]),
+            [0.0, 0.0],
+            angle,
+            WALLS_BELOW_AND_ABOVE,
+            "non-wetting",
+        ));
+        assert_eq!(flow.fields.contact_lines, 2);
+        let on_side = |sign: f64| -> Vec2 {
+            let side = |a: &usize| sign * flow.particles.position[*a].x > 0.0;
+            (0..flow.particles.fluids).filter(side).map(|a| flow.fields.volume[a] * flow.fields.line_force[a]).sum()
+        };
+        let wanted = 0.02 * angle.to_radians().cos();
+        let [left, right] = [on_side(-1.0), on_side(1.0)];
+        println!("{angle}: {left:?} {right:?}, wanted {wanted}");
+        // alpha is measured from normals that reach up to the corner of the liquid 4 dx above the wall: 1 degree off.
+        assert!((right - Vec2::new(wanted, 0.0)).norm() < 0.03 * 0.02, "{right:?}, wanted {wanted}");
+        assert!((left + Vec2::new(wanted, 0.0)).norm() < 0.03 * 0.02, "{left:?}, wanted {}", -wanted);
+    }
+}

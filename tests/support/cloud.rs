@@ -1,0 +1,87 @@
+//! A periodic box of particles on a lattice, in order or shaken, with all that the terms of the method need.
+#![allow(dead_code, reason = "each test file and benchmark uses its own part")]
+
+use meniscus::math::{Bounds, Vec2};
+use meniscus::sph::domain::Domain;
+use meniscus::sph::fill::Lattice;
+use meniscus::sph::images::Images;
+use meniscus::sph::kernel::WendlandC2;
+use meniscus::sph::pairs::Pairs;
+use meniscus::sph::terms::density;
+
+/// Smoothing length over spacing, as cases have it by default.
+pub const SMOOTHING_RATIO: f64 = 1.5;
+
+/// Numbers that look random and are the same on every machine: the generator of Knuth's MMIX.
+pub struct Dice(u64);
+
+impl Dice {
+    /// Dice that fall the same way for the same `seed`.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next number between `low` and `high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A vector with both components between -1 and 1.
+    pub fn vector(&mut self) -> Vec2 {
+        Vec2::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0))
+    }
+}
+
+/// Particles in the unit square.
+pub struct Cloud {
+    pub domain: Domain,
+    pub kernel: WendlandC2,
+    pub points: Vec<Vec2>,
+    pub pairs: Pairs,
+    pub images: Images,
+    pub volume: Vec<f64>,
+    /// Distance of neighbors on the lattice in m.
+    pub spacing: f64,
+    /// Volume of a particle on the lattice in m².
+    pub lattice_volume: f64,
+}
+
+impl Cloud {
+    /// `side` × `side` particles, each moved by up to `shake` of the spacing in both directions.
+    pub fn new(side: usize, periodic: bool, shake: f64) -> Self {
+        let bounds = Bounds { min: Vec2::zeros(), max: Vec2::repeat(1.0) };
+        let domain = Domain::new(bounds, [periodic; 2], vec![]);
+        let spacing = 1.0 / side as f64;
+        let lattice = Lattice::fitting(bounds, spacing);
+        let kernel = lattice.consistent(WendlandC2::new(SMOOTHING_RATIO * spacing));
+        let mut dice = Dice::new(7);
+        let middle = |i: usize| (i as f64 + 0.5) * spacing;
+        let points: Vec<Vec2> = (0..side * side)
+            .map(|i| domain.wrapped(Vec2::new(middle(i % side), middle(i / side)) + shake * spacing * dice.vector()))
+            .collect();
+        let mut all = points.clone();
+        let images = Images::append(&mut all, &domain, kernel.support());
+        let pairs = Pairs::find(&all, points.len(), &domain, &kernel);
+        let mut volume = vec![0.0; points.len()];
+        density::volume(&pairs, &mut volume);
+        Self { domain, kernel, points, pairs, images, volume, spacing, lattice_volume: lattice.volume(&kernel) }
+    }
+
+    /// x_a − x_b in m.
+    pub fn separation(&self, a: usize, b: usize) -> Vec2 {
+        self.domain.separation(self.points[a], self.points[b])
+    }
+
+    /// ζ of the method in m.
+    pub fn zeta(&self) -> f64 {
+        0.01 * self.kernel.h
+    }
+
+    /// The particles farther from the sides of the box than twice the support, so that no neighbor misses one.
+    pub fn inner(&self) -> Vec<usize> {
+        let margin = 2.0 * self.kernel.support();
+        let within = |x: &Vec2| x.iter().all(|&v| (margin..1.0 - margin).contains(&v));
+        (0..self.points.len()).filter(|&a| within(&self.points[a])).collect()
+    }
+}
