@@ -99,6 +99,18 @@ fn formulas_pass_through_markdown_unchanged() {
     }
 }
 
+#[test]
+fn every_row_of_a_table_has_as_many_cells_as_its_head() {
+    for page in pages() {
+        let mut cells = 0;
+        for line in page.prose().lines() {
+            let count = if line.starts_with('|') { line.matches('|').count() } else { 0 };
+            assert!(count == 0 || cells == 0 || count == cells, "{}: {line}", page.name());
+            cells = count;
+        }
+    }
+}
+
 /// The command lines of the program on all pages, without its name.
 fn commands() -> Vec<(String, Vec<String>)> {
     let mut found = Vec::new();
