@@ -88,6 +88,8 @@ fn formulas_pass_through_markdown_unchanged() {
         for formula in page.formulas() {
             let place = format!("{}: {formula}", page.name());
             assert!(!formula.contains("\n\n") && !formula.contains('*'), "{place}");
+            let begins_a_list = |line: &str| line.trim_start().starts_with(['-', '+', '#', '>', '=']);
+            assert!(!formula.lines().any(begins_a_list), "a line of {place} begins a list");
             for pair in formula.chars().collect::<Vec<_>>().windows(2) {
                 assert!(pair[1] != '_' || pair[0].is_alphanumeric(), "`{}_` in {place}", pair[0]);
                 assert!(pair[0] != '\\' || pair[1].is_alphabetic(), "`\\{}` in {place}", pair[1]);
