@@ -215,7 +215,7 @@ fn the_exit_codes_and_commands_of_the_reference_are_those_of_the_help() {
 
 #[test]
 fn the_constants_on_the_page_of_numerics_are_those_of_the_source() {
-    let rows = section(&page("docs/numerics/README.md"), "Constants");
+    let rows = section(&page("docs/numerics/overview.md"), "Constants");
     for row in &rows {
         let [name, value, file] = [0, 1, 2].map(|i| code(&row[i]).remove(0));
         let source = text(&file);
