@@ -1,0 +1,226 @@
+//! The reference pages name what the program has, no more and no less: keys, defaults, shapes, presets, columns, arrays, measures,
+//! report, exit codes, constants.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::process::Command;
+
+use meniscus::case::preset::{COLD, Preset, WARM};
+use meniscus::case::{load, schema};
+use meniscus::input::Overrides;
+use meniscus::run::setup;
+use meniscus::snapshot::Field;
+use meniscus::solver::Solver;
+use serde_json::Value;
+
+use crate::page::{Page, code, files, page, root, text};
+
+/// The first code of the first cell of each row that has one.
+fn names(rows: &[Vec<String>]) -> Vec<String> {
+    rows.iter().filter_map(|row| code(&row[0]).into_iter().next()).collect()
+}
+
+fn set(names: impl IntoIterator<Item = impl Into<String>>) -> BTreeSet<String> {
+    names.into_iter().map(Into::into).collect()
+}
+
+/// The rows below the heading that contains `title`, up to the next heading.
+fn section(page: &Page, title: &str) -> Vec<Vec<String>> {
+    let (mut inside, mut text) = (false, String::new());
+    for line in page.prose().lines() {
+        if line.starts_with('#') {
+            inside = line.contains(title);
+        } else if inside {
+            text += &format!("{line}\n");
+        }
+    }
+    let rows = Page { path: page.path.clone(), text }.rows();
+    assert!(!rows.is_empty(), "{} has no table below {title}", page.name());
+    rows
+}
+
+/// A schema with its reference followed.
+fn followed<'s>(schema: &'s Value, whole: &'s Value) -> &'s Value {
+    let inner =
+        schema["anyOf"].as_array().and_then(|any| any.iter().find(|one| one["type"] != "null")).unwrap_or(schema);
+    let name = inner["$ref"].as_str().and_then(|reference| reference.strip_prefix("#/$defs/"));
+    name.map_or(inner, |name| &whole["$defs"][name])
+}
+
+/// The key paths of a schema down to values, empty tables, and shapes.
+fn keys(schema: &Value, whole: &Value, at: &str, found: &mut BTreeSet<String>) {
+    let schema = followed(schema, whole);
+    let items = followed(&schema["items"], whole);
+    let table = if items["properties"].is_object() { items } else { schema };
+    match table["properties"].as_object().filter(|properties| !properties.is_empty()) {
+        Some(properties) => {
+            for (key, value) in properties {
+                let path = if at.is_empty() { key.clone() } else { format!("{at}.{key}") };
+                keys(value, whole, &path, found);
+            }
+        }
+        None => {
+            found.insert(at.to_owned());
+        }
+    }
+}
+
+#[test]
+fn the_reference_names_every_key_of_the_schema_and_no_other() {
+    let schema = schema();
+    let mut there = BTreeSet::new();
+    keys(&schema, &schema, "", &mut there);
+    assert!(there.len() > 40, "{there:?}");
+    assert_eq!(set(names(&page("docs/reference/case-file.md").rows())), there);
+}
+
+#[test]
+fn the_reference_names_every_word_that_a_key_can_be() {
+    let schema = schema();
+    let page = page("docs/reference/case-file.md").text + &text("docs/reference/presets.md");
+    for definition in ["RawSide", "RawPhase", "RawViscousTerm", "SolidSide", "Preset"] {
+        let variants = schema["$defs"][definition]["oneOf"].as_array().unwrap_or_else(|| panic!("{definition}"));
+        let words: Vec<&str> = variants.iter().filter_map(|one| one["const"].as_str()).collect();
+        assert!(!words.is_empty(), "{definition}");
+        for word in words {
+            assert!(page.contains(&format!("`{word}`")), "{word} of {definition} is missing");
+        }
+    }
+}
+
+#[test]
+fn the_defaults_of_the_reference_are_those_of_the_program() {
+    let rows = page("docs/reference/case-file.md").rows();
+    for case in ["cases/poiseuille.toml", "cases/sessile-drop.toml", "cases/laplace-drop.toml"] {
+        let given = text(case);
+        let resolved = load(&root().join(case), &Overrides::default()).unwrap().resolved;
+        let table: toml::Table = resolved.parse().unwrap();
+        for row in rows.iter().filter(|row| row.len() == 5) {
+            let path = code(&row[0]).remove(0);
+            let (Some(last), false) = (path.rsplit('.').next(), path.starts_with("sph.phases")) else { continue };
+            let value =
+                path.split('.').try_fold(toml::Value::Table(table.clone()), |value, key| value.get(key).cloned());
+            let Some(number) = value.and_then(|value| value.as_float()) else { continue };
+            if given.contains(&format!("\n{last} = ")) || path.ends_with("every-time") || row[2].starts_with("required")
+            {
+                continue;
+            }
+            let told = row[2].split([' ', ';']).filter_map(|word| word.parse::<f64>().ok()).collect::<Vec<_>>();
+            assert!(told.contains(&number), "{path} is {number} in {case}, the page says {told:?}");
+        }
+    }
+}
+
+#[test]
+fn every_shape_and_its_keys_are_described() {
+    let schema = schema();
+    let shapes = schema["$defs"]["ShapeSpec"]["oneOf"].as_array().unwrap();
+    let rows = section(&page("docs/reference/shape-files.md"), "Shapes");
+    let described: BTreeMap<String, Vec<String>> =
+        rows.iter().map(|row| (code(&row[0]).remove(0), code(&row[1]))).collect();
+    let mut count = 0;
+    for (shape, inner) in shapes.iter().filter_map(|one| one["properties"].as_object()).flatten() {
+        let keys = followed(inner, &schema)["properties"].as_object().unwrap();
+        let told = described.get(shape).unwrap_or_else(|| panic!("{shape} is missing"));
+        for key in keys.keys() {
+            assert!(told.contains(key), "{key} of {shape} is missing");
+        }
+        count += 1;
+    }
+    assert_eq!(count, described.len());
+}
+
+#[test]
+fn the_presets_of_the_reference_are_those_of_the_program() {
+    let rows = page("docs/reference/presets.md").rows();
+    assert_eq!(rows.len(), Preset::ALL.len());
+    for preset in Preset::ALL {
+        let name = serde_json::to_value(preset).unwrap();
+        let row = rows.iter().find(|row| row[0] == format!("`{}`", name.as_str().unwrap())).unwrap();
+        for (celsius, first) in [(COLD, 1), (WARM, 4)] {
+            let known = preset.at(celsius);
+            let expected =
+                [Some(known.density), Some(known.viscosity * 1e3), known.tension.map(|tension| tension * 1e3)];
+            for (expected, cell) in expected.iter().zip(&row[first..]) {
+                let told: Option<f64> = cell.parse().ok();
+                // Table and source hold the same digits; the change of unit rounds the last bit.
+                let same = expected
+                    .zip(told)
+                    .map_or(expected.is_none() && told.is_none(), |(a, b)| (a / b - 1.0).abs() < 1e-12);
+                assert!(same, "{name} at {celsius}: {expected:?}, the page says {cell}");
+            }
+        }
+    }
+}
+
+fn solver() -> Box<dyn Solver> {
+    setup::build(&load(&root().join("cases/poiseuille.toml"), &Overrides::default()).unwrap().case).unwrap()
+}
+
+#[test]
+fn every_column_of_the_series_is_described() {
+    let there = solver().sample().into_iter().map(|sample| sample.name).collect::<Vec<_>>();
+    assert_eq!(names(&section(&page("docs/reference/output.md"), "series.csv")), there);
+}
+
+#[test]
+fn every_array_is_described_with_its_unit() {
+    let solver = solver();
+    let snapshot = solver.snapshot();
+    let grid = snapshot.grid.as_ref().unwrap();
+    let interface = snapshot.interface.as_ref().unwrap();
+    let rows = section(&page("docs/reference/output.md"), "Arrays");
+    let groups: [&[Field]; 3] = [&snapshot.particles.fields, &grid.fields, &interface.fields];
+    for (fields, column) in groups.into_iter().zip(2..) {
+        let told = rows.iter().filter(|row| row[column] == "yes").map(|row| (code(&row[0]).remove(0), row[1].clone()));
+        let there = fields.iter().map(|field| (field.name.to_owned(), field.unit.to_owned()));
+        assert_eq!(told.collect::<BTreeSet<_>>(), there.collect::<BTreeSet<_>>());
+    }
+}
+
+#[test]
+fn every_measure_is_described() {
+    let mut there = BTreeSet::new();
+    for file in files(&root().join("src/sph/measures"), &["rs"]) {
+        let source = std::fs::read_to_string(file).unwrap();
+        let calls = source.split("measure(").skip(1).filter_map(|rest| rest.trim_start().strip_prefix('"'));
+        there.extend(calls.filter_map(|rest| rest.split('"').next().map(str::to_owned)));
+    }
+    assert!(there.contains("contact-angle-deg"), "{there:?}");
+    assert_eq!(set(names(&page("docs/reference/measures.md").rows())), there);
+}
+
+#[test]
+fn every_key_of_the_report_is_described() {
+    let source = text("src/run/report.rs");
+    let fields = source.split("pub struct Report {").nth(1).and_then(|rest| rest.split("\n}").next()).unwrap();
+    let fields = fields.lines().filter_map(|line| line.trim().strip_prefix("pub ")?.split_once(':'));
+    let there = set(fields.map(|(name, _)| name.replace('_', "-")));
+    let rows = section(&page("docs/reference/output.md"), "report.json");
+    assert_eq!(set(rows.iter().flat_map(|row| code(&row[0]))), there);
+}
+
+#[test]
+fn the_exit_codes_and_commands_of_the_reference_are_those_of_the_help() {
+    let output = Command::new(env!("CARGO_BIN_EXE_meniscus")).arg("--help").output().unwrap();
+    let help = String::from_utf8(output.stdout).unwrap();
+    let page = page("docs/reference/command-line.md");
+    let told = set(section(&page, "Exit codes").iter().map(|row| row[0].clone()));
+    let codes = help.split("Exit codes:").nth(1).unwrap();
+    assert_eq!(told, set(codes.split_whitespace().filter(|word| word.parse::<u8>().is_ok())));
+    let commands = help.split("Commands:").nth(1).and_then(|rest| rest.split("\n\n").next()).unwrap();
+    for name in commands.lines().filter_map(|line| line.split_whitespace().next()).filter(|name| *name != "help") {
+        assert!(page.text.contains(&format!("`meniscus {name}")), "{name} is missing");
+    }
+}
+
+#[test]
+fn the_constants_on_the_page_of_numerics_are_those_of_the_source() {
+    let rows = section(&page("docs/numerics/overview.md"), "Constants");
+    for row in &rows {
+        let [name, value, file] = [0, 1, 2].map(|i| code(&row[i]).remove(0));
+        let source = text(&file);
+        let line = source.lines().find(|line| line.contains(&format!("const {name}: ")));
+        let found = line.unwrap_or_else(|| panic!("{file} has no {name}")).split("= ").nth(1).unwrap();
+        assert_eq!(found.trim_end_matches(';'), value, "{name} in {file}");
+    }
+}
