@@ -85,7 +85,7 @@ fn divergence_and_pressure_gradient_of_linear_fields_are_exact_on_the_lattice() 
     let pressure: Vec<f64> = cloud.points.iter().map(|x| 5.0 + slope.dot(x)).collect();
     let (mut by_difference, mut symmetric) = (vec![Vec2::zeros(); n], vec![Vec2::zeros(); n]);
     let density = vec![2.0; n];
-    pressure_gradient::difference(&cloud.pairs, &volume, &density, &pressure, &mut by_difference);
+    pressure_gradient::difference(&cloud.pairs, &volume, &density, &pressure, |_, _| 0.0, &mut by_difference);
     pressure_gradient::symmetric(&cloud.pairs, &volume, &density, &pressure, &mut symmetric);
     assert!(!cloud.inner().is_empty());
     for a in cloud.inner() {
@@ -181,7 +181,7 @@ fn the_surface_force_of_a_drop_sums_to_zero() {
     let interface = Interface::of(&cloud, |x| (x - Vec2::repeat(0.5)).norm() < 0.25);
     let n = cloud.points.len();
     let mut force = vec![Vec2::zeros(); n];
-    surface_tension::surface_force((0.02, 1.0), &interface.curvature, &interface.normal, &vec![1.0; n], &mut force);
+    surface_tension::surface_force(0.02, &interface.curvature, &interface.normal, &vec![1.0; n], &mut force);
     let ones = vec![1.0; n];
     assert!(imbalance(&cloud, &ones, &force) < ROUNDING, "the lattice is symmetric about the drop");
 }
@@ -201,7 +201,7 @@ fn upright_lines(contact_angle: f64) -> ([Vec2; 2], usize) {
         wall_distance: &distance,
         wall_normal: &normal,
         volume: &cloud.volume,
-        relative_density: &ones,
+        weight: &ones,
     };
     let law = Wetting::Young(YoungForce { contact_angle });
     let mut force = vec![Vec2::zeros(); n];

@@ -49,6 +49,8 @@ pub struct Fields {
     pub wall_normal: Vec<Vec2>,
     /// Sides and curvatures for the pressure jump, in that form of the surface force.
     pub jump: Option<Jump>,
+    /// Number of contact lines that a line force acts on.
+    pub contact_lines: usize,
 }
 
 impl Fields {
@@ -115,6 +117,7 @@ impl Fields {
         self.color.clear();
         self.color.extend_from_slice(&sharp[..n]);
         self.jump = None;
+        self.contact_lines = 0;
         if method.tension == 0.0 {
             return;
         }
@@ -146,7 +149,7 @@ impl Fields {
                 weight: &weight,
             };
             let law = (wetting, method.tension);
-            line_force(pairs, images, &fields, &method.kernel, law, &mut self.line_force);
+            self.contact_lines = line_force(pairs, images, &fields, &method.kernel, law, &mut self.line_force);
         }
     }
     /// Sides and curvatures for the pressure jump; the normal is the consistent gradient of the smoothed color.
