@@ -15,11 +15,8 @@ mod reference;
 
 use page::{Page, code, files, page, pages, root, text, words};
 
-/// The picture of the default case is made by the command on the page of the four discs.
-const MADE_BY_A_COMMAND: &str = "figures/four-discs.png";
-
 fn exists(path: &Path) -> bool {
-    path.exists() || path.ends_with(MADE_BY_A_COMMAND)
+    path.exists()
 }
 
 /// The sources and tests as one text.
