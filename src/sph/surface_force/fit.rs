@@ -237,7 +237,8 @@ mod tests {
             let fit = InterfaceFit::new(&points, &domain(), (0.1, H), Some(angle), &floor);
             // From .1 up at 30 degrees the tangent misses the contact point by so much that the steps end 1e-3 off.
             let tolerance = if degrees == 30.0 { 2e-3 } else { 1e-5 };
-            for height in [0.02, 0.1, 0.3] {
+            // Points below the top of the cap only.
+            for height in [0.02, 0.1, 0.3].into_iter().filter(|height| height + angle.cos() < 1.0) {
                 let x = Vec2::new((1.0 - (height + angle.cos()).powi(2)).sqrt(), height);
                 let kappa = fit.curvature(x).unwrap();
                 assert!((kappa - 1.0).abs() < tolerance, "at {degrees} degrees, height {height}: {kappa}");
