@@ -161,6 +161,8 @@ pub fn case() -> Case {
             viscous_term: ViscousTerm::Szewc,
             drift_source: 0.02,
             background_pressure: 0.0,
+            shifting: 0.0,
+            wall_stretch: 10.0,
             pressure_tolerance: 1.0e-6,
             time_step_factor: 1.0,
         },
