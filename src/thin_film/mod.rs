@@ -1,0 +1,7 @@
+//! The Geometric Thin-Film Equation of Pang and Ó Náraigh 2022: droplets that spread on a flat wall.
+//!
+//! h_t = −∂ₓ( h h̄² ∂ₓ( h̄ₓₓ + ξ² h̄ ) ), h̄ = Φ∗h, by particles and by implicit finite differences.
+//! Everything is dimensionless.
+
+pub mod kernel;
+pub mod sums;
