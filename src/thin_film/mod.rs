@@ -1,7 +1,13 @@
 //! The Geometric Thin-Film Equation of Pang and Ó Náraigh 2022: droplets that spread on a flat wall.
 //!
-//! h_t = −∂ₓ( h h̄² ∂ₓ( h̄ₓₓ + ξ² h̄ ) ), h̄ = Φ∗h, by particles and by implicit finite differences.
-//! Everything is dimensionless.
+//! h_t = −∂ₓ( h h̄² ∂ₓ( h̄ₓₓ + ξ² h̄ ) ), h̄ = Φ∗h, by particles and by implicit finite differences. Everything is dimensionless.
 
+mod banded;
+pub mod droplet;
+pub mod equilibrium;
+pub mod finite_differences;
 pub mod kernel;
+pub mod ode;
+pub mod particles;
+pub mod profile;
 pub mod sums;
