@@ -6,7 +6,7 @@ use super::arguments::CheckArguments;
 use super::exit::{BAD_INPUT, DONE, Failure, SOLVER_FAILED};
 use super::output::{duration, readable, say};
 use super::source;
-use crate::case::checked::Model;
+use crate::case::checked::{Case, Model};
 use crate::run::{numbers, setup};
 
 /// Steps that are tried; the first ones set up what later ones reuse.
@@ -26,9 +26,8 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         }
     }
     let per_step = clock.elapsed().as_secs_f64() / solver.steps().max(1) as f64;
-    let Model::Sph(sph) = &case.model;
     say(&case.title);
-    say(format_args!("  particles   {} at a spacing of {} m", solver.statistics().unknowns, readable(sph.spacing)));
+    say(format_args!("  particles   {} at a spacing of {} m", solver.statistics().unknowns, readable(spacing(case))));
     if let Some(memory) = memory() {
         say(format_args!("  memory      {memory}"));
     }
@@ -41,16 +40,33 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
             duration(steps * per_step)
         ));
     }
-    let speed = (sph.tension / (sph.wetting.density * numbers::reference_length(case))).sqrt();
+    let (speed, formula) = match &case.model {
+        Model::Sph(sph) => {
+            let speed = (sph.tension / (sph.wetting.density * numbers::reference_length(case))).sqrt();
+            (speed, "sqrt(sigma / rho L)")
+        }
+        Model::ThinFilm(film) => {
+            let slope = film.height / film.half_width;
+            (film.tension * slope.powi(3) / (3.0 * film.viscosity), "sigma (H / r)^3 / 3 mu")
+        }
+    };
     for number in numbers::numbers(case, speed) {
         say(format_args!("  {:<11} {:<12} {}", number.symbol, readable(number.value), number.formula));
     }
     say(format_args!(
-        "              L = {} m, shorter side of the domain; U = sqrt(sigma / rho L) = {} m/s",
+        "              L = {} m, shorter side of the domain; U = {formula} = {} m/s",
         readable(numbers::reference_length(case)),
         readable(speed)
     ));
     Ok(DONE)
+}
+
+/// Initial distance of particles or nodes in m.
+fn spacing(case: &Case) -> f64 {
+    match &case.model {
+        Model::Sph(sph) => sph.spacing,
+        Model::ThinFilm(film) => film.spacing,
+    }
 }
 
 /// The most memory that the program has used so far, where the system tells.

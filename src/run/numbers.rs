@@ -6,7 +6,7 @@
 
 use serde::Serialize;
 
-use crate::case::checked::{Case, Model};
+use crate::case::checked::{Case, Model, ThinFilm};
 use crate::math::Vec2;
 
 /// A dimensionless number.
@@ -23,7 +23,10 @@ pub struct Number {
 /// The numbers of a case at the speed `speed` in m/s; those that need a tension are absent without one.
 #[must_use]
 pub fn numbers(case: &Case, speed: f64) -> Vec<Number> {
-    let Model::Sph(sph) = &case.model;
+    let sph = match &case.model {
+        Model::Sph(sph) => sph,
+        Model::ThinFilm(film) => return of_thin_film(film, speed),
+    };
     let (rho, mu, sigma) = (sph.wetting.density, sph.wetting.viscosity, sph.tension);
     let length = reference_length(case);
     let difference = (rho - sph.non_wetting.map_or(0.0, |fluid| fluid.density)).abs();
@@ -40,6 +43,16 @@ pub fn numbers(case: &Case, speed: f64) -> Vec<Number> {
         ]);
     }
     all
+}
+
+/// A thin film has no inertia; what matters is how slow and how flat it is.
+fn of_thin_film(film: &ThinFilm, speed: f64) -> Vec<Number> {
+    let number = |symbol, value, formula| Number { symbol, value, formula };
+    vec![
+        number("Ca", film.viscosity * speed / film.tension, "mu U / sigma"),
+        number("H/W", film.height / (2.0 * film.half_width), "initial height / initial width"),
+        number("alpha/dx", film.smoothing_length / film.spacing, "filter length / spacing"),
+    ]
 }
 
 /// The length L of the numbers: the shorter side of the domain in m.

@@ -37,7 +37,7 @@ impl Banded {
     }
 
     /// The product with `x`, before the factorization.
-    #[must_use]
+    #[cfg(test)]
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
         let entries = |row: usize| row.saturating_sub(self.below)..(row + self.above + 1).min(self.size);
         (0..self.size).map(|row| entries(row).map(|j| self.values[self.place(row, j)] * x[j]).sum()).collect()

@@ -9,9 +9,9 @@ use super::banded::Banded;
 use super::droplet::{Droplet, WeightRule};
 
 /// Newton's method stops below this 2-norm of the paper's residual F [Pang2022, Sect. 6].
-const RESIDUAL: f64 = 1.0e-9;
+pub const RESIDUAL: f64 = 1.0e-9;
 /// More iterations than this mean a step that is too large; a healthy one takes 2 to 4.
-const ITERATIONS: u32 = 12;
+pub const ITERATIONS: u32 = 12;
 /// Shortest share of a Newton step that is tried.
 const SHORTEST: f64 = 1.0 / 64.0;
 /// A height below this share of the largest is a spurious root, not rounding.
@@ -138,6 +138,19 @@ impl FiniteDifferences {
     #[must_use]
     pub fn nodes(&self) -> Vec<f64> {
         (0..self.height.len()).map(|i| self.origin + i as f64 * self.spacing).collect()
+    }
+
+    /// Distance of nodes.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// h̄ at the node nearest to x = 0.
+    #[must_use]
+    pub fn center_height(&self) -> f64 {
+        let node = (-self.origin / self.spacing).round().max(0.0) as usize;
+        self.height.get(node).copied().unwrap_or(f64::NAN)
     }
 
     /// Mass Σ h̄ Δx; steps do not change it.
