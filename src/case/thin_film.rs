@@ -87,7 +87,7 @@ fn domain(checker: &mut Checker, geometry: &GeometrySpec, half_width: Option<f64
     if !geometry.shapes.is_empty() {
         checker.refuse(
             "geometry",
-            format!("a thin film lies on the flat wall y = 0, found {} shapes", geometry.shapes.len()),
+            "expected a flat wall at y = 0 without solids, found shapes",
             "leave out the shapes; `min` and `max` say how much of the wall is of interest",
         );
     }

@@ -85,8 +85,9 @@ impl Banded {
         for (k, &pivot) in self.pivots.iter().enumerate() {
             b.swap(k, pivot);
             let value = b[k];
-            for row in k + 1..=(k + self.below).min(self.size - 1) {
-                b[row] -= self.values[self.place(row, k)] * value;
+            let last = (k + self.below).min(self.size - 1);
+            for (offset, later) in b[k + 1..=last].iter_mut().enumerate() {
+                *later -= self.values[self.place(k + 1 + offset, k)] * value;
             }
         }
         for k in (0..self.size).rev() {

@@ -320,14 +320,14 @@ impl FiniteDifferences {
         let smoothing = smoothing_stencil(self.alpha, self.spacing);
         let (first, third) = (self.first(), self.third());
         let mut matrix = Banded::new(n, FOLDED_WIDE, FOLDED_WIDE);
-        for row in 0..n {
+        for (row, &height) in v.iter().enumerate() {
             for (offset, value) in (-2..=2).zip(smoothing) {
                 matrix.add(folded(row as i64, n), folded(row as i64 + offset, n), value);
             }
             // The flux of this node enters the balances of its two neighbors.
-            let (h, k, square) = (state.sharp[row], state.drive[row], v[row] * v[row]);
+            let (h, k, square) = (state.sharp[row], state.drive[row], height * height);
             for offset in 0..5 {
-                let local = if offset == 2 { 2.0 * h * v[row] * k } else { 0.0 };
+                let local = if offset == 2 { 2.0 * h * height * k } else { 0.0 };
                 let flux = square * k * smoothing[offset]
                     + h * square * (third[offset] + state.xi_squared * first[offset])
                     + local;
