@@ -99,7 +99,11 @@ fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>) 
         (None, Some(raw)) => thin_film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
         (Some(_), Some(_)) => {
             let message = "expected exactly one model, found `sph` and `thin-film`";
-            checker.refuse("thin-film", message, "use [sph], direct simulation, or [thin-film], a droplet on a flat wall");
+            checker.refuse(
+                "thin-film",
+                message,
+                "use [sph], direct simulation, or [thin-film], a droplet on a flat wall",
+            );
             None
         }
         (None, None) => {

@@ -43,7 +43,9 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
                 ));
             }
             // Steps of a film grow a thousandfold while it comes to rest: the first ones do not tell how long it takes.
-            Model::ThinFilm(_) => say(format_args!("  time step   {} s at first; it grows with time", readable(info.dt))),
+            Model::ThinFilm(_) => {
+                say(format_args!("  time step   {} s at first; it grows with time", readable(info.dt)))
+            }
         }
     }
     let (speed, formula) = match &case.model {

@@ -16,6 +16,8 @@ pub const ITERATIONS: u32 = 12;
 const SHORTEST: f64 = 1.0 / 64.0;
 /// A height below this share of the largest is a spurious root, not rounding.
 const NEGATIVE: f64 = -1.0e-6;
+/// Below this share of the largest h there is no film to speak of.
+const BARE: f64 = 1.0e-3;
 /// Diagonals on each side of the folded matrices.
 const FOLDED_PLAIN: usize = 4;
 const FOLDED_WIDE: usize = 6;
@@ -178,11 +180,13 @@ impl FiniteDifferences {
         -0.5 * surface + self.wetting * self.area * self.area / self.overlap(&h, &self.height)
     }
 
-    /// Velocity of the film, h̄² ∂ₓ(h̄ₓₓ + ξ² h̄), at the nodes.
+    /// Velocity of the film, h̄² ∂ₓ(h̄ₓₓ + ξ² h̄), at the nodes; 0 beyond the droplet, where nothing is that could move.
     #[must_use]
     pub fn velocity(&self) -> Vec<f64> {
         let state = self.state(&self.height);
-        self.height.iter().zip(&state.drive).map(|(v, k)| v * v * k).collect()
+        let bare = BARE * state.sharp.iter().copied().fold(0.0, f64::max);
+        let speed = |i: usize| self.height[i].powi(2) * state.drive[i];
+        (0..self.height.len()).map(|i| if state.sharp[i] > bare { speed(i) } else { 0.0 }).collect()
     }
 
     /// Does one step that ends at `until` or before; landing there is exact. Gives back its length.
@@ -196,7 +200,8 @@ impl FiniteDifferences {
             let wanted = self.next.min(longest);
             // Equal steps miss their end by rounding only: that is no step of its own.
             let lands = wanted * (1.0 + 1.0e-9) >= left;
-            let dt = if lands { left } else { wanted };
+            // Two halves rather than a step and a sliver.
+            let dt = if lands { left } else { wanted.min(0.5 * left).max(0.5 * wanted) };
             match self.solve(dt) {
                 Ok(height) => {
                     self.height = height;
