@@ -67,11 +67,13 @@ pub struct Fluid {
 }
 
 /// Forms of the surface force.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceForce {
     /// Continuum surface force [Huber2013, Eq. 20].
     Csf,
+    /// Pressure jump across a sharp interface with fitted curvature.
+    PressureJump,
 }
 
 /// Wetting models.

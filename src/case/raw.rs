@@ -127,6 +127,8 @@ tables! {
     pub struct RawSurfaceForce {
         /// Continuum surface force, Huber et al. 2013, Eq. 20.
         pub csf: Empty,
+        /// Pressure jump across a sharp interface with fitted curvature.
+        pub pressure_jump: Empty,
     }
 
     /// Wetting models.

@@ -1,7 +1,8 @@
 //! A checked case written out as one case file: no defaults, presets, overrides or other files left.
 
 use super::checked::{
-    Case, Fluid, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides, Sph, ViscousTerm, WettingModel,
+    Case, Fluid, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides, Sph, SurfaceForce, ViscousTerm,
+    WettingModel,
 };
 use super::raw::{
     Empty, RawCase, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface, RawMeasures,
@@ -67,7 +68,10 @@ fn raw_sph(sph: &Sph) -> RawSph {
             non_wetting: sph.non_wetting.as_ref().map(raw_fluid),
         }),
         interface: two_phases.then_some(RawInterface { tension: Some(sph.tension) }),
-        surface_force: sph.surface_force.map(|_| RawSurfaceForce { csf: Some(Empty {}) }),
+        surface_force: sph.surface_force.map(|force| RawSurfaceForce {
+            csf: (force == SurfaceForce::Csf).then_some(Empty {}),
+            pressure_jump: (force == SurfaceForce::PressureJump).then_some(Empty {}),
+        }),
         wetting: sph.wetting_model.map(|WettingModel::Young { contact_angle }| RawWetting {
             young: Some(RawYoung { contact_angle_deg: Some(contact_angle.to_degrees().clamp(0.0, 180.0)) }),
         }),

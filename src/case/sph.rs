@@ -47,7 +47,7 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
     }
     let sides = sides(checker, &raw.sides.clone().unwrap_or_default());
     let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
-    let default = default_numerics(tension.is_some_and(|tension| tension > 0.0), wetting_model.is_some());
+    let default = default_numerics(surface_force, wetting_model.is_some());
     let numerics = numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
     Some(Sph {
         spacing: spacing?,
@@ -67,6 +67,9 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         measure: measures(&raw.measure.clone().unwrap_or_default()),
     })
 }
+
+/// The surface force of a case that names none.
+const DEFAULT_SURFACE_FORCE: SurfaceForce = SurfaceForce::Csf;
 
 /// h/dx of the paper's examples.
 const DEFAULT_SMOOTHING_RATIO: f64 = 1.5;
@@ -149,13 +152,19 @@ fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<Surfac
         *tension >= 0.0
     });
     let force = raw.surface_force.as_ref();
-    if force.is_some_and(|force| force.csf.is_none()) {
-        checker.refuse(
-            "sph.surface-force",
-            "expected exactly one surface force, found none",
-            "add the table [sph.surface-force.csf]",
-        );
-    }
+    let chosen = match force.map(|force| (force.csf.is_some(), force.pressure_jump.is_some())) {
+        None => DEFAULT_SURFACE_FORCE,
+        Some((true, false)) => SurfaceForce::Csf,
+        Some((false, true)) => SurfaceForce::PressureJump,
+        Some((both, _)) => {
+            checker.refuse(
+                "sph.surface-force",
+                format!("expected exactly one surface force, found {}", if both { "two" } else { "none" }),
+                "keep one of the tables [sph.surface-force.pressure-jump] and [sph.surface-force.csf]",
+            );
+            DEFAULT_SURFACE_FORCE
+        }
+    };
     if force.is_some() && tension == Some(0.0) {
         checker.refuse(
             "sph.surface-force",
@@ -163,7 +172,7 @@ fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<Surfac
             "raise sph.interface.tension, or leave this table out",
         );
     }
-    (tension, tension.filter(|tension| *tension > 0.0).map(|_| SurfaceForce::Csf))
+    (tension, tension.filter(|tension| *tension > 0.0).map(|_| chosen))
 }
 
 fn wetting_model(checker: &mut Checker, raw: &RawSph, tension: Option<f64>) -> Option<WettingModel> {
@@ -282,13 +291,17 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
 
 /// Defaults by what flows. With tension the paper's form keeps its particles in order by background pressure and drift
 /// source, without tension shifting does it (docs/numerics). A wall that a contact line moves along must slip a little.
-fn default_numerics(has_tension: bool, has_contact_lines: bool) -> Numerics {
-    let with_tension = |there: f64, else_: f64| if has_tension { there } else { else_ };
+fn default_numerics(surface_force: Option<SurfaceForce>, has_contact_lines: bool) -> Numerics {
+    let (drift_source, background_pressure, shifting) = match surface_force {
+        Some(SurfaceForce::Csf) => (0.02, 0.5, 0.0),
+        Some(SurfaceForce::PressureJump) => (0.05, 0.0, 2.0),
+        None => (0.0, 0.0, 2.0),
+    };
     Numerics {
         viscous_term: ViscousTerm::Morris,
-        drift_source: with_tension(0.02, 0.0),
-        background_pressure: with_tension(0.5, 0.0),
-        shifting: with_tension(0.0, 2.0),
+        drift_source,
+        background_pressure,
+        shifting,
         wall_stretch: if has_contact_lines { 1.5 } else { 10.0 },
         pressure_tolerance: 1.0e-6,
         time_step_factor: 1.0,

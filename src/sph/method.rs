@@ -72,7 +72,7 @@ pub struct Method {
     pub drift_source: f64,
     /// Background pressure in units of σ/h, or of ρ v² without tension.
     pub background_pressure: f64,
-    /// Particle shifting A in δr = −A h v Δt ∇C, v the largest speed and a share of the capillary speed; 0: none.
+    /// Particle shifting A in δr = −A h v Δt ∇C, v the largest speed; 0: none.
     pub shifting: f64,
     /// Pressure solve.
     pub tolerance: Tolerance,

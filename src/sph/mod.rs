@@ -11,6 +11,7 @@ pub mod images;
 pub mod kernel;
 pub mod measures;
 pub mod method;
+mod motion;
 pub mod observe;
 mod output;
 pub mod pairs;

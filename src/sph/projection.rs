@@ -10,24 +10,15 @@ use crate::sph::fields::Fields;
 use crate::sph::images::Images;
 use crate::sph::method::{Method, PressureGradient, ViscousTerm};
 use crate::sph::pairs::{Pairs, each, largest};
-use crate::sph::particles::{Particles, Phase};
+use crate::sph::particles::Particles;
 use crate::sph::poisson::{PressureSolve, Unknowns, assemble, parts};
 use crate::sph::terms::divergence::divergence;
+use crate::sph::terms::pressure_gradient;
 use crate::sph::terms::viscosity::Viscous;
-use crate::sph::terms::{pressure_gradient, shifting};
 use crate::sph::time_step::landing;
 
 /// The particles are put in the order of their cells every so many steps, so that neighbors are near in memory.
 const REORDER_EVERY: u64 = 20;
-
-/// Share of the capillary speed in the speed that shifting is scaled with: still drops need order too.
-const CAPILLARY_SHARE: f64 = 0.1;
-
-/// A particle that moves farther than this share of h in a step has run away.
-const LARGEST_MOVE: f64 = 0.5;
-
-/// A fluid particle nearer to a wall than this share of dx is set back to it: the pressure of a rough wall can leak.
-const CLOSEST_TO_WALL: f64 = 0.05;
 
 /// Above this density ratio the multigrid keeps light and heavy particles apart.
 const LARGEST_SMOOTH_RATIO: f64 = 5.0;
@@ -86,9 +77,9 @@ pub struct Flow {
 }
 
 /// The intermediate state of a step [Huber2013, Eq. 25].
-struct Predicted {
-    dt: f64,
-    limit: &'static str,
+pub(super) struct Predicted {
+    pub(super) dt: f64,
+    pub(super) limit: &'static str,
     /// v_int over particles and images in m/s.
     velocity: Vec<Vec2>,
 }
@@ -331,78 +322,6 @@ impl Flow {
             }
         }
         acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a).collect()
-    }
-
-    /// Moves the particles with the mean of old and new velocity [Huber2013, Eq. 27].
-    fn advance(&mut self, predicted: &Predicted, mut velocity: Vec<Vec2>, until: f64) -> Result<(), SolverError> {
-        let (fluids, dt) = (self.particles.fluids, predicted.dt);
-        let mut position = Vec::with_capacity(fluids);
-        for (a, v) in velocity.iter().enumerate() {
-            let by = 0.5 * dt * (self.particles.velocity[a] + v);
-            if !(by.norm() <= LARGEST_MOVE * self.method.kernel.h) {
-                let phase = if self.particles.phase[a] == Phase::Wetting { "wetting" } else { "non-wetting" };
-                return Err(SolverError::BlowUp {
-                    what: format!("a {phase} particle reached {:.3e} m/s", v.norm()),
-                    time: self.time,
-                    step: self.steps,
-                    place: self.particles.position[a],
-                });
-            }
-            position.push(self.domain.wrapped(self.particles.position[a] + by));
-        }
-        self.shift(dt, &mut position, &mut velocity);
-        self.set_back_from_walls(&mut position, &mut velocity);
-        self.particles.position[..fluids].copy_from_slice(&position);
-        self.particles.velocity[..fluids].copy_from_slice(&velocity);
-        self.time = if dt >= until - self.time { until } else { self.time + dt };
-        self.steps += 1;
-        self.last = StepInfo { dt, limit: predicted.limit };
-        Ok(())
-    }
-
-    /// Shifts crowded particles apart and carries their velocity along.
-    fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
-        let (fluids, m) = (self.particles.fluids, &self.method);
-        let speed = largest(fluids, |a| velocity[a].norm()).map_or(0.0, |l| l.1);
-        let diffusion = m.shifting * m.kernel.h * (speed + CAPILLARY_SHARE * m.capillary_speed()) * dt;
-        if diffusion == 0.0 {
-            return;
-        }
-        let (mut by, mut change) = (vec![Vec2::zeros(); fluids], vec![Vec2::zeros(); fluids]);
-        shifting::shift(&self.pairs, &self.fields.volume, diffusion, m.kernel.h, &mut by);
-        let mut all = velocity.to_vec();
-        all.extend_from_slice(&self.particles.velocity[fluids..]);
-        self.images.extend_velocity(&mut all);
-        shifting::carried_velocity(&self.pairs, &self.fields.volume, &all, &by, &mut change);
-        for a in 0..fluids {
-            position[a] = self.domain.wrapped(position[a] + by[a]);
-            velocity[a] += change[a];
-        }
-    }
-
-    fn set_back_from_walls(&mut self, position: &mut [Vec2], velocity: &mut [Vec2]) {
-        let closest = CLOSEST_TO_WALL * self.method.spacing;
-        let reach = closest + LARGEST_MOVE * self.method.kernel.h;
-        for a in 0..position.len() {
-            if self.fields.wall_distance[a] < reach {
-                let (distance, normal) = (self.wall)(position[a]);
-                if distance < closest {
-                    position[a] = self.domain.wrapped(position[a] + (closest - distance) * normal);
-                    velocity[a] -= velocity[a].dot(&normal).min(0.0) * normal;
-                    self.work.set_back += 1;
-                }
-            }
-        }
-        for mirror in &self.domain.mirrors {
-            let inwards = (self.domain.bounds.center()[mirror.axis] - mirror.at).signum();
-            for x in position.iter_mut() {
-                let depth = inwards * (x[mirror.axis] - mirror.at);
-                if depth < closest {
-                    x[mirror.axis] = mirror.at + inwards * closest;
-                    self.work.set_back += 1;
-                }
-            }
-        }
     }
 
     /// Wall time by part in s.

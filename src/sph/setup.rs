@@ -120,6 +120,7 @@ fn method(sph: &Sph, lattice: &Lattice) -> Method {
         other_fluid: sph.non_wetting.as_ref().map_or(wetting_fluid, fluid),
         tension: sph.tension,
         surface_force: match sph.surface_force {
+            Some(checked::SurfaceForce::PressureJump) => SurfaceForce::PressureJump,
             Some(checked::SurfaceForce::Csf) | None => SurfaceForce::Csf,
         },
         wetting: sph.wetting_model.map(|model| match model {

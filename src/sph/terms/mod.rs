@@ -10,5 +10,6 @@ pub mod divergence;
 pub mod poisson;
 pub mod pressure_gradient;
 pub mod shifting;
+pub mod strays;
 pub mod surface_tension;
 pub mod viscosity;

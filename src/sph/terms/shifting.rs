@@ -5,6 +5,9 @@
 use crate::math::Vec2;
 use crate::sph::pairs::{Pairs, each};
 
+/// Where the color gradient exceeds this, in units of 1/h, particles are shifted along the interface only.
+const INTERFACE: f64 = 0.05;
+
 /// A particle is shifted by at most this share of h per step.
 const LARGEST_SHIFT: f64 = 0.1;
 
@@ -20,4 +23,14 @@ pub fn shift(pairs: &Pairs, volume: &[f64], diffusion: f64, h: f64, shift: &mut 
 /// δv_a = δr_a·∇v_a = Σ_b V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: the velocity at the shifted place [Lind2012, Eq. 26].
 pub fn carried_velocity(pairs: &Pairs, volume: &[f64], velocity: &[Vec2], shift: &[Vec2], change: &mut [Vec2]) {
     pairs.sum_into(change, |a, ab| volume[ab.b] * ab.grad_w.dot(&shift[a]) * (velocity[ab.b] - velocity[a]));
+}
+
+/// Takes the part across the interface out of `shift` (m), so that the interface keeps its place and shape; `normal` is
+/// the color gradient in 1/m, `h` in m (method: Lind et al. 2012 at a free surface).
+pub fn keep_along(normal: &[Vec2], h: f64, shift: &mut [Vec2]) {
+    for (by, n) in shift.iter_mut().zip(normal) {
+        if n.norm() > INTERFACE / h {
+            *by -= by.dot(n) / n.norm_squared() * n;
+        }
+    }
 }

@@ -1,0 +1,108 @@
+//! The end of a step: particles move [Huber2013, Eq. 27], keep their order and stay out of walls.
+
+use crate::math::Vec2;
+use crate::solver::{SolverError, StepInfo};
+use crate::sph::pairs::largest;
+use crate::sph::particles::Phase;
+use crate::sph::projection::{Flow, Predicted};
+use crate::sph::terms::shifting;
+use crate::sph::terms::strays::Strays;
+use crate::sph::wetting::Wetting;
+
+/// A particle that moves farther than this share of h in a step has run away.
+const LARGEST_MOVE: f64 = 0.5;
+
+/// A fluid particle nearer to a wall than this share of dx is set back to it: the pressure of a rough wall can leak.
+const CLOSEST_TO_WALL: f64 = 0.05;
+
+impl Flow {
+    /// Moves the particles with the mean of old and new velocity [Huber2013, Eq. 27].
+    pub(super) fn advance(
+        &mut self,
+        predicted: &Predicted,
+        mut velocity: Vec<Vec2>,
+        until: f64,
+    ) -> Result<(), SolverError> {
+        let (fluids, dt) = (self.particles.fluids, predicted.dt);
+        let mut position = Vec::with_capacity(fluids);
+        for (a, v) in velocity.iter().enumerate() {
+            let by = 0.5 * dt * (self.particles.velocity[a] + v);
+            if !(by.norm() <= LARGEST_MOVE * self.method.kernel.h) {
+                let phase = if self.particles.phase[a] == Phase::Wetting { "wetting" } else { "non-wetting" };
+                return Err(SolverError::BlowUp {
+                    what: format!("a {phase} particle reached {:.3e} m/s", v.norm()),
+                    time: self.time,
+                    step: self.steps,
+                    place: self.particles.position[a],
+                });
+            }
+            position.push(self.domain.wrapped(self.particles.position[a] + by));
+        }
+        self.shift(dt, &mut position, &mut velocity);
+        self.set_back_from_walls(&mut position, &mut velocity);
+        self.particles.position[..fluids].copy_from_slice(&position);
+        self.particles.velocity[..fluids].copy_from_slice(&velocity);
+        self.time = if dt >= until - self.time { until } else { self.time + dt };
+        self.steps += 1;
+        self.last = StepInfo { dt, limit: predicted.limit };
+        Ok(())
+    }
+
+    /// Shifts crowded particles apart, along the interface near it, and strays back across it; they carry their velocity along.
+    fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
+        let (fluids, m, f) = (self.particles.fluids, &self.method, &self.fields);
+        let speed = largest(fluids, |a| velocity[a].norm()).map_or(0.0, |l| l.1);
+        let diffusion = m.shifting * m.kernel.h * speed * dt;
+        let mut by = vec![Vec2::zeros(); fluids];
+        if diffusion > 0.0 {
+            shifting::shift(&self.pairs, &f.volume, diffusion, m.kernel.h, &mut by);
+        }
+        if let Some(jump) = &f.jump {
+            shifting::keep_along(&f.normal, m.kernel.h, &mut by);
+            let strays = Strays {
+                side: &jump.side,
+                normal: &f.normal,
+                fluid_volume: &f.fluid_volume,
+                wall_distance: &f.wall_distance,
+                angle: m.wetting.as_ref().map(Wetting::static_angle),
+            };
+            strays.send_back(&self.pairs, m.kernel.h, m.capillary_speed() * dt, &mut by);
+        } else if diffusion == 0.0 {
+            return;
+        }
+        let mut change = vec![Vec2::zeros(); fluids];
+        let mut all = velocity.to_vec();
+        all.extend_from_slice(&self.particles.velocity[fluids..]);
+        self.images.extend_velocity(&mut all);
+        shifting::carried_velocity(&self.pairs, &f.volume, &all, &by, &mut change);
+        for a in 0..fluids {
+            position[a] = self.domain.wrapped(position[a] + by[a]);
+            velocity[a] += change[a];
+        }
+    }
+
+    fn set_back_from_walls(&mut self, position: &mut [Vec2], velocity: &mut [Vec2]) {
+        let closest = CLOSEST_TO_WALL * self.method.spacing;
+        let reach = closest + LARGEST_MOVE * self.method.kernel.h;
+        for a in 0..position.len() {
+            if self.fields.wall_distance[a] < reach {
+                let (distance, normal) = (self.wall)(position[a]);
+                if distance < closest {
+                    position[a] = self.domain.wrapped(position[a] + (closest - distance) * normal);
+                    velocity[a] -= velocity[a].dot(&normal).min(0.0) * normal;
+                    self.work.set_back += 1;
+                }
+            }
+        }
+        for mirror in &self.domain.mirrors {
+            let inwards = (self.domain.bounds.center()[mirror.axis] - mirror.at).signum();
+            for x in position.iter_mut() {
+                let depth = inwards * (x[mirror.axis] - mirror.at);
+                if depth < closest {
+                    x[mirror.axis] = mirror.at + inwards * closest;
+                    self.work.set_back += 1;
+                }
+            }
+        }
+    }
+}
