@@ -16,8 +16,7 @@ fn stripe(cloud: &Cloud, ratio: f64) -> Vec<f64> {
 
 fn matrix(cloud: &Cloud, density: &[f64]) -> Matrix {
     let mut matrix = Matrix::default();
-    let r_ab = |a: usize, b: usize| cloud.separation(a, b);
-    assemble(&mut matrix, (&cloud.pairs, &cloud.images), &cloud.volume, density, r_ab, cloud.zeta());
+    assemble(&mut matrix, (&cloud.pairs, &cloud.images), &cloud.volume, density);
     matrix
 }
 
