@@ -29,6 +29,9 @@ const LARGEST_MOVE: f64 = 0.5;
 /// A fluid particle nearer to a wall than this share of dx is set back to it: the pressure of a rough wall can leak.
 const CLOSEST_TO_WALL: f64 = 0.05;
 
+/// In a corner a particle is set back from one wall after the other, so many times; in a sharp wedge the next step does the rest.
+const SET_BACKS: usize = 4;
+
 /// Above this density ratio the multigrid keeps light and heavy particles apart.
 const LARGEST_SMOOTH_RATIO: f64 = 5.0;
 
@@ -378,11 +381,14 @@ impl Flow {
         let reach = closest + LARGEST_MOVE * self.method.kernel.h;
         for a in 0..position.len() {
             if self.fields.wall_distance[a] < reach {
-                let (distance, normal) = (self.wall)(position[a]);
-                if distance < closest {
+                for pass in 0..SET_BACKS {
+                    let (distance, normal) = (self.wall)(position[a]);
+                    if distance >= closest {
+                        break;
+                    }
                     position[a] = self.domain.wrapped(position[a] + (closest - distance) * normal);
                     velocity[a] -= velocity[a].dot(&normal).min(0.0) * normal;
-                    self.work.set_back += 1;
+                    self.work.set_back += u64::from(pass == 0);
                 }
             }
         }
