@@ -39,8 +39,7 @@ impl System {
             cloud.points.iter().map(|x| if is_light(x) { 1000.0 / ratio } else { 1000.0 }).collect();
         let kind = cloud.points.iter().map(|x| u8::from(ratio > 5.0 && is_light(x))).collect();
         let mut matrix = Matrix::default();
-        let r_ab = |a: usize, b: usize| cloud.separation(a, b);
-        assemble(&mut matrix, (&cloud.pairs, &cloud.images), &cloud.volume, &density, r_ab, cloud.zeta());
+        assemble(&mut matrix, (&cloud.pairs, &cloud.images), &cloud.volume, &density);
         let mut dice = Dice::new(23);
         let mut b: Vec<f64> = cloud.points.iter().map(|_| dice.between(-1.0, 1.0)).collect();
         let mean = b.iter().sum::<f64>() / b.len() as f64;

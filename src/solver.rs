@@ -97,7 +97,7 @@ pub enum SolverError {
     /// A linear or nonlinear solve did not reach its tolerance.
     #[error(
         "{system} did not converge at time {time:.6e} s (step {step}): relative residual {residual:.3e} after {iterations} \
-         iterations, {tolerance:.1e} asked for"
+         iterations, {tolerance:.1e} asked for{}", way_out(*residual)
     )]
     NotConverged {
         /// Which system.
@@ -113,6 +113,13 @@ pub enum SolverError {
         /// Step.
         step: u64,
     },
+}
+
+/// What to do about a solve that stopped at the relative `residual`.
+fn way_out(residual: f64) -> &'static str {
+    // A solve that fails for another reason stops far above rounding.
+    const ROUNDING: f64 = 1e-9;
+    if residual < ROUNDING { "; rounding allows no less, so ask for a larger tolerance" } else { "" }
 }
 
 /// A saved state that cannot be taken up again.

@@ -28,7 +28,10 @@ pub fn readable(value: f64) -> String {
     const SMALLEST_FIXED: f64 = 1.0e-2;
     const LARGEST_FIXED: f64 = 1.0e5;
     let size = value.abs();
-    if value == 0.0 || !value.is_finite() {
+    if value == 0.0 {
+        // Minus zero means nothing to people.
+        "0".into()
+    } else if !value.is_finite() {
         format!("{value}")
     } else if (SMALLEST_FIXED..LARGEST_FIXED).contains(&size) {
         let decimals = (3.0 - size.log10().floor()).max(0.0) as usize;
@@ -57,8 +60,8 @@ mod tests {
 
     #[test]
     fn numbers_and_durations_are_short() {
-        let numbers = [0.0, 41.23456, 0.0276, 12345.678, 2.0e-5, -1.5e7, f64::NAN].map(readable);
-        assert_eq!(numbers, ["0", "41.23", "0.02760", "12346", "2.000e-5", "-1.500e7", "NaN"]);
+        let numbers = [0.0, -0.0, 41.23456, 0.0276, 12345.678, 2.0e-5, -1.5e7, f64::NAN].map(readable);
+        assert_eq!(numbers, ["0", "0", "41.23", "0.02760", "12346", "2.000e-5", "-1.500e7", "NaN"]);
         assert_eq!([3.12, 75.0, 7322.0].map(duration), ["3.1 s", "1 min 15 s", "2 h 02 min"]);
     }
 }

@@ -90,7 +90,8 @@ fn measures(geometry: &Geometry) -> Vec<Measure> {
         ),
     ];
     for (number, throat) in throats(geometry).iter().take(THROATS).enumerate() {
-        let (c, name) = (throat.center, format!("throat-{}-width-m", number + 1));
+        // Adding zero turns minus zero into zero.
+        let (c, name) = (throat.center.map(|v| v + 0.0), format!("throat-{}-width-m", number + 1));
         let method = format!("shortest way from wall to wall, middle at ({:.4e}, {:.4e}) m", c.x, c.y);
         found.push(measure(&name, throat.width, "m", &method));
     }

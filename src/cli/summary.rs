@@ -62,11 +62,12 @@ fn with_uncertainty(reading: &Reading) -> String {
 fn push_angles(text: &mut String, report: &Report) {
     let measured = report.measures.get(ANGLE);
     if let Some(requested) = requested_angle(&report.case) {
-        let measured = measured.map_or("nothing".to_owned(), with_uncertainty);
-        let _ = writeln!(
-            text,
-            "  contact angle through the wetting phase: requested {requested:.1} deg, measured {measured}"
-        );
+        let measured = match measured {
+            Some(reading) if reading.value.is_some() => format!("measured {}", with_uncertainty(reading)),
+            Some(reading) => with_uncertainty(reading),
+            None => "not measured".into(),
+        };
+        let _ = writeln!(text, "  contact angle through the wetting phase: requested {requested:.1} deg, {measured}");
     }
 }
 
@@ -114,7 +115,10 @@ mod tests {
         let job = Job { case: &case, resolved: "", folder: folder.path().to_path_buf(), mode: Mode::New };
         let never = std::sync::atomic::AtomicBool::new(false);
         let mut finished = execute(&job, &mut ToySolver::new(), &never, &mut Unwatched).unwrap();
-        assert!(summary(&finished).contains("requested 40.0 deg, measured nothing"));
+        assert!(summary(&finished).contains("requested 40.0 deg, not measured\n"));
+        let none = Reading { value: None, unit: "deg".into(), uncertainty: None, method: "no line".into() };
+        finished.report.measures.insert(ANGLE.into(), none);
+        assert!(summary(&finished).contains("requested 40.0 deg, not measured (no line)\n"));
         let angle =
             Reading { value: Some(41.3), unit: "deg".into(), uncertainty: Some(1.2), method: "circle fit".into() };
         finished.report.measures.insert(ANGLE.into(), angle);

@@ -166,6 +166,20 @@ impl Boundary {
         Self { pieces, corners, tree }
     }
 
+    /// The nearest points to `x` of all pieces within `reach` (m).
+    pub fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = Nearest> {
+        let (low, high) = (x - Vec2::repeat(reach), x + Vec2::repeat(reach));
+        let leaves = self.tree.leaves(move |node| {
+            let (min, max) = (node.mins(), node.maxs());
+            min.x <= high.x && low.x <= max.x && min.y <= high.y && low.y <= max.y
+        });
+        leaves.filter_map(move |leaf| {
+            let piece = leaf as usize;
+            let foot = self.pieces.get(piece)?.curve.project(x);
+            ((foot.point - x).norm() <= reach).then_some(Nearest { piece, foot })
+        })
+    }
+
     /// The nearest point of the surface to `x`; none where there is no surface.
     pub fn nearest(&self, x: Vec2) -> Option<Nearest> {
         let squared = |piece: &Piece| (piece.curve.project(x).point - x).norm_squared();

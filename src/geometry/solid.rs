@@ -209,15 +209,42 @@ impl Geometry {
 
     /// Distance and normal of the nearest wall at `x`. Exact up to a box's size outside of the domain.
     ///
-    /// On a corner the normal is the mean of both sides; where several walls are equally near, one of them is taken.
+    /// Where several walls are equally near, as on a corner or on the line that halves a concave one, the normal is the mean of
+    /// theirs, so that no side is preferred; between opposite walls, where that mean vanishes, it is the normal of one of them.
     #[must_use]
     pub fn wall(&self, x: Vec2) -> Wall {
         let x = self.wrapped(x);
+        let wall = self.nearest_wall(x);
+        Wall { normal: self.mean_normal(x, &wall).unwrap_or(wall.normal), ..wall }
+    }
+
+    fn nearest_wall(&self, x: Vec2) -> Wall {
         match self.boundary.nearest(x) {
             Some(nearest) => self.wall_at(x, nearest),
             None if self.is_solid(x) => Wall { distance: f64::NEG_INFINITY, normal: Vec2::zeros(), shape: u32::MAX },
             None => Wall { distance: f64::INFINITY, normal: Vec2::zeros(), shape: u32::MAX },
         }
+    }
+
+    /// The mean of the different normals of all walls that are as near to `x` as `nearest`; none where there is but one, or
+    /// where they cancel.
+    fn mean_normal(&self, x: Vec2, nearest: &Wall) -> Option<Vec2> {
+        // Two pieces that join at the foot have one normal there, up to rounding.
+        const SAME: f64 = 1e-6;
+        // Opposite walls; less than any wedge that particles fit into.
+        const CANCELED: f64 = 1e-3;
+        if !nearest.distance.is_finite() {
+            return None;
+        }
+        let mut others: Vec<Vec2> = Vec::new();
+        for near in self.boundary.within(x, nearest.distance.abs() + self.tolerance()) {
+            let normal = self.wall_at(x, near).normal;
+            if std::iter::once(&nearest.normal).chain(&others).all(|known| (normal - known).norm() > SAME) {
+                others.push(normal);
+            }
+        }
+        let sum = nearest.normal + others.iter().sum::<Vec2>();
+        if others.is_empty() { None } else { sum.try_normalize(CANCELED) }
     }
 
     fn wall_at(&self, x: Vec2, Nearest { piece, foot }: Nearest) -> Wall {
@@ -233,7 +260,7 @@ impl Geometry {
         // So near to the corner the direction is lost to rounding.
         const AT_CORNER: f64 = 1e-3;
         if distance <= AT_CORNER * self.tolerance() {
-            return Wall { distance: 0.0, normal: corner.unwrap_or(flat), shape };
+            return Wall { distance: 0.0, normal: flat, shape };
         }
         let in_pore = match corner {
             // The nearest corner is seen within the cone of its two normals, or within the opposite cone.
@@ -247,6 +274,6 @@ impl Geometry {
     /// Distance to the wall at `x` in m, above 0 in the pore.
     #[must_use]
     pub fn signed_distance(&self, x: Vec2) -> f64 {
-        self.wall(x).distance
+        self.nearest_wall(self.wrapped(x)).distance
     }
 }

@@ -44,7 +44,8 @@ impl SeriesFile {
         &self.series
     }
 
-    /// Adds a row, `time_s` first, and writes the file. A row at or before the last time replaces what stands there.
+    /// Adds a row, `time_s` first, and writes the file. A row at or before the last time replaces what stands there; minus
+    /// zero becomes zero.
     ///
     /// # Errors
     /// [`FileError::Format`] where the columns differ from those of the rows before, or another [`FileError`].
@@ -59,7 +60,7 @@ impl SeriesFile {
         }
         let time = row.first().copied().unwrap_or(f64::NAN);
         self.series.rows.retain(|old| old.first().is_some_and(|&t| t < time));
-        self.series.rows.push(row);
+        self.series.rows.push(row.into_iter().map(|value| value + 0.0).collect());
         atomic::write(&self.path, &self.text()?)
     }
 
@@ -135,6 +136,14 @@ mod tests {
         file.record(&columns, row(0.1)).unwrap();
         file.record(&columns, row(0.2)).unwrap();
         assert_eq!(std::fs::read_to_string(folder.path().join("series.csv")).unwrap(), unbroken);
+    }
+
+    #[test]
+    fn minus_zero_is_written_as_zero() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut file = SeriesFile::new(folder.path());
+        file.record(&["time_s", "momentum_x_kg_per_m_s"], vec![0.0, -0.0]).unwrap();
+        assert!(std::fs::read_to_string(folder.path().join("series.csv")).unwrap().ends_with("\n0,0\n"));
     }
 
     #[test]

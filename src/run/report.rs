@@ -151,7 +151,8 @@ pub fn wall_time(total: f64, parts: impl Iterator<Item = PartTime>) -> WallTime 
 /// Measures by name.
 #[must_use]
 pub fn readings(measures: Vec<Measure>) -> BTreeMap<String, Reading> {
-    let finite = |value: f64| value.is_finite().then_some(value);
+    // Adding zero turns minus zero, which means nothing to people, into zero.
+    let finite = |value: f64| value.is_finite().then_some(value + 0.0);
     measures
         .into_iter()
         .map(|m| {

@@ -75,7 +75,11 @@ impl Domain {
     pub fn separation(&self, x_a: Vec2, x_b: Vec2) -> Vec2 {
         let mut r = x_a - x_b;
         for i in 0..2 {
-            r[i] -= self.period[i] * (r[i] * self.inverse_period[i]).round();
+            let turns = r[i] * self.inverse_period[i];
+            // Most pairs are not across a side, and rounding is a call of the mathematical library.
+            if turns.abs() > 0.5 {
+                r[i] -= self.period[i] * turns.round();
+            }
         }
         r
     }

@@ -130,10 +130,4 @@ impl Method {
     pub fn capillary_speed(&self) -> f64 {
         (self.tension / (self.mean_density() * self.kernel.h)).sqrt()
     }
-
-    /// ζ = 0.01 h in m [Huber2013, Eq. 16].
-    #[must_use]
-    pub fn zeta(&self) -> f64 {
-        0.01 * self.kernel.h
-    }
 }

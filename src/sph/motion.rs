@@ -15,6 +15,9 @@ const LARGEST_MOVE: f64 = 0.5;
 /// A fluid particle nearer to a wall than this share of dx is set back to it: the pressure of a rough wall can leak.
 const CLOSEST_TO_WALL: f64 = 0.05;
 
+/// In a corner a particle is set back from one wall after the other, so many times; in a sharp wedge the next step does the rest.
+const SET_BACKS: usize = 4;
+
 impl Flow {
     /// Moves the particles with the mean of old and new velocity [Huber2013, Eq. 27].
     pub(super) fn advance(
@@ -86,11 +89,14 @@ impl Flow {
         let reach = closest + LARGEST_MOVE * self.method.kernel.h;
         for a in 0..position.len() {
             if self.fields.wall_distance[a] < reach {
-                let (distance, normal) = (self.wall)(position[a]);
-                if distance < closest {
+                for pass in 0..SET_BACKS {
+                    let (distance, normal) = (self.wall)(position[a]);
+                    if distance >= closest {
+                        break;
+                    }
                     position[a] = self.domain.wrapped(position[a] + (closest - distance) * normal);
                     velocity[a] -= velocity[a].dot(&normal).min(0.0) * normal;
-                    self.work.set_back += 1;
+                    self.work.set_back += u64::from(pass == 0);
                 }
             }
         }

@@ -1,6 +1,8 @@
-//! All pairs within the support, with W and ∇W, found once per step and used by every sum of the step.
+//! All pairs within the support, with W, ∇W and the slope of the Laplacians, found once per step and used by every sum of it.
 
 use std::iter::Sum;
+use std::ops::Range;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -12,6 +14,9 @@ use crate::sph::kernel::WendlandC2;
 /// Particles handled by one task: large against the cost of a task, small against the particle count of a real case.
 pub const GRAIN: usize = 512;
 
+/// ζ over h [Huber2013, Eq. 16]: keeps the denominators of the Laplacians above zero.
+const ZETA: f64 = 0.01;
+
 /// A neighbor b of a particle a.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair {
@@ -21,15 +26,19 @@ pub struct Pair {
     pub w: f64,
     /// ∇_a W_ab in 1/m³.
     pub grad_w: Vec2,
+    /// r_ab·∇_a W_ab/(|r_ab|² + ζ²) in 1/m⁴, never above 0: what the Laplacians of Eqs. (16) and (30) weigh differences with.
+    pub slope: f64,
 }
 
 /// The neighbors of each particle (itself left out), in rows.
 #[derive(Debug, Clone, Default)]
 pub struct Pairs {
-    start: Vec<usize>,
-    b: Vec<u32>,
+    // The pressure matrix has the same pattern, and shares it.
+    start: Arc<Vec<usize>>,
+    b: Arc<Vec<u32>>,
     w: Vec<f64>,
     grad_w: Vec<Vec2>,
+    slope: Vec<f64>,
     /// W(0) in 1/m²: the share of a particle in its own sum.
     pub w_self: f64,
 }
@@ -83,33 +92,26 @@ impl Pairs {
             start.push(end);
         }
         let mut pairs = Self {
-            start,
-            b: Vec::with_capacity(end),
+            start: Arc::new(start),
+            b: Arc::new(chunks.iter().flat_map(|(_, found)| found).copied().collect()),
             w: vec![0.0; end],
             grad_w: vec![Vec2::zeros(); end],
+            slope: vec![0.0; end],
             w_self: kernel.w(0.0),
         };
-        for (_, found) in chunks {
-            pairs.b.extend_from_slice(found);
-        }
+        let zeta2 = (ZETA * kernel.h).powi(2);
         let (starts, bs) = (&pairs.start, &pairs.b);
-        let mut rows: Vec<(usize, &mut [f64], &mut [Vec2])> = Vec::new();
-        let (mut w, mut grad_w) = (pairs.w.as_mut_slice(), pairs.grad_w.as_mut_slice());
-        let count = starts.len() - 1;
-        for first in (0..count).step_by(GRAIN) {
-            let length = starts[(first + GRAIN).min(count)] - starts[first];
-            let (w_here, w_rest) = w.split_at_mut(length);
-            let (g_here, g_rest) = grad_w.split_at_mut(length);
-            (w, grad_w) = (w_rest, g_rest);
-            rows.push((first, w_here, g_here));
-        }
-        rows.into_par_iter().for_each(|(first, w, grad_w)| {
-            let offset = starts[first];
-            for a in first..(first + GRAIN).min(count) {
+        let parts = split_rows(starts, &mut pairs.w)
+            .zip(split_rows(starts, &mut pairs.grad_w))
+            .zip(split_rows(starts, &mut pairs.slope));
+        parts.collect::<Vec<_>>().into_par_iter().for_each(|(((rows, w), (_, grad_w)), (_, slope))| {
+            let offset = starts[rows.start];
+            for a in rows {
                 for k in starts[a]..starts[a + 1] {
                     let r_ab = domain.separation(points[a], points[bs[k] as usize]);
-                    w[k - offset] = kernel.w(r_ab.norm());
-                    grad_w[k - offset] = kernel.grad_w(r_ab);
+                    let i = k - offset;
+                    (w[i], grad_w[i]) = kernel.w_and_grad(r_ab);
+                    slope[i] = r_ab.dot(&grad_w[i]) / (r_ab.norm_squared() + zeta2);
                 }
             }
         });
@@ -137,19 +139,19 @@ impl Pairs {
     /// Where the row of `a` lies in [`Pairs::neighbors`].
     #[inline]
     #[must_use]
-    pub fn row(&self, a: usize) -> std::ops::Range<usize> {
+    pub fn row(&self, a: usize) -> Range<usize> {
         self.start[a]..self.start[a + 1]
     }
 
     /// The row starts, one more than there are rows.
     #[must_use]
-    pub fn starts(&self) -> &[usize] {
+    pub fn starts(&self) -> &Arc<Vec<usize>> {
         &self.start
     }
 
     /// The neighbors, row after row.
     #[must_use]
-    pub fn neighbors(&self) -> &[u32] {
+    pub fn neighbors(&self) -> &Arc<Vec<u32>> {
         &self.b
     }
 
@@ -157,8 +159,10 @@ impl Pairs {
     #[inline]
     pub fn of(&self, a: usize) -> impl Iterator<Item = Pair> + '_ {
         let row = self.row(a);
-        let (b, w, grad_w) = (&self.b[row.clone()], &self.w[row.clone()], &self.grad_w[row]);
-        b.iter().zip(w).zip(grad_w).map(|((&b, &w), &grad_w)| Pair { b: b as usize, w, grad_w })
+        let (b, w) = (&self.b[row.clone()], &self.w[row.clone()]);
+        let (grad_w, slope) = (&self.grad_w[row.clone()], &self.slope[row]);
+        let weights = w.iter().zip(grad_w).zip(slope);
+        b.iter().zip(weights).map(|(&b, ((&w, &grad_w), &slope))| Pair { b: b as usize, w, grad_w, slope })
     }
 
     /// `out[a]` = Σ_b `term(a, ab)` for each a of `out`, in parallel with one writer per element.
@@ -169,8 +173,23 @@ impl Pairs {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.start.len() * 8 + self.b.len() * (4 + 8 + 16)
+        self.start.len() * 8 + self.b.len() * (4 + 8 + 16 + 8)
     }
+}
+
+/// Cuts `values`, one per pair, into the parts of `GRAIN` rows each, with the rows that they belong to: one task each.
+pub fn split_rows<'a, T>(
+    starts: &'a [usize],
+    values: &'a mut [T],
+) -> impl Iterator<Item = (Range<usize>, &'a mut [T])> {
+    let count = starts.len() - 1;
+    let mut rest = values;
+    (0..count).step_by(GRAIN).map(move |first| {
+        let end = (first + GRAIN).min(count);
+        let (here, after) = std::mem::take(&mut rest).split_at_mut(starts[end] - starts[first]);
+        rest = after;
+        (first..end, here)
+    })
 }
 
 /// `out[a] = value(a)` in parallel, one writer per element, so that any number of threads gives the same bits.
@@ -221,6 +240,21 @@ mod tests {
             for a in 0..count {
                 prop_assert_eq!(sorted_row(&fast, a), sorted_row(&slow, a));
             }
+        }
+    }
+
+    #[test]
+    fn the_slope_of_a_pair_is_its_gradient_along_the_separation_over_the_distance_squared() {
+        let domain = Domain::new(Bounds { min: Vec2::zeros(), max: Vec2::repeat(1.0) }, [true, false], vec![]);
+        let kernel = WendlandC2::new(0.1);
+        let points = [Vec2::new(0.02, 0.5), Vec2::new(0.97, 0.58), Vec2::new(0.1, 0.5), Vec2::new(0.02, 0.5)];
+        let pairs = Pairs::find(&points, points.len(), &domain, &kernel);
+        let row: Vec<Pair> = pairs.of(0).collect();
+        assert_eq!(row.len(), 3);
+        for ab in row {
+            let r_ab = domain.separation(points[0], points[ab.b]);
+            let wanted = r_ab.dot(&kernel.grad_w(r_ab)) / (r_ab.norm_squared() + 1e-6);
+            assert!(ab.slope <= 0.0 && (ab.slope - wanted).abs() <= 1e-14 * wanted.abs(), "{ab:?}, wanted {wanted}");
         }
     }
 

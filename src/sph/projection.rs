@@ -121,6 +121,8 @@ impl Flow {
         }
         let mut points = self.particles.position.clone();
         self.images = Images::append(&mut points, &self.domain, self.method.kernel.support());
+        // The old pairs go first: both at once would be the most memory of the whole step.
+        self.pairs = Pairs::default();
         self.pairs = Pairs::find(&points, self.particles.len(), &self.domain, &self.method.kernel);
         let after = Instant::now();
         let neighborhood = (&self.particles, &self.pairs, &self.images);
@@ -198,18 +200,16 @@ impl Flow {
     /// The viscous acceleration of the fluid particles in m/s² and the largest viscous rate in 1/s.
     fn viscous_acceleration(&self, velocity: &[Vec2]) -> (Vec<Vec2>, f64) {
         let (fluids, f) = (self.particles.fluids, &self.fields);
-        let viscous =
-            Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity, zeta: self.method.zeta() };
-        let r_ab = |a: usize, b: usize| self.separation(a, b);
+        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let stretch = |a: usize, b: usize| self.stretch(a, b);
         let v_ab = |a: usize, b: usize| stretch(a, b) * (velocity[a] - velocity[b]);
         let mut acceleration = vec![Vec2::zeros(); fluids];
         match self.method.viscous_term {
-            ViscousTerm::Morris => viscous.morris(&self.pairs, r_ab, v_ab, &mut acceleration),
-            ViscousTerm::Szewc => viscous.szewc(&self.pairs, r_ab, v_ab, &mut acceleration),
+            ViscousTerm::Morris => viscous.morris(&self.pairs, v_ab, &mut acceleration),
+            ViscousTerm::Szewc => viscous.szewc(&self.pairs, v_ab, &mut acceleration),
         }
         let mut rate = vec![0.0; fluids];
-        viscous.rate(&self.pairs, r_ab, stretch, &mut rate);
+        viscous.rate(&self.pairs, stretch, &mut rate);
         (acceleration, rate.iter().fold(0.0, |m: f64, r| m.max(*r)))
     }
 
@@ -220,12 +220,6 @@ impl Flow {
             return 1.0;
         }
         self.method.no_slip.stretch(self.fields.wall_distance[a], self.wall_depth[source - fluids])
-    }
-
-    /// x_a − x_b in m, where b may be an image.
-    fn separation(&self, a: usize, b: usize) -> Vec2 {
-        let x_b = self.images.position(b, &self.particles.position);
-        self.domain.separation(self.particles.position[a], x_b)
     }
 
     /// The background pressure p_0 in Pa for a flow of the given `speed` (m/s).
@@ -259,8 +253,7 @@ impl Flow {
             -f.volume[a] * (source[a] / dt - drift * crowding)
         });
         let mut matrix = std::mem::take(&mut self.pressure.matrix);
-        let r_ab = |a: usize, b: usize| self.separation(a, b);
-        assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density, r_ab, method.zeta());
+        assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density);
         if let Some(jump) = &f.jump {
             jump.subtract_from(&mut b, &matrix, &self.pairs, method.tension);
         }

@@ -1,5 +1,7 @@
 //! The SPH simulation as the simulation loop sees it.
 
+use std::sync::OnceLock;
+
 use crate::analysis::phases::{WallSample, density_error};
 use crate::case::checked::MeasureSet;
 use crate::math::Vec2;
@@ -15,6 +17,8 @@ pub struct SphSolver {
     /// The flow.
     pub flow: Flow,
     start: Observation,
+    /// What is seen of the present state, once someone has looked.
+    seen: OnceLock<Observation>,
     surroundings: Surroundings,
 }
 
@@ -37,13 +41,14 @@ impl SphSolver {
     #[must_use]
     pub fn new(flow: Flow, surroundings: Surroundings) -> Self {
         let start = Observation::of(&flow, &surroundings.wall_samples);
-        Self { flow, start, surroundings }
+        let seen = OnceLock::from(start.clone());
+        Self { flow, start, seen, surroundings }
     }
 
-    /// What can be seen of the flow now.
+    /// What can be seen of the flow now. Found once between two steps: series, files and report all ask for it.
     #[must_use]
-    pub fn observe(&self) -> Observation {
-        Observation::of(&self.flow, &self.surroundings.wall_samples)
+    pub fn observe(&self) -> &Observation {
+        self.seen.get_or_init(|| Observation::of(&self.flow, &self.surroundings.wall_samples))
     }
 
     fn kinetic_energy(&self) -> f64 {
@@ -68,11 +73,12 @@ impl Solver for SphSolver {
     }
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
+        self.seen.take();
         self.flow.step(until)
     }
 
     fn snapshot(&self) -> Snapshot<'_> {
-        output::snapshot(&self.flow, &self.observe(), self.surroundings.grid_spacing)
+        output::snapshot(&self.flow, self.observe(), self.surroundings.grid_spacing)
     }
 
     fn outline(&self) -> Lines<'_> {
@@ -109,9 +115,8 @@ impl Solver for SphSolver {
     }
 
     fn measures(&self, series: &Series) -> Vec<Measure> {
-        let seen = self.observe();
-        let discs = &self.surroundings.discs;
-        all(&Subject { flow: &self.flow, seen: &seen, start: &self.start, series, discs }, &self.surroundings.measures)
+        let (seen, discs) = (self.observe(), &self.surroundings.discs);
+        all(&Subject { flow: &self.flow, seen, start: &self.start, series, discs }, &self.surroundings.measures)
     }
 
     fn state(&self) -> Vec<u8> {
@@ -119,6 +124,7 @@ impl Solver for SphSolver {
     }
 
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
+        self.seen.take();
         state::load(&mut self.flow, state)
     }
 

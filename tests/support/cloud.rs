@@ -73,11 +73,6 @@ impl Cloud {
         self.domain.separation(self.points[a], self.points[b])
     }
 
-    /// ζ of the method in m.
-    pub fn zeta(&self) -> f64 {
-        0.01 * self.kernel.h
-    }
-
     /// The particles farther from the sides of the box than twice the support, so that no neighbor misses one.
     pub fn inner(&self) -> Vec<usize> {
         let margin = 2.0 * self.kernel.support();

@@ -40,20 +40,32 @@ impl WendlandC2 {
     /// W(r) in 1/m² [Huber2013, Eq. 14].
     #[must_use]
     pub fn w(&self, r: f64) -> f64 {
-        let q = r / self.h;
-        let t = (1.0 - 0.5 * q).max(0.0);
-        let t2 = t * t;
-        self.norm * t2 * t2 * (2.0 * q + 1.0)
+        self.w_and_slope(r).0
     }
 
     /// ∇_a W(|r_ab|) in 1/m³, where `r_ab` = x_a − x_b in m.
-    ///
-    /// dW/dr = −5 q (1 − q/2)³ · 7/(4πh³), so that the gradient is regular at r = 0.
     #[must_use]
     pub fn grad_w(&self, r_ab: Vec2) -> Vec2 {
-        let q = r_ab.norm() / self.h;
+        self.w_and_grad(r_ab).1
+    }
+
+    /// W(|r_ab|) in 1/m² and ∇_a W(|r_ab|) in 1/m³ at once.
+    #[inline]
+    #[must_use]
+    pub fn w_and_grad(&self, r_ab: Vec2) -> (f64, Vec2) {
+        let (w, slope) = self.w_and_slope(r_ab.norm());
+        (w, r_ab * slope)
+    }
+
+    /// W(r) and (1/r) dW/dr.
+    ///
+    /// dW/dr = −5 q (1 − q/2)³ · 7/(4πh³), so that the gradient is regular at r = 0.
+    #[inline]
+    fn w_and_slope(&self, r: f64) -> (f64, f64) {
+        let q = r / self.h;
         let t = (1.0 - 0.5 * q).max(0.0);
-        r_ab * (-self.gradient_norm * t * t * t)
+        let t3 = t * t * t;
+        (self.norm * t3 * t * (2.0 * q + 1.0), -self.gradient_norm * t3)
     }
 
     /// ∫₀²ʰ W(s) ds in 1/m: what a contact line that stands upright on a wall sums to in Eq. (22).

@@ -48,12 +48,24 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
     ];
     if s.flow.method.wetting.is_some() {
         let angle = s.seen.angle();
-        let method = format!(
+        let method = how_the_angle_was_measured(s);
+        found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
+    }
+    found
+}
+
+/// How the contact angle was measured, or why it was not.
+fn how_the_angle_was_measured(s: &Subject) -> String {
+    let angle = s.seen.angle();
+    if angle.measured > 0 {
+        return format!(
             "circles fitted to the c = 0.5 contour farther than 2h from walls, extrapolated to the wall; mean of {} contact \
              lines ({} without a fit), spread {:.2} degrees",
             angle.measured, angle.failed, angle.spread_deg
         );
-        found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
     }
-    found
+    match s.seen.contact_lines.iter().find_map(|line| line.problem.as_ref()) {
+        Some(problem) => format!("none of the {} contact lines has one: {problem}", angle.failed),
+        None => "the interface meets no wall".into(),
+    }
 }

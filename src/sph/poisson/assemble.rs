@@ -1,46 +1,32 @@
 //! The matrix of the pressure Poisson equation on fluid and wall particles [Huber2013, Eq. 30].
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
-use crate::math::Vec2;
 use crate::sph::images::Images;
-use crate::sph::pairs::{GRAIN, Pairs, each};
+use crate::sph::pairs::{Pairs, each, split_rows};
 use crate::sph::poisson::Matrix;
+use crate::sph::poisson::components::components;
 use crate::sph::terms::poisson::coefficient;
 
 /// Fills `matrix` with the coefficients of Eq. (30) times −V_a; images count for their sources [Eq. 34: p' = p].
 ///
-/// `volume` in m² and `density` in kg/m³ over particles and images, `r_ab(a, b)` in m, `zeta` in m.
-pub fn assemble(
-    matrix: &mut Matrix,
-    (pairs, images): (&Pairs, &Images),
-    volume: &[f64],
-    density: &[f64],
-    r_ab: impl Fn(usize, usize) -> Vec2 + Sync,
-    zeta: f64,
-) {
+/// `volume` in m² and `density` in kg/m³ over particles and images.
+pub fn assemble(matrix: &mut Matrix, (pairs, images): (&Pairs, &Images), volume: &[f64], density: &[f64]) {
     let rows = pairs.rows();
-    matrix.start.clear();
-    matrix.start.extend_from_slice(pairs.starts());
-    matrix.column.clear();
-    matrix.column.extend(pairs.neighbors().iter().map(|&b| images.source(b as usize) as u32));
+    matrix.start = Arc::clone(pairs.starts());
+    matrix.column = if images.is_empty() {
+        Arc::clone(pairs.neighbors())
+    } else {
+        Arc::new(pairs.neighbors().iter().map(|&b| images.source(b as usize) as u32).collect())
+    };
     matrix.coupling.resize(pairs.len(), 0.0);
-    let mut rest = matrix.coupling.as_mut_slice();
-    let mut tasks = Vec::new();
-    for first in (0..rows).step_by(GRAIN) {
-        let end = (first + GRAIN).min(rows);
-        let (here, after) = rest.split_at_mut(pairs.starts()[end] - pairs.starts()[first]);
-        rest = after;
-        tasks.push((first..end, here));
-    }
+    let tasks: Vec<_> = split_rows(pairs.starts(), &mut matrix.coupling).collect();
     tasks.into_par_iter().for_each(|(range, coupling)| {
-        let mut k = 0;
-        for a in range {
-            for ab in pairs.of(a) {
-                let b = ab.b;
-                coupling[k] = coefficient(volume[a] * volume[b], density[a] + density[b], r_ab(a, b), &ab, zeta);
-                k += 1;
-            }
+        let all = range.flat_map(|a| pairs.of(a).map(move |ab| (a, ab)));
+        for (out, (a, ab)) in coupling.iter_mut().zip(all) {
+            *out = coefficient(volume[a] * volume[ab.b], density[a] + density[ab.b], &ab);
         }
     });
     matrix.diagonal.resize(rows, 0.0);
@@ -55,25 +41,5 @@ pub fn assemble(
 /// Numbers the parts of the pore space that share no neighbors; each has a pressure constant of its own.
 #[must_use]
 pub fn parts(pairs: &Pairs, images: &Images) -> Vec<u32> {
-    const NONE: u32 = u32::MAX;
-    let mut part = vec![NONE; pairs.rows()];
-    let mut next = 0;
-    for first in 0..part.len() {
-        if part[first] != NONE {
-            continue;
-        }
-        part[first] = next;
-        let mut open = vec![first];
-        while let Some(a) = open.pop() {
-            for ab in pairs.of(a) {
-                let b = images.source(ab.b);
-                if part[b] == NONE {
-                    part[b] = next;
-                    open.push(b);
-                }
-            }
-        }
-        next += 1;
-    }
-    part
+    components(pairs.rows(), |a| pairs.of(a).map(|ab| images.source(ab.b)))
 }

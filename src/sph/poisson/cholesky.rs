@@ -1,5 +1,7 @@
 //! Sparse Cholesky factorization by faer for small systems; the symbolic part is kept while the pattern lasts.
 
+use std::sync::Arc;
+
 use faer::prelude::*;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
@@ -10,7 +12,7 @@ use crate::sph::poisson::Matrix;
 /// A direct solver that remembers the elimination order of the last pattern it saw.
 #[derive(Default)]
 pub struct SparseCholesky {
-    pattern: (Vec<usize>, Vec<u32>),
+    pattern: (Arc<Vec<usize>>, Arc<Vec<u32>>),
     symbolic: Option<SymbolicLlt<usize>>,
 }
 

@@ -1,14 +1,16 @@
 //! A symmetric matrix with non-positive off-diagonal entries: what Eq. (30) times −V_a gives, and its coarse forms.
 
+use std::sync::Arc;
+
 use crate::sph::pairs::each;
 
 /// M = D − A with A ≥ 0 off the diagonal: (M x)_a = D_a x_a − Σ_b A_ab x_b. Columns may repeat within a row.
 #[derive(Debug, Clone, Default)]
 pub struct Matrix {
-    /// Row starts, one more than there are rows.
-    pub start: Vec<usize>,
+    /// Row starts, shared with the pairs that the matrix was made of; one more than there are rows.
+    pub start: Arc<Vec<usize>>,
     /// Columns of the off-diagonal entries.
-    pub column: Vec<u32>,
+    pub column: Arc<Vec<u32>>,
     /// A_ab, the negative of the off-diagonal entries.
     pub coupling: Vec<f64>,
     /// D_a.
@@ -46,9 +48,15 @@ impl Matrix {
         each(r, |a| b[a] - self.diagonal[a] * x[a] + self.coupled(a, x));
     }
 
-    /// Bytes held.
+    /// Lets go of the pattern, so that the pairs that it was shared with can be freed; `coupling` keeps its memory.
+    pub fn release_pattern(&mut self) {
+        self.start = Arc::default();
+        self.column = Arc::default();
+    }
+
+    /// Bytes held, a pattern that it shares with the pairs included.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.start.len() * 8 + self.column.len() * 12 + self.diagonal.len() * 8
+        self.start.len() * 8 + self.column.len() * 4 + (self.coupling.len() + self.diagonal.len()) * 8
     }
 }

@@ -5,6 +5,7 @@
 mod aggregation;
 mod assemble;
 mod cholesky;
+mod components;
 mod conjugate_gradients;
 mod matrix;
 mod multigrid;

@@ -5,6 +5,8 @@
 //! this step alone, so that a resumed run repeats it exactly. Blocks of fixed size make the sweeps parallel with the same
 //! bits for any number of threads; since D ≥ Σ A the sweeps converge for any blocks.
 
+use std::sync::Arc;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
@@ -12,6 +14,7 @@ use crate::math::Vec2;
 use crate::sph::pairs::total;
 use crate::sph::poisson::Matrix;
 use crate::sph::poisson::aggregation::{Aggregates, COARSENING};
+use crate::sph::poisson::components::components;
 
 /// A level of at most this many unknowns is solved by a dense factorization.
 const DIRECT: usize = 150;
@@ -21,9 +24,6 @@ const BLOCK: usize = 2048;
 
 /// The second step of the K-cycle is left out where the first brought the residual below this share.
 const GOOD_ENOUGH: f64 = 0.25;
-
-/// Share of the largest diagonal entry added to the coarsest diagonal: without a fixed pressure the matrix is singular.
-const REGULARIZATION: f64 = 1e-9;
 
 struct Level {
     matrix: Matrix,
@@ -152,38 +152,48 @@ fn galerkin(fine: &Matrix, aggregate: &[u32], count: usize) -> Matrix {
         members[next[group as usize]] = a as u32;
         next[group as usize] += 1;
     }
-    let mut coarse = Matrix { start: vec![0], ..Matrix::default() };
+    let (mut starts, mut column, mut coupling, mut diagonal) = (vec![0], Vec::new(), Vec::new(), Vec::new());
     let mut place = vec![NONE; count];
     for group in 0..count {
-        let first = coarse.column.len();
-        let (mut diagonal, mut within) = (0.0, 0.0);
+        let first = column.len();
+        let (mut own, mut within) = (0.0, 0.0);
         for &a in &members[start[group]..start[group + 1]] {
-            diagonal += fine.diagonal[a as usize];
-            for (b, coupling) in fine.row(a as usize) {
+            own += fine.diagonal[a as usize];
+            for (b, value) in fine.row(a as usize) {
                 let other = aggregate[b] as usize;
                 if other == group {
-                    within += coupling;
+                    within += value;
                 } else if place[other] != NONE && place[other] >= first {
-                    coarse.coupling[place[other]] += coupling;
+                    coupling[place[other]] += value;
                 } else {
-                    place[other] = coarse.column.len();
-                    coarse.column.push(other as u32);
-                    coarse.coupling.push(coupling);
+                    place[other] = column.len();
+                    column.push(other as u32);
+                    coupling.push(value);
                 }
             }
         }
-        coarse.diagonal.push(diagonal - within);
-        coarse.start.push(coarse.column.len());
+        diagonal.push(own - within);
+        starts.push(column.len());
     }
-    coarse
+    Matrix { start: Arc::new(starts), column: Arc::new(column), coupling, diagonal }
 }
 
+/// The dense factor, with the diagonal entry of the first unknown of each connected part doubled.
+///
+/// That makes the matrix positive definite and leaves the solution of a right side that sums to zero over each part as it
+/// is. Something small on the whole diagonal would instead blow the rounding of that sum up to a large constant, whose
+/// rounding in turn is all that conjugate gradients would see below 1e-8.
 fn factor(matrix: &Matrix) -> Option<Cholesky<f64, Dyn>> {
     let n = matrix.rows();
-    let largest = matrix.diagonal.iter().fold(0.0_f64, |m, d| m.max(*d));
     let mut dense = DMatrix::from_diagonal(&DVector::from_column_slice(&matrix.diagonal));
+    let part = components(n, |a| matrix.row(a).map(|(b, _)| b));
+    let mut held = 0;
     for a in 0..n {
-        dense[(a, a)] += REGULARIZATION * largest;
+        // Parts are numbered in the order of their first unknowns.
+        if part[a] == held {
+            dense[(a, a)] *= 2.0;
+            held += 1;
+        }
         for (b, coupling) in matrix.row(a) {
             dense[(a, b)] -= coupling;
         }
@@ -194,11 +204,13 @@ fn factor(matrix: &Matrix) -> Option<Cholesky<f64, Dyn>> {
 /// z = (D − L)⁻¹ r, block by block: a forward Gauss-Seidel sweep from zero.
 fn forward_from_zero(matrix: &Matrix, r: &[f64], z: &mut [f64]) {
     z.par_chunks_mut(BLOCK).enumerate().for_each(|(block, z)| {
+        // Rows that are still to come count as zero: adding them costs less than telling them apart.
+        z.fill(0.0);
         let first = block * BLOCK;
         for i in 0..z.len() {
             let a = first + i;
             let known: f64 =
-                matrix.row(a).filter(|&(b, _)| b >= first && b < a).map(|(b, coupling)| coupling * z[b - first]).sum();
+                matrix.row(a).map(|(b, coupling)| coupling * z.get(b.wrapping_sub(first)).unwrap_or(&0.0)).sum();
             z[i] = (r[a] + known) / matrix.diagonal[a];
         }
     });
@@ -208,13 +220,10 @@ fn forward_from_zero(matrix: &Matrix, r: &[f64], z: &mut [f64]) {
 fn backward(matrix: &Matrix, r: &[f64], old: &[f64], z: &mut [f64]) {
     z.par_chunks_mut(BLOCK).enumerate().for_each(|(block, z)| {
         let first = block * BLOCK;
-        let end = first + z.len();
         for i in (0..z.len()).rev() {
             let a = first + i;
-            let coupled: f64 = matrix
-                .row(a)
-                .map(|(b, coupling)| coupling * if b >= first && b < end { z[b - first] } else { old[b] })
-                .sum();
+            let coupled: f64 =
+                matrix.row(a).map(|(b, coupling)| coupling * z.get(b.wrapping_sub(first)).unwrap_or(&old[b])).sum();
             z[i] = (r[a] + coupled) / matrix.diagonal[a];
         }
     });

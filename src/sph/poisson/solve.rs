@@ -33,7 +33,7 @@ pub struct Unknowns<'a> {
 /// Solves the pressure Poisson equation step after step.
 #[derive(Default)]
 pub struct PressureSolve {
-    /// The matrix of the last solve.
+    /// The matrix of the next solve; afterwards its memory without its pattern.
     pub matrix: Matrix,
     cholesky: SparseCholesky,
     hierarchy_bytes: usize,
@@ -60,6 +60,7 @@ impl PressureSolve {
         };
         let ones = vec![1.0; p.len()];
         subtract_mean(unknowns.part, &ones, p);
+        self.matrix.release_pattern();
         convergence
     }
 
@@ -82,7 +83,7 @@ impl PressureSolve {
         })
     }
 
-    /// Bytes held between and during solves.
+    /// Bytes held between solves and by the hierarchy during them.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.matrix.bytes() + self.hierarchy_bytes

@@ -1,13 +1,12 @@
 //! Coefficients of the pressure Poisson equation [Huber2013, Eq. 30].
 
-use crate::math::Vec2;
 use crate::sph::pairs::Pair;
 
-/// A_ab = −V_a V_b 4/(ρ_a + ρ_b) r_ab·∇_a W_ab/(|r_ab|² + ζ²) ≥ 0 in m⁴/(kg m²)·..., symmetric in a and b.
+/// A_ab = −V_a V_b 4/(ρ_a + ρ_b) r_ab·∇_a W_ab/(|r_ab|² + ζ²) ≥ 0 in m³/kg per depth, symmetric in a and b.
 ///
 /// Eq. (30) times −V_a is then Σ_b A_ab (p_a − p_b): a symmetric matrix with non-negative eigenvalues.
 #[inline]
 #[must_use]
-pub fn coefficient(volumes: f64, densities: f64, r_ab: Vec2, ab: &Pair, zeta: f64) -> f64 {
-    -volumes * 4.0 / densities * r_ab.dot(&ab.grad_w) / (r_ab.norm_squared() + zeta * zeta)
+pub fn coefficient(volumes: f64, densities: f64, ab: &Pair) -> f64 {
+    -volumes * 4.0 / densities * ab.slope
 }

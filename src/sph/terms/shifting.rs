@@ -11,7 +11,7 @@ const INTERFACE: f64 = 0.05;
 /// A particle is shifted by at most this share of h per step.
 const LARGEST_SHIFT: f64 = 0.1;
 
-/// δr_a = −`diffusion` ∇C_a, ∇C_a = Σ_b V_b ∇_a W_ab, at most 0.05 h. `diffusion` in m², `h` and the result in m.
+/// δr_a = −`diffusion` ∇C_a, ∇C_a = Σ_b V_b ∇_a W_ab, at most 0.1 h. `diffusion` in m², `h` and the result in m.
 pub fn shift(pairs: &Pairs, volume: &[f64], diffusion: f64, h: f64, shift: &mut [Vec2]) {
     each(shift, |a| {
         let concentration: Vec2 = pairs.of(a).map(|ab| volume[ab.b] * ab.grad_w).sum();

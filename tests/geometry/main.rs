@@ -1,0 +1,8 @@
+//! The geometry module against closed forms and brute force.
+
+mod corners;
+mod distance;
+mod files;
+mod measures;
+mod shapes;
+mod sides;
