@@ -83,7 +83,7 @@ tables! {
         pub phases: RawPhases,
         /// Interface between the fluids.
         pub interface: RawInterface,
-        /// Form of the surface force: one table whose name is the model (default `csf`).
+        /// Form of the surface force: one table whose name is the model (default `pressure-jump`).
         pub surface_force: RawSurfaceForce,
         /// Wetting model: one table whose name is the model (default none).
         pub wetting: RawWetting,

@@ -69,7 +69,7 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
 }
 
 /// The surface force of a case that names none.
-const DEFAULT_SURFACE_FORCE: SurfaceForce = SurfaceForce::Csf;
+const DEFAULT_SURFACE_FORCE: SurfaceForce = SurfaceForce::PressureJump;
 
 /// h/dx of the paper's examples.
 const DEFAULT_SMOOTHING_RATIO: f64 = 1.5;
@@ -289,8 +289,8 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
     }
 }
 
-/// Defaults by what flows. With tension the paper's form keeps its particles in order by background pressure and drift
-/// source, without tension shifting does it (docs/numerics). A wall that a contact line moves along must slip a little.
+/// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and drift source,
+/// the others by shifting (docs/numerics). A wall that a contact line moves along must slip a little.
 fn default_numerics(surface_force: Option<SurfaceForce>, has_contact_lines: bool) -> Numerics {
     let (drift_source, background_pressure, shifting) = match surface_force {
         Some(SurfaceForce::Csf) => (0.02, 0.5, 0.0),

@@ -3,8 +3,13 @@
 use super::output::say;
 
 /// Table of a case file, what it does, where it comes from.
-const MODELS: [[&str; 3]; 7] = [
+const MODELS: [[&str; 3]; 8] = [
     ["[sph]", "direct simulation by incompressible SPH", "Huber et al. 2013"],
+    [
+        "[sph.surface-force.pressure-jump]",
+        "pressure jump across a sharp interface (default)",
+        "Fedkiw et al. 1999; Kang et al. 2000; docs/numerics",
+    ],
     ["[sph.surface-force.csf]", "continuum surface force", "Huber et al. 2013, Eq. 20; Brackbill et al. 1992"],
     ["[sph.wetting.young]", "unbalanced Young force at the contact line", "Huber et al. 2013, Eqs. 7 and 23"],
     ["sph.numerics.viscous-term = \"szewc\"", "viscous term", "Huber et al. 2013, Eq. 16; Szewc et al. 2012"],

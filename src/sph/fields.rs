@@ -160,7 +160,7 @@ impl Fields {
         method: &Method,
         (domain, wall): (&Domain, &WallQuery),
     ) {
-        let (n, fluids, position) = (particles.len(), particles.fluids, &particles.position);
+        let (fluids, position) = (particles.fluids, &particles.position);
         let r_ab = |a: usize, b: usize| domain.separation(position[a], images.position(b, position));
         let normal = &mut self.normal[..fluids];
         color::consistent_gradient(pairs, &self.fluid_volume, &self.color, r_ab, normal);
@@ -176,7 +176,8 @@ impl Fields {
         let points = interface_points((pairs, images), domain, &fields, fluids, lengths);
         let angle = method.wetting.as_ref().map(Wetting::static_angle);
         let fit = InterfaceFit::new(&points, domain, lengths, angle, wall);
-        let side: Vec<f64> = sharp[..fluids].iter().chain(&self.color[fluids..n]).copied().collect();
+        let mut side = sharp.to_vec();
+        carry::into_walls(pairs, &self.fluid_volume, fluids, &mut side);
         let mut jump = Jump::default();
         jump.update((pairs, images, fluids), &side, position, &fit);
         for (kappa, found) in self.curvature.iter_mut().zip(&jump.curvature) {

@@ -54,7 +54,9 @@ impl Flow {
     /// Shifts crowded particles apart, along the interface near it, and strays back across it; they carry their velocity along.
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
         let (fluids, m, f) = (self.particles.fluids, &self.method, &self.fields);
-        let speed = largest(fluids, |a| velocity[a].norm()).map_or(0.0, |l| l.1);
+        // Relative to the mean velocity, so that a moving observer sees the same shifts.
+        let mean = velocity.iter().sum::<Vec2>() / fluids as f64;
+        let speed = largest(fluids, |a| (velocity[a] - mean).norm()).map_or(0.0, |l| l.1);
         let diffusion = m.shifting * m.kernel.h * speed * dt;
         let mut by = vec![Vec2::zeros(); fluids];
         if diffusion > 0.0 {

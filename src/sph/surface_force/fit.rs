@@ -14,6 +14,9 @@ use crate::sph::surface_force::points::InterfacePoint;
 /// Radius of the window of a fit over h.
 pub const WINDOW: f64 = 2.5;
 
+/// Squared distances that differ by less than this share are equal.
+const TIE: f64 = 1e-9;
+
 /// Points whose normal turns away more than this (cosine) belong to another piece of interface.
 const SAME_PIECE: f64 = 0.3;
 
@@ -77,9 +80,18 @@ impl<'a> InterfaceFit<'a> {
     /// Curvature in 1/m of the interface nearest to `x`, none where there is no interface within the window.
     #[must_use]
     pub fn curvature(&self, x: Vec2) -> Option<f64> {
-        let (p, from_p) = self.nearest(x)?;
+        let (sum, count) = self
+            .nearest(x)
+            .into_iter()
+            .filter_map(|(p, from_p)| self.curvature_at(p, x - from_p))
+            .fold((0.0, 0), |(sum, count), kappa| (sum + kappa, count + 1));
+        (count > 0).then(|| sum / f64::from(count))
+    }
+
+    /// The curvature from the window around the point `p`, which lies at `x_p` next to the particle asked for.
+    fn curvature_at(&self, p: usize, x_p: Vec2) -> Option<f64> {
         let point = &self.points[p];
-        let near = self.window(point, x - from_p);
+        let near = self.window(point, x_p);
         let free = free_fit(&near, point.normal);
         let limit = LARGEST_CURVATURE / self.h;
         let held = self.held_fit(point, &near);
@@ -91,15 +103,18 @@ impl<'a> InterfaceFit<'a> {
         kappa.is_finite().then(|| kappa.clamp(-limit, limit))
     }
 
-    /// Index of the nearest point and x − x_p; the first of equals.
-    fn nearest(&self, x: Vec2) -> Option<(usize, Vec2)> {
-        let mut best: Option<(usize, Vec2)> = None;
+    /// Index of the nearest point and x − x_p; all of those that are equally near, so that a mirrored flow stays mirrored.
+    fn nearest(&self, x: Vec2) -> Vec<(usize, Vec2)> {
+        let mut least = (WINDOW * self.h).powi(2);
+        let mut nearest = Vec::new();
         self.cells.visit_near(x, |i, r| {
-            if best.is_none_or(|(_, b)| r.norm_squared() < b.norm_squared()) {
-                best = Some((i as usize, r));
+            if r.norm_squared() <= least * (1.0 + TIE) {
+                least = least.min(r.norm_squared());
+                nearest.push((i as usize, r));
             }
         });
-        best.filter(|(_, r)| r.norm() < WINDOW * self.h)
+        nearest.retain(|(_, r)| r.norm_squared() <= least * (1.0 + TIE));
+        nearest
     }
 
     /// The points of the same piece within the window around `x_p`, the place of `point` next to the particle asked for.

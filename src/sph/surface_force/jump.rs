@@ -20,7 +20,7 @@ pub struct Jump {
 }
 
 impl Jump {
-    /// Sides and curvatures; `color` is sharp on fluid particles and smoothed on walls.
+    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls.
     pub fn update(
         &mut self,
         (pairs, images, fluids): (&Pairs, &Images, usize),
@@ -42,13 +42,13 @@ impl Jump {
         self.curvature.clear();
         self.curvature.extend(smoothed(on_fluid, pairs, images));
         self.curvature.resize(n, f64::NAN);
-        images.extend(&mut self.curvature);
         // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
+        images.extend(&mut self.curvature);
         for _ in 0..2 {
             let known = self.curvature.clone();
             each(&mut self.curvature[fluids..n], |i| {
                 let a = fluids + i;
-                if known[a].is_finite() { known[a] } else { mean(pairs, &known, a) }
+                if known[a].is_nan() { mean(pairs, &known, a) } else { known[a] }
             });
             images.extend(&mut self.curvature);
         }
