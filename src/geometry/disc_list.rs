@@ -1,22 +1,17 @@
 //! Disc lists: `x y r` in m per line, separated by spaces, tabs, commas or semicolons; one header line is allowed.
 
-use crate::geometry::shape_file::{LineProblem, domain_comment, shortened, words};
-use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
+use crate::geometry::shape_file::{LineProblem, Notes, around, words};
+use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec};
 
 const EXPECTED: &str =
     "three numbers `x y r` in m, the radius above 0, separated by spaces, tabs, commas or semicolons";
 
 /// Reads the text of a disc list.
 pub(crate) fn parse(text: &str) -> Result<GeometrySpec, Vec<LineProblem>> {
-    let (mut discs, mut bad, mut domain) = (Vec::new(), Vec::new(), None);
+    let (mut discs, mut notes) = (Vec::new(), Notes::default());
     let mut may_be_header = true;
     for (line, row) in (1..).zip(text.lines().map(str::trim)) {
-        if row.starts_with('#') {
-            match domain_comment(line, row) {
-                Some(Ok(numbers)) => domain = Some(numbers),
-                Some(Err(problem)) => bad.push(problem),
-                None => {}
-            }
+        if notes.take_comment(line, row) {
             continue;
         }
         let data = row.split('#').next().unwrap_or_default();
@@ -30,26 +25,13 @@ pub(crate) fn parse(text: &str) -> Result<GeometrySpec, Vec<LineProblem>> {
         }
         match disc(data) {
             Some(disc) => discs.push(disc),
-            None => bad.push(LineProblem { line, text: shortened(row), expected: EXPECTED.to_owned() }),
+            None => notes.refuse(line, row, EXPECTED.to_owned()),
         }
     }
-    if bad.is_empty() && discs.is_empty() {
-        bad.push(LineProblem { line: 1, text: "no disc at all".to_owned(), expected: EXPECTED.to_owned() });
-    }
-    if !bad.is_empty() {
-        return Err(bad);
-    }
-    let edge = |i: usize, side: f64| discs.iter().map(move |d: &Disc| d.center[i] + side * d.radius);
-    let [x0, y0, x1, y1] = domain.unwrap_or_else(|| {
-        [
-            edge(0, -1.0).fold(f64::INFINITY, f64::min),
-            edge(1, -1.0).fold(f64::INFINITY, f64::min),
-            edge(0, 1.0).fold(f64::NEG_INFINITY, f64::max),
-            edge(1, 1.0).fold(f64::NEG_INFINITY, f64::max),
-        ]
-    });
-    let shapes = discs.into_iter().map(ShapeSpec::Disc).collect();
-    Ok(GeometrySpec { min: [x0, y0], max: [x1, y1], solid: SolidSide::Inside, shapes })
+    let box_of =
+        |d: &Disc| [d.center[0] - d.radius, d.center[1] - d.radius, d.center[0] + d.radius, d.center[1] + d.radius];
+    let around = around(discs.iter().map(box_of));
+    notes.finish(discs.into_iter().map(ShapeSpec::Disc).collect(), around, ("no disc at all", EXPECTED))
 }
 
 fn disc(data: &str) -> Option<Disc> {
