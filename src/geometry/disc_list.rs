@@ -49,7 +49,8 @@ mod tests {
     fn all_separators_a_header_and_comments_are_read() {
         let spec = parse("x,y,r\n# a comment\n0 0 1 # first\n3,0,1\n\t0;3;\t1\n").unwrap();
         assert_eq!(spec.shapes.len(), 3);
-        assert_eq!((spec.min, spec.max), ([-1.0, -1.0], [4.0, 4.0]));
+        // The box around the discs is 5 wide, and a tenth of that is left free around it.
+        assert_eq!((spec.min, spec.max), ([-1.5, -1.5], [4.5, 4.5]));
     }
 
     #[test]

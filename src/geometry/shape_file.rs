@@ -1,6 +1,7 @@
 //! Shape files of other tools: disc lists (`.xyr`, `.txt`, `.csv`) and well-known text (`.wkt`).
 //!
-//! Comment lines begin with `#`; `# domain xmin ymin xmax ymax` (m) sets the domain, else it is the box around the shapes.
+//! Comment lines begin with `#`; `# domain xmin ymin xmax ymax` (m) sets the domain, else it is the box around the shapes with
+//! a margin, so that fluid can pass between the shapes and the sides.
 //! Our own TOML shape files are read by the case module, which knows places in TOML.
 
 use std::path::{Path, PathBuf};
@@ -9,6 +10,9 @@ use crate::geometry::disc_list;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use crate::geometry::well_known_text;
 use crate::input::problem::Problem;
+
+/// Margin around the shapes where the file names no domain, over the longer side of the box around them.
+const MARGIN: f64 = 0.1;
 
 /// A line that cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -139,7 +143,11 @@ impl Notes {
         if !self.bad.is_empty() {
             return Err(self.bad);
         }
-        let [x0, y0, x1, y1] = self.domain.unwrap_or(around);
+        let [x0, y0, x1, y1] = self.domain.unwrap_or_else(|| {
+            let [x0, y0, x1, y1] = around;
+            let margin = MARGIN * (x1 - x0).max(y1 - y0);
+            [x0 - margin, y0 - margin, x1 + margin, y1 + margin]
+        });
         Ok(GeometrySpec { min: [x0, y0], max: [x1, y1], solid: SolidSide::Inside, shapes })
     }
 }
