@@ -5,17 +5,19 @@
 
 #[path = "../tests/support/cloud.rs"]
 mod cloud;
+#[path = "support/table.rs"]
+mod table;
 
 use std::hint::black_box;
 use std::time::Instant;
 
-use cloud::{Cloud, Dice};
+use cloud::{Cloud, pressure_matrix, right_side};
 use criterion::Criterion;
 use faer::prelude::*;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
-use meniscus::sph::poisson::{Convergence, Matrix, Multigrid, assemble, conjugate_gradients};
+use meniscus::sph::poisson::{Convergence, Matrix, Multigrid, conjugate_gradients};
 
 /// As cases have it by default.
 const RESIDUAL: f64 = 1e-6;
@@ -38,12 +40,7 @@ impl System {
         let density: Vec<f64> =
             cloud.points.iter().map(|x| if is_light(x) { 1000.0 / ratio } else { 1000.0 }).collect();
         let kind = cloud.points.iter().map(|x| u8::from(ratio > 5.0 && is_light(x))).collect();
-        let mut matrix = Matrix::default();
-        assemble(&mut matrix, (&cloud.pairs, &cloud.images), &cloud.volume, &density);
-        let mut dice = Dice::new(23);
-        let mut b: Vec<f64> = cloud.points.iter().map(|_| dice.between(-1.0, 1.0)).collect();
-        let mean = b.iter().sum::<f64>() / b.len() as f64;
-        b.iter_mut().for_each(|b| *b -= mean);
+        let (matrix, b) = (pressure_matrix(&cloud, &density), right_side(cloud.points.len()));
         Self { cloud, kind, matrix, b }
     }
 
@@ -134,10 +131,5 @@ fn statistics(criterion: &mut Criterion) {
 }
 
 fn main() {
-    print_table();
-    if !std::env::args().any(|argument| argument == "--table") {
-        let mut criterion = Criterion::default().configure_from_args();
-        statistics(&mut criterion);
-        criterion.final_summary();
-    }
+    table::table_then_statistics(print_table, statistics);
 }

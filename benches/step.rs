@@ -3,14 +3,17 @@
 //! `cargo bench --bench step` prints microseconds per particle and step by part, bytes per particle, iterations and residual of
 //! the pressure solve, for one thread and for all, then criterion's statistics of whole steps. With `-- --table` the table alone.
 
+#[path = "../tests/support/flow.rs"]
+mod flow;
+#[path = "support/table.rs"]
+mod table;
+
 use std::hint::black_box;
 use std::time::Instant;
 
 use criterion::{BatchSize, Criterion};
-use meniscus::case::checked::{Case, Model};
-use meniscus::input::Overrides;
+use flow::flow;
 use meniscus::sph::projection::{Flow, PARTS};
-use meniscus::sph::setup;
 use rayon::ThreadPool;
 
 /// Steps before the clock starts: the lattice must have melted, as in a run.
@@ -51,15 +54,6 @@ end = 1.0 # s
     )
 }
 
-fn flow(density: f64) -> Flow {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let path = folder.path().join("case.toml");
-    std::fs::write(&path, case(density)).expect("the case can be written");
-    let case: Case = meniscus::case::load(&path, &Overrides::default()).expect("a good case").case;
-    let Model::Sph(sph) = &case.model;
-    setup::build(&case, sph).expect("a case that fits").flow
-}
-
 fn advance(flow: &mut Flow, steps: usize) {
     for _ in 0..steps {
         flow.step(1.0).expect("a step");
@@ -76,7 +70,7 @@ fn pools() -> Vec<ThreadPool> {
 
 fn print_row(density: f64) {
     for pool in pools() {
-        let mut flow = flow(density);
+        let mut flow = flow(&case(density));
         pool.install(|| advance(&mut flow, WARM_UP));
         let (before, start) = (flow.work, Instant::now());
         pool.install(|| advance(&mut flow, STEPS));
@@ -107,7 +101,7 @@ fn statistics(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("step");
     group.sample_size(10);
     for density in [1000.0, 100.0] {
-        let mut melted = flow(density);
+        let mut melted = flow(&case(density));
         advance(&mut melted, WARM_UP);
         group.bench_function(format!("ratio-{}", 1000.0 / density), |bencher| {
             bencher.iter_batched(|| (), |()| advance(black_box(&mut melted), 1), BatchSize::PerIteration);
@@ -117,10 +111,5 @@ fn statistics(criterion: &mut Criterion) {
 }
 
 fn main() {
-    print_table();
-    if !std::env::args().any(|argument| argument == "--table") {
-        let mut criterion = Criterion::default().configure_from_args();
-        statistics(&mut criterion);
-        criterion.final_summary();
-    }
+    table::table_then_statistics(print_table, statistics);
 }

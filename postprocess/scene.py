@@ -7,7 +7,7 @@ import pyvista as pv
 
 import results
 
-# Pixels of the longer side; a multiple of 16, as video codecs want it.
+# Pixels of the longer side where nothing else is asked for.
 LONG_SIDE = 1280
 # Pixels that bar and axes need at least.
 SHORT_SIDE = 480
@@ -47,11 +47,11 @@ def value_range(directory: Path, field: str, frames: list[results.Frame]) -> tup
     return min(ends), max(ends)
 
 
-def window_size(bounds) -> list[int]:
-    """Window in pixels for the bounds of a flat data set, its sides multiples of 16."""
+def window_size(bounds, size: int) -> list[int]:
+    """Window in pixels for the bounds of a flat data set, its sides multiples of 16 as video codecs want them."""
     width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
     longer = max(width, height)
-    return [max(16 * round(LONG_SIDE * side / longer / 16), SHORT_SIDE) for side in (width, height)]
+    return [max(16 * round(size * side / longer / 16), SHORT_SIDE) for side in (width, height)]
 
 
 def draw(plotter, directory: Path, frame: results.Frame, field: str, limits: tuple[float, float]) -> None:
@@ -81,8 +81,8 @@ def draw(plotter, directory: Path, frame: results.Frame, field: str, limits: tup
         ytitle="y (mm)",
         color="black",
         fmt="%.3g",
-        n_xlabels=3,
-        n_ylabels=3,
+        n_xlabels=2,
+        n_ylabels=2,
         grid=False,
         location="outer",
         font_size=10,
@@ -105,9 +105,9 @@ def look_down(plotter, bounds) -> None:
     plotter.reset_camera_clipping_range()
 
 
-def plotter(directory: Path, frame: results.Frame):
-    """An off-screen plotter of the right size."""
+def plotter(directory: Path, frame: results.Frame, size: int = LONG_SIDE):
+    """An off-screen plotter for a frame, `size` pixels along its longer side."""
     pv.OFF_SCREEN = True
-    made = pv.Plotter(off_screen=True, window_size=window_size(results.read(frame.file).bounds))
+    made = pv.Plotter(off_screen=True, window_size=window_size(results.read(frame.file).bounds, size))
     made.set_background("white")
     return made

@@ -1,4 +1,4 @@
-//! The small linear algebra of the plane: two-vectors and two-by-two matrices of nalgebra.
+//! The small mathematics of the plane: two-vectors and two-by-two matrices of nalgebra, boxes, the shape of the kernel.
 
 /// A point or a vector of the plane.
 pub type Vec2 = nalgebra::Vector2<f64>;
@@ -10,6 +10,16 @@ pub type Mat2 = nalgebra::Matrix2<f64>;
 #[must_use]
 pub fn perpendicular(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
+}
+
+/// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is
+/// 4π/7 [Huber2013, Eq. 14].
+#[inline]
+#[must_use]
+pub fn wendland_c2(q: f64) -> f64 {
+    let t = (1.0 - 0.5 * q).max(0.0);
+    let t2 = t * t;
+    t2 * t2 * (1.0 + 2.0 * q)
 }
 
 /// An axis-aligned box, in m.

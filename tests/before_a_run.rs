@@ -68,9 +68,14 @@ fn geometry_measures_and_draws_every_shape_file() {
         let output = meniscus(folder.path(), &["geometry", file.to_str().unwrap(), "--out", out.to_str().unwrap()]);
         assert_code(&output, 0);
         let text = stdout(&output);
-        let porosity: f64 = line(&text, "porosity").parse().unwrap();
+        // Value, unit where there is one, and how it was found.
+        let (porosity, method) = line(&text, "porosity").split_once(' ').unwrap();
+        let porosity: f64 = porosity.parse().unwrap();
         assert!(porosity > 0.1 && porosity < 1.0, "{}: {porosity}", file.display());
-        assert!(line(&text, "specific-surface-per-m").ends_with("1/m"), "{text}");
+        assert_eq!(method.trim(), "share of the domain that is not solid, exact along the outline");
+        let surface: Vec<&str> = line(&text, "specific-surface-per-m").split_whitespace().collect();
+        assert_eq!(surface[1..3], ["1/m", "wall"], "{text}");
+        assert!(surface[0].parse::<f64>().is_ok_and(|surface| surface > 0.0), "{text}");
         for name in ["solid.vtp", "distance.vti", "picture.png"] {
             let length = std::fs::metadata(out.join(name)).unwrap().len();
             assert!(length > 500, "{}: {name} has {length} bytes", file.display());

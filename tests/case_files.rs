@@ -238,8 +238,8 @@ fn mistakes_of_the_case_and_of_its_shape_file_come_together() {
 fn a_case_can_cut_another_domain_out_of_its_shape_file() {
     let path = folder("cases/four-discs.toml");
     let load_with = |values: &[&str]| load(&path, &Overrides::parse(values).unwrap());
-    let case = load_with(&["geometry.max=[1.2e-4, 1.1e-4]"]).unwrap().case;
-    assert_eq!((case.geometry.min, case.geometry.max), ([-1.1e-4, -1.1e-4], [1.2e-4, 1.1e-4]));
+    let case = load_with(&["geometry.max=[1.3e-4, 1.1e-4]"]).unwrap().case;
+    assert_eq!((case.geometry.min, case.geometry.max), ([-1.2e-4, -1.2e-4], [1.3e-4, 1.1e-4]));
     let error = load_with(&["geometry.max=[-2.0e-3, 1.0e-3]"]).unwrap_err().render();
     assert!(error.starts_with("--set geometry.max=[-2.0e-3, 1.0e-3]:1:14: "), "{error}");
 }

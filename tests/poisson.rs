@@ -3,29 +3,13 @@
 #[path = "support/cloud.rs"]
 mod cloud;
 
-use cloud::{Cloud, Dice};
-use meniscus::sph::poisson::{
-    Matrix, Multigrid, PressureSolve, Tolerance, Unknowns, assemble, conjugate_gradients, parts,
-};
+use cloud::{Cloud, pressure_matrix, right_side};
+use meniscus::sph::poisson::{Matrix, Multigrid, PressureSolve, Tolerance, Unknowns, conjugate_gradients, parts};
 use nalgebra::{DMatrix, DVector};
 
 /// Density of each particle in kg/m³, light in a stripe, heavy elsewhere: the shape the multigrid must cope with.
 fn stripe(cloud: &Cloud, ratio: f64) -> Vec<f64> {
     cloud.points.iter().map(|x| if (0.3..0.7).contains(&x.x) { 1000.0 / ratio } else { 1000.0 }).collect()
-}
-
-fn matrix(cloud: &Cloud, density: &[f64]) -> Matrix {
-    let mut matrix = Matrix::default();
-    assemble(&mut matrix, (&cloud.pairs, &cloud.images), &cloud.volume, density);
-    matrix
-}
-
-/// A right side that sums to zero.
-fn right_side(count: usize) -> Vec<f64> {
-    let mut dice = Dice::new(23);
-    let values: Vec<f64> = (0..count).map(|_| dice.between(-1.0, 1.0)).collect();
-    let mean = values.iter().sum::<f64>() / count as f64;
-    values.iter().map(|value| value - mean).collect()
 }
 
 fn without_mean(mut values: Vec<f64>) -> Vec<f64> {
@@ -64,7 +48,7 @@ fn difference(x: &[f64], y: &[f64]) -> f64 {
 fn the_matrix_is_symmetric_with_row_sums_of_zero() {
     for ratio in [1.0, 10.0, 1000.0] {
         let cloud = Cloud::new(20, true, 0.3);
-        let matrix = matrix(&cloud, &stripe(&cloud, ratio));
+        let matrix = pressure_matrix(&cloud, &stripe(&cloud, ratio));
         for a in 0..matrix.rows() {
             let mut sum = 0.0;
             for (b, coupling) in matrix.row(a) {
@@ -84,7 +68,7 @@ fn the_iteration_finds_the_solution_of_the_factorization() {
     for ratio in [1.0, 1000.0] {
         let cloud = Cloud::new(24, true, 0.3);
         let density = stripe(&cloud, ratio);
-        let matrix = matrix(&cloud, &density);
+        let matrix = pressure_matrix(&cloud, &density);
         let b = right_side(matrix.rows());
         let (found, iterations, residual) = iterative(&cloud, &matrix, &density, &b, 1e-10);
         let error = difference(&found, &direct(&matrix, &b));
@@ -100,7 +84,7 @@ fn small_systems_are_solved_directly() {
     let cloud = Cloud::new(17, true, 0.3);
     let density = stripe(&cloud, 10.0);
     let mut solver = PressureSolve::default();
-    solver.matrix = matrix(&cloud, &density);
+    solver.matrix = pressure_matrix(&cloud, &density);
     let n = cloud.points.len();
     let (kind, part) = (vec![0; n], parts(&cloud.pairs, &cloud.images));
     assert!(part.iter().all(|part| *part == 0), "one pore, one part");
@@ -119,7 +103,7 @@ fn the_number_of_iterations_hardly_grows_with_the_number_of_particles() {
         let iterations = [24, 96].map(|side| {
             let cloud = Cloud::new(side, true, 0.2);
             let density = stripe(&cloud, ratio);
-            let matrix = matrix(&cloud, &density);
+            let matrix = pressure_matrix(&cloud, &density);
             iterative(&cloud, &matrix, &density, &right_side(matrix.rows()), 1e-6).1
         });
         println!("ratio {ratio}: {iterations:?}");
@@ -141,7 +125,7 @@ fn the_iteration_goes_down_to_rounding_and_tells_the_true_residual() {
     for (side, ratio) in [(40, 1.0), (40, 1000.0), (100, 1.0)] {
         let cloud = Cloud::new(side, true, 0.3);
         let density = stripe(&cloud, ratio);
-        let matrix = matrix(&cloud, &density);
+        let matrix = pressure_matrix(&cloud, &density);
         let b = right_side(matrix.rows());
         // Nobody reaches 1e-17 in double precision: rounding leaves 1e-12 at the ratio of 1000 and 3e-15 without one.
         for (asked, reached) in [(1e-12, 1e-12), (1e-17, 5e-12)] {

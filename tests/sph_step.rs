@@ -3,25 +3,15 @@
 //! Boxes of at most 300 particles, walls included: their pressure is solved directly, so that two runs of the same problem
 //! in other words differ by rounding only.
 
-use meniscus::case::checked::{Case, Model};
-use meniscus::input::Overrides;
+#[path = "support/flow.rs"]
+mod flow;
+
+use flow::flow;
 use meniscus::math::Vec2;
 use meniscus::sph::projection::Flow;
-use meniscus::sph::setup;
 
 /// Particles along a side of the box of 1 mm.
 const SPACING: &str = "1.0e-4";
-
-/// The flow of a case given as text, at time zero.
-fn flow(text: &str) -> Flow {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("case.toml");
-    std::fs::write(&path, text).unwrap();
-    let case: Case =
-        meniscus::case::load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error:?}")).case;
-    let Model::Sph(sph) = &case.model;
-    setup::build(&case, sph).unwrap().flow
-}
 
 /// A case in a box of 1 mm; `rest` holds the tables that differ.
 fn case(rest: &str) -> String {

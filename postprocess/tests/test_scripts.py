@@ -99,12 +99,13 @@ class Scripts(unittest.TestCase):
         self.draws("field_picture.py", "--picture", "speed.png", "--field", "velocity", "--time", "0.001")
 
     def test_movies_are_made(self):
-        """One range for all frames, both formats."""
+        """One range for all frames, all formats."""
         found = movie.measure(self.directory)
         self.assertEqual(len(found["frames"]), 3)
         self.assertAlmostEqual(found["max"], 0.03 / (4.0 * synthetic.SPACING))
         self.draws("movie.py", "--movie", "movie.gif")
         self.draws("movie.py", "--movie", "movie.mp4")
+        self.draws("movie.py", "--movie", "movie.webp", "--size", "640")
 
     def draws(self, script: str, option: str, name: str, *more: str):
         """The script ends well and leaves a file of more than a few bytes."""

@@ -104,7 +104,6 @@ impl<'a> Cells<'a> {
     /// The cell columns along one axis that a disc about `x` touches, each once.
     fn span(&self, x: Vec2, radius: f64, axis: usize) -> impl Iterator<Item = usize> + use<> {
         let count = self.counts[axis] as isize;
-        // Points on the far rim of an open box are clamped into its last cell: one more cell on each side is searched.
         let reach =
             if self.size[axis] > 0.0 { (radius / self.size[axis]).ceil().min(count as f64) as isize } else { 1 };
         let middle = self.column(x, axis);
@@ -114,7 +113,8 @@ impl<'a> Cells<'a> {
         } else if periodic {
             (middle - reach, middle + reach)
         } else {
-            ((middle - reach - 1).clamp(0, count), (middle + reach + 1).clamp(-1, count - 1))
+            // Points on the far rim are clamped into the last cell, so that it is always searched from beyond.
+            ((middle - reach).clamp(0, count - 1), (middle + reach).clamp(0, count - 1))
         };
         (first..=last).map(move |k| k.rem_euclid(count) as usize)
     }

@@ -9,19 +9,11 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use super::cells::Cells;
-use crate::math::Vec2;
+use crate::math::{Vec2, wendland_c2};
 use crate::snapshot::{Field, Values};
 
 /// Support of the kernel in smoothing lengths.
 pub const SUPPORT: f64 = 2.0;
-
-/// Wendland C2 kernel in the plane in 1/m² [Huber2013, Eq. 14]: 7/(4 pi h²) (1 - q/2)^4 (1 + 2q) for q = r/h < 2.
-#[must_use]
-pub fn wendland_c2(distance: f64, smoothing_length: f64) -> f64 {
-    let q = distance / smoothing_length;
-    let left = (1.0 - 0.5 * q).max(0.0);
-    7.0 / (4.0 * std::f64::consts::PI * smoothing_length * smoothing_length) * left.powi(4) * (1.0 + 2.0 * q)
-}
 
 /// Particles to interpolate from.
 #[derive(Debug, Clone, Copy)]
@@ -47,6 +39,12 @@ pub struct Stencils {
     support: Vec<f64>,
 }
 
+/// The kernel W(r) in 1/m².
+fn kernel(distance: f64, smoothing_length: f64) -> f64 {
+    const NORM: f64 = 7.0 / (4.0 * std::f64::consts::PI);
+    NORM / (smoothing_length * smoothing_length) * wendland_c2(distance / smoothing_length)
+}
+
 impl Stencils {
     /// Weights of `samples` at `nodes` (m).
     #[must_use]
@@ -57,8 +55,7 @@ impl Stencils {
             .par_iter()
             .map(|&x| {
                 let mut row = Vec::new();
-                cells
-                    .for_each_near(x, SUPPORT * h, |b, d| row.push((b, samples.volumes[b] * wendland_c2(d.norm(), h))));
+                cells.for_each_near(x, SUPPORT * h, |b, d| row.push((b, samples.volumes[b] * kernel(d.norm(), h))));
                 let support: f64 = row.iter().map(|(_, weight)| weight).sum();
                 row.iter_mut().for_each(|(_, weight)| *weight /= support);
                 (row, support)
@@ -129,7 +126,7 @@ mod tests {
         let (h, steps) = (0.3, 2000);
         let dr = SUPPORT * h / f64::from(steps);
         let ring = |i: i32| (f64::from(i) + 0.5) * dr;
-        let sum: f64 = (0..steps).map(|i| 2.0 * std::f64::consts::PI * ring(i) * wendland_c2(ring(i), h) * dr).sum();
+        let sum: f64 = (0..steps).map(|i| 2.0 * std::f64::consts::PI * ring(i) * kernel(ring(i), h) * dr).sum();
         assert!((sum - 1.0).abs() < 1e-6, "midpoint rule: {sum}");
     }
 

@@ -16,7 +16,8 @@ pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
     let shapes = source::load_shapes(&arguments.file)?;
     let width = shapes.measures.iter().map(|measure| measure.name.len()).max().unwrap_or(0);
     for measure in &shapes.measures {
-        say(format_args!("{:<width$}  {} {}", measure.name, readable(measure.value), measure.unit));
+        let value = format!("{} {}", readable(measure.value), measure.unit);
+        say(format_args!("{:<width$}  {value:<12}  {}", measure.name, measure.method));
     }
     if let Some(folder) = &arguments.out {
         let title = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();

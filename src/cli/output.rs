@@ -25,19 +25,16 @@ pub fn red(word: &str) -> String {
 
 /// A number as people read it: four significant digits, an exponent only where it helps.
 pub fn readable(value: f64) -> String {
-    const SMALLEST_FIXED: f64 = 1.0e-2;
-    const LARGEST_FIXED: f64 = 1.0e5;
-    let size = value.abs();
+    const FIXED: std::ops::Range<i32> = -2..5;
     if value == 0.0 {
         // Minus zero means nothing to people.
-        "0".into()
-    } else if !value.is_finite() {
-        format!("{value}")
-    } else if (SMALLEST_FIXED..LARGEST_FIXED).contains(&size) {
-        let decimals = (3.0 - size.log10().floor()).max(0.0) as usize;
-        format!("{value:.decimals$}")
-    } else {
-        format!("{value:.3e}")
+        return "0".into();
+    }
+    // The exponent after rounding: 0.99999 has that of 1.
+    let scientific = format!("{value:.3e}");
+    match scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()) {
+        Some(exponent) if FIXED.contains(&exponent) => format!("{value:.*}", (3 - exponent).max(0) as usize),
+        _ => scientific,
     }
 }
 
@@ -60,8 +57,8 @@ mod tests {
 
     #[test]
     fn numbers_and_durations_are_short() {
-        let numbers = [0.0, -0.0, 41.23456, 0.0276, 12345.678, 2.0e-5, -1.5e7, f64::NAN].map(readable);
-        assert_eq!(numbers, ["0", "0", "41.23", "0.02760", "12346", "2.000e-5", "-1.500e7", "NaN"]);
+        let numbers = [0.0, -0.0, 0.99999, 41.23456, 0.0276, 12345.678, 2.0e-5, -1.5e7, f64::NAN].map(readable);
+        assert_eq!(numbers, ["0", "0", "1.000", "41.23", "0.02760", "12346", "2.000e-5", "-1.500e7", "NaN"]);
         assert_eq!([3.12, 75.0, 7322.0].map(duration), ["3.1 s", "1 min 15 s", "2 h 02 min"]);
     }
 }

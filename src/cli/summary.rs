@@ -55,6 +55,10 @@ fn requested_angle(case: &Case) -> Option<f64> {
 
 fn with_uncertainty(reading: &Reading) -> String {
     let Some(value) = reading.value else { return format!("not measured ({})", reading.method) };
+    // A count, such as that of blobs.
+    if reading.unit.is_empty() && reading.uncertainty.is_none() && value.fract() == 0.0 {
+        return format!("{value:.0}");
+    }
     let uncertainty = reading.uncertainty.map_or(String::new(), |u| format!(" +- {}", readable(u)));
     format!("{}{uncertainty} {}", readable(value), reading.unit).trim_end().to_owned()
 }
@@ -122,11 +126,14 @@ mod tests {
         let angle =
             Reading { value: Some(41.3), unit: "deg".into(), uncertainty: Some(1.2), method: "circle fit".into() };
         finished.report.measures.insert(ANGLE.into(), angle);
+        let blobs = Reading { value: Some(2.0), unit: String::new(), uncertainty: None, method: "counted".into() };
+        finished.report.measures.insert("blobs".into(), blobs);
         let text = summary(&finished);
         for words in [
             "Particles on circles\ndone at t = 1.000 s, step 50",
             "requested 40.0 deg, measured 41.30 +- 1.200 deg",
             "radius-m           0.3333 +- 1.000e-9 m",
+            "blobs              2\n",
             "missing-angle-deg  not measured (there is no contact line)",
             "met     radius-m: expected 0.3333",
             "particles.pvd",

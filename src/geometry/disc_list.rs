@@ -1,22 +1,17 @@
 //! Disc lists: `x y r` in m per line, separated by spaces, tabs, commas or semicolons; one header line is allowed.
 
-use crate::geometry::shape_file::{LineProblem, domain_comment, shortened, words};
-use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
+use crate::geometry::shape_file::{LineProblem, Notes, around, words};
+use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec};
 
 const EXPECTED: &str =
     "three numbers `x y r` in m, the radius above 0, separated by spaces, tabs, commas or semicolons";
 
 /// Reads the text of a disc list.
 pub(crate) fn parse(text: &str) -> Result<GeometrySpec, Vec<LineProblem>> {
-    let (mut discs, mut bad, mut domain) = (Vec::new(), Vec::new(), None);
+    let (mut discs, mut notes) = (Vec::new(), Notes::default());
     let mut may_be_header = true;
     for (line, row) in (1..).zip(text.lines().map(str::trim)) {
-        if row.starts_with('#') {
-            match domain_comment(line, row) {
-                Some(Ok(numbers)) => domain = Some(numbers),
-                Some(Err(problem)) => bad.push(problem),
-                None => {}
-            }
+        if notes.take_comment(line, row) {
             continue;
         }
         let data = row.split('#').next().unwrap_or_default();
@@ -30,26 +25,13 @@ pub(crate) fn parse(text: &str) -> Result<GeometrySpec, Vec<LineProblem>> {
         }
         match disc(data) {
             Some(disc) => discs.push(disc),
-            None => bad.push(LineProblem { line, text: shortened(row), expected: EXPECTED.to_owned() }),
+            None => notes.refuse(line, row, EXPECTED.to_owned()),
         }
     }
-    if bad.is_empty() && discs.is_empty() {
-        bad.push(LineProblem { line: 1, text: "no disc at all".to_owned(), expected: EXPECTED.to_owned() });
-    }
-    if !bad.is_empty() {
-        return Err(bad);
-    }
-    let edge = |i: usize, side: f64| discs.iter().map(move |d: &Disc| d.center[i] + side * d.radius);
-    let [x0, y0, x1, y1] = domain.unwrap_or_else(|| {
-        [
-            edge(0, -1.0).fold(f64::INFINITY, f64::min),
-            edge(1, -1.0).fold(f64::INFINITY, f64::min),
-            edge(0, 1.0).fold(f64::NEG_INFINITY, f64::max),
-            edge(1, 1.0).fold(f64::NEG_INFINITY, f64::max),
-        ]
-    });
-    let shapes = discs.into_iter().map(ShapeSpec::Disc).collect();
-    Ok(GeometrySpec { min: [x0, y0], max: [x1, y1], solid: SolidSide::Inside, shapes })
+    let box_of =
+        |d: &Disc| [d.center[0] - d.radius, d.center[1] - d.radius, d.center[0] + d.radius, d.center[1] + d.radius];
+    let around = around(discs.iter().map(box_of));
+    notes.finish(discs.into_iter().map(ShapeSpec::Disc).collect(), around, ("no disc at all", EXPECTED))
 }
 
 fn disc(data: &str) -> Option<Disc> {
@@ -67,7 +49,8 @@ mod tests {
     fn all_separators_a_header_and_comments_are_read() {
         let spec = parse("x,y,r\n# a comment\n0 0 1 # first\n3,0,1\n\t0;3;\t1\n").unwrap();
         assert_eq!(spec.shapes.len(), 3);
-        assert_eq!((spec.min, spec.max), ([-1.0, -1.0], [4.0, 4.0]));
+        // The box around the discs is 5 wide, and a tenth of that is left free around it.
+        assert_eq!((spec.min, spec.max), ([-1.5, -1.5], [4.5, 4.5]));
     }
 
     #[test]

@@ -7,8 +7,8 @@ use std::str::FromStr;
 
 use wkt::Wkt;
 
-use crate::geometry::shape_file::{LineProblem, domain_comment, shortened};
-use crate::geometry::spec::{GeometrySpec, Polygon, ShapeSpec, SolidSide};
+use crate::geometry::shape_file::{LineProblem, Notes, around};
+use crate::geometry::spec::{GeometrySpec, Polygon, ShapeSpec};
 use crate::geometry::validate::ring_area;
 
 const EXPECTED: &str =
@@ -16,15 +16,10 @@ const EXPECTED: &str =
 
 /// Reads well-known text.
 pub(crate) fn parse(text: &str) -> Result<GeometrySpec, Vec<LineProblem>> {
-    let (mut polygons, mut bad, mut domain) = (Vec::new(), Vec::new(), None);
+    let (mut polygons, mut notes) = (Vec::new(), Notes::default());
     let (mut chunk, mut first, mut depth) = (String::new(), 1, 0_i64);
     for (line, row) in (1..).zip(text.lines().map(str::trim)) {
-        if row.starts_with('#') {
-            match domain_comment(line, row) {
-                Some(Ok(numbers)) => domain = Some(numbers),
-                Some(Err(problem)) => bad.push(problem),
-                None => {}
-            }
+        if notes.take_comment(line, row) {
             continue;
         }
         if row.is_empty() {
@@ -38,35 +33,20 @@ pub(crate) fn parse(text: &str) -> Result<GeometrySpec, Vec<LineProblem>> {
         depth += row.chars().map(|c| i64::from(c == '(') - i64::from(c == ')')).sum::<i64>();
         // A geometry ends where its parentheses close; a bare keyword goes on on the next line.
         if depth <= 0 && chunk.contains('(') {
-            read(&chunk, first, &mut polygons, &mut bad);
+            read(&chunk, first, &mut polygons, &mut notes);
             chunk.clear();
             depth = 0;
         }
     }
     if !chunk.is_empty() {
-        read(&chunk, first, &mut polygons, &mut bad);
+        read(&chunk, first, &mut polygons, &mut notes);
     }
-    if bad.is_empty() && polygons.is_empty() {
-        bad.push(LineProblem { line: 1, text: "no polygon at all".to_owned(), expected: EXPECTED.to_owned() });
-    }
-    if !bad.is_empty() {
-        return Err(bad);
-    }
-    let [x0, y0, x1, y1] = domain.unwrap_or_else(|| around(&polygons));
-    let shapes = polygons.into_iter().map(ShapeSpec::Polygon).collect();
-    Ok(GeometrySpec { min: [x0, y0], max: [x1, y1], solid: SolidSide::Inside, shapes })
+    let around = around(polygons.iter().flat_map(|polygon| &polygon.outer).map(|&[x, y]| [x, y, x, y]));
+    notes.finish(polygons.into_iter().map(ShapeSpec::Polygon).collect(), around, ("no polygon at all", EXPECTED))
 }
 
-fn around(polygons: &[Polygon]) -> [f64; 4] {
-    let start = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-    polygons
-        .iter()
-        .flat_map(|polygon| &polygon.outer)
-        .fold(start, |[x0, y0, x1, y1], &[x, y]| [x0.min(x), y0.min(y), x1.max(x), y1.max(y)])
-}
-
-fn read(chunk: &str, line: usize, polygons: &mut Vec<Polygon>, bad: &mut Vec<LineProblem>) {
-    let mut refuse = |expected: String| bad.push(LineProblem { line, text: shortened(chunk.trim()), expected });
+fn read(chunk: &str, line: usize, polygons: &mut Vec<Polygon>, notes: &mut Notes) {
+    let mut refuse = |expected: String| notes.refuse(line, chunk.trim(), expected);
     match Wkt::<f64>::from_str(chunk) {
         Err(reason) => refuse(format!("{EXPECTED} ({reason})")),
         Ok(geometry) => collect(&geometry, polygons, &mut refuse),

@@ -167,11 +167,15 @@ fn draw(job: &Job<'_>, solver: &dyn Solver) -> Result<Result<PathBuf, PictureErr
 }
 
 #[cfg(test)]
+#[path = "../../tests/support/files.rs"]
+mod files;
+
+#[cfg(test)]
 mod tests {
     use super::super::toy::{Interrupter, ToySolver, case};
+    use super::files::files;
     use super::*;
     use crate::run::simulation::Unwatched;
-    use std::collections::BTreeMap;
 
     fn job<'a>(case: &'a Case, folder: &Path, mode: Mode) -> Job<'a> {
         Job { case, resolved: "format = 1\n", folder: folder.to_path_buf(), mode }
@@ -180,23 +184,6 @@ mod tests {
     fn run(case: &Case, folder: &Path, mode: Mode) -> Result<Finished, RunError> {
         let never = AtomicBool::new(false);
         execute(&job(case, folder, mode), &mut ToySolver::new(), &never, &mut Unwatched)
-    }
-
-    /// All files but the report, by path.
-    fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-        let mut all = BTreeMap::new();
-        let mut open = vec![folder.to_path_buf()];
-        while let Some(next) = open.pop() {
-            for entry in std::fs::read_dir(next).unwrap() {
-                let path = entry.unwrap().path();
-                if path.is_dir() {
-                    open.push(path);
-                } else if !path.ends_with("report.json") {
-                    all.insert(path.strip_prefix(folder).unwrap().to_path_buf(), std::fs::read(&path).unwrap());
-                }
-            }
-        }
-        all
     }
 
     fn json(folder: &Path) -> serde_json::Value {

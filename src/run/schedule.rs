@@ -82,8 +82,19 @@ impl Schedule {
         }
         // The quotient may round across a whole number: start one below and look.
         let below = (time / every).floor() - 1.0;
-        (0..=3).map(|i| (below + f64::from(i)) * every).find(|&next| next > time).unwrap_or(self.end).min(self.end)
+        (0..=3)
+            .map(|i| multiple(below + f64::from(i), every))
+            .find(|&next| next > time)
+            .unwrap_or(self.end)
+            .min(self.end)
     }
+}
+
+/// `count` times `every` without the rounding of the product, which would stand in every file: 4.5e-6 for 4.499999999999999e-6.
+fn multiple(count: f64, every: f64) -> f64 {
+    // One digit less than a product is good for.
+    let product = count * every;
+    format!("{product:.13e}").parse().unwrap_or(product)
 }
 
 #[cfg(test)]
@@ -107,6 +118,12 @@ mod tests {
         assert_eq!(all.iter().filter(|stop| stop.due.restart).count(), 2);
         assert!(all.iter().all(|stop| stop.due.series));
         assert_eq!(all.last().map(|stop| stop.time), Some(1.2));
+    }
+
+    #[test]
+    fn stops_are_the_numbers_that_people_write() {
+        let all = stops(&schedule(7.5e-7, 1.0, 1.0, 1.5e-4));
+        assert_eq!((all.len(), all[5].time, all[17].time), (200, 4.5e-6, 1.35e-5));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use meniscus::sph::fill::Lattice;
 use meniscus::sph::images::Images;
 use meniscus::sph::kernel::WendlandC2;
 use meniscus::sph::pairs::Pairs;
+use meniscus::sph::poisson::{Matrix, assemble};
 use meniscus::sph::terms::density;
 
 /// Smoothing length over spacing, as cases have it by default.
@@ -79,4 +80,19 @@ impl Cloud {
         let within = |x: &Vec2| x.iter().all(|&v| (margin..1.0 - margin).contains(&v));
         (0..self.points.len()).filter(|&a| within(&self.points[a])).collect()
     }
+}
+
+/// The matrix of the pressure equation.
+pub fn pressure_matrix(cloud: &Cloud, density: &[f64]) -> Matrix {
+    let mut matrix = Matrix::default();
+    assemble(&mut matrix, (&cloud.pairs, &cloud.images), &cloud.volume, density);
+    matrix
+}
+
+/// A right side of the pressure equation: numbers that look random and sum to zero.
+pub fn right_side(count: usize) -> Vec<f64> {
+    let mut dice = Dice::new(23);
+    let values: Vec<f64> = (0..count).map(|_| dice.between(-1.0, 1.0)).collect();
+    let mean = values.iter().sum::<f64>() / count as f64;
+    values.iter().map(|value| value - mean).collect()
 }

@@ -5,6 +5,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+#[path = "files.rs"]
+mod files;
+
+pub use files::files;
+
 /// A drop on a floor, coarse and short: a run of 50 steps in well below a second.
 pub const SMALL: &str = r#"
 format = 1
@@ -81,23 +86,6 @@ pub fn folder_with_small_case() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("drop.toml"), SMALL).unwrap();
     folder
-}
-
-/// All files below `folder` but the report, which tells wall times.
-pub fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut all = BTreeMap::new();
-    let mut open = vec![folder.to_path_buf()];
-    while let Some(next) = open.pop() {
-        for entry in std::fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                open.push(path);
-            } else if !path.ends_with("report.json") {
-                all.insert(path.strip_prefix(folder).unwrap().to_path_buf(), std::fs::read(&path).unwrap());
-            }
-        }
-    }
-    all
 }
 
 /// Fails unless both folders hold the same files with the same bytes, and names those that differ.

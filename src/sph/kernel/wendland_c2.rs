@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::math::Vec2;
+use crate::math::{Vec2, wendland_c2};
 
 /// Wendland's C2 kernel for one smoothing length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,8 +64,7 @@ impl WendlandC2 {
     fn w_and_slope(&self, r: f64) -> (f64, f64) {
         let q = r / self.h;
         let t = (1.0 - 0.5 * q).max(0.0);
-        let t3 = t * t * t;
-        (self.norm * t3 * t * (2.0 * q + 1.0), -self.gradient_norm * t3)
+        (self.norm * wendland_c2(q), -self.gradient_norm * t * t * t)
     }
 
     /// ∫₀²ʰ W(s) ds in 1/m: what a contact line that stands upright on a wall sums to in Eq. (22).
