@@ -69,6 +69,7 @@ impl Flow {
                 normal: &f.normal,
                 fluid_volume: &f.fluid_volume,
                 wall_distance: &f.wall_distance,
+                wall_normal: &f.wall_normal,
                 angle: m.wetting.as_ref().map(Wetting::static_angle),
             };
             strays.send_back(&self.pairs, m.kernel.h, m.capillary_speed() * dt, &mut by);
