@@ -1,0 +1,200 @@
+//! Whether the runs came out as the study expects: measures within their tolerance, errors that fall, orders.
+
+use std::collections::BTreeMap;
+
+use super::definition::{Expectation, Study, Trend};
+use super::results::RunResult;
+use super::runs::shown;
+use crate::analysis::convergence::observed_order;
+
+/// What became of an expectation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is met.
+    Met,
+    /// It is missed.
+    Missed,
+    /// A run that it needs is not complete.
+    Open,
+}
+
+impl Verdict {
+    /// One word for tables.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Met => "met",
+            Self::Missed => "MISSED",
+            Self::Open => "open",
+        }
+    }
+
+    fn of(met: bool) -> Self {
+        if met { Self::Met } else { Self::Missed }
+    }
+}
+
+/// An expectation of the study and what became of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgment {
+    /// Of which run or runs.
+    pub of: String,
+    /// Name of the measure.
+    pub measure: String,
+    /// What was expected.
+    pub expected: String,
+    /// What came out.
+    pub found: String,
+    /// The verdict.
+    pub verdict: Verdict,
+}
+
+/// The error of a measure along a parameter, in runs that differ in nothing else.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Convergence {
+    /// The runs: the values of the other parameters.
+    pub of: String,
+    /// Name of the measure.
+    pub measure: String,
+    /// Name of the parameter.
+    pub along: String,
+    /// Parameter and error of each complete run, from the largest parameter to the smallest.
+    pub points: Vec<(f64, f64)>,
+    /// Whether all runs of it are complete and measured.
+    pub complete: bool,
+    /// Whether all runs of it reached their end; a measure that is missing then is a miss.
+    pub ended: bool,
+}
+
+impl Convergence {
+    /// The observed order; none for fewer than two points, or errors of 0.
+    #[must_use]
+    pub fn order(&self) -> Option<f64> {
+        let (parameters, errors): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
+        Some(observed_order(&parameters, &errors)).filter(|order| self.points.len() > 1 && order.is_finite())
+    }
+
+    /// Whether the error falls from each point to the next.
+    #[must_use]
+    pub fn falls(&self) -> bool {
+        self.points.windows(2).all(|pair| pair[1].1 < pair[0].1)
+    }
+}
+
+/// All judgments of a study.
+#[must_use]
+pub fn judgments(study: &Study, results: &[RunResult]) -> Vec<Judgment> {
+    let single = study.expectations.iter().flat_map(|expected| {
+        results.iter().filter(|result| result.run.is_in(&expected.only)).map(|result| judge(expected, result))
+    });
+    let trends = study.trends.iter().flat_map(|trend| {
+        convergences(study, trend, results).into_iter().map(|convergence| judge_trend(trend, &convergence))
+    });
+    single.chain(trends).collect()
+}
+
+fn judge(expected: &Expectation, result: &RunResult) -> Judgment {
+    let value = result.run.quantity(&expected.value);
+    let tolerance = result.run.quantity(&expected.tolerance);
+    let found = result.number(&expected.measure);
+    let verdict = match (result.standing.report(), found, value, tolerance) {
+        (None, ..) => Verdict::Open,
+        (_, Some(found), Some(value), Some(tolerance)) => Verdict::of((found - value).abs() <= tolerance),
+        _ => Verdict::Missed,
+    };
+    let number = |number: Option<f64>| number.map_or("?".to_owned(), digits);
+    Judgment {
+        of: result.run.name.clone(),
+        measure: expected.measure.clone(),
+        expected: format!("{} ± {}", number(value), number(tolerance)),
+        found: match (&verdict, found) {
+            (Verdict::Open, _) => result.standing.word().to_owned(),
+            (_, Some(found)) => digits(found),
+            (_, None) => "not measured".to_owned(),
+        },
+        verdict,
+    }
+}
+
+fn judge_trend(trend: &Trend, convergence: &Convergence) -> Judgment {
+    let order = convergence.order();
+    let met = convergence.points.len() > 1
+        && convergence.falls()
+        && trend.order.is_none_or(|least| order.is_some_and(|order| order >= least));
+    let verdict = match (convergence.ended, convergence.complete) {
+        (false, _) => Verdict::Open,
+        (true, false) => Verdict::Missed,
+        (true, true) => Verdict::of(met),
+    };
+    let errors: Vec<String> = convergence.points.iter().map(|(_, error)| digits(*error)).collect();
+    let least = trend.order.map_or(String::new(), |least| format!(", order at least {least}"));
+    let observed = order.map_or(String::new(), |order| format!(", order {order:.2}"));
+    Judgment {
+        of: convergence.of.clone(),
+        measure: trend.measure.clone(),
+        expected: format!("error falls with {}{least}", trend.along),
+        found: format!("errors {}{observed}", if errors.is_empty() { "none".to_owned() } else { errors.join(", ") }),
+        verdict,
+    }
+}
+
+/// The errors of a trend, one list per combination of the other parameters.
+#[must_use]
+pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<Convergence> {
+    // Parameters that vary together with the one along which the error falls do not tell runs apart.
+    let together: Vec<&str> = study
+        .axes
+        .iter()
+        .filter(|axis| axis.columns.iter().any(|column| column.name == trend.along))
+        .flat_map(|axis| axis.columns.iter().map(|column| column.name.as_str()))
+        .collect();
+    let group = |result: &RunResult| {
+        let others = result.run.parameters.iter().filter(|p| !together.contains(&p.name.as_str()));
+        others.map(|p| format!("{}={}", p.name, shown(&p.value))).collect::<Vec<_>>().join(" ")
+    };
+    let mut groups: Vec<(String, Vec<&RunResult>)> = Vec::new();
+    let mut places: BTreeMap<String, usize> = BTreeMap::new();
+    for result in results.iter().filter(|result| result.run.is_in(&trend.only)) {
+        let name = group(result);
+        let place = *places.entry(name.clone()).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push((name, Vec::new()));
+        }
+        groups[place].1.push(result);
+    }
+    let convergence = |(of, results): (String, Vec<&RunResult>)| {
+        let point = |result: &&RunResult| {
+            let reference = result.run.quantity(&trend.reference)?;
+            Some((result.number(&trend.along)?, (result.number(&trend.measure)? - reference).abs()))
+        };
+        let mut points: Vec<(f64, f64)> = results.iter().filter_map(point).collect();
+        points.sort_by(|a, b| b.0.total_cmp(&a.0));
+        Convergence {
+            of: if of.is_empty() { "all runs".to_owned() } else { of },
+            measure: trend.measure.clone(),
+            along: trend.along.clone(),
+            complete: points.len() == results.len(),
+            ended: results.iter().all(|result| result.standing.report().is_some()),
+            points,
+        }
+    };
+    groups.into_iter().map(convergence).collect()
+}
+
+/// A number with four digits.
+#[must_use]
+pub fn digits(number: f64) -> String {
+    /// Outside of these an exponent is shorter than zeros.
+    const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
+    /// Digits behind the point of a number of one digit before it.
+    const DECIMALS: f64 = 3.0;
+    let size = number.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if FIXED.contains(&size) {
+        let decimals = (DECIMALS - size.log10().floor()).max(0.0) as usize;
+        format!("{number:.decimals$}")
+    } else {
+        format!("{number:.3e}")
+    }
+}
