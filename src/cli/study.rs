@@ -143,8 +143,7 @@ fn write_report(arguments: &StudyReportArguments) -> Result<u8, Failure> {
 
 /// Writes the report, tells it, and says how the study stands by the exit code.
 pub fn finish(opened: &Opened) -> Result<u8, Failure> {
-    let written =
-        report(&opened.study, &opened.runs, &opened.folder).map_err(|error| Failure::new(USAGE, &error))?;
+    let written = report(&opened.study, &opened.runs, &opened.folder).map_err(|error| Failure::new(USAGE, &error))?;
     say(&opened.study.title);
     say(written.table.markdown().trim_end());
     tell_judgments(&written);

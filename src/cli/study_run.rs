@@ -113,7 +113,9 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
     };
     let job = submit(&array).map_err(|error| Failure::new(USAGE, &error))?;
     say(format_args!("{} runs submitted as job array {job}", open.len()));
-    say("when they are done, `meniscus study report` writes the report, and the same command again submits what is left");
+    say(
+        "when they are done, `meniscus study report` writes the report, and the same command again submits what is left",
+    );
     Ok(DONE)
 }
 

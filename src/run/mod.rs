@@ -12,6 +12,6 @@ pub mod schedule;
 pub mod setup;
 pub mod simulation;
 pub mod sink;
-pub mod trial;
 #[cfg(test)]
 pub(crate) mod toy;
+pub mod trial;

@@ -1,5 +1,6 @@
 //! The curves of a study as SVG: measures or errors over a parameter, a line per value of another one.
 
+use plotters::coord::combinators::BindKeyPoints;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
@@ -88,19 +89,24 @@ pub fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, Curve
         [y - u, y + u]
     };
     let all_x = lines.iter().flat_map(|line| line.points.iter().map(|point| point.0));
-    let all_y = lines.iter().flat_map(|line| {
-        line.points.iter().flat_map(whiskers).chain(line.reference.iter().map(|point| point.1))
-    });
+    let all_y = lines
+        .iter()
+        .flat_map(|line| line.points.iter().flat_map(whiskers).chain(line.reference.iter().map(|point| point.1)));
     let x = range(all_x, curve.x_scale);
     let y = range(all_y, curve.y_scale);
     let labels = (curve.x.clone(), y_label(curve, results));
     let mut text = String::new();
+    let x_ticks = distinct(&lines).filter(|_| curve.x_scale == RawScale::Logarithmic);
+    let log = |range: std::ops::Range<f64>, ticks: Option<Vec<f64>>| {
+        let ticks = ticks.unwrap_or_else(|| logarithmic_ticks(&range));
+        range.log_scale().with_key_points(ticks)
+    };
     let drawn = match (curve.x_scale, curve.y_scale) {
         (RawScale::Linear, RawScale::Linear) => draw(&mut text, curve, &lines, labels, x, y),
-        (RawScale::Logarithmic, RawScale::Linear) => draw(&mut text, curve, &lines, labels, x.log_scale(), y),
-        (RawScale::Linear, RawScale::Logarithmic) => draw(&mut text, curve, &lines, labels, x, y.log_scale()),
+        (RawScale::Logarithmic, RawScale::Linear) => draw(&mut text, curve, &lines, labels, log(x, x_ticks), y),
+        (RawScale::Linear, RawScale::Logarithmic) => draw(&mut text, curve, &lines, labels, x, log(y, None)),
         (RawScale::Logarithmic, RawScale::Logarithmic) => {
-            draw(&mut text, curve, &lines, labels, x.log_scale(), y.log_scale())
+            draw(&mut text, curve, &lines, labels, log(x, x_ticks), log(y, None))
         }
     };
     drawn.map_err(|error| CurveError(error.to_string()))?;
@@ -122,6 +128,30 @@ fn range(values: impl Iterator<Item = f64> + Clone, scale: RawScale) -> std::ops
     from(low - rim)..from(high + rim)
 }
 
+/// The values of x where they are few enough to stand at the axis.
+fn distinct(lines: &[Line]) -> Option<Vec<f64>> {
+    /// More labels than this would meet.
+    const MOST: usize = 8;
+    let mut values: Vec<f64> = lines.iter().flat_map(|line| line.points.iter().map(|point| point.0)).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    Some(values).filter(|values| values.len() <= MOST)
+}
+
+/// Round numbers in a range of a logarithmic axis: powers of ten where there are enough of them, else more.
+fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
+    /// Fewest numbers that tell a scale.
+    const FEWEST: usize = 3;
+    const STEPS: [&[f64]; 3] = [&[1.0], &[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
+    let exponents = range.start.log10().floor() as i32..=range.end.log10().floor() as i32;
+    let ticks = |steps: &[f64]| -> Vec<f64> {
+        let all = exponents.clone().flat_map(|e| steps.iter().map(move |step| step * 10_f64.powi(e)));
+        all.filter(|tick| range.contains(tick)).collect()
+    };
+    let mut candidates = STEPS.iter().map(|steps| ticks(steps));
+    candidates.find(|ticks| ticks.len() >= FEWEST).unwrap_or_else(|| ticks(STEPS[2]))
+}
+
 fn y_label(curve: &Curve, results: &[RunResult]) -> String {
     let of = match (&curve.reference, curve.error) {
         (Some(Quantity::Parameter(name)), true) => format!("|{} − {name}|", curve.y),
@@ -141,7 +171,11 @@ fn legend(curve: &Curve, line: &Line) -> String {
     let (x, y): (Vec<f64>, Vec<f64>) = line.points.iter().map(|point| (point.0, point.1)).unzip();
     let order = observed_order(&x, &y);
     let order = (curve.error && logarithmic && order.is_finite()).then(|| format!("order {order:.2}"));
-    [Some(line.name.clone()).filter(|name| !name.is_empty()), order].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    [Some(line.name.clone()).filter(|name| !name.is_empty()), order]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 type DrawingError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;

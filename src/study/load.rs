@@ -6,9 +6,7 @@ use std::path::Path;
 use toml::Value;
 
 use super::axis::axis;
-use super::definition::{
-    Assignment, Axis, Choice, Curve, Expectation, Quantity, ReportPlan, Study, Target, Trend,
-};
+use super::definition::{Assignment, Axis, Choice, Curve, Expectation, Quantity, ReportPlan, Study, Target, Trend};
 use super::raw::{RawCurve, RawExpectation, RawReport, RawStudy, RawTrend};
 use crate::case::{Checker, read};
 use crate::input::{Document, InputError, Overrides, nearest};
@@ -16,8 +14,6 @@ use crate::input::{Document, InputError, Overrides, nearest};
 /// Most runs of a study.
 const MOST_RUNS: usize = 10_000;
 
-/// What the report knows of a run besides its measures.
-pub const RUN_NUMBERS: [&str; 3] = ["steps", "unknowns", "wall-time-s"];
 
 /// Names of columns that a parameter must not have.
 const TAKEN: [&str; 5] = ["run", "status", "steps", "unknowns", "wall-time-s"];
@@ -35,13 +31,8 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
     let mut checker = Checker::default();
     checker.format(raw.format);
     let title = checker.require("title", raw.title.clone(), "title = \"what the study shows\"");
-    let axes: Vec<Option<Axis>> = raw
-        .axis
-        .iter()
-        .flatten()
-        .enumerate()
-        .map(|(index, raw)| axis(&mut checker, raw, index, folder))
-        .collect();
+    let axes: Vec<Option<Axis>> =
+        raw.axis.iter().flatten().enumerate().map(|(index, raw)| axis(&mut checker, raw, index, folder)).collect();
     let all_axes = axes.iter().all(Option::is_some);
     let axes: Vec<Axis> = axes.into_iter().flatten().collect();
     check_axes(&mut checker, &axes);
@@ -80,7 +71,8 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
 /// Refuses parameters of one name and too many runs.
 fn check_axes(checker: &mut Checker, axes: &[Axis]) {
     let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
-    for (index, column) in axes.iter().enumerate().flat_map(|(index, axis)| axis.columns.iter().map(move |c| (index, c)))
+    for (index, column) in
+        axes.iter().enumerate().flat_map(|(index, axis)| axis.columns.iter().map(move |c| (index, c)))
     {
         let at = format!("axis[{index}]");
         let name = column.name.as_str();
@@ -116,7 +108,8 @@ fn assignments(checker: &mut Checker, texts: &[String]) -> Vec<Assignment> {
 
 /// Refuses keys that are no key paths, and keys that are given twice.
 fn check_keys(checker: &mut Checker, axes: &[Axis], set: &[Assignment]) {
-    let mut seen: Vec<&str> = set.iter().filter_map(|one| one.text.split_once('=')).map(|(key, _)| key.trim()).collect();
+    let mut seen: Vec<&str> =
+        set.iter().filter_map(|one| one.text.split_once('=')).map(|(key, _)| key.trim()).collect();
     for (index, axis) in axes.iter().enumerate() {
         for column in &axis.columns {
             let Target::Key(key) = &column.target else { continue };
@@ -154,7 +147,8 @@ impl Names<'_> {
 
     fn refuse_unknown(&self, checker: &mut Checker, at: &str, name: &str) {
         let known: Vec<&str> = self.axes.iter().flat_map(|axis| &axis.columns).map(|c| c.name.as_str()).collect();
-        let meant = nearest(name, known.iter().copied()).map_or(String::new(), |near| format!("did you mean `{near}`? "));
+        let meant =
+            nearest(name, known.iter().copied()).map_or(String::new(), |near| format!("did you mean `{near}`? "));
         let list = if known.is_empty() { "there are none".to_owned() } else { known.join(", ") };
         checker.refuse(at, format!("`{name}` is not a parameter of this study"), format!("{meant}parameters: {list}"));
     }
@@ -266,9 +260,10 @@ impl Names<'_> {
         };
         let (x, y) = (x?, y?);
         let error = raw.error.unwrap_or(false);
-        let title = raw.title.clone().unwrap_or_else(|| {
-            if error { format!("error of {y} over {x}") } else { format!("{y} over {x}") }
-        });
+        let title = raw
+            .title
+            .clone()
+            .unwrap_or_else(|| if error { format!("error of {y} over {x}") } else { format!("{y} over {x}") });
         Some(Curve {
             title,
             x,

@@ -187,11 +187,12 @@ pub fn shown(value: &Value) -> String {
     }
 }
 
-/// A value as part of the name of a folder; of a path, its last part.
+/// A value as part of the name of a folder: of a path its last part, of an array its numbers.
 fn label(value: &Value) -> String {
     let text = shown(value);
     let text = if value.is_str() { text.rsplit(['/', '\\']).next().unwrap_or_default() } else { text.as_str() };
-    text.chars().map(|c| if c.is_ascii_alphanumeric() || "+-.".contains(c) { c } else { '-' }).collect()
+    let kept = text.chars().filter(|c| !"[]{} \"".contains(*c));
+    kept.map(|c| if c.is_ascii_alphanumeric() || "+-.,".contains(c) { c } else { '-' }).collect()
 }
 
 /// The name, cut where it is too long, with a number where it is taken.

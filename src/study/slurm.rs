@@ -118,7 +118,8 @@ fn ranges(indices: &[usize]) -> String {
             _ => parts.push((index, index)),
         }
     }
-    let part = |(first, last): (usize, usize)| if first == last { format!("{first}") } else { format!("{first}-{last}") };
+    let part =
+        |(first, last): (usize, usize)| if first == last { format!("{first}") } else { format!("{first}-{last}") };
     parts.into_iter().map(part).collect::<Vec<_>>().join(",")
 }
 
@@ -129,7 +130,11 @@ fn absolute(path: &Path) -> PathBuf {
 /// The text as one word of a shell.
 fn quoted(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=%".contains(c);
-    if !text.is_empty() && text.chars().all(plain) { text.to_owned() } else { format!("'{}'", text.replace('\'', "'\\''")) }
+    if !text.is_empty() && text.chars().all(plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! The table of a study: a row per run, as CSV with all digits and as Markdown for people.
 
 use super::definition::Study;
-use super::load::RUN_NUMBERS;
 use super::results::{RunResult, measures};
 use super::runs::shown;
 use super::verdict::digits;
@@ -36,7 +35,8 @@ pub fn full(study: &Study, results: &[RunResult]) -> Table {
             heads.push(format!("{name}-uncertainty"));
         }
     }
-    let text = |number: Option<f64>| number.map_or(String::new(), |number| format!("{number:?}"));
+    let digits = |number: f64| if number.fract() == 0.0 { format!("{number}") } else { format!("{number:?}") };
+    let text = |number: Option<f64>| number.map_or(String::new(), digits);
     let row = |result: &RunResult| {
         let mut row = vec![result.run.name.clone()];
         row.extend(result.run.parameters.iter().map(|parameter| shown(&parameter.value)));
@@ -66,7 +66,6 @@ pub fn short(study: &Study, results: &[RunResult]) -> Table {
     }));
     let cell = |result: &RunResult, name: &str| match (result.number(name), result.uncertainty(name)) {
         (Some(value), Some(uncertainty)) => format!("{} ± {}", digits(value), digits(uncertainty)),
-        (Some(value), None) if RUN_NUMBERS[..2].contains(&name) => format!("{value}"),
         (Some(value), None) => digits(value),
         (None, _) => "–".to_owned(),
     };
@@ -102,7 +101,8 @@ impl Table {
         let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
         let widths: Vec<usize> = (0..self.heads.len()).map(width).collect();
         let line = |row: &Vec<String>| {
-            let cells: Vec<String> = row.iter().zip(&widths).map(|(cell, &width)| format!(" {cell:<width$} ")).collect();
+            let cells: Vec<String> =
+                row.iter().zip(&widths).map(|(cell, &width)| format!(" {cell:<width$} ")).collect();
             format!("|{}|\n", cells.join("|"))
         };
         let rule: Vec<String> = widths.iter().map(|width| "-".repeat(width + 2)).collect();

@@ -102,7 +102,8 @@ fn judge(expected: &Expectation, result: &RunResult) -> Judgment {
         (_, Some(found), Some(value), Some(tolerance)) => Verdict::of((found - value).abs() <= tolerance),
         _ => Verdict::Missed,
     };
-    let number = |number: Option<f64>| number.map_or("?".to_owned(), digits);
+    // What the user wrote keeps its digits.
+    let number = |number: Option<f64>| number.map_or("?".to_owned(), |number| shown(&number.into()));
     Judgment {
         of: result.run.name.clone(),
         measure: expected.measure.clone(),
@@ -181,7 +182,7 @@ pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<
     groups.into_iter().map(convergence).collect()
 }
 
-/// A number with four digits.
+/// A number with four digits; a whole one as it is.
 #[must_use]
 pub fn digits(number: f64) -> String {
     /// Outside of these an exponent is shorter than zeros.
@@ -189,8 +190,8 @@ pub fn digits(number: f64) -> String {
     /// Digits behind the point of a number of one digit before it.
     const DECIMALS: f64 = 3.0;
     let size = number.abs();
-    if size == 0.0 {
-        "0".to_owned()
+    if number.fract() == 0.0 && size < FIXED.end {
+        format!("{number}")
     } else if FIXED.contains(&size) {
         let decimals = (DECIMALS - size.log10().floor()).max(0.0) as usize;
         format!("{number:.decimals$}")
