@@ -211,9 +211,7 @@ values = [5e-5, 4e-5]
 "#;
     let folder = folder_with(study);
     assert_code(&run_study(folder.path(), "out"), 0);
-    let begun = |name: &str| {
-        read(&folder.path().join(format!("out/logs/spacing={name}.log"))).matches(" -> ").count()
-    };
+    let begun = |name: &str| read(&folder.path().join(format!("out/logs/spacing={name}.log"))).matches(" -> ").count();
     // Another value beside the first one: only that one is new, though its number is that of the old one.
     std::fs::write(folder.path().join("study.toml"), study.replace("4e-5]", "4.5e-5, 4e-5]")).unwrap();
     assert_code(&run_study(folder.path(), "out"), 0);

@@ -34,7 +34,7 @@ pub enum Command {
     /// List the models with their references
     List,
     /// Print the JSON schema of a case file
-    Schema,
+    Schema(SchemaArguments),
     /// Print a completion script for a shell
     Completions(CompletionArguments),
     /// Pore networks (not yet available)
@@ -176,6 +176,14 @@ pub struct NewArguments {
     /// File to write, which must not exist
     #[arg(default_value = "case.toml")]
     pub file: PathBuf,
+}
+
+/// `schema`.
+#[derive(Debug, Args)]
+pub struct SchemaArguments {
+    /// Print that of a study file
+    #[arg(long)]
+    pub study: bool,
 }
 
 /// `completions`.

@@ -40,8 +40,9 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
             list::list();
             Ok(DONE)
         }
-        Some(Command::Schema) => {
-            say(source::schema().trim_end());
+        Some(Command::Schema(arguments)) => {
+            let schema = if arguments.study { study::schema() } else { source::schema() };
+            say(schema.trim_end());
             Ok(DONE)
         }
         Some(Command::Completions(arguments)) => {

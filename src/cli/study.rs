@@ -88,6 +88,11 @@ fn tell_plan(arguments: &StudyPlanArguments) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
+/// The JSON schema of a study file.
+pub fn schema() -> String {
+    format!("{:#}", crate::study::schema())
+}
+
 /// The runs with what they would take.
 fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> Table {
     let mut heads = vec!["run".to_owned()];

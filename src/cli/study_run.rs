@@ -69,9 +69,14 @@ struct Teller {
 
 impl Teller {
     fn tell(&mut self, event: &Event<'_>) {
-        let Event::Ended(run, end, time) = event else { return };
-        self.ended += 1;
-        tell(format_args!("[{}] run {} of {}, {}: {}", self.ended, run.index, self.count, run.name, word(end, *time)));
+        match event {
+            Event::Started(run) => tell(format_args!("run {} of {}, {}: begun", run.index, self.count, run.name)),
+            Event::Ended(run, end, time) => {
+                self.ended += 1;
+                let (ended, word) = (self.ended, word(end, *time));
+                tell(format_args!("run {} of {}, {}: {word} ({ended} ended)", run.index, self.count, run.name));
+            }
+        }
     }
 }
 
@@ -108,7 +113,8 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
         estimates: &estimates,
         folder: &opened.folder,
         program: &opened.program,
-        cores,
+        threads: cores.threads,
+        jobs: arguments.cores.jobs.map(usize::from),
         options: &arguments.sbatch,
     };
     let job = submit(&array).map_err(|error| Failure::new(USAGE, &error))?;

@@ -14,6 +14,7 @@ pub mod estimate;
 pub mod execute;
 pub mod folder;
 pub mod load;
+mod names;
 pub mod page;
 pub mod raw;
 pub mod report;
@@ -22,3 +23,5 @@ pub mod runs;
 pub mod slurm;
 pub mod table;
 pub mod verdict;
+
+pub use load::schema;

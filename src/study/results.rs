@@ -109,7 +109,7 @@ impl RunResult {
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         if let Some(value) = self.run.value(name) {
-            return super::load::number_of(value);
+            return super::names::number_of(value);
         }
         let report = self.standing.report()?;
         match name {

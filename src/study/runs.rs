@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use toml::Value;
 
 use super::definition::{Assignment, Choice, Quantity, Study, Target};
-use super::load::{number_of, same};
+use super::names::{number_of, same};
 use crate::case;
 use crate::case::checked::Case;
 use crate::input::{InputError, Mistake, Overrides, Problem};

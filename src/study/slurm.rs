@@ -5,7 +5,7 @@ use std::process::Command;
 
 use super::child::Program;
 use super::engine::memory_of;
-use super::estimate::{Cores, Estimate};
+use super::estimate::Estimate;
 use super::folder::StudyFolder;
 use super::runs::PlannedRun;
 use crate::io::{FileError, atomic};
@@ -15,6 +15,9 @@ const NOTICE: u32 = 60;
 
 /// Memory of a run in MiB where it is not known.
 const MEMORY: u64 = 1024;
+
+/// Least memory of a run in MiB: the shell that starts it needs some too.
+const LEAST_MEMORY: u64 = 64;
 
 /// An array that cannot be submitted.
 #[derive(Debug, thiserror::Error)]
@@ -53,8 +56,10 @@ pub struct Array<'a> {
     pub folder: &'a StudyFolder,
     /// This program.
     pub program: &'a Program,
-    /// Threads of each run, and how many may run at once.
-    pub cores: Cores,
+    /// Threads of each run.
+    pub threads: usize,
+    /// How many may run at once; absent for as many as the cluster allows.
+    pub jobs: Option<usize>,
     /// Further options of `sbatch`, as they are written in a script.
     pub options: &'a [String],
 }
@@ -65,13 +70,14 @@ pub fn script(array: &Array<'_>) -> String {
     const BYTES_PER_MEBIBYTE: u64 = 1 << 20;
     let indices: Vec<usize> = array.runs.iter().map(|planned| planned.run.index).collect();
     let largest = array.estimates.iter().map(|estimate| memory_of(Some(estimate))).max().unwrap_or(0);
-    let memory = if largest == 0 { MEMORY } else { largest.div_ceil(BYTES_PER_MEBIBYTE) };
+    let memory = if largest == 0 { MEMORY } else { largest.div_ceil(BYTES_PER_MEBIBYTE).max(LEAST_MEMORY) };
     let root = absolute(array.folder.root());
-    let threads = array.cores.threads;
+    let threads = array.threads;
+    let at_once = array.jobs.map_or(String::new(), |jobs| format!("%{jobs}"));
     let mut lines = vec![
         "#!/bin/bash".to_owned(),
         format!("#SBATCH --job-name={}", quoted(array.name)),
-        format!("#SBATCH --array={}%{}", ranges(&indices), array.cores.jobs),
+        format!("#SBATCH --array={}{at_once}", ranges(&indices)),
         format!("#SBATCH --cpus-per-task={threads}"),
         format!("#SBATCH --mem={memory}M"),
         // The interrupt lets the run save its state; the process takes the place of the shell that gets it.
