@@ -75,16 +75,10 @@ fn wait_for(what: &str, mut found: impl FnMut() -> bool) {
     }
 }
 
-fn complete_runs(out: &Path) -> usize {
-    let runs = std::fs::read_dir(out.join("runs")).map(|runs| runs.count()).unwrap_or(0);
-    if runs == 0 {
-        0
-    } else {
-        std::fs::read_dir(out.join("runs"))
-            .unwrap()
-            .filter(|run| run.as_ref().is_ok_and(|run| run.path().join("report.json").exists()))
-            .count()
-    }
+/// Number of runs that left a report.
+fn reports(out: &Path) -> usize {
+    let runs = std::fs::read_dir(out.join("runs")).into_iter().flatten();
+    runs.filter(|run| run.as_ref().is_ok_and(|run| run.path().join("report.json").exists())).count()
 }
 
 #[cfg(unix)]
@@ -101,15 +95,17 @@ fn a_study_that_is_killed_five_times_ends_with_the_same_files_as_an_unbroken_one
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 53) as f64
     };
-    for _ in 0..5 {
+    for kill in 0..5 {
         let mut child = start(folder.path(), "broken");
-        // Five of these are at most 0.9 of the whole, so that each kill comes before the end.
-        std::thread::sleep(whole.mul_f64(0.02 + 0.16 * random()));
+        // Four runs further on each time, in the middle of the next ones.
+        let target = (4.0 * (f64::from(kill) + random())) as usize;
+        wait_for("progress", || reports(&broken) >= target);
+        std::thread::sleep(whole.mul_f64(random() / 24.0));
         assert!(child.try_wait().unwrap().is_none(), "the study ended before it was killed");
         signal("-KILL", &child, true);
         child.wait().unwrap();
     }
-    let before = complete_runs(&broken);
+    let before = reports(&broken);
     assert!((1..24).contains(&before), "{before} runs complete after five kills: nothing was tested");
     let output = run_study(folder.path(), "broken");
     assert_code(&output, 0);
@@ -141,7 +137,7 @@ fn runs_of_a_study_whose_process_dies_alone_save_their_state_and_end() {
     });
     signal("-KILL", &child, false);
     child.wait().unwrap();
-    wait_for("the report of an interrupted run", || complete_runs(&out) > 0);
+    wait_for("the report of an interrupted run", || reports(&out) > 0);
     for run in std::fs::read_dir(out.join("runs")).unwrap() {
         let path = run.unwrap().path();
         if path.join("report.json").exists() {

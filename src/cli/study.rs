@@ -152,6 +152,9 @@ pub fn finish(opened: &Opened) -> Result<u8, Failure> {
     say(&opened.study.title);
     say(written.table.markdown().trim_end());
     tell_judgments(&written);
+    for note in &written.unknown {
+        say(format_args!("  note        {note}"));
+    }
     say(format_args!("  page        {}", written.page.display()));
     say(format_args!("  table       {}", opened.folder.root().join("table.csv").display()));
     let failed: Vec<&RunResult> =

@@ -145,7 +145,9 @@ fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
     const STEPS: [&[f64]; 3] = [&[1.0], &[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
     let exponents = range.start.log10().floor() as i32..=range.end.log10().floor() as i32;
     let ticks = |steps: &[f64]| -> Vec<f64> {
-        let all = exponents.clone().flat_map(|e| steps.iter().map(move |step| step * 10_f64.powi(e)));
+        // A product with a power of ten would leave digits behind the last one.
+        let tick = |step: &f64, exponent: i32| format!("{step}e{exponent}").parse().unwrap_or(f64::NAN);
+        let all = exponents.clone().flat_map(|e| steps.iter().map(move |step| tick(step, e)));
         all.filter(|tick| range.contains(tick)).collect()
     };
     let mut candidates = STEPS.iter().map(|steps| ticks(steps));
@@ -247,4 +249,47 @@ fn short(value: f64) -> String {
     const DIGITS: usize = 6;
     let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
     if rounded == 0.0 || FIXED.contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::toy::{complete, study};
+    use super::*;
+
+    #[test]
+    fn a_line_per_value_of_the_series_with_what_it_should_be() {
+        let study = study(
+            "[[axis]]\nname = 'angle'\nkey = 'a'\nvalues = [30, 60]\n[[axis]]\nkey = 'dx'\nvalues = [0.2, 0.1, 0.0]\n\
+             [[report.curve]]\nx = 'dx'\ny = 'm'\nseries = 'angle'\nreference = 'angle'\nx-scale = 'logarithmic'\n\
+             [[report.curve]]\nx = 'dx'\ny = 'm'\nseries = 'angle'\nreference = 'angle'\nerror = true\n\
+             x-scale = 'logarithmic'\ny-scale = 'logarithmic'\n",
+        );
+        let results = complete(&study, |run| {
+            run.quantity(&Quantity::Parameter("angle".into())).unwrap()
+                + run.quantity(&Quantity::Parameter("dx".into())).unwrap().powi(2)
+        });
+        let found = lines(&study.report.curves[0], &results);
+        // The spacing of 0 has no place on a logarithmic axis.
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[1].name.as_str(), found[1].points.len()), ("angle = 60", 2));
+        assert_eq!(found[1].reference, [(0.1, 60.0), (0.2, 60.0)]);
+        let text = svg(&study.report.curves[1], &results).unwrap().unwrap();
+        assert!(text.starts_with("<svg") && text.matches("order 2.00").count() == 2, "{text}");
+        assert!(text.contains("|m − angle| in deg") && !text.contains("NaN"));
+        assert_eq!(svg(&study.report.curves[0], &[]).unwrap(), None);
+    }
+
+    #[test]
+    fn logarithmic_axes_have_round_numbers() {
+        assert_eq!(logarithmic_ticks(&(0.5e-3..2.0)), [1.0e-3, 1.0e-2, 0.1, 1.0]);
+        assert_eq!(logarithmic_ticks(&(0.3..1.4)), [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]);
+    }
+
+    #[test]
+    fn a_single_point_has_room_around_it() {
+        for scale in [RawScale::Linear, RawScale::Logarithmic] {
+            let range = range([2.0].into_iter(), scale);
+            assert!(range.start < 1.5 && range.end > 2.5, "{range:?}");
+        }
+    }
 }

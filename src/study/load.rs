@@ -7,14 +7,15 @@ use super::axis::axis;
 use super::definition::{Assignment, Axis, Expectation, Study, Target, Trend};
 use super::names::Names;
 use super::raw::RawStudy;
+use super::results::RUN_NUMBERS;
 use crate::case::{Checker, read};
 use crate::input::{Document, InputError, Overrides};
 
 /// Most runs of a study.
 const MOST_RUNS: usize = 10_000;
 
-/// Names of columns that a parameter must not have.
-const TAKEN: [&str; 5] = ["run", "status", "steps", "unknowns", "wall-time-s"];
+/// Names of columns of the table that a parameter must not have, besides the numbers of a run.
+const TAKEN: [&str; 2] = ["run", "status"];
 
 /// The JSON schema of a study file.
 #[must_use]
@@ -83,7 +84,7 @@ fn check_axes(checker: &mut Checker, axes: &[Axis]) {
         let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
         if !is_bare {
             checker.refuse(&at, format!("`{name}` is not a name of a parameter"), "letters, digits, `-` and `_`");
-        } else if TAKEN.contains(&name) {
+        } else if TAKEN.contains(&name) || RUN_NUMBERS.contains(&name) {
             checker.refuse(&at, format!("`{name}` is the name of a column of the report"), "give another `name`");
         } else if let Some(other) = seen.insert(name, index) {
             let help = "give one of them another `name`";

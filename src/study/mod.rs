@@ -22,6 +22,8 @@ pub mod results;
 pub mod runs;
 pub mod slurm;
 pub mod table;
+#[cfg(test)]
+mod toy;
 pub mod verdict;
 
 pub use load::schema;

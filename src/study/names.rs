@@ -6,6 +6,7 @@ use toml::Value;
 
 use super::definition::{Axis, Choice, Curve, Expectation, Quantity, ReportPlan, Trend};
 use super::raw::{RawCurve, RawExpectation, RawReport, RawTrend};
+use super::runs::shown;
 use crate::case::Checker;
 use crate::input::nearest;
 
@@ -80,7 +81,7 @@ impl Names<'_> {
                 continue;
             };
             if self.values(&name).is_some_and(|values| !values.iter().any(|other| same(other, value))) {
-                checker.refuse(&at, format!("`{name}` never is {value}"), "name one of its values");
+                checker.refuse(&at, format!("`{name}` never is {}", shown(value)), "name one of its values");
                 chosen = None;
             }
             if let Some(chosen) = &mut chosen {

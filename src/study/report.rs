@@ -1,15 +1,17 @@
 //! The report of a study: tables, curves and the page, from what stands in its folder.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::curve::{CurveError, svg};
 use super::definition::Study;
 use super::folder::StudyFolder;
 use super::page::{Content, page};
-use super::results::{RunResult, results};
+use super::results::{RUN_NUMBERS, RunResult, measures, results};
 use super::runs::PlannedRun;
 use super::table::{self, Table};
 use super::verdict::{Judgment, judgments};
+use crate::input::nearest;
 use crate::io::{FileError, atomic};
 
 /// A report that cannot be written.
@@ -32,6 +34,8 @@ pub struct StudyReport {
     pub table: Table,
     /// The expectations.
     pub judgments: Vec<Judgment>,
+    /// Names in the study file that are neither a parameter nor a measure of its runs, with a way out.
+    pub unknown: Vec<String>,
     /// The page.
     pub page: PathBuf,
 }
@@ -57,5 +61,53 @@ pub fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Resul
     let content = Content { study, results: &results, table: &table, curves: &curves, judgments: &judgments };
     let place = path("report.html");
     atomic::write(&place, page(&content).as_bytes())?;
-    Ok(StudyReport { results, table, judgments, page: place })
+    let unknown = unknown(study, &results);
+    Ok(StudyReport { results, table, judgments, unknown, page: place })
+}
+
+/// Names that no run has; which measures there are is known when a run is complete.
+fn unknown(study: &Study, results: &[RunResult]) -> Vec<String> {
+    let there = measures(results);
+    if there.is_empty() {
+        return Vec::new();
+    }
+    let known: BTreeSet<&str> = there.keys().map(String::as_str).chain(RUN_NUMBERS).collect();
+    let expected = study.expectations.iter().map(|expected| &expected.measure);
+    let trends = study.trends.iter().map(|trend| &trend.measure);
+    let curves = study.report.curves.iter().flat_map(|curve| [&curve.x, &curve.y]);
+    let table = study.report.measures.iter().flatten();
+    let names: BTreeSet<&str> = expected.chain(trends).chain(curves).chain(table).map(String::as_str).collect();
+    let is_parameter = |name: &str| study.parameters().any(|column| column.name == name);
+    let lost = names.into_iter().filter(|name| !known.contains(name) && !is_parameter(name));
+    let told = |name: &str| match nearest(name, known.iter().copied()) {
+        Some(near) => format!("no run has the measure `{name}`; did you mean `{near}`?"),
+        None => format!("no run has the measure `{name}`"),
+    };
+    lost.map(told).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::results::Standing;
+    use super::super::toy::{complete, study};
+    use super::*;
+
+    #[test]
+    fn a_misspelled_measure_is_told_when_the_measures_are_known() {
+        let study = study(
+            "[[axis]]\nkey = 'spacing'\nvalues = [1, 2]\n[[trend]]\nmeasure = 'velocity-eror'\nalong = 'spacing'\n\
+             [[report.curve]]\nx = 'spacing'\ny = 'm'\n[[report.curve]]\nx = 'wall-time-s'\ny = 'far-from-all'\n",
+        );
+        let mut results = complete(&study, |_| 1.0);
+        assert_eq!(unknown(&study, &[]), Vec::<String>::new());
+        let Standing::Complete(report) = &mut results[0].standing else { panic!("complete") };
+        report.measures.insert("velocity-error".into(), report.measures["m"].clone());
+        assert_eq!(
+            unknown(&study, &results),
+            [
+                "no run has the measure `far-from-all`",
+                "no run has the measure `velocity-eror`; did you mean `velocity-error`?"
+            ]
+        );
+    }
 }

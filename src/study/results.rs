@@ -9,6 +9,9 @@ use super::folder::StudyFolder;
 use super::runs::{PlannedRun, Run};
 use crate::run::report::{REPORT, Reading, Status};
 
+/// What is known of a run besides its measures.
+pub const RUN_NUMBERS: [&str; 3] = ["steps", "unknowns", "wall-time-s"];
+
 /// The report of a run, as far as studies read it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -41,6 +41,8 @@ pub struct Run {
     pub name: String,
     /// The base case.
     pub case: PathBuf,
+    /// Where the base case is named: a key path in the study file.
+    pub case_origin: String,
     /// The parameters.
     pub parameters: Vec<Parameter>,
     /// What differs from the base case.
@@ -118,13 +120,15 @@ impl Run {
         let mut mistakes = Vec::new();
         for mistake in error.mistakes {
             let set_here = self.assignments.iter().find(|one| mistake.name == format!("--set {}", one.text));
-            let moved = match set_here {
+            let is_missing_case = mistake.place.is_none() && mistake.name == self.case.display().to_string();
+            let problem = match set_here {
                 Some(one) => {
                     let message = format!("{} (in `{}`)", mistake.message, one.text);
-                    study.refuse(vec![Problem::new(&one.origin, message, mistake.help_text())]).err()
+                    Some(Problem::new(&one.origin, message, mistake.help_text()))
                 }
-                None => None,
+                None => is_missing_case.then(|| Problem::new(&self.case_origin, &mistake.message, mistake.help_text())),
             };
+            let moved = problem.and_then(|problem| study.refuse(vec![problem]).err());
             match moved {
                 Some(error) => mistakes.extend(error.mistakes),
                 None => mistakes.push(mistake),
@@ -143,7 +147,7 @@ pub fn runs(study: &Study) -> Vec<Run> {
 }
 
 fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
-    let mut case = study.case.clone().unwrap_or_default();
+    let (mut case, mut case_origin) = (study.case.clone().unwrap_or_default(), "case".to_owned());
     let mut parameters = Vec::new();
     let mut assignments = study.set.clone();
     let mut labels = Vec::new();
@@ -161,7 +165,10 @@ fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
                     let origin = column.origins.get(place).cloned().unwrap_or_default();
                     assignments.push(Assignment { text: format!("{key}={value}"), origin });
                 }
-                Target::Case(files) => case = files.get(place).cloned().unwrap_or_default(),
+                Target::Case(files) => {
+                    case = files.get(place).cloned().unwrap_or_default();
+                    case_origin = column.origins.get(place).cloned().unwrap_or_default();
+                }
                 Target::Nothing => {}
             }
             if number == 0 {
@@ -171,7 +178,7 @@ fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
         }
     }
     let name = free_name(if labels.is_empty() { "only".to_owned() } else { labels.join("_") }, names);
-    Run { index: number + 1, name, case, parameters, assignments }
+    Run { index: number + 1, name, case, case_origin, parameters, assignments }
 }
 
 /// A value as people read it.

@@ -111,3 +111,33 @@ impl Table {
         format!("{head}|{}|\n{}", rule.join("|"), lines.collect::<String>())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::results::Standing;
+    use super::super::toy::{complete, study};
+    use super::*;
+
+    #[test]
+    fn a_table_has_all_digits_for_programs_and_four_for_people() {
+        let study = study(
+            "[[axis]]\nkey = 'dx'\nvalues = [1e-5, 0.25]\n[report]\nmeasures = ['m', 'steps', 'wall-time-s', 'other']\n",
+        );
+        let mut results = complete(&study, |_| 1.0 / 3.0);
+        results[1].standing = Standing::Partial;
+        let csv = String::from_utf8(full(&study, &results).csv().unwrap()).unwrap();
+        assert_eq!(
+            csv,
+            "run,dx,status,m,m-uncertainty,steps,wall-time-s,other\n\
+             dx=1e-5,1e-5,done,0.3333333333333333,0.1,10,1.5,\n\
+             dx=0.25,0.25,partial,,,,,\n"
+        );
+        assert_eq!(
+            short(&study, &results).markdown(),
+            "| dx   | status  | m (deg)         | steps | wall-time-s | other |\n\
+             |------|---------|-----------------|-------|-------------|-------|\n\
+             | 1e-5 | done    | 0.3333 ± 0.1000 | 10    | 1.500       | –     |\n\
+             | 0.25 | partial | –               | –     | –           | –     |\n"
+        );
+    }
+}

@@ -199,3 +199,57 @@ pub fn digits(number: f64) -> String {
         format!("{number:.3e}")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::toy::{complete, study};
+    use super::*;
+    use toml::Value;
+
+    #[test]
+    fn errors_that_fall_with_the_spacing_have_their_order_per_group() {
+        let study = study(
+            "[[axis]]\nname = 'angle'\nkey = 'a'\nvalues = [30, 60]\n\
+             [[axis]]\npair = [{ key = 'dx', values = [0.1, 0.4, 0.2] }, { name = 'n', values = [4, 1, 2] }]\n\
+             [[trend]]\nmeasure = 'm'\nreference = 'angle'\nalong = 'dx'\norder = 1.9\n",
+        );
+        // Errors of second order at 30 degrees, of first order at 60.
+        let results = complete(&study, |run| {
+            let (angle, dx) =
+                (run.value("angle").and_then(Value::as_integer), run.value("dx").and_then(Value::as_float));
+            match (angle, dx) {
+                (Some(30), Some(dx)) => 30.0 - dx * dx,
+                (_, Some(dx)) => 60.0 + dx,
+                _ => f64::NAN,
+            }
+        });
+        let found = convergences(&study, &study.trends[0], &results);
+        assert_eq!(found.iter().map(|c| c.of.as_str()).collect::<Vec<_>>(), ["angle=30", "angle=60"]);
+        assert_eq!(found[0].points.iter().map(|point| point.0).collect::<Vec<_>>(), [0.4, 0.2, 0.1]);
+        for (convergence, order) in found.iter().zip([2.0, 1.0]) {
+            // Rounding of 30 - 0.01 leaves twelve digits of the error.
+            assert!((convergence.order().unwrap() - order).abs() < 1.0e-9 && convergence.falls());
+        }
+        let verdicts: Vec<Verdict> = judgments(&study, &results).iter().map(|judgment| judgment.verdict).collect();
+        assert_eq!(verdicts, [Verdict::Met, Verdict::Missed]);
+    }
+
+    #[test]
+    fn an_expectation_of_a_run_that_is_not_complete_is_open_and_one_without_its_measure_is_missed() {
+        let study = study(
+            "[[axis]]\nkey = 'dx'\nvalues = [1, 2, 3]\n[[expect]]\nmeasure = 'm'\nvalue = 1.0\ntolerance = 0.5\n\
+             [[trend]]\nmeasure = 'm'\nalong = 'dx'\n",
+        );
+        let mut results = complete(&study, |run| if run.index == 2 { f64::NAN } else { 1.25 });
+        let verdicts = |results: &[RunResult]| judgments(&study, results).iter().map(|j| j.verdict).collect::<Vec<_>>();
+        assert_eq!(verdicts(&results), [Verdict::Met, Verdict::Missed, Verdict::Met, Verdict::Missed]);
+        results[0].standing = super::super::results::Standing::Partial;
+        assert_eq!(verdicts(&results), [Verdict::Open, Verdict::Missed, Verdict::Met, Verdict::Open]);
+    }
+
+    #[test]
+    fn numbers_have_four_digits_and_whole_ones_are_left_as_they_are() {
+        let found = [0.0, 20.0, 0.0061153, 41.23456, 12345.678, 2.0e-5, -0.5].map(digits);
+        assert_eq!(found, ["0", "20", "0.006115", "41.23", "12346", "2.000e-5", "-0.5000"]);
+    }
+}
