@@ -195,6 +195,27 @@ values = [[0.0, -1e-3], [0.0, -300.0], [0.0, -2e-3]]
     assert!(read(&folder.path().join("out/report.html")).contains("Failed runs"));
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_study_goes_on_after_the_process_of_a_run_is_killed_and_says_which() {
+    let folder = folder_with(&STUDY.replace("[0.01, 0.02, 0.03]", "[0.02]").replace("1.5e-3\"", "6e-3\""));
+    let study = start(folder.path(), "out");
+    let children = format!("/proc/{0}/task/{0}/children", study.id());
+    let state = |run: std::fs::DirEntry| run.path().join("restart/state.bin").exists();
+    let runs = folder.path().join("out/runs");
+    wait_for("a saved state", || std::fs::read_dir(&runs).into_iter().flatten().any(|run| run.is_ok_and(state)));
+    let victim = read(Path::new(&children)).split_whitespace().next().unwrap().to_owned();
+    assert!(Command::new("kill").args(["-KILL", &victim]).status().unwrap().success());
+    let output = study.wait_with_output().unwrap();
+    assert_code(&output, 4);
+    let told = stderr(&output);
+    assert!(told.contains("FAILED: its process ended with signal: 9") && told.contains("1 of 8 runs failed"), "{told}");
+    assert_eq!(reports(&folder.path().join("out")), 7);
+    // The same command takes it up.
+    assert_code(&run_study(folder.path(), "out"), 0);
+    assert_eq!(reports(&folder.path().join("out")), 8);
+}
+
 #[test]
 fn a_changed_case_is_run_again_and_an_unchanged_one_is_not() {
     let study = r#"
@@ -258,7 +279,11 @@ order = 50.0
     assert!(text.contains("4 met, 4 missed, 0 open"), "{text}");
     assert!(text.contains("order at least 50"), "{text}");
     let page = read(&folder.path().join("out/report.html"));
-    assert!(page.contains("class=\"met\"") && page.contains("class=\"missed\""));
+    // The area drift is expected at one angle and reported at both, the angle by its trend.
+    assert_eq!(text.matches("of area-drift along spacing").count(), 2, "{text}");
+    assert!(
+        page.contains("<h2>Convergence</h2>") && page.contains("class=\"met\"") && page.contains("class=\"missed\"")
+    );
     assert!(!page.contains("http"), "the page must open without a network");
     for picture in page.split("src=\"").skip(1).map(|rest| rest.split('"').next().unwrap()) {
         assert!(folder.path().join("out").join(picture).is_file(), "{picture}");

@@ -9,7 +9,7 @@ use super::output::{duration, readable, say};
 use super::study_run;
 use crate::run::trial::Trial;
 use crate::study::child::Program;
-use crate::study::definition::Study;
+use crate::study::definition::{Study, Target};
 use crate::study::engine::memory_of;
 use crate::study::estimate::{Cores, Estimate, estimates};
 use crate::study::folder::StudyFolder;
@@ -78,6 +78,9 @@ fn tell_plan(arguments: &StudyPlanArguments) -> Result<u8, Failure> {
     let found = estimates(&opened.runs, &opened.program, cores, (&kept, false), &never);
     let results = results(&opened.runs, &opened.folder);
     say(&opened.study.title);
+    for one in &opened.study.set {
+        say(format_args!("  all runs    {}", one.text));
+    }
     say(plan_table(&opened.study, &results, &found).markdown().trim_end());
     for (planned, estimate) in opened.runs.iter().zip(&found) {
         if let Err(error) = estimate {
@@ -96,11 +99,14 @@ pub fn schema() -> String {
 /// The runs with what they would take.
 fn plan_table(study: &Study, results: &[RunResult], estimates: &[Estimate]) -> Table {
     let mut heads = vec!["run".to_owned()];
-    heads.extend(study.parameters().map(|column| column.name.clone()));
+    // Numbers to compare with change nothing in a run.
+    let changes: Vec<bool> = study.parameters().map(|column| column.target != Target::Nothing).collect();
+    heads.extend(study.parameters().zip(&changes).filter(|(_, changes)| **changes).map(|(c, _)| c.name.clone()));
     heads.extend(["unknowns", "steps", "memory", "duration", "state"].map(str::to_owned));
     let row = |(result, estimate): (&RunResult, &Estimate)| {
         let mut row = vec![result.run.index.to_string()];
-        row.extend(result.run.parameters.iter().map(|parameter| shown(&parameter.value)));
+        let parameters = result.run.parameters.iter().zip(&changes).filter(|(_, changes)| **changes);
+        row.extend(parameters.map(|(parameter, _)| shown(&parameter.value)));
         let told = |tell: &dyn Fn(&Trial) -> String| estimate.as_ref().map_or("?".to_owned(), tell);
         row.push(told(&|trial| trial.unknowns.to_string()));
         row.push(told(&|trial| readable(trial.steps)));
@@ -152,6 +158,11 @@ pub fn finish(opened: &Opened) -> Result<u8, Failure> {
     say(&opened.study.title);
     say(written.table.markdown().trim_end());
     tell_judgments(&written);
+    for convergence in &written.convergences {
+        let order = convergence.order().map_or("none".to_owned(), |order| format!("{order:.2}"));
+        let (measure, along, of) = (&convergence.measure, &convergence.along, &convergence.of);
+        say(format_args!("  order       {order} of {measure} along {along}, {of}"));
+    }
     for note in &written.unknown {
         say(format_args!("  note        {note}"));
     }

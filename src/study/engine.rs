@@ -166,11 +166,16 @@ fn longest_first(work: &Work<'_>, ends: &[End]) -> VecDeque<usize> {
     open.into()
 }
 
-/// Whether cores and memory are left for one more run. One alone always has room: the estimate may be wrong.
+/// Whether cores and memory are left for one more run.
 fn has_room(work: &Work<'_>, workers: &[Worker], number: usize) -> bool {
-    let taken: u64 = workers.iter().map(|worker| worker.memory).sum();
-    let wanted = memory_of(work.estimates.get(number));
-    workers.is_empty() || (workers.len() < work.cores.jobs && work.memory.is_none_or(|all| taken + wanted <= all))
+    let taken: Vec<u64> = workers.iter().map(|worker| worker.memory).collect();
+    fits(work.cores.jobs, work.memory, &taken, memory_of(work.estimates.get(number)))
+}
+
+/// Whether a run fits beside others of so much memory. One alone always does: what is known of it may be wrong.
+fn fits(jobs: usize, memory: Option<u64>, taken: &[u64], wanted: u64) -> bool {
+    let sum: u64 = taken.iter().sum();
+    taken.is_empty() || (taken.len() < jobs && memory.is_none_or(|all| sum + wanted <= all))
 }
 
 fn start(work: &Work<'_>, number: usize) -> Result<Result<Worker, String>, FileError> {
@@ -201,5 +206,23 @@ fn end_of(work: &Work<'_>, number: usize, status: ExitStatus) -> End {
             End::Failed(why.unwrap_or_else(|| format!("the solver failed; see {}", log.display())))
         }
         _ => End::Failed(format!("its process ended with {status}; see {}", log.display())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_start_while_jobs_and_memory_last_and_one_always_does() {
+        assert!(fits(2, Some(100), &[], 500));
+        assert!(fits(2, Some(100), &[60], 40) && !fits(2, Some(100), &[60], 41));
+        assert!(fits(2, None, &[60], 500) && !fits(2, None, &[1, 1], 1));
+    }
+
+    #[test]
+    fn the_memory_of_a_run_has_a_margin_and_is_nothing_where_it_is_not_known() {
+        assert_eq!(memory_of(Some(&Err("unknown".to_owned()))), 0);
+        assert_eq!(memory_of(None), 0);
     }
 }

@@ -3,11 +3,12 @@
 
 use std::fmt::Write;
 
+use super::convergence::Convergence;
 use super::definition::Study;
 use super::results::{RunResult, Standing};
 use super::runs::shown;
 use super::table::Table;
-use super::verdict::{Judgment, Verdict};
+use super::verdict::{Judgment, Verdict, digits};
 
 /// Look of the page.
 const STYLE: &str = "body{font:16px/1.45 system-ui,sans-serif;margin:2em auto;max-width:78em;padding:0 1em;color:#222}\
@@ -31,6 +32,8 @@ pub struct Content<'a> {
     pub curves: &'a [String],
     /// The expectations.
     pub judgments: &'a [Judgment],
+    /// Errors along spacings.
+    pub convergences: &'a [Convergence],
 }
 
 /// The page as HTML.
@@ -47,6 +50,7 @@ pub fn page(content: &Content<'_>) -> String {
     );
     push_failures(&mut html, content.results);
     push_judgments(&mut html, content.judgments);
+    push_convergences(&mut html, content.convergences);
     if !content.curves.is_empty() {
         html += "<h2>Curves</h2>\n<div class=\"curves\">\n";
         html.extend(content.curves.iter().map(String::as_str));
@@ -104,6 +108,25 @@ fn push_judgments(html: &mut String, judgments: &[Judgment]) {
         );
     }
     html.push_str("</table>\n");
+}
+
+fn push_convergences(html: &mut String, convergences: &[Convergence]) {
+    if convergences.is_empty() {
+        return;
+    }
+    html.push_str("<h2>Convergence</h2>\n");
+    let row = |convergence: &Convergence| {
+        let points: Vec<String> = convergence
+            .points
+            .iter()
+            .map(|(parameter, error)| format!("{} ({})", digits(*error), shown(&(*parameter).into())))
+            .collect();
+        let order = convergence.order().map_or("–".to_owned(), |order| format!("{order:.2}"));
+        vec![convergence.of.clone(), convergence.measure.clone(), points.join(", "), order]
+    };
+    let along = convergences.first().map_or("", |convergence| convergence.along.as_str());
+    let heads = ["runs", "measure", &format!("error ({along})"), "observed order"].map(str::to_owned).to_vec();
+    push_table(html, &Table { heads, rows: convergences.iter().map(row).collect() });
 }
 
 fn push_table(html: &mut String, table: &Table) {

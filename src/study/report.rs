@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use super::convergence::{self, Convergence};
 use super::curve::{CurveError, svg};
 use super::definition::Study;
 use super::folder::StudyFolder;
@@ -34,6 +35,8 @@ pub struct StudyReport {
     pub table: Table,
     /// The expectations.
     pub judgments: Vec<Judgment>,
+    /// Errors along spacings, with their orders.
+    pub convergences: Vec<Convergence>,
     /// Names in the study file that are neither a parameter nor a measure of its runs, with a way out.
     pub unknown: Vec<String>,
     /// The page.
@@ -47,6 +50,7 @@ pub struct StudyReport {
 pub fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Result<StudyReport, ReportError> {
     let results = results(runs, folder);
     let judgments = judgments(study, &results);
+    let convergences = convergence::all(study, &results);
     let table = table::short(study, &results);
     let path = |name: &str| folder.root().join(name);
     atomic::write(&path("table.csv"), &table::full(study, &results).csv()?)?;
@@ -58,11 +62,18 @@ pub fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Resul
             curves.push(text);
         }
     }
-    let content = Content { study, results: &results, table: &table, curves: &curves, judgments: &judgments };
+    let content = Content {
+        study,
+        results: &results,
+        table: &table,
+        curves: &curves,
+        judgments: &judgments,
+        convergences: &convergences,
+    };
     let place = path("report.html");
     atomic::write(&place, page(&content).as_bytes())?;
     let unknown = unknown(study, &results);
-    Ok(StudyReport { results, table, judgments, unknown, page: place })
+    Ok(StudyReport { results, table, judgments, convergences, unknown, page: place })
 }
 
 /// Names that no run has; which measures there are is known when a run is complete.
