@@ -10,12 +10,16 @@ use super::results::{RunResult, measures};
 use super::runs::shown;
 use crate::analysis::convergence::observed_order;
 
-/// Width and height in pixels.
+/// Width and height of the drawing in pixels.
 const SIZE: (u32, u32) = (720, 480);
+/// Width of the legend beside it in pixels.
+const LEGEND: u32 = 220;
+/// Height of a line of the legend in pixels.
+const LEGEND_LINE: i32 = 20;
 /// Share of the range that is left free on either side of the data.
 const RIM: f64 = 0.06;
 /// Colors that color-blind eyes and gray prints keep apart (Okabe and Ito 2008).
-const COLORS: [RGBColor; 7] = [
+const COLORS: [RGBColor; 10] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -23,6 +27,9 @@ const COLORS: [RGBColor; 7] = [
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
     RGBColor(90, 90, 90),
+    RGBColor(150, 75, 0),
+    RGBColor(128, 128, 0),
+    RGBColor(0, 0, 0),
 ];
 
 /// A curve that cannot be drawn.
@@ -196,8 +203,15 @@ where
     X::CoordDescType: ValueFormatter<f64>,
     Y::CoordDescType: ValueFormatter<f64>,
 {
-    let area = SVGBackend::with_string(text, SIZE).into_drawing_area();
-    area.fill(&WHITE)?;
+    let names: Vec<String> = lines.iter().map(|line| legend(curve, line)).collect();
+    let named = names.iter().any(|name| !name.is_empty());
+    let width = SIZE.0 + if named { LEGEND } else { 0 };
+    let whole = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
+    whole.fill(&WHITE)?;
+    let (area, beside) = whole.split_horizontally(SIZE.0);
+    if named {
+        draw_legend(&beside, &names)?;
+    }
     let mut chart = ChartBuilder::on(&area)
         .caption(&curve.title, ("sans-serif", 20))
         .margin(12)
@@ -215,30 +229,33 @@ where
         .x_label_formatter(&number)
         .y_label_formatter(&number)
         .draw()?;
-    let mut named = false;
     for (number, line) in lines.iter().enumerate() {
-        let color = COLORS[number % COLORS.len()];
+        let color = color_of(number);
         let points = || line.points.iter().map(|&(x, y, _)| (x, y));
-        let drawn = chart.draw_series(LineSeries::new(points(), color.stroke_width(2)))?;
-        let name = legend(curve, line);
-        if !name.is_empty() {
-            named = true;
-            drawn.label(name).legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
-        }
+        chart.draw_series(LineSeries::new(points(), color.stroke_width(2)))?;
         chart.draw_series(points().map(|point| Circle::new(point, 4, color.filled())))?;
         let bars = line.points.iter().filter_map(|&(x, y, u)| Some((x, y, u.filter(|_| !curve.error)?)));
         chart.draw_series(bars.map(|(x, y, u)| PathElement::new([(x, y - u), (x, y + u)], color)))?;
         chart.draw_series(DashedLineSeries::new(line.reference.iter().copied(), 6, 4, color.into()))?;
     }
-    if named {
-        chart
-            .configure_series_labels()
-            .background_style(WHITE.mix(0.85))
-            .border_style(RGBColor(200, 200, 200))
-            .label_font(("sans-serif", 14))
-            .draw()?;
+    whole.present()
+}
+
+fn color_of(number: usize) -> RGBColor {
+    COLORS[number % COLORS.len()]
+}
+
+/// Draws the names of the lines beside the drawing, where they hide nothing.
+fn draw_legend<'a>(
+    area: &DrawingArea<SVGBackend<'a>, plotters::coord::Shift>,
+    names: &[String],
+) -> Result<(), DrawingError<'a>> {
+    for (number, name) in names.iter().enumerate() {
+        let y = 60 + LEGEND_LINE * number as i32;
+        area.draw(&PathElement::new([(0, y), (18, y)], color_of(number).stroke_width(2)))?;
+        area.draw(&Text::new(name.as_str(), (26, y - 6), ("sans-serif", 14)))?;
     }
-    area.present()
+    Ok(())
 }
 
 /// A number at an axis: no more digits than it has.

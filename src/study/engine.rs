@@ -24,8 +24,11 @@ pub mod code {
     pub const INTERRUPTED: u8 = 130;
 }
 
-/// Memory that a run is given over what its first steps took: output and later states take more.
-pub const MEMORY_MARGIN: f64 = 1.5;
+/// Memory that a run is given over what its first steps took: later states take more.
+const MEMORY_MARGIN: f64 = 1.5;
+
+/// Memory in bytes for the files and the picture, which the first steps do not write: 10 MiB were measured.
+const MEMORY_OF_OUTPUT: f64 = 16.0 * 1_048_576.0;
 
 /// Share of the free memory that runs may take.
 const MEMORY_SHARE: f64 = 0.9;
@@ -98,7 +101,7 @@ pub fn free_memory() -> Option<u64> {
 #[must_use]
 pub fn memory_of(estimate: Option<&Estimate>) -> u64 {
     let known = estimate.and_then(|estimate| estimate.as_ref().ok()).and_then(|trial| trial.memory_bytes);
-    (known.unwrap_or(0) as f64 * MEMORY_MARGIN) as u64
+    known.map_or(0, |bytes| (bytes as f64 * MEMORY_MARGIN + MEMORY_OF_OUTPUT) as u64)
 }
 
 /// Does all runs that are not complete, those that take longest first, and goes on after a failed one. After an interrupt all

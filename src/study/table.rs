@@ -3,7 +3,7 @@
 use super::definition::Study;
 use super::results::{RunResult, measures};
 use super::runs::shown;
-use super::verdict::digits;
+use super::verdict::{digits, significant};
 use crate::io::FileError;
 
 /// A table with its numbers as text.
@@ -65,7 +65,7 @@ pub fn short(study: &Study, results: &[RunResult]) -> Table {
         _ => name.clone(),
     }));
     let cell = |result: &RunResult, name: &str| match (result.number(name), result.uncertainty(name)) {
-        (Some(value), Some(uncertainty)) => format!("{} ± {}", digits(value), digits(uncertainty)),
+        (Some(value), Some(uncertainty)) => format!("{} ± {}", digits(value), significant(uncertainty, 2)),
         (Some(value), None) => digits(value),
         (None, _) => "–".to_owned(),
     };
@@ -134,10 +134,10 @@ mod tests {
         );
         assert_eq!(
             short(&study, &results).markdown(),
-            "| dx   | status  | m (deg)         | steps | wall-time-s | other |\n\
-             |------|---------|-----------------|-------|-------------|-------|\n\
-             | 1e-5 | done    | 0.3333 ± 0.1000 | 10    | 1.500       | –     |\n\
-             | 0.25 | partial | –               | –     | –           | –     |\n"
+            "| dx   | status  | m (deg)       | steps | wall-time-s | other |\n\
+             |------|---------|---------------|-------|-------------|-------|\n\
+             | 1e-5 | done    | 0.3333 ± 0.10 | 10    | 1.500       | –     |\n\
+             | 0.25 | partial | –             | –     | –           | –     |\n"
         );
     }
 }

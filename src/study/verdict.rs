@@ -108,18 +108,23 @@ fn judge_trend(trend: &Trend, convergence: &Convergence) -> Judgment {
 /// A number with four digits; a whole one as it is.
 #[must_use]
 pub fn digits(number: f64) -> String {
+    significant(number, 4)
+}
+
+/// A number with so many digits; a whole one as it is.
+#[must_use]
+pub fn significant(number: f64, digits: usize) -> String {
     /// Outside of these an exponent is shorter than zeros.
     const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
-    /// Digits behind the point of a number of one digit before it.
-    const DECIMALS: f64 = 3.0;
     let size = number.abs();
+    let behind_first = digits.saturating_sub(1);
     if number.fract() == 0.0 && size < FIXED.end {
         format!("{number}")
     } else if FIXED.contains(&size) {
-        let decimals = (DECIMALS - size.log10().floor()).max(0.0) as usize;
+        let decimals = (behind_first as f64 - size.log10().floor()).max(0.0) as usize;
         format!("{number:.decimals$}")
     } else {
-        format!("{number:.3e}")
+        format!("{number:.behind_first$e}")
     }
 }
 
@@ -145,5 +150,6 @@ mod tests {
     fn numbers_have_four_digits_and_whole_ones_are_left_as_they_are() {
         let found = [0.0, 20.0, 0.0061153, 41.23456, 12345.678, 2.0e-5, -0.5].map(digits);
         assert_eq!(found, ["0", "20", "0.006115", "41.23", "12346", "2.000e-5", "-0.5000"]);
+        assert_eq!([0.7448, 12.34, 2.0e-5].map(|number| significant(number, 2)), ["0.74", "12", "2.0e-5"]);
     }
 }
