@@ -40,7 +40,7 @@ def draw(found: dict, picture: Path, columns: int) -> None:
     figure, axes = plt.subplots(rows, columns, figsize=(4.0 * columns, 3.4 * rows), squeeze=False, layout="constrained")
     for axis in axes.flat:
         axis.axis("off")
-    for axis, run in zip(axes.flat, runs):
+    for axis, run in zip(axes.flat, runs, strict=False):
         axis.imshow(plt.imread(run["picture"]))
         axis.set_title(", ".join(f"{name} = {value}" for name, value in run["parameters"].items()), fontsize=9)
     figure.savefig(picture, dpi=150)

@@ -9,8 +9,9 @@ from pathlib import Path
 SCRIPTS = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(SCRIPTS))
 
-import study_panel  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
+
+import study_panel  # noqa: E402
 
 TABLE = """run,angle,spacing,status,contact-angle-deg
 angle=40_spacing=1e-5,40,1e-5,done,41.5
@@ -39,10 +40,13 @@ class Panel(unittest.TestCase):
     def test_complete_runs_stand_in_their_order_with_their_parameters(self):
         """The failed run is left out."""
         found = study_panel.measure(self.directory)
-        self.assertEqual([run["parameters"] for run in found["runs"]], [
-            {"angle": "40", "spacing": "1e-5"},
-            {"angle": "80", "spacing": "1e-5"},
-        ])
+        self.assertEqual(
+            [run["parameters"] for run in found["runs"]],
+            [
+                {"angle": "40", "spacing": "1e-5"},
+                {"angle": "80", "spacing": "1e-5"},
+            ],
+        )
         self.assertEqual(found["all"], 3)
 
     def test_the_script_writes_a_figure_or_says_that_nothing_is_complete(self):
