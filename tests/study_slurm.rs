@@ -173,6 +173,12 @@ fn a_job_array_on_a_real_cluster_of_one_node_does_all_runs() {
     };
     let log = || std::fs::read_to_string(place.path().join("slurmctld.log")).unwrap_or_default();
     assert!(wait(60, complete).is_some(), "the runs did not end\n{}", log());
+    // A job that is not yet taken from the queue would outlive its cluster.
+    let is_empty = || {
+        let queue = Command::new("squeue").arg("-h").env("SLURM_CONF", place.path().join("slurm.conf")).output();
+        queue.is_ok_and(|output| output.status.success() && output.stdout.is_empty())
+    };
+    assert!(wait(30, is_empty).is_some(), "the queue does not empty\n{}", log());
     drop(daemons);
     // The same table as on one machine.
     let table = |out: &str| std::fs::read_to_string(folder.path().join(out).join("table.csv")).unwrap();
