@@ -19,4 +19,6 @@ pub mod io;
 
 pub mod run;
 
+pub mod study;
+
 pub mod cli;

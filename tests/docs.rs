@@ -53,7 +53,7 @@ fn every_page_of_the_book_is_in_its_summary() {
 
 #[test]
 fn every_path_of_the_repository_that_is_named_exists() {
-    const FOLDERS: [&str; 6] = ["src/", "tests/", "cases/", "geometries/", "postprocess/", "docs/"];
+    const FOLDERS: [&str; 7] = ["src/", "tests/", "cases/", "studies/", "geometries/", "postprocess/", "docs/"];
     for page in pages() {
         let fences = page.fences().into_iter().map(|fence| fence.text).collect::<String>();
         for name in page.code().iter().flat_map(|code| words(code)).chain(words(&fences)) {
@@ -160,7 +160,12 @@ fn every_example_file_loads() {
     assert!(names.len() >= 4, "{names:?}");
     for name in names {
         let path = folder.path().join(&name);
-        if std::fs::read_to_string(&path).unwrap().contains("[time]") {
+        let text = std::fs::read_to_string(&path).unwrap();
+        if text.contains("[[axis]]") {
+            let study = meniscus::study::load::load(&path).unwrap_or_else(|error| panic!("{}", error.render()));
+            let runs = meniscus::study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
+            assert!(runs.len() > 1, "{name}");
+        } else if text.contains("[time]") {
             let loaded = load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{name}: {error:?}"));
             let problems = meniscus::run::setup::problems(&loaded.case).unwrap();
             assert!(problems.is_empty(), "{name}: {problems:?}");

@@ -20,7 +20,7 @@ const RESTART_RECORDS: f64 = 10.0;
 
 /// Collects problems while values pass through.
 #[derive(Debug, Default)]
-pub(super) struct Checker {
+pub(crate) struct Checker {
     pub problems: Vec<Problem>,
 }
 

@@ -165,7 +165,8 @@ fn shape_text(name: &str, text: &str) -> Result<GeometrySpec, InputError> {
     spec.filter(|_| mistakes.is_empty()).ok_or(InputError { mistakes })
 }
 
-fn read(path: &Path, help: &str) -> Result<String, InputError> {
+/// The text of a file; `help` tells where the user should look when there is none.
+pub(crate) fn read(path: &Path, help: &str) -> Result<String, InputError> {
     std::fs::read_to_string(path).map_err(|error| {
         let resolved = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
         let message = match error.kind() {

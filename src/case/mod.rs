@@ -14,6 +14,8 @@ mod schema;
 mod shapes;
 mod sph;
 
+pub(crate) use check::Checker;
 pub use facts::{Facts, check_against};
+pub(crate) use load::read;
 pub use load::{Loaded, load, load_default, load_shapes};
 pub use schema::{schema, starter_case};

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::preset::Preset;
 use crate::geometry::spec::{ShapeSpec, SolidSide};
 
-/// Derives and attributes of every table of a case file.
+/// Derives and attributes of every table of a case file or another input file.
 macro_rules! tables {
     ($($(#[$outer:meta])* pub struct $name:ident { $($(#[$inner:meta])* pub $field:ident: $kind:ty,)* })*) => {$(
         $(#[$outer])*
@@ -21,6 +21,7 @@ macro_rules! tables {
         }
     )*};
 }
+pub(crate) use tables;
 
 tables! {
     /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 /// Exit codes, as the help tells them.
@@ -34,13 +34,14 @@ pub enum Command {
     /// List the models with their references
     List,
     /// Print the JSON schema of a case file
-    Schema,
+    Schema(SchemaArguments),
     /// Print a completion script for a shell
     Completions(CompletionArguments),
     /// Pore networks (not yet available)
     Network(AnyArguments),
-    /// Parameter studies (not yet available)
-    Study(AnyArguments),
+    /// Parameter studies: many runs from one file, with a table, curves and a page
+    #[command(subcommand)]
+    Study(StudyCommand),
 }
 
 /// `run`.
@@ -71,6 +72,9 @@ pub struct CheckArguments {
     /// Change a value of the case
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
+    /// Tell what a run would take as JSON, for other programs
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `geometry`.
@@ -83,12 +87,103 @@ pub struct GeometryArguments {
     pub out: Option<PathBuf>,
 }
 
+/// `study`.
+#[derive(Debug, Subcommand)]
+pub enum StudyCommand {
+    /// Tell the runs of a study: what varies, particles, memory, expected duration
+    Plan(StudyPlanArguments),
+    /// Do all runs that are not complete, then write the report
+    Run(Box<StudyRunArguments>),
+    /// Write table, curves and page from the runs that are complete
+    Report(StudyReportArguments),
+}
+
+/// `study plan`.
+#[derive(Debug, Args)]
+pub struct StudyPlanArguments {
+    /// Study file
+    pub study: PathBuf,
+    /// Study folder, out/study-NAME where there is none; nothing is written
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub cores: CoresArguments,
+}
+
+/// Threads and runs at once.
+#[derive(Debug, Args)]
+pub struct CoresArguments {
+    /// Threads of each run
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub threads: std::num::NonZeroUsize,
+    /// Runs at once; as many as the cores allow where there is none
+    #[arg(long, value_name = "N")]
+    pub jobs: Option<std::num::NonZeroUsize>,
+}
+
+/// `study run`.
+#[derive(Debug, Args)]
+pub struct StudyRunArguments {
+    /// Study file
+    pub study: PathBuf,
+    /// Study folder, new or of this study; out/study-NAME where there is none
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub cores: CoresArguments,
+    /// Memory for all runs at once in MiB; nine tenths of what is free where there is none
+    #[arg(long, value_name = "MIB")]
+    pub memory: Option<u64>,
+    /// Where the runs are done
+    #[arg(long, value_enum, default_value = "local")]
+    pub engine: Engine,
+    /// Further option for the job array, as in --sbatch=--partition=long
+    #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
+    pub sbatch: Vec<String>,
+    /// Do only the run of this number, in this process
+    #[arg(long, value_name = "I")]
+    pub index: Option<std::num::NonZeroUsize>,
+    /// Started by another process of the program, which holds the study folder and the standard input
+    #[arg(long, hide = true, requires = "index")]
+    pub worker: bool,
+    /// The run must be of this case
+    #[arg(long, hide = true, requires = "index")]
+    pub digest: Option<String>,
+}
+
+/// Where runs are done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    /// On this machine
+    Local,
+    /// As a job array of Slurm
+    Slurm,
+}
+
+/// `study report`.
+#[derive(Debug, Args)]
+pub struct StudyReportArguments {
+    /// Study file
+    pub study: PathBuf,
+    /// Study folder, out/study-NAME where there is none
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
 /// `new`.
 #[derive(Debug, Args)]
 pub struct NewArguments {
     /// File to write, which must not exist
     #[arg(default_value = "case.toml")]
     pub file: PathBuf,
+}
+
+/// `schema`.
+#[derive(Debug, Args)]
+pub struct SchemaArguments {
+    /// Print that of a study file
+    #[arg(long)]
+    pub study: bool,
 }
 
 /// `completions`.

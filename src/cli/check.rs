@@ -1,35 +1,31 @@
 //! `meniscus check`: builds the solver, does a few steps without any file, and tells what a run would be like.
 
-use std::time::Instant;
-
 use super::arguments::CheckArguments;
-use super::exit::{BAD_INPUT, DONE, Failure, SOLVER_FAILED};
+use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED};
 use super::output::{duration, readable, say};
 use super::source;
 use crate::case::checked::Model;
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
+use crate::run::trial::trial;
 
-/// Steps that are tried; the first ones set up what later ones reuse.
-const TRIAL_STEPS: usize = 5;
+/// Bytes of a mebibyte.
+const BYTES_PER_MEBIBYTE: f64 = 1048576.0;
 
 /// Tells what a run of the case would be like.
 pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let case = &source.case;
     let mut solver = setup::build(case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
-    let clock = Instant::now();
-    let mut info = None;
-    for _ in 0..TRIAL_STEPS {
-        info = Some(solver.step(case.end).map_err(|error| Failure::new(SOLVER_FAILED, &error))?);
-        if solver.time() >= case.end {
-            break;
-        }
+    let found = trial(case, solver.as_mut()).map_err(|error| Failure::new(SOLVER_FAILED, &error))?;
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&found).map_err(|error| Failure::new(BUG, &error))?;
+        say(text);
+        return Ok(DONE);
     }
-    let per_step = clock.elapsed().as_secs_f64() / solver.steps().max(1) as f64;
     let Model::Sph(sph) = &case.model;
     say(&case.title);
-    say(format_args!("  particles   {} at a spacing of {} m", solver.statistics().unknowns, readable(sph.spacing)));
+    say(format_args!("  particles   {} at a spacing of {} m", found.unknowns, readable(sph.spacing)));
     match setup::throat(case) {
         Some(width) => say(format_args!(
             "  throat      {:.1} particles across the narrowest one, {} m",
@@ -38,18 +34,16 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         )),
         None => say("  throat      none"),
     }
-    if let Some(memory) = memory() {
-        say(format_args!("  memory      {memory}"));
+    if let Some(memory) = found.memory_bytes {
+        say(format_args!("  memory      {:.0} MiB", memory as f64 / BYTES_PER_MEBIBYTE));
     }
-    if let Some(info) = info {
-        let steps = (case.end / info.dt).ceil();
-        say(format_args!("  time step   {} s, ruled by {}", readable(info.dt), info.limit));
-        say(format_args!(
-            "  run         {} s in about {steps} steps, about {}",
-            readable(case.end),
-            duration(steps * per_step)
-        ));
-    }
+    say(format_args!("  time step   {} s, ruled by {}", readable(found.time_step_s), found.limit));
+    say(format_args!(
+        "  run         {} s in about {} steps, about {}",
+        readable(case.end),
+        found.steps,
+        duration(found.duration_s)
+    ));
     let length = Length::of(case);
     let (speed, formula) = expected_speed(case, length);
     for number in numbers::numbers(case, length, speed) {
@@ -58,13 +52,4 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     say(format_args!("  L           = {} m, {}", readable(length.value), length.name));
     say(format_args!("  U           = {} m/s, {formula}", readable(speed)));
     Ok(DONE)
-}
-
-/// The most memory that the program has used so far, where the system tells.
-fn memory() -> Option<String> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let kibibytes: f64 =
-        status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?.split_whitespace().next()?.parse().ok()?;
-    const KIBIBYTES_PER_MEBIBYTE: f64 = 1024.0;
-    Some(format!("{:.0} MiB", kibibytes / KIBIBYTES_PER_MEBIBYTE))
 }

@@ -7,7 +7,7 @@ use clap::{CommandFactory, Parser};
 use super::arguments::{Arguments, Command, RunArguments};
 use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{say, tell};
-use super::{check, geometry, list, new, run, source};
+use super::{check, geometry, list, new, run, source, study};
 
 /// Reads the command line and does what it says.
 #[must_use]
@@ -40,8 +40,9 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
             list::list();
             Ok(DONE)
         }
-        Some(Command::Schema) => {
-            say(source::schema().trim_end());
+        Some(Command::Schema(arguments)) => {
+            let schema = if arguments.study { study::schema() } else { source::schema() };
+            say(schema.trim_end());
             Ok(DONE)
         }
         Some(Command::Completions(arguments)) => {
@@ -51,7 +52,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
             Ok(DONE)
         }
         Some(Command::Network(_)) => Err(not_yet("network")),
-        Some(Command::Study(_)) => Err(not_yet("study")),
+        Some(Command::Study(command)) => study::study(&command),
     }
 }
 

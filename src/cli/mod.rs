@@ -15,6 +15,8 @@ mod output;
 mod progress;
 mod run;
 mod source;
+mod study;
+mod study_run;
 mod summary;
 
 pub use entry::main;

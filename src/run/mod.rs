@@ -14,3 +14,4 @@ pub mod simulation;
 pub mod sink;
 #[cfg(test)]
 pub(crate) mod toy;
+pub mod trial;

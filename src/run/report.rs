@@ -51,7 +51,7 @@ impl Machine {
 }
 
 /// A measure without its name, which is the key in the report.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     /// Value in `unit`; absent where it could not be measured.
     pub value: Option<f64>,

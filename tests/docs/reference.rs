@@ -74,6 +74,18 @@ fn the_reference_names_every_key_of_the_schema_and_no_other() {
 }
 
 #[test]
+fn the_reference_names_every_key_of_a_study_file_and_no_other() {
+    let schema = meniscus::study::schema();
+    let mut there = BTreeSet::new();
+    keys(&schema, &schema, "", &mut there);
+    let page = page("docs/reference/study-file.md");
+    let told = ["Top level", "`[[axis]]`", "`[[expect]]`", "`[[trend]]`", "`[report]`"];
+    let told = told.iter().flat_map(|title| names(&section(&page, title))).collect::<BTreeSet<_>>();
+    assert!(there.len() > 30 && told.contains("axis.pair"), "{there:?}");
+    assert_eq!(told.into_iter().filter(|name| name != "axis.pair").collect::<BTreeSet<_>>(), there);
+}
+
+#[test]
 fn the_reference_names_every_word_that_a_key_can_be() {
     let schema = schema();
     let page = page("docs/reference/case-file.md").text + &text("docs/reference/presets.md");

@@ -1,0 +1,187 @@
+//! `meniscus study run`: all runs on this machine or on a cluster, or one of them in this process.
+
+use std::io::Read;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use super::arguments::{Engine, StudyRunArguments};
+use super::exit::{BAD_INPUT, DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
+use super::interrupt;
+use super::output::{duration, say, tell};
+use super::progress::ProgressDisplay;
+use super::study::{Opened, cores, finish, folder, open};
+use crate::study::engine::{End, Event, Work, free_memory, work};
+use crate::study::estimate::estimates;
+use crate::study::execute::{self, Ending, ExecuteError};
+use crate::study::folder::Share;
+use crate::study::load::load;
+use crate::study::runs::{PlannedRun, Run, runs};
+use crate::study::slurm::{Array, submit};
+
+/// Bytes of a mebibyte.
+const BYTES_PER_MEBIBYTE: u64 = 1 << 20;
+
+/// Does the runs; the exit code says how the study stands.
+pub fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
+    if let Some(index) = arguments.index {
+        return one(arguments, index.get());
+    }
+    let opened = open(&arguments.study, arguments.out.as_deref())?;
+    let _claim = opened.folder.claim(Share::Alone).map_err(|error| Failure::new(USAGE, &error))?;
+    match arguments.engine {
+        Engine::Local => here(arguments, &opened),
+        Engine::Slurm => cluster(arguments, &opened),
+    }
+}
+
+/// All runs on this machine.
+fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
+    let cores = cores(&arguments.cores);
+    let flag = interrupt::flag();
+    tell(format_args!("{} -> {}", opened.study.title, opened.folder.root().display()));
+    let kept = opened.folder.estimates();
+    let estimates = estimates(&opened.runs, &opened.program, cores, (&kept, true), &flag);
+    let memory = arguments.memory.map(|mebibytes| mebibytes * BYTES_PER_MEBIBYTE).or_else(free_memory);
+    let Opened { runs, folder, program, .. } = opened;
+    let job = Work { runs, estimates: &estimates, folder, program, cores, memory, interrupt: &flag };
+    let mut teller = Teller { count: runs.len(), ended: 0 };
+    let ends = work(&job, &mut |event| teller.tell(event)).map_err(|error| Failure::new(USAGE, &error))?;
+    if flag.load(Ordering::Relaxed) {
+        tell("interrupted; the same command goes on");
+        return Ok(INTERRUPTED);
+    }
+    let code = finish(opened)?;
+    // A process that died left no report.
+    let failed = ends.iter().filter(|end| matches!(end, End::Failed(_))).count();
+    if failed > 0 {
+        tell(format_args!("{failed} of {} runs failed; the same command tries them again", runs.len()));
+        return Ok(SOLVER_FAILED);
+    }
+    Ok(if ends.contains(&End::Interrupted) { INTERRUPTED } else { code })
+}
+
+/// Tells how the study goes on.
+struct Teller {
+    count: usize,
+    ended: usize,
+}
+
+impl Teller {
+    fn tell(&mut self, event: &Event<'_>) {
+        match event {
+            Event::Started(run) => tell(format_args!("run {} of {}, {}: begun", run.index, self.count, run.name)),
+            Event::Ended(run, end, time) => {
+                self.ended += 1;
+                let (ended, word) = (self.ended, word(end, *time));
+                tell(format_args!("run {} of {}, {}: {word} ({ended} ended)", run.index, self.count, run.name));
+            }
+        }
+    }
+}
+
+fn word(end: &End, time: Duration) -> String {
+    match end {
+        End::WasComplete => "was complete".to_owned(),
+        End::Complete => format!("done in {}", duration(time.as_secs_f64())),
+        End::Interrupted => "interrupted".to_owned(),
+        End::Failed(why) => format!("FAILED: {why}"),
+    }
+}
+
+/// The runs that are not complete as a job array.
+fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
+    let cores = cores(&arguments.cores);
+    let kept = opened.folder.estimates();
+    let never = AtomicBool::new(false);
+    let results = crate::study::results::results(&opened.runs, &opened.folder);
+    let open: Vec<&PlannedRun> = opened
+        .runs
+        .iter()
+        .zip(&results)
+        .filter(|(_, result)| result.standing.report().is_none())
+        .map(|(run, _)| run)
+        .collect();
+    if open.is_empty() {
+        return finish(opened);
+    }
+    let owned: Vec<PlannedRun> = open.iter().map(|run| (*run).clone()).collect();
+    let estimates = estimates(&owned, &opened.program, cores, (&kept, true), &never);
+    let array = Array {
+        name: &opened.study.name,
+        runs: &open,
+        estimates: &estimates,
+        folder: &opened.folder,
+        program: &opened.program,
+        threads: cores.threads,
+        jobs: arguments.cores.jobs.map(usize::from),
+        options: &arguments.sbatch,
+    };
+    let job = submit(&array).map_err(|error| Failure::new(USAGE, &error))?;
+    say(format_args!("{} runs submitted as job array {job}", open.len()));
+    say(
+        "when they are done, `meniscus study report` writes the report, and the same command again submits what is left",
+    );
+    Ok(DONE)
+}
+
+/// One run in this process.
+fn one(arguments: &StudyRunArguments, index: usize) -> Result<u8, Failure> {
+    let study = load(&arguments.study).map_err(Failure::input)?;
+    let all: Vec<Run> = runs(&study);
+    let Some(run) = all.get(index - 1) else {
+        let message = format!("the study has {} runs, there is no run {index}", all.len());
+        return Err(Failure::new(USAGE, &message));
+    };
+    let planned = run.plan(&study).map_err(Failure::input)?;
+    if arguments.digest.as_ref().is_some_and(|digest| *digest != planned.digest()) {
+        let message = format!("the study or a case was changed while the study ran: run {index} is another one now");
+        return Err(Failure::new(BAD_INPUT, &message));
+    }
+    let folder = folder(&study, arguments.out.as_deref());
+    let _claim = match arguments.worker {
+        true => None,
+        false => Some(folder.claim(Share::Together).map_err(|error| Failure::new(USAGE, &error))?),
+    };
+    let flag = interrupt::flag();
+    if arguments.worker {
+        stop_with_parent(&flag);
+    }
+    let threads = usize::from(arguments.cores.threads);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| Failure::new(USAGE, &format_args!("cannot start {threads} threads: {error}; use fewer")))?;
+    tell(format_args!("run {index}: {} -> {}", run.name, folder.run(&run.name).display()));
+    let mut display = ProgressDisplay::new();
+    let ending = pool.install(|| execute::run(&planned, &folder, &flag, &mut display));
+    display.finish();
+    match ending.map_err(|error| failure(&error))? {
+        Ending::WasComplete => {
+            say(format_args!("run {index} was complete"));
+            Ok(DONE)
+        }
+        Ending::Complete => {
+            say(format_args!("run {index} is complete"));
+            Ok(DONE)
+        }
+        Ending::Interrupted => Ok(INTERRUPTED),
+        Ending::Failed(why) => Err(Failure::new(SOLVER_FAILED, &why)),
+    }
+}
+
+fn failure(error: &ExecuteError) -> Failure {
+    let code = if matches!(error, ExecuteError::Setup(_)) { BAD_INPUT } else { USAGE };
+    Failure::new(code, error)
+}
+
+/// Sets the flag when the standard input closes: the process that started this one holds its other end.
+fn stop_with_parent(flag: &Arc<AtomicBool>) {
+    let flag = Arc::clone(flag);
+    std::thread::spawn(move || {
+        let mut rest = Vec::new();
+        // Whatever ends the reading, there is no parent to work for any more.
+        let _ = std::io::stdin().read_to_end(&mut rest);
+        flag.store(true, Ordering::Relaxed);
+    });
+}

@@ -1,0 +1,83 @@
+//! What a run would take: some first steps of its solver, without any file.
+
+use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
+
+use crate::case::checked::Case;
+use crate::solver::{Solver, SolverError};
+
+/// Steps that are tried; the first ones set up what later ones reuse.
+const TRIAL_STEPS: usize = 5;
+
+/// What a run would take.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Trial {
+    /// Number of unknowns: particles or nodes.
+    pub unknowns: usize,
+    /// Time step of the last step tried, in s.
+    pub time_step_s: f64,
+    /// The limit that ruled it.
+    pub limit: String,
+    /// Expected number of steps.
+    pub steps: f64,
+    /// Expected wall time in s on as many threads as there are now.
+    pub duration_s: f64,
+    /// Most memory of this process so far in bytes, where the system tells.
+    pub memory_bytes: Option<u64>,
+}
+
+/// Does the first steps of a case with its solver at time zero.
+///
+/// # Errors
+/// [`SolverError`] of a step that fails.
+pub fn trial(case: &Case, solver: &mut dyn Solver) -> Result<Trial, SolverError> {
+    let clock = Instant::now();
+    let mut info = solver.step(case.end)?;
+    for _ in 1..TRIAL_STEPS {
+        if solver.time() >= case.end {
+            break;
+        }
+        info = solver.step(case.end)?;
+    }
+    let per_step = clock.elapsed().as_secs_f64() / solver.steps().max(1) as f64;
+    let steps = (case.end / info.dt).ceil();
+    Ok(Trial {
+        unknowns: solver.statistics().unknowns,
+        time_step_s: info.dt,
+        limit: info.limit.to_owned(),
+        steps,
+        duration_s: steps * per_step,
+        memory_bytes: memory(),
+    })
+}
+
+/// The most memory that the program has used so far in bytes, where the system tells.
+fn memory() -> Option<u64> {
+    const BYTES_PER_KIBIBYTE: u64 = 1024;
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.split_whitespace().next()?.parse::<u64>().ok().map(|kibibytes| kibibytes * BYTES_PER_KIBIBYTE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::toy::{ToySolver, case};
+    use super::*;
+
+    #[test]
+    fn a_trial_counts_the_steps_that_are_left() {
+        let found = trial(&case(), &mut ToySolver::new()).unwrap();
+        // The toy takes steps of 0.0234 s through 1 s.
+        assert_eq!((found.unknowns, found.steps), (36, 43.0));
+        assert!(found.duration_s > 0.0);
+    }
+
+    #[test]
+    fn a_solver_that_fails_at_once_is_told() {
+        let mut solver = ToySolver::new();
+        solver.fails_after = Some(2);
+        assert!(trial(&case(), &mut solver).is_err());
+    }
+}

@@ -1,0 +1,77 @@
+//! Other processes of this program: one tries what a run would take, one does a run.
+//!
+//! A run has a process of its own, so that one that dies takes no other with it, its memory can be measured and goes back
+//! to the system, and a run on a cluster is the same command. The standard input of such a process is a pipe that its parent
+//! holds: where the parent dies, however that comes, the pipe closes and the run saves its state and ends.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+
+use super::runs::Run;
+
+/// The program, to be started again.
+#[derive(Debug, Clone)]
+pub struct Program {
+    /// Its file.
+    pub path: PathBuf,
+    /// The study file.
+    pub study: PathBuf,
+}
+
+/// Number of threads of the loops of a process.
+const THREADS: &str = "RAYON_NUM_THREADS";
+
+impl Program {
+    /// What `check --json` tells of a run on so many threads.
+    ///
+    /// # Errors
+    /// What the process said.
+    pub fn check(&self, run: &Run, threads: usize) -> Result<Vec<u8>, String> {
+        let mut command = Command::new(&self.path);
+        command.args(["check", "--json"]).env(THREADS, threads.to_string()).stdin(Stdio::null());
+        for text in run.overrides() {
+            command.arg(format!("--set={text}"));
+        }
+        let output = command.arg("--").arg(&run.case).output().map_err(|error| error.to_string())?;
+        if output.status.success() {
+            return Ok(output.stdout);
+        }
+        Err(errors_of(&output))
+    }
+
+    /// Starts a process that does one run; `digest` is that of its case, and what it says goes to `log`.
+    ///
+    /// # Errors
+    /// [`io::Error`] where it cannot be started.
+    pub fn start(&self, run: &Run, digest: &str, folder: &Path, threads: usize, log: File) -> io::Result<Child> {
+        let also_log = log.try_clone()?;
+        Command::new(&self.path)
+            .args(["study", "run", "--worker", "--digest", digest, "--index", &run.index.to_string()])
+            .args(["--threads", &threads.to_string(), "--out"])
+            .arg(folder)
+            .arg("--")
+            .arg(&self.study)
+            .stdin(Stdio::piped())
+            .stdout(log)
+            .stderr(also_log)
+            .spawn()
+    }
+}
+
+/// What a process wrote as results, on one line.
+#[must_use]
+pub fn words_of(output: &Output) -> String {
+    one_line(&output.stdout)
+}
+
+/// What a process wrote as errors, on one line.
+#[must_use]
+pub fn errors_of(output: &Output) -> String {
+    one_line(&output.stderr)
+}
+
+fn one_line(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,162 @@
+//! Errors along a parameter, as a rule a spacing, in runs that differ in nothing else, and their observed orders.
+
+use std::collections::BTreeMap;
+
+use super::definition::{Choice, Study, Target, Trend};
+use super::results::RunResult;
+use super::runs::shown;
+use crate::analysis::convergence::observed_order;
+
+/// Last part of a key that is a spacing.
+const SPACING: &str = "spacing";
+
+/// The error of a measure along a parameter, in runs that differ in nothing else.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Convergence {
+    /// The runs: the values of the other parameters.
+    pub of: String,
+    /// Name of the measure.
+    pub measure: String,
+    /// Name of the parameter.
+    pub along: String,
+    /// Parameter and error of each complete run, from the largest parameter to the smallest.
+    pub points: Vec<(f64, f64)>,
+    /// Whether all runs of it are complete and measured.
+    pub complete: bool,
+    /// Whether all runs of it reached their end; a measure that is missing then is a miss.
+    pub ended: bool,
+}
+
+impl Convergence {
+    /// The observed order; none for fewer than two points, or errors of 0.
+    #[must_use]
+    pub fn order(&self) -> Option<f64> {
+        let (parameters, errors): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
+        Some(observed_order(&parameters, &errors)).filter(|order| self.points.len() > 1 && order.is_finite())
+    }
+
+    /// Whether the error falls from each point to the next.
+    #[must_use]
+    pub fn falls(&self) -> bool {
+        self.points.windows(2).all(|pair| pair[1].1 < pair[0].1)
+    }
+}
+
+/// The errors of a trend, one list per combination of the other parameters.
+#[must_use]
+pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<Convergence> {
+    // Parameters that vary together with the one along which the error falls do not tell runs apart.
+    let together: Vec<&str> = study
+        .axes
+        .iter()
+        .filter(|axis| axis.columns.iter().any(|column| column.name == trend.along))
+        .flat_map(|axis| axis.columns.iter().map(|column| column.name.as_str()))
+        .collect();
+    let group = |result: &RunResult| {
+        let others = result.run.parameters.iter().filter(|p| !together.contains(&p.name.as_str()));
+        others.map(|p| format!("{}={}", p.name, shown(&p.value))).collect::<Vec<_>>().join(" ")
+    };
+    let mut groups: Vec<(String, Vec<&RunResult>)> = Vec::new();
+    let mut places: BTreeMap<String, usize> = BTreeMap::new();
+    for result in results.iter().filter(|result| result.run.is_in(&trend.only)) {
+        let name = group(result);
+        let place = *places.entry(name.clone()).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push((name, Vec::new()));
+        }
+        groups[place].1.push(result);
+    }
+    let convergence = |(of, results): (String, Vec<&RunResult>)| {
+        let point = |result: &&RunResult| {
+            let reference = result.run.quantity(&trend.reference)?;
+            Some((result.number(&trend.along)?, (result.number(&trend.measure)? - reference).abs()))
+        };
+        let mut points: Vec<(f64, f64)> = results.iter().filter_map(point).collect();
+        points.sort_by(|a, b| b.0.total_cmp(&a.0));
+        Convergence {
+            of: if of.is_empty() { "all runs".to_owned() } else { of },
+            measure: trend.measure.clone(),
+            along: trend.along.clone(),
+            complete: points.len() == results.len(),
+            ended: results.iter().all(|result| result.standing.report().is_some()),
+            points,
+        }
+    };
+    groups.into_iter().map(convergence).collect()
+}
+
+/// The errors of all trends; and where a spacing varies, of every measure of which the study expects a value.
+#[must_use]
+pub fn all(study: &Study, results: &[RunResult]) -> Vec<Convergence> {
+    let is_spacing = |target: &Target| match target {
+        Target::Key(key) => key.rsplit('.').next() == Some(SPACING),
+        _ => false,
+    };
+    let spacing = study.parameters().find(|column| is_spacing(&column.target) && column.values.len() > 1);
+    let mut trends = study.trends.clone();
+    for expected in &study.expectations {
+        let Some(column) = spacing else { break };
+        if !trends.iter().any(|trend| trend.measure == expected.measure && trend.along == column.name) {
+            trends.push(Trend {
+                measure: expected.measure.clone(),
+                reference: expected.value.clone(),
+                along: column.name.clone(),
+                order: None,
+                only: Choice::default(),
+            });
+        }
+    }
+    let found = trends.iter().flat_map(|trend| convergences(study, trend, results));
+    found.filter(|convergence| convergence.points.len() > 1).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use toml::Value;
+
+    use super::super::toy::{complete, study};
+    use super::super::verdict::{Verdict, judgments};
+    use super::*;
+
+    #[test]
+    fn errors_that_fall_with_the_spacing_have_their_order_per_group() {
+        let study = study(
+            "[[axis]]\nname = 'angle'\nkey = 'a'\nvalues = [30, 60]\n\
+             [[axis]]\npair = [{ key = 'dx', values = [0.1, 0.4, 0.2] }, { name = 'n', values = [4, 1, 2] }]\n\
+             [[trend]]\nmeasure = 'm'\nreference = 'angle'\nalong = 'dx'\norder = 1.9\n",
+        );
+        // Errors of second order at 30 degrees, of first order at 60.
+        let results = complete(&study, |run| {
+            let (angle, dx) =
+                (run.value("angle").and_then(Value::as_integer), run.value("dx").and_then(Value::as_float));
+            match (angle, dx) {
+                (Some(30), Some(dx)) => 30.0 - dx * dx,
+                (_, Some(dx)) => 60.0 + dx,
+                _ => f64::NAN,
+            }
+        });
+        let found = convergences(&study, &study.trends[0], &results);
+        assert_eq!(found.iter().map(|c| c.of.as_str()).collect::<Vec<_>>(), ["angle=30", "angle=60"]);
+        assert_eq!(found[0].points.iter().map(|point| point.0).collect::<Vec<_>>(), [0.4, 0.2, 0.1]);
+        for (convergence, order) in found.iter().zip([2.0, 1.0]) {
+            // Rounding of 30 - 0.01 leaves twelve digits of the error.
+            assert!((convergence.order().unwrap() - order).abs() < 1.0e-9 && convergence.falls());
+        }
+        let verdicts: Vec<Verdict> = judgments(&study, &results).iter().map(|judgment| judgment.verdict).collect();
+        assert_eq!(verdicts, [Verdict::Met, Verdict::Missed]);
+    }
+
+    #[test]
+    fn where_a_spacing_varies_every_expected_measure_has_its_order() {
+        let study = study(
+            "[[axis]]\nname = 'dx'\nkey = 'sph.spacing'\nvalues = [0.4, 0.2]\n\
+             [[expect]]\nmeasure = 'm'\nvalue = 1.0\ntolerance = 0.01\nwhere = { dx = 0.2 }\n",
+        );
+        let results = complete(&study, |run| 1.0 + run.value("dx").and_then(Value::as_float).unwrap().powi(3));
+        let found = all(&study, &results);
+        assert_eq!(found.len(), 1);
+        // Rounding of 1.008 leaves fourteen digits of the error.
+        assert!((found[0].order().unwrap() - 3.0).abs() < 1.0e-9, "{found:?}");
+        assert_eq!(all(&study, &results[..1]), []);
+    }
+}

@@ -1,0 +1,312 @@
+//! The curves of a study as SVG: measures or errors over a parameter, a line per value of another one.
+
+use plotters::coord::combinators::BindKeyPoints;
+use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
+use plotters::prelude::*;
+
+use super::definition::{Curve, Quantity};
+use super::raw::RawScale;
+use super::results::{RunResult, measures};
+use super::runs::shown;
+use crate::analysis::convergence::observed_order;
+
+/// Width and height of the drawing in pixels.
+const SIZE: (u32, u32) = (720, 480);
+/// Width of the legend beside it in pixels.
+const LEGEND: u32 = 220;
+/// Height of a line of the legend in pixels.
+const LEGEND_LINE: i32 = 20;
+/// Share of the range that is left free on either side of the data.
+const RIM: f64 = 0.06;
+/// Colors that color-blind eyes and gray prints keep apart (Okabe and Ito 2008).
+const COLORS: [RGBColor; 10] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(90, 90, 90),
+    RGBColor(150, 75, 0),
+    RGBColor(128, 128, 0),
+    RGBColor(0, 0, 0),
+];
+
+/// A curve that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct CurveError(String);
+
+/// A point: x, y, and the uncertainty of y.
+type Point = (f64, f64, Option<f64>);
+
+/// One line of a curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// Its name; empty where there is only one line.
+    pub name: String,
+    /// Points by rising x.
+    pub points: Vec<Point>,
+    /// What y should be, by rising x.
+    pub reference: Vec<(f64, f64)>,
+}
+
+/// The lines of a curve, from runs that have the values; points that a logarithmic scale cannot show are left out.
+#[must_use]
+pub fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
+    let mut lines: Vec<Line> = Vec::new();
+    let fits = |scale, value: f64| value.is_finite() && (scale == RawScale::Linear || value > 0.0);
+    for result in results {
+        let name = curve.series.as_ref().and_then(|name| Some(format!("{name} = {}", shown(result.run.value(name)?))));
+        let name = name.unwrap_or_default();
+        let (Some(x), Some(y)) = (result.number(&curve.x), result.number(&curve.y)) else { continue };
+        let reference = curve.reference.as_ref().and_then(|reference| result.run.quantity(reference));
+        let shown_y = if curve.error { (y - reference.unwrap_or(0.0)).abs() } else { y };
+        let place = lines.iter().position(|line| line.name == name).unwrap_or_else(|| {
+            lines.push(Line { name, points: Vec::new(), reference: Vec::new() });
+            lines.len() - 1
+        });
+        if fits(curve.x_scale, x) && fits(curve.y_scale, shown_y) {
+            lines[place].points.push((x, shown_y, result.uncertainty(&curve.y)));
+        }
+        if let Some(reference) = reference.filter(|r| !curve.error && fits(curve.x_scale, x) && fits(curve.y_scale, *r))
+        {
+            lines[place].reference.push((x, reference));
+        }
+    }
+    for line in &mut lines {
+        line.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        line.reference.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    lines.retain(|line| !line.points.is_empty());
+    lines
+}
+
+/// Draws a curve; `None` where there is no point yet.
+///
+/// # Errors
+/// [`CurveError`].
+pub fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, CurveError> {
+    let lines = lines(curve, results);
+    if lines.is_empty() {
+        return Ok(None);
+    }
+    let whiskers = |&(_, y, u): &Point| {
+        let u = u.filter(|_| !curve.error).unwrap_or(0.0);
+        [y - u, y + u]
+    };
+    let all_x = lines.iter().flat_map(|line| line.points.iter().map(|point| point.0));
+    let all_y = lines
+        .iter()
+        .flat_map(|line| line.points.iter().flat_map(whiskers).chain(line.reference.iter().map(|point| point.1)));
+    let x = range(all_x, curve.x_scale);
+    let y = range(all_y, curve.y_scale);
+    let labels = (curve.x.clone(), y_label(curve, results));
+    let mut text = String::new();
+    let x_ticks = distinct(&lines).filter(|_| curve.x_scale == RawScale::Logarithmic);
+    let log = |range: std::ops::Range<f64>, ticks: Option<Vec<f64>>| {
+        let ticks = ticks.unwrap_or_else(|| logarithmic_ticks(&range));
+        range.log_scale().with_key_points(ticks)
+    };
+    let drawn = match (curve.x_scale, curve.y_scale) {
+        (RawScale::Linear, RawScale::Linear) => draw(&mut text, curve, &lines, labels, x, y),
+        (RawScale::Logarithmic, RawScale::Linear) => draw(&mut text, curve, &lines, labels, log(x, x_ticks), y),
+        (RawScale::Linear, RawScale::Logarithmic) => draw(&mut text, curve, &lines, labels, x, log(y, None)),
+        (RawScale::Logarithmic, RawScale::Logarithmic) => {
+            draw(&mut text, curve, &lines, labels, log(x, x_ticks), log(y, None))
+        }
+    };
+    drawn.map_err(|error| CurveError(error.to_string()))?;
+    Ok(Some(text))
+}
+
+/// The range of some values with a rim.
+fn range(values: impl Iterator<Item = f64> + Clone, scale: RawScale) -> std::ops::Range<f64> {
+    /// Half the range around a single value, as a share of it.
+    const AROUND_ONE: f64 = 0.5;
+    let logarithmic = scale == RawScale::Logarithmic;
+    let to = |value: f64| if logarithmic { value.ln() } else { value };
+    let from = |value: f64| if logarithmic { value.exp() } else { value };
+    let values = values.filter(|value| !logarithmic || *value > 0.0);
+    let low = to(values.clone().fold(f64::INFINITY, f64::min));
+    let high = to(values.fold(f64::NEG_INFINITY, f64::max));
+    let size = high - low;
+    let rim = if size > 0.0 { RIM * size } else { (AROUND_ONE * low.abs()).max(AROUND_ONE) };
+    from(low - rim)..from(high + rim)
+}
+
+/// The values of x where they are few enough to stand at the axis.
+fn distinct(lines: &[Line]) -> Option<Vec<f64>> {
+    /// More labels than this would meet.
+    const MOST: usize = 8;
+    let mut values: Vec<f64> = lines.iter().flat_map(|line| line.points.iter().map(|point| point.0)).collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    Some(values).filter(|values| values.len() <= MOST)
+}
+
+/// Round numbers in a range of a logarithmic axis: powers of ten where there are enough of them, else more.
+fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
+    /// Fewest numbers that tell a scale.
+    const FEWEST: usize = 3;
+    const STEPS: [&[f64]; 3] = [&[1.0], &[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
+    let exponents = range.start.log10().floor() as i32..=range.end.log10().floor() as i32;
+    let ticks = |steps: &[f64]| -> Vec<f64> {
+        // A product with a power of ten would leave digits behind the last one.
+        let tick = |step: &f64, exponent: i32| format!("{step}e{exponent}").parse().unwrap_or(f64::NAN);
+        let all = exponents.clone().flat_map(|e| steps.iter().map(move |step| tick(step, e)));
+        all.filter(|tick| range.contains(tick)).collect()
+    };
+    let mut candidates = STEPS.iter().map(|steps| ticks(steps));
+    candidates.find(|ticks| ticks.len() >= FEWEST).unwrap_or_else(|| ticks(STEPS[2]))
+}
+
+fn y_label(curve: &Curve, results: &[RunResult]) -> String {
+    let of = match (&curve.reference, curve.error) {
+        (Some(Quantity::Parameter(name)), true) => format!("|{} − {name}|", curve.y),
+        (Some(Quantity::Number(number)), true) if *number != 0.0 => format!("|{} − {number}|", curve.y),
+        (_, true) => format!("|{}|", curve.y),
+        (_, false) => curve.y.clone(),
+    };
+    match measures(results).get(&curve.y) {
+        Some(unit) if !unit.is_empty() => format!("{of} in {unit}"),
+        _ => of,
+    }
+}
+
+/// The name of a line in the legend, with the observed order where the scales show a power law as a straight line.
+fn legend(curve: &Curve, line: &Line) -> String {
+    let logarithmic = curve.x_scale == RawScale::Logarithmic && curve.y_scale == RawScale::Logarithmic;
+    let (x, y): (Vec<f64>, Vec<f64>) = line.points.iter().map(|point| (point.0, point.1)).unzip();
+    let order = observed_order(&x, &y);
+    let order = (curve.error && logarithmic && order.is_finite()).then(|| format!("order {order:.2}"));
+    [Some(line.name.clone()).filter(|name| !name.is_empty()), order]
+        .into_iter()
+        .flatten()
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+type DrawingError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+fn draw<'a, X, Y>(
+    text: &'a mut String,
+    curve: &Curve,
+    lines: &[Line],
+    (x_label, y_label): (String, String),
+    x: X,
+    y: Y,
+) -> Result<(), DrawingError<'a>>
+where
+    X: AsRangedCoord<Value = f64>,
+    Y: AsRangedCoord<Value = f64>,
+    X::CoordDescType: ValueFormatter<f64>,
+    Y::CoordDescType: ValueFormatter<f64>,
+{
+    let names: Vec<String> = lines.iter().map(|line| legend(curve, line)).collect();
+    let named = names.iter().any(|name| !name.is_empty());
+    let width = SIZE.0 + if named { LEGEND } else { 0 };
+    let whole = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
+    whole.fill(&WHITE)?;
+    let (area, beside) = whole.split_horizontally(SIZE.0);
+    if named {
+        draw_legend(&beside, &names)?;
+    }
+    let mut chart = ChartBuilder::on(&area)
+        .caption(&curve.title, ("sans-serif", 20))
+        .margin(12)
+        .x_label_area_size(48)
+        .y_label_area_size(84)
+        .build_cartesian_2d(x, y)?;
+    let number = |value: &f64| short(*value);
+    chart
+        .configure_mesh()
+        .x_desc(x_label)
+        .y_desc(y_label)
+        .label_style(("sans-serif", 14))
+        .axis_desc_style(("sans-serif", 15))
+        .light_line_style(RGBColor(240, 240, 240))
+        .x_label_formatter(&number)
+        .y_label_formatter(&number)
+        .draw()?;
+    for (number, line) in lines.iter().enumerate() {
+        let color = color_of(number);
+        let points = || line.points.iter().map(|&(x, y, _)| (x, y));
+        chart.draw_series(LineSeries::new(points(), color.stroke_width(2)))?;
+        chart.draw_series(points().map(|point| Circle::new(point, 4, color.filled())))?;
+        let bars = line.points.iter().filter_map(|&(x, y, u)| Some((x, y, u.filter(|_| !curve.error)?)));
+        chart.draw_series(bars.map(|(x, y, u)| PathElement::new([(x, y - u), (x, y + u)], color)))?;
+        chart.draw_series(DashedLineSeries::new(line.reference.iter().copied(), 6, 4, color.into()))?;
+    }
+    whole.present()
+}
+
+fn color_of(number: usize) -> RGBColor {
+    COLORS[number % COLORS.len()]
+}
+
+/// Draws the names of the lines beside the drawing, where they hide nothing.
+fn draw_legend<'a>(
+    area: &DrawingArea<SVGBackend<'a>, plotters::coord::Shift>,
+    names: &[String],
+) -> Result<(), DrawingError<'a>> {
+    for (number, name) in names.iter().enumerate() {
+        let y = 60 + LEGEND_LINE * number as i32;
+        area.draw(&PathElement::new([(0, y), (18, y)], color_of(number).stroke_width(2)))?;
+        area.draw(&Text::new(name.as_str(), (26, y - 6), ("sans-serif", 14)))?;
+    }
+    Ok(())
+}
+
+/// A number at an axis: no more digits than it has.
+fn short(value: f64) -> String {
+    /// Outside of these an exponent is shorter than zeros.
+    const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
+    /// Rounds off what computing with ticks leaves.
+    const DIGITS: usize = 6;
+    let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+    if rounded == 0.0 || FIXED.contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::toy::{complete, study};
+    use super::*;
+
+    #[test]
+    fn a_line_per_value_of_the_series_with_what_it_should_be() {
+        let study = study(
+            "[[axis]]\nname = 'angle'\nkey = 'a'\nvalues = [30, 60]\n[[axis]]\nkey = 'dx'\nvalues = [0.2, 0.1, 0.0]\n\
+             [[report.curve]]\nx = 'dx'\ny = 'm'\nseries = 'angle'\nreference = 'angle'\nx-scale = 'logarithmic'\n\
+             [[report.curve]]\nx = 'dx'\ny = 'm'\nseries = 'angle'\nreference = 'angle'\nerror = true\n\
+             x-scale = 'logarithmic'\ny-scale = 'logarithmic'\n",
+        );
+        let results = complete(&study, |run| {
+            run.quantity(&Quantity::Parameter("angle".into())).unwrap()
+                + run.quantity(&Quantity::Parameter("dx".into())).unwrap().powi(2)
+        });
+        let found = lines(&study.report.curves[0], &results);
+        // The spacing of 0 has no place on a logarithmic axis.
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[1].name.as_str(), found[1].points.len()), ("angle = 60", 2));
+        assert_eq!(found[1].reference, [(0.1, 60.0), (0.2, 60.0)]);
+        let text = svg(&study.report.curves[1], &results).unwrap().unwrap();
+        assert!(text.starts_with("<svg") && text.matches("order 2.00").count() == 2, "{text}");
+        assert!(text.contains("|m − angle| in deg") && !text.contains("NaN"));
+        assert_eq!(svg(&study.report.curves[0], &[]).unwrap(), None);
+    }
+
+    #[test]
+    fn logarithmic_axes_have_round_numbers() {
+        assert_eq!(logarithmic_ticks(&(0.5e-3..2.0)), [1.0e-3, 1.0e-2, 0.1, 1.0]);
+        assert_eq!(logarithmic_ticks(&(0.3..1.4)), [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]);
+    }
+
+    #[test]
+    fn a_single_point_has_room_around_it() {
+        for scale in [RawScale::Linear, RawScale::Logarithmic] {
+            let range = range([2.0].into_iter(), scale);
+            assert!(range.start < 1.5 && range.end > 2.5, "{range:?}");
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! A checked study: what varies, what must come out, what is shown.
+
+use std::path::PathBuf;
+
+use toml::Value;
+
+use super::raw::RawScale;
+use crate::input::{InputError, Problem};
+
+/// A study that can be planned.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// Name: that of its file without the ending.
+    pub name: String,
+    /// One line that says what the study shows.
+    pub title: String,
+    /// The base case; absent where an axis names the cases.
+    pub case: Option<PathBuf>,
+    /// Values that are the same in all runs.
+    pub set: Vec<Assignment>,
+    /// What varies; the first one varies slowest.
+    pub axes: Vec<Axis>,
+    /// Measures that must come out as said.
+    pub expectations: Vec<Expectation>,
+    /// Errors that must fall.
+    pub trends: Vec<Trend>,
+    /// What the report shows.
+    pub report: ReportPlan,
+    pub(super) document: crate::input::Document,
+}
+
+/// A value for a key of the case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Assignment {
+    /// `KEY=VALUE`, as in `--set`.
+    pub text: String,
+    /// Where it comes from: a key path in the study file.
+    pub origin: String,
+}
+
+/// What varies together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The parameters, at least one, all with as many values.
+    pub columns: Vec<Column>,
+}
+
+impl Axis {
+    /// Number of values.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+
+    /// Whether there is no value.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// What a parameter changes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Target {
+    /// A key of the case.
+    Key(String),
+    /// The base case: the files, one per value.
+    Case(Vec<PathBuf>),
+    /// Nothing: a number to compare with.
+    Nothing,
+}
+
+/// A parameter with its values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Name.
+    pub name: String,
+    /// What it changes.
+    pub target: Target,
+    /// The values.
+    pub values: Vec<Value>,
+    /// Where each value comes from: a key path in the study file.
+    pub origins: Vec<String>,
+}
+
+/// A number, or the parameter that holds it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Quantity {
+    /// A number.
+    Number(f64),
+    /// The name of a parameter.
+    Parameter(String),
+}
+
+/// Values of parameters that choose runs; none chooses all.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Choice(pub Vec<(String, Value)>);
+
+/// A measure that must come out as said.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expectation {
+    /// Name of the measure.
+    pub measure: String,
+    /// Expected value in the measure's unit.
+    pub value: Quantity,
+    /// Largest accepted deviation, same unit.
+    pub tolerance: Quantity,
+    /// In which runs.
+    pub only: Choice,
+}
+
+/// An error that must fall as a parameter falls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trend {
+    /// Name of the measure.
+    pub measure: String,
+    /// What the measure should be.
+    pub reference: Quantity,
+    /// The parameter.
+    pub along: String,
+    /// Least observed order.
+    pub order: Option<f64>,
+    /// In which runs.
+    pub only: Choice,
+}
+
+/// What the report shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReportPlan {
+    /// The measures in the table; absent for all.
+    pub measures: Option<Vec<String>>,
+    /// The curves.
+    pub curves: Vec<Curve>,
+    /// Whether the page shows the picture of each run.
+    pub pictures: bool,
+}
+
+/// A curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Title.
+    pub title: String,
+    /// Parameter or measure along x.
+    pub x: String,
+    /// Measure along y.
+    pub y: String,
+    /// Parameter that makes a line of its own per value.
+    pub series: Option<String>,
+    /// What y should be.
+    pub reference: Option<Quantity>,
+    /// Whether the deviation from the reference is drawn in place of y.
+    pub error: bool,
+    /// Scale of x.
+    pub x_scale: RawScale,
+    /// Scale of y.
+    pub y_scale: RawScale,
+}
+
+impl Study {
+    /// All parameters in the order of the axes.
+    pub fn parameters(&self) -> impl Iterator<Item = &Column> {
+        self.axes.iter().flat_map(|axis| &axis.columns)
+    }
+
+    /// Puts problems at their places in the study file.
+    ///
+    /// # Errors
+    /// [`InputError`] where there are problems.
+    pub fn refuse(&self, problems: Vec<Problem>) -> Result<(), InputError> {
+        self.document.refuse(problems)
+    }
+}

@@ -1,0 +1,106 @@
+//! One run of a study: begun, taken up where it stopped, or left alone where it is complete.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use super::folder::{FolderError, StudyFolder};
+use super::results::{Standing, standing};
+use super::runs::PlannedRun;
+use crate::io::{FileError, restart};
+use crate::run::execute::{Job, Mode, RunError, case_hash, execute};
+use crate::run::folder::resume;
+use crate::run::report::{REPORT, Report, Status};
+use crate::run::setup::{self, SetupError};
+use crate::run::simulation::Watcher;
+
+/// How a run ended.
+#[derive(Debug)]
+pub enum Ending {
+    /// It was complete before.
+    WasComplete,
+    /// It is complete now.
+    Complete,
+    /// It was asked to stop, and can be taken up.
+    Interrupted,
+    /// The solver failed.
+    Failed(String),
+}
+
+/// A run that cannot be done.
+#[derive(Debug, thiserror::Error)]
+pub enum ExecuteError {
+    /// The study folder.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// No solver.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The run.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+/// Does a run. A saved state of the same case is taken up; what is left of another case is removed.
+///
+/// # Errors
+/// [`ExecuteError`]; a solver that fails is no error here.
+pub fn run(
+    planned: &PlannedRun,
+    folder: &StudyFolder,
+    interrupt: &AtomicBool,
+    watcher: &mut dyn Watcher,
+) -> Result<Ending, ExecuteError> {
+    let Some(_claim) = folder.claim_run(&planned.run.name, interrupt)? else { return Ok(Ending::Interrupted) };
+    let path = folder.run(&planned.run.name);
+    match standing(&path, &planned.resolved) {
+        // A kill may have come between the report and the picture, which is drawn after it.
+        Standing::Complete(_) if path.join("picture.png").exists() => return Ok(Ending::WasComplete),
+        Standing::Complete(_) => {}
+        _ => remove_file(&path.join(REPORT))?,
+    }
+    let can_resume = restart::path(&path).exists() && resume(&path, case_hash(&planned.case)?).is_ok();
+    if can_resume {
+        match attempt(planned, &path, Mode::Resume, interrupt, watcher) {
+            // A state of another version of the program, say: the run begins anew.
+            Err(ExecuteError::Run(RunError::State(_))) => {}
+            other => return other,
+        }
+    }
+    remove_folder(&path)?;
+    attempt(planned, &path, Mode::New, interrupt, watcher)
+}
+
+fn attempt(
+    planned: &PlannedRun,
+    path: &Path,
+    mode: Mode,
+    interrupt: &AtomicBool,
+    watcher: &mut dyn Watcher,
+) -> Result<Ending, ExecuteError> {
+    let mut solver = setup::build(&planned.case)?;
+    let job = Job { case: &planned.case, resolved: &planned.resolved, folder: path.to_path_buf(), mode };
+    let finished = execute(&job, solver.as_mut(), interrupt, watcher)?;
+    Ok(ending(&finished.report))
+}
+
+fn ending(report: &Report) -> Ending {
+    match report.status {
+        Status::Done | Status::ExpectationFailed => Ending::Complete,
+        Status::Interrupted => Ending::Interrupted,
+        Status::Failed => Ending::Failed(report.error.clone().unwrap_or_else(|| "the solver failed".to_owned())),
+    }
+}
+
+fn remove_file(path: &Path) -> Result<(), FolderError> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(FileError::write(path)(error).into()),
+        _ => Ok(()),
+    }
+}
+
+fn remove_folder(path: &Path) -> Result<(), FolderError> {
+    match std::fs::remove_dir_all(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(FileError::write(path)(error).into()),
+        _ => Ok(()),
+    }
+}

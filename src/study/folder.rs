@@ -1,0 +1,206 @@
+//! The folder of a study: where things are in it, and who may work in it.
+//!
+//! `study.lock` says that a folder is that of a study. A process that does all runs holds it alone, processes that do one
+//! run each hold it together; each run has a lock of its own. The locks are those of the operating system, which takes them
+//! back when a process ends, however it ends: none is ever left over.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{Read, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use crate::io::{FileError, atomic};
+
+/// Name of the lock.
+const LOCK: &str = "study.lock";
+
+/// Time between two looks at a lock that another process holds.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
+
+/// A study folder that cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// There are other files in it.
+    #[error("the folder {} is not empty and no study is in it; choose another one with --out DIR", .0.display())]
+    Foreign(PathBuf),
+    /// Another process works in it.
+    #[error("the study in {} is being worked on by another process{by}; wait for it, or stop it", folder.display())]
+    InUse {
+        /// The folder.
+        folder: PathBuf,
+        /// Who, where that is known.
+        by: String,
+    },
+    /// It cannot be locked.
+    #[error("cannot lock {}: {source}; choose a folder on another disk with --out DIR", path.display())]
+    Lock {
+        /// The lock.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// It cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+/// The folder of a study.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StudyFolder {
+    root: PathBuf,
+}
+
+/// The right to work in a folder or at a run; it ends when this is dropped.
+#[derive(Debug)]
+pub struct Claim {
+    _lock: File,
+}
+
+/// How many processes may hold a lock at once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Share {
+    /// This one only.
+    Alone,
+    /// All that ask for it so.
+    Together,
+}
+
+impl StudyFolder {
+    /// The folder at a path; nothing is read or made.
+    #[must_use]
+    pub fn new(root: &Path) -> Self {
+        Self { root: root.to_path_buf() }
+    }
+
+    /// The folder itself.
+    #[must_use]
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The folder of a run.
+    #[must_use]
+    pub fn run(&self, name: &str) -> PathBuf {
+        self.root.join("runs").join(name)
+    }
+
+    /// What a run says.
+    #[must_use]
+    pub fn log(&self, name: &str) -> PathBuf {
+        self.root.join("logs").join(format!("{name}.log"))
+    }
+
+    /// What runs are expected to take.
+    #[must_use]
+    pub fn estimates(&self) -> PathBuf {
+        self.root.join("estimates.json")
+    }
+
+    /// Makes the folder where it is missing, and takes the right to work in it.
+    ///
+    /// # Errors
+    /// [`FolderError`].
+    pub fn claim(&self, share: Share) -> Result<Claim, FolderError> {
+        let path = self.root.join(LOCK);
+        if !path.exists() {
+            atomic::make_folder(&self.root)?;
+            let mut entries = fs::read_dir(&self.root).map_err(FileError::read(&self.root))?;
+            // Another process may have made the lock just now.
+            if entries.next().is_some() && !path.exists() {
+                return Err(FolderError::Foreign(self.root.clone()));
+            }
+        }
+        let mut file = open(&path)?;
+        if !try_lock(&file, share, &path)? {
+            let mut by = String::new();
+            // Only to be told: without it the message is shorter.
+            let _ = file.read_to_string(&mut by);
+            let by = if by.trim().is_empty() { String::new() } else { format!(" ({})", by.trim()) };
+            return Err(FolderError::InUse { folder: self.root.clone(), by });
+        }
+        if share == Share::Alone {
+            // Only to be told, as above.
+            let _ = file.set_len(0).and_then(|()| file.rewind());
+            let _ = writeln!(file, "process {}", std::process::id());
+        }
+        Ok(Claim { _lock: file })
+    }
+
+    /// Takes the right to work at a run; waits while another process does, `None` where it was interrupted meanwhile.
+    ///
+    /// # Errors
+    /// [`FolderError`].
+    pub fn claim_run(&self, name: &str, interrupt: &AtomicBool) -> Result<Option<Claim>, FolderError> {
+        let path = self.root.join("locks").join(name);
+        atomic::make_folder(&self.root.join("locks"))?;
+        let file = open(&path)?;
+        while !try_lock(&file, Share::Alone, &path)? {
+            if interrupt.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            std::thread::sleep(BETWEEN_LOOKS);
+        }
+        Ok(Some(Claim { _lock: file }))
+    }
+}
+
+fn open(path: &Path) -> Result<File, FolderError> {
+    let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
+    Ok(opened.map_err(FileError::write(path))?)
+}
+
+fn try_lock(file: &File, share: Share, path: &Path) -> Result<bool, FolderError> {
+    let locked = match share {
+        Share::Alone => file.try_lock(),
+        Share::Together => file.try_lock_shared(),
+    };
+    match locked {
+        Ok(()) => Ok(true),
+        Err(TryLockError::WouldBlock) => Ok(false),
+        Err(TryLockError::Error(source)) => Err(FolderError::Lock { path: path.to_path_buf(), source }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_worked_in_by_one_process_or_by_many_that_share_it() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = StudyFolder::new(&root.path().join("out"));
+        let alone = folder.claim(Share::Alone).unwrap();
+        let message = folder.claim(Share::Together).unwrap_err().to_string();
+        assert!(message.contains(&format!("(process {})", std::process::id())), "{message}");
+        drop(alone);
+        let together = [folder.claim(Share::Together).unwrap(), folder.claim(Share::Together).unwrap()];
+        assert!(matches!(folder.claim(Share::Alone), Err(FolderError::InUse { .. })));
+        drop(together);
+        folder.claim(Share::Alone).unwrap();
+    }
+
+    #[test]
+    fn a_lock_that_a_dead_process_left_is_no_obstacle() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join(LOCK), "process 1\n").unwrap();
+        StudyFolder::new(root.path()).claim(Share::Alone).unwrap();
+    }
+
+    #[test]
+    fn a_folder_with_other_files_is_refused() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("thesis.tex"), "").unwrap();
+        assert!(matches!(StudyFolder::new(root.path()).claim(Share::Alone), Err(FolderError::Foreign(_))));
+        assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_run_that_another_process_does_is_waited_for_until_an_interrupt() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = StudyFolder::new(root.path());
+        let held = folder.claim_run("a", &AtomicBool::new(false)).unwrap();
+        assert!(held.is_some() && folder.claim_run("a", &AtomicBool::new(true)).unwrap().is_none());
+        assert!(folder.claim_run("b", &AtomicBool::new(true)).unwrap().is_some());
+    }
+}

@@ -1,0 +1,130 @@
+//! From a study file to a checked [`Study`]; the cases of its runs are checked by [`super::runs`].
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::axis::axis;
+use super::definition::{Assignment, Axis, Expectation, Study, Target, Trend};
+use super::names::Names;
+use super::raw::RawStudy;
+use super::results::RUN_NUMBERS;
+use crate::case::{Checker, read};
+use crate::input::{Document, InputError, Overrides};
+
+/// Most runs of a study.
+const MOST_RUNS: usize = 10_000;
+
+/// Names of columns of the table that a parameter must not have, besides the numbers of a run.
+const TAKEN: [&str; 2] = ["run", "status"];
+
+/// The JSON schema of a study file.
+#[must_use]
+pub fn schema() -> serde_json::Value {
+    schemars::schema_for!(RawStudy).to_value()
+}
+
+/// Loads and checks a study file.
+///
+/// # Errors
+/// All mistakes of the file, or why it cannot be read.
+pub fn load(path: &Path) -> Result<Study, InputError> {
+    let text = read(path, "check the path of the study file")?;
+    let document = Document::parse(&path.display().to_string(), &text, &Overrides::default())?;
+    let reading = document.read::<RawStudy>();
+    let raw = &reading.value;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut checker = Checker::default();
+    checker.format(raw.format);
+    let title = checker.require("title", raw.title.clone(), "title = \"what the study shows\"");
+    let axes: Vec<Option<Axis>> =
+        raw.axis.iter().flatten().enumerate().map(|(index, raw)| axis(&mut checker, raw, index, folder)).collect();
+    let all_axes = axes.iter().all(Option::is_some);
+    let axes: Vec<Axis> = axes.into_iter().flatten().collect();
+    check_axes(&mut checker, &axes);
+    let cases = axes.iter().flat_map(|axis| &axis.columns).any(|column| matches!(column.target, Target::Case(_)));
+    if raw.case.is_some() && cases {
+        checker.refuse("case", "expected one source of base cases, found `case` and an axis with `cases`", "drop one");
+    } else if raw.case.is_none() && !cases && all_axes {
+        checker.require("case", raw.case.as_ref(), "case = \"../cases/sessile-drop.toml\"");
+    }
+    let set = assignments(&mut checker, raw.set.as_deref().unwrap_or_default());
+    check_keys(&mut checker, &axes, &set);
+    // A parameter of an axis that is wrong would seem unknown.
+    let names = Names { axes: &axes, complete: all_axes };
+    let expectations = raw.expect.iter().flatten().enumerate();
+    let expectations: Vec<Option<Expectation>> =
+        expectations.map(|(index, raw)| names.expectation(&mut checker, raw, &format!("expect[{index}]"))).collect();
+    let trends = raw.trend.iter().flatten().enumerate();
+    let trends: Vec<Option<Trend>> =
+        trends.map(|(index, raw)| names.trend(&mut checker, raw, &format!("trend[{index}]"))).collect();
+    let report = names.report(&mut checker, raw.report.as_ref());
+    let case = raw.case.as_ref().map(|case| folder.join(case));
+    let mistakes = reading.refuse(checker.problems);
+    let (Some(title), Some(expectations), Some(trends), Some(report), true) = (
+        title,
+        expectations.into_iter().collect(),
+        trends.into_iter().collect(),
+        report,
+        mistakes.is_empty() && all_axes,
+    ) else {
+        return Err(InputError { mistakes });
+    };
+    let name = path.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    Ok(Study { name, title, case, set, axes, expectations, trends, report, document })
+}
+
+/// Refuses parameters of one name and too many runs.
+fn check_axes(checker: &mut Checker, axes: &[Axis]) {
+    let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
+    for (index, column) in
+        axes.iter().enumerate().flat_map(|(index, axis)| axis.columns.iter().map(move |c| (index, c)))
+    {
+        let at = format!("axis[{index}]");
+        let name = column.name.as_str();
+        let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
+        if !is_bare {
+            checker.refuse(&at, format!("`{name}` is not a name of a parameter"), "letters, digits, `-` and `_`");
+        } else if TAKEN.contains(&name) || RUN_NUMBERS.contains(&name) {
+            checker.refuse(&at, format!("`{name}` is the name of a column of the report"), "give another `name`");
+        } else if let Some(other) = seen.insert(name, index) {
+            let help = "give one of them another `name`";
+            checker.refuse(&at, format!("two parameters are called `{name}`, the other one in axis[{other}]"), help);
+        }
+    }
+    let runs = axes.iter().try_fold(1_usize, |runs, axis| runs.checked_mul(axis.len().max(1)));
+    if runs.is_none_or(|runs| runs > MOST_RUNS) {
+        let runs = runs.map_or("too many".to_owned(), |runs| runs.to_string());
+        checker.refuse("axis", format!("expected at most {MOST_RUNS} runs, found {runs}"), "use shorter axes");
+    }
+}
+
+/// Reads the fixed values, each at its place.
+fn assignments(checker: &mut Checker, texts: &[String]) -> Vec<Assignment> {
+    let mut all = Vec::new();
+    for (index, text) in texts.iter().enumerate() {
+        let origin = format!("set[{index}]");
+        match Overrides::parse(&[text]) {
+            Ok(_) => all.push(Assignment { text: text.clone(), origin }),
+            Err(error) => error.mistakes.iter().for_each(|m| checker.refuse(&origin, m.message.clone(), m.help_text())),
+        }
+    }
+    all
+}
+
+/// Refuses keys that are no key paths, and keys that are given twice.
+fn check_keys(checker: &mut Checker, axes: &[Axis], set: &[Assignment]) {
+    let mut seen: Vec<&str> =
+        set.iter().filter_map(|one| one.text.split_once('=')).map(|(key, _)| key.trim()).collect();
+    for (index, axis) in axes.iter().enumerate() {
+        for column in &axis.columns {
+            let Target::Key(key) = &column.target else { continue };
+            let at = format!("axis[{index}]");
+            if Overrides::parse(&[format!("{key}=0")]).is_err() {
+                checker.refuse(&at, format!("`{key}` is not a key path"), "as in geometry.shapes[0].disc.radius");
+            } else if seen.contains(&key.as_str()) {
+                checker.refuse(&at, format!("`{key}` is set twice"), "keep it in one axis, or in `set`");
+            }
+            seen.push(key);
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! What a study file says of measures: expectations, trends and curves, which name parameters by the names of the axes.
+
+use std::collections::BTreeMap;
+
+use toml::Value;
+
+use super::definition::{Axis, Choice, Curve, Expectation, Quantity, ReportPlan, Trend};
+use super::raw::{RawCurve, RawExpectation, RawReport, RawTrend};
+use super::runs::shown;
+use crate::case::Checker;
+use crate::input::nearest;
+
+/// The parameters, by which expectations and curves name values.
+pub(super) struct Names<'a> {
+    /// The axes.
+    pub axes: &'a [Axis],
+    /// Whether all axes were understood.
+    pub complete: bool,
+}
+
+impl Names<'_> {
+    fn is_known(&self, name: &str) -> bool {
+        !self.complete || self.values(name).is_some()
+    }
+
+    fn values(&self, name: &str) -> Option<&[Value]> {
+        self.axes.iter().flat_map(|axis| &axis.columns).find(|column| column.name == name).map(|c| c.values.as_slice())
+    }
+
+    /// Whether all values of a parameter are numbers; true where that is not known.
+    fn is_numeric(&self, name: &str) -> bool {
+        self.values(name).is_none_or(|values| values.iter().all(|value| number_of(value).is_some()))
+    }
+
+    fn refuse_unknown(&self, checker: &mut Checker, at: &str, name: &str) {
+        let known: Vec<&str> = self.axes.iter().flat_map(|axis| &axis.columns).map(|c| c.name.as_str()).collect();
+        let meant =
+            nearest(name, known.iter().copied()).map_or(String::new(), |near| format!("did you mean `{near}`? "));
+        let list = if known.is_empty() { "there are none".to_owned() } else { known.join(", ") };
+        checker.refuse(at, format!("`{name}` is not a parameter of this study"), format!("{meant}parameters: {list}"));
+    }
+
+    fn parameter(&self, checker: &mut Checker, at: &str, name: &str) -> Option<String> {
+        if !self.is_known(name) {
+            self.refuse_unknown(checker, at, name);
+            return None;
+        }
+        Some(name.to_owned())
+    }
+
+    /// A parameter that holds numbers.
+    fn numeric(&self, checker: &mut Checker, at: &str, name: &str) -> Option<String> {
+        let name = self.parameter(checker, at, name)?;
+        if !self.is_numeric(&name) {
+            checker.refuse(at, format!("expected a parameter with numbers, `{name}` has others"), "");
+            return None;
+        }
+        Some(name)
+    }
+
+    fn quantity(&self, checker: &mut Checker, at: &str, value: &Value) -> Option<Quantity> {
+        match value {
+            Value::String(name) => self.numeric(checker, at, name).map(Quantity::Parameter),
+            other => match number_of(other) {
+                Some(number) => Some(Quantity::Number(number)),
+                None => {
+                    let found = other.type_str();
+                    checker.refuse(at, format!("expected a number or the name of a parameter, found {found}"), "");
+                    None
+                }
+            },
+        }
+    }
+
+    fn choice(&self, checker: &mut Checker, at: &str, only: Option<&BTreeMap<String, Value>>) -> Option<Choice> {
+        let mut chosen = Some(Vec::new());
+        for (name, value) in only.into_iter().flatten() {
+            let at = format!("{at}.where.{name}");
+            let Some(name) = self.parameter(checker, &at, name) else {
+                chosen = None;
+                continue;
+            };
+            if self.values(&name).is_some_and(|values| !values.iter().any(|other| same(other, value))) {
+                checker.refuse(&at, format!("`{name}` never is {}", shown(value)), "name one of its values");
+                chosen = None;
+            }
+            if let Some(chosen) = &mut chosen {
+                chosen.push((name, value.clone()));
+            }
+        }
+        chosen.map(Choice)
+    }
+
+    pub fn expectation(&self, checker: &mut Checker, raw: &RawExpectation, at: &str) -> Option<Expectation> {
+        let measure = measure(checker, raw.measure.as_ref(), at);
+        let key = format!("{at}.value");
+        let value = checker.require(&key, raw.value.as_ref(), "value = 1.0, or the name of a parameter");
+        let value = value.and_then(|value| self.quantity(checker, &key, value));
+        let key = format!("{at}.tolerance");
+        let tolerance = checker.require(&key, raw.tolerance.as_ref(), "tolerance = 0.02");
+        let tolerance = tolerance.and_then(|value| self.quantity(checker, &key, value));
+        if let Some(Quantity::Number(number)) = tolerance {
+            checker.positive(&key, Some(number), "a tolerance");
+        }
+        let only = self.choice(checker, at, raw.only.as_ref());
+        Some(Expectation { measure: measure?, value: value?, tolerance: tolerance?, only: only? })
+    }
+
+    pub fn trend(&self, checker: &mut Checker, raw: &RawTrend, at: &str) -> Option<Trend> {
+        let measure = measure(checker, raw.measure.as_ref(), at);
+        let reference = match &raw.reference {
+            Some(value) => self.quantity(checker, &format!("{at}.reference"), value),
+            None => Some(Quantity::Number(0.0)),
+        };
+        let key = format!("{at}.along");
+        let along = checker.require(&key, raw.along.as_ref(), "along = \"spacing\"");
+        let along = along.and_then(|name| self.numeric(checker, &key, name));
+        let only = self.choice(checker, at, raw.only.as_ref());
+        Some(Trend { measure: measure?, reference: reference?, along: along?, order: raw.order, only: only? })
+    }
+
+    pub fn report(&self, checker: &mut Checker, raw: Option<&RawReport>) -> Option<ReportPlan> {
+        let raw = raw.cloned().unwrap_or_default();
+        let curves = raw.curve.iter().flatten().enumerate();
+        let curves: Vec<Option<Curve>> =
+            curves.map(|(index, raw)| self.curve(checker, raw, &format!("report.curve[{index}]"))).collect();
+        Some(ReportPlan {
+            measures: raw.measures,
+            curves: curves.into_iter().collect::<Option<_>>()?,
+            pictures: raw.pictures.unwrap_or(true),
+        })
+    }
+
+    fn curve(&self, checker: &mut Checker, raw: &RawCurve, at: &str) -> Option<Curve> {
+        let x = checker.require(&format!("{at}.x"), raw.x.clone(), "x = \"spacing\"");
+        let y = checker.require(&format!("{at}.y"), raw.y.clone(), "y = \"contact-angle-deg\"");
+        if let Some(x) = x.as_deref().filter(|x| !self.is_numeric(x)) {
+            checker.refuse(format!("{at}.x"), format!("expected a parameter with numbers, `{x}` has others"), "");
+        }
+        let series = match &raw.series {
+            Some(name) => Some(self.parameter(checker, &format!("{at}.series"), name)?),
+            None => None,
+        };
+        let reference = match &raw.reference {
+            Some(value) => Some(self.quantity(checker, &format!("{at}.reference"), value)?),
+            None => None,
+        };
+        let (x, y) = (x?, y?);
+        let error = raw.error.unwrap_or(false);
+        let title = raw
+            .title
+            .clone()
+            .unwrap_or_else(|| if error { format!("error of {y} over {x}") } else { format!("{y} over {x}") });
+        Some(Curve {
+            title,
+            x,
+            y,
+            series,
+            reference,
+            error,
+            x_scale: raw.x_scale.unwrap_or_default(),
+            y_scale: raw.y_scale.unwrap_or_default(),
+        })
+    }
+}
+
+fn measure(checker: &mut Checker, name: Option<&String>, at: &str) -> Option<String> {
+    checker.require(&format!("{at}.measure"), name.cloned(), "measure = \"contact-angle-deg\"")
+}
+
+/// The number that a value is, whole or not.
+#[must_use]
+pub fn number_of(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
+/// Whether two values are the same; numbers are, however they were written.
+#[must_use]
+pub fn same(a: &Value, b: &Value) -> bool {
+    match (number_of(a), number_of(b)) {
+        (Some(a), Some(b)) => a == b,
+        _ => a == b,
+    }
+}

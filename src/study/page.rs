@@ -1,0 +1,162 @@
+//! The page of a study: one HTML file that opens from the disk without a network. Curves stand in it; pictures lie in the
+//! folders of the runs beside it.
+
+use std::fmt::Write;
+
+use super::convergence::Convergence;
+use super::definition::Study;
+use super::results::{RunResult, Standing};
+use super::runs::shown;
+use super::table::Table;
+use super::verdict::{Judgment, Verdict, digits};
+
+/// Look of the page.
+const STYLE: &str = "body{font:16px/1.45 system-ui,sans-serif;margin:2em auto;max-width:78em;padding:0 1em;color:#222}\
+table{border-collapse:collapse;margin:1em 0;font-variant-numeric:tabular-nums}\
+th,td{border:1px solid #ccc;padding:.3em .6em;text-align:left;vertical-align:top}th{background:#f2f2f2}\
+.met{color:#00674a}.missed,.failed{color:#b3261e;font-weight:600}.wide{overflow-x:auto}\
+.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(17em,1fr));gap:1em}\
+figure{margin:0}figure img{width:100%;border:1px solid #ddd}figcaption{font-size:.85em;color:#444}\
+.curves svg{max-width:100%;height:auto}";
+
+/// What stands on the page.
+#[derive(Debug)]
+pub struct Content<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// Its runs.
+    pub results: &'a [RunResult],
+    /// The table for people.
+    pub table: &'a Table,
+    /// The curves as SVG.
+    pub curves: &'a [String],
+    /// The expectations.
+    pub judgments: &'a [Judgment],
+    /// Errors along spacings.
+    pub convergences: &'a [Convergence],
+}
+
+/// The page as HTML.
+#[must_use]
+pub fn page(content: &Content<'_>) -> String {
+    let title = escaped(&content.study.title);
+    let done = content.results.iter().filter(|result| result.standing.report().is_some()).count();
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n\
+         <body>\n<h1>{title}</h1>\n<p>{done} of {} runs done. The same table with all digits: \
+         <a href=\"table.csv\">table.csv</a>.</p>\n",
+        content.results.len()
+    );
+    push_failures(&mut html, content.results);
+    push_judgments(&mut html, content.judgments);
+    push_convergences(&mut html, content.convergences);
+    if !content.curves.is_empty() {
+        html += "<h2>Curves</h2>\n<div class=\"curves\">\n";
+        html.extend(content.curves.iter().map(String::as_str));
+        html += "\n</div>\n";
+    }
+    html += "<h2>Table</h2>\n<div class=\"wide\">\n";
+    push_table(&mut html, content.table);
+    html += "</div>\n";
+    if content.study.report.pictures {
+        push_pictures(&mut html, content.results);
+    }
+    html += "</body>\n</html>\n";
+    html
+}
+
+fn push_failures(html: &mut String, results: &[RunResult]) {
+    let failed: Vec<(&str, &str)> = results
+        .iter()
+        .filter_map(|result| match &result.standing {
+            Standing::Failed(report) => Some((result.run.name.as_str(), report.error.as_deref().unwrap_or_default())),
+            _ => None,
+        })
+        .collect();
+    if failed.is_empty() {
+        return;
+    }
+    html.push_str("<h2>Failed runs</h2>\n<ul>\n");
+    for (name, error) in failed {
+        // Writing to a string cannot fail.
+        let _ = writeln!(html, "<li class=\"failed\">{}: {}</li>", escaped(name), escaped(error));
+    }
+    html.push_str("</ul>\n");
+}
+
+fn push_judgments(html: &mut String, judgments: &[Judgment]) {
+    if judgments.is_empty() {
+        return;
+    }
+    html.push_str(
+        "<h2>Expectations</h2>\n<table>\n<tr><th>run</th><th>measure</th><th>expected</th><th>found</th><th></th></tr>\n",
+    );
+    for judgment in judgments {
+        let class = match judgment.verdict {
+            Verdict::Met => "met",
+            Verdict::Missed => "missed",
+            Verdict::Open => "open",
+        };
+        let [of, measure, expected, found] =
+            [&judgment.of, &judgment.measure, &judgment.expected, &judgment.found].map(|text| escaped(text));
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            html,
+            "<tr><td>{of}</td><td>{measure}</td><td>{expected}</td><td>{found}</td><td class=\"{class}\">{}</td></tr>",
+            judgment.verdict.word()
+        );
+    }
+    html.push_str("</table>\n");
+}
+
+fn push_convergences(html: &mut String, convergences: &[Convergence]) {
+    if convergences.is_empty() {
+        return;
+    }
+    html.push_str("<h2>Convergence</h2>\n");
+    let row = |convergence: &Convergence| {
+        let points: Vec<String> = convergence
+            .points
+            .iter()
+            .map(|(parameter, error)| format!("{} ({})", digits(*error), shown(&(*parameter).into())))
+            .collect();
+        let order = convergence.order().map_or("–".to_owned(), |order| format!("{order:.2}"));
+        vec![convergence.of.clone(), convergence.measure.clone(), points.join(", "), order]
+    };
+    let along = convergences.first().map_or("", |convergence| convergence.along.as_str());
+    let heads = ["runs", "measure", &format!("error ({along})"), "observed order"].map(str::to_owned).to_vec();
+    push_table(html, &Table { heads, rows: convergences.iter().map(row).collect() });
+}
+
+fn push_table(html: &mut String, table: &Table) {
+    let row = |cells: &[String], tag: &str| {
+        let cells: String = cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
+        format!("<tr>{cells}</tr>\n")
+    };
+    html.push_str("<table>\n");
+    html.push_str(&row(&table.heads, "th"));
+    html.extend(table.rows.iter().map(|cells| row(cells, "td")));
+    html.push_str("</table>\n");
+}
+
+fn push_pictures(html: &mut String, results: &[RunResult]) {
+    html.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
+    for result in results.iter().filter(|result| result.standing.report().is_some()) {
+        let parameters: Vec<String> =
+            result.run.parameters.iter().map(|p| format!("{} = {}", p.name, shown(&p.value))).collect();
+        let (name, caption) = (escaped(&result.run.name), escaped(&parameters.join(", ")));
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            html,
+            "<figure><a href=\"runs/{name}/picture.png\"><img loading=\"lazy\" src=\"runs/{name}/picture.png\" \
+             alt=\"{caption}\"></a><figcaption>{caption}</figcaption></figure>"
+        );
+    }
+    html.push_str("</div>\n");
+}
+
+/// The text with the signs of HTML written out.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,124 @@
+//! The report of a study: tables, curves and the page, from what stands in its folder.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use super::convergence::{self, Convergence};
+use super::curve::{CurveError, svg};
+use super::definition::Study;
+use super::folder::StudyFolder;
+use super::page::{Content, page};
+use super::results::{RUN_NUMBERS, RunResult, measures, results};
+use super::runs::PlannedRun;
+use super::table::{self, Table};
+use super::verdict::{Judgment, judgments};
+use crate::input::nearest;
+use crate::io::{FileError, atomic};
+
+/// A report that cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// A file.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A curve.
+    #[error("a curve cannot be drawn: {0}")]
+    Curve(#[from] CurveError),
+}
+
+/// A report as written.
+#[derive(Debug)]
+pub struct StudyReport {
+    /// The runs and where they stand.
+    pub results: Vec<RunResult>,
+    /// The table for people.
+    pub table: Table,
+    /// The expectations.
+    pub judgments: Vec<Judgment>,
+    /// Errors along spacings, with their orders.
+    pub convergences: Vec<Convergence>,
+    /// Names in the study file that are neither a parameter nor a measure of its runs, with a way out.
+    pub unknown: Vec<String>,
+    /// The page.
+    pub page: PathBuf,
+}
+
+/// Writes `table.csv`, `table.md`, `curve-1.svg` and so on, and `report.html`.
+///
+/// # Errors
+/// [`ReportError`].
+pub fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Result<StudyReport, ReportError> {
+    let results = results(runs, folder);
+    let judgments = judgments(study, &results);
+    let convergences = convergence::all(study, &results);
+    let table = table::short(study, &results);
+    let path = |name: &str| folder.root().join(name);
+    atomic::write(&path("table.csv"), &table::full(study, &results).csv()?)?;
+    atomic::write(&path("table.md"), table.markdown().as_bytes())?;
+    let mut curves = Vec::new();
+    for (number, curve) in study.report.curves.iter().enumerate() {
+        if let Some(text) = svg(curve, &results)? {
+            atomic::write(&path(&format!("curve-{}.svg", number + 1)), text.as_bytes())?;
+            curves.push(text);
+        }
+    }
+    let content = Content {
+        study,
+        results: &results,
+        table: &table,
+        curves: &curves,
+        judgments: &judgments,
+        convergences: &convergences,
+    };
+    let place = path("report.html");
+    atomic::write(&place, page(&content).as_bytes())?;
+    let unknown = unknown(study, &results);
+    Ok(StudyReport { results, table, judgments, convergences, unknown, page: place })
+}
+
+/// Names that no run has; which measures there are is known when a run is complete.
+fn unknown(study: &Study, results: &[RunResult]) -> Vec<String> {
+    let there = measures(results);
+    if there.is_empty() {
+        return Vec::new();
+    }
+    let known: BTreeSet<&str> = there.keys().map(String::as_str).chain(RUN_NUMBERS).collect();
+    let expected = study.expectations.iter().map(|expected| &expected.measure);
+    let trends = study.trends.iter().map(|trend| &trend.measure);
+    let curves = study.report.curves.iter().flat_map(|curve| [&curve.x, &curve.y]);
+    let table = study.report.measures.iter().flatten();
+    let names: BTreeSet<&str> = expected.chain(trends).chain(curves).chain(table).map(String::as_str).collect();
+    let is_parameter = |name: &str| study.parameters().any(|column| column.name == name);
+    let lost = names.into_iter().filter(|name| !known.contains(name) && !is_parameter(name));
+    let told = |name: &str| match nearest(name, known.iter().copied()) {
+        Some(near) => format!("no run has the measure `{name}`; did you mean `{near}`?"),
+        None => format!("no run has the measure `{name}`"),
+    };
+    lost.map(told).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::results::Standing;
+    use super::super::toy::{complete, study};
+    use super::*;
+
+    #[test]
+    fn a_misspelled_measure_is_told_when_the_measures_are_known() {
+        let study = study(
+            "[[axis]]\nkey = 'spacing'\nvalues = [1, 2]\n[[trend]]\nmeasure = 'velocity-eror'\nalong = 'spacing'\n\
+             [[report.curve]]\nx = 'spacing'\ny = 'm'\n[[report.curve]]\nx = 'wall-time-s'\ny = 'far-from-all'\n",
+        );
+        let mut results = complete(&study, |_| 1.0);
+        assert_eq!(unknown(&study, &[]), Vec::<String>::new());
+        let Standing::Complete(report) = &mut results[0].standing else { panic!("complete") };
+        report.measures.insert("velocity-error".into(), report.measures["m"].clone());
+        assert_eq!(
+            unknown(&study, &results),
+            [
+                "no run has the measure `far-from-all`",
+                "no run has the measure `velocity-eror`; did you mean `velocity-error`?"
+            ]
+        );
+    }
+}

@@ -1,0 +1,148 @@
+//! What the runs of a study left in their folders.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::folder::StudyFolder;
+use super::runs::{PlannedRun, Run};
+use crate::run::report::{REPORT, Reading, Status};
+
+/// What is known of a run besides its measures.
+pub const RUN_NUMBERS: [&str; 3] = ["steps", "unknowns", "wall-time-s"];
+
+/// The report of a run, as far as studies read it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct RunReport {
+    /// How the run ended.
+    pub status: Status,
+    /// What went wrong.
+    pub error: Option<String>,
+    /// Steps since time zero.
+    pub steps: u64,
+    /// Measures by name.
+    pub measures: BTreeMap<String, Reading>,
+    /// The case file with all that was filled in.
+    pub resolved_case: String,
+    /// Wall time.
+    pub wall_time_s: Total,
+    /// The solver's work.
+    pub solver: Unknowns,
+}
+
+/// Wall time in s of the last process that worked at the run.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Total {
+    /// From the start to the report.
+    pub total: f64,
+}
+
+/// Number of unknowns.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Unknowns {
+    /// Particles or nodes.
+    pub unknowns: usize,
+}
+
+/// Where a run stands.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Standing {
+    /// Nothing was done, or it was done with another case.
+    New,
+    /// It was begun.
+    Partial,
+    /// It failed.
+    Failed(Box<RunReport>),
+    /// It reached its end.
+    Complete(Box<RunReport>),
+}
+
+impl Standing {
+    /// One word for tables.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::New => "to do",
+            Self::Partial => "partial",
+            Self::Failed(_) => "failed",
+            Self::Complete(_) => "done",
+        }
+    }
+
+    /// The report of a complete run.
+    #[must_use]
+    pub fn report(&self) -> Option<&RunReport> {
+        match self {
+            Self::Complete(report) => Some(report),
+            _ => None,
+        }
+    }
+}
+
+/// Where the run in a folder stands, if it is of the case that `resolved` says.
+#[must_use]
+pub fn standing(folder: &Path, resolved: &str) -> Standing {
+    let report: Option<RunReport> =
+        std::fs::read(folder.join(REPORT)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    match report {
+        Some(report) if report.resolved_case != resolved => Standing::New,
+        Some(report) => match report.status {
+            Status::Done | Status::ExpectationFailed => Standing::Complete(Box::new(report)),
+            Status::Failed => Standing::Failed(Box::new(report)),
+            Status::Interrupted => Standing::Partial,
+        },
+        None if crate::io::restart::path(folder).exists() => Standing::Partial,
+        None => Standing::New,
+    }
+}
+
+/// A run with where it stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunResult {
+    /// The run.
+    pub run: Run,
+    /// Where it stands.
+    pub standing: Standing,
+}
+
+impl RunResult {
+    /// A parameter that is a number, a measure, or one of `steps`, `unknowns`, `wall-time-s` of a complete run.
+    #[must_use]
+    pub fn number(&self, name: &str) -> Option<f64> {
+        if let Some(value) = self.run.value(name) {
+            return super::names::number_of(value);
+        }
+        let report = self.standing.report()?;
+        match name {
+            "steps" => Some(report.steps as f64),
+            "unknowns" => Some(report.solver.unknowns as f64),
+            "wall-time-s" => Some(report.wall_time_s.total),
+            measure => report.measures.get(measure)?.value,
+        }
+    }
+
+    /// The uncertainty of a measure.
+    #[must_use]
+    pub fn uncertainty(&self, measure: &str) -> Option<f64> {
+        self.standing.report()?.measures.get(measure)?.uncertainty
+    }
+}
+
+/// All runs with where they stand.
+#[must_use]
+pub fn results(runs: &[PlannedRun], folder: &StudyFolder) -> Vec<RunResult> {
+    let result = |planned: &PlannedRun| RunResult {
+        run: planned.run.clone(),
+        standing: standing(&folder.run(&planned.run.name), &planned.resolved),
+    };
+    runs.iter().map(result).collect()
+}
+
+/// The measures of all complete runs with their units, by name.
+#[must_use]
+pub fn measures(results: &[RunResult]) -> BTreeMap<String, String> {
+    let reports = results.iter().filter_map(|result| result.standing.report());
+    reports.flat_map(|report| report.measures.iter().map(|(name, m)| (name.clone(), m.unit.clone()))).collect()
+}

@@ -1,0 +1,143 @@
+//! The table of a study: a row per run, as CSV with all digits and as Markdown for people.
+
+use super::definition::Study;
+use super::results::{RunResult, measures};
+use super::runs::shown;
+use super::verdict::{digits, significant};
+use crate::io::FileError;
+
+/// A table with its numbers as text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Table {
+    /// Heads.
+    pub heads: Vec<String>,
+    /// Rows, each as long as the heads.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// The measures that the table shows: those asked for, or all that the runs have.
+fn shown_measures(study: &Study, results: &[RunResult]) -> Vec<String> {
+    study.report.measures.clone().unwrap_or_else(|| measures(results).into_keys().collect())
+}
+
+/// The table for other programs: all digits, an uncertainty beside each measure that has one, nothing where there is no
+/// value. It does not depend on how often the study was interrupted.
+#[must_use]
+pub fn full(study: &Study, results: &[RunResult]) -> Table {
+    let names = shown_measures(study, results);
+    let has_uncertainty = |name: &str| results.iter().any(|result| result.uncertainty(name).is_some());
+    let mut heads = vec!["run".to_owned()];
+    heads.extend(study.parameters().map(|column| column.name.clone()));
+    heads.push("status".to_owned());
+    for name in &names {
+        heads.push(name.clone());
+        if has_uncertainty(name) {
+            heads.push(format!("{name}-uncertainty"));
+        }
+    }
+    let digits = |number: f64| if number.fract() == 0.0 { format!("{number}") } else { format!("{number:?}") };
+    let text = |number: Option<f64>| number.map_or(String::new(), digits);
+    let row = |result: &RunResult| {
+        let mut row = vec![result.run.name.clone()];
+        row.extend(result.run.parameters.iter().map(|parameter| shown(&parameter.value)));
+        row.push(result.standing.word().to_owned());
+        for name in &names {
+            row.push(text(result.number(name)));
+            if has_uncertainty(name) {
+                row.push(text(result.uncertainty(name)));
+            }
+        }
+        row
+    };
+    Table { heads, rows: results.iter().map(row).collect() }
+}
+
+/// The table for people: four digits with the uncertainty behind them, units in the heads.
+#[must_use]
+pub fn short(study: &Study, results: &[RunResult]) -> Table {
+    let names = shown_measures(study, results);
+    let units = measures(results);
+    let mut heads: Vec<String> = study.parameters().map(|column| column.name.clone()).collect();
+    heads.push("status".to_owned());
+    heads.extend(names.iter().map(|name| match units.get(name).map(String::as_str) {
+        // Most names end in their unit.
+        Some(unit) if !unit.is_empty() && !name.ends_with(&format!("-{unit}")) => format!("{name} ({unit})"),
+        _ => name.clone(),
+    }));
+    let cell = |result: &RunResult, name: &str| match (result.number(name), result.uncertainty(name)) {
+        (Some(value), Some(uncertainty)) => format!("{} ± {}", digits(value), significant(uncertainty, 2)),
+        (Some(value), None) => digits(value),
+        (None, _) => "–".to_owned(),
+    };
+    let row = |result: &RunResult| {
+        let mut row: Vec<String> = result.run.parameters.iter().map(|parameter| shown(&parameter.value)).collect();
+        row.push(result.standing.word().to_owned());
+        row.extend(names.iter().map(|name| cell(result, name)));
+        row
+    };
+    Table { heads, rows: results.iter().map(row).collect() }
+}
+
+impl Table {
+    /// The table as CSV.
+    ///
+    /// # Errors
+    /// [`FileError::Format`].
+    pub fn csv(&self) -> Result<Vec<u8>, FileError> {
+        let failed = |what: String| FileError::Format { path: "table.csv".into(), what };
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for row in std::iter::once(&self.heads).chain(&self.rows) {
+            writer.write_record(row).map_err(|error| failed(error.to_string()))?;
+        }
+        writer.into_inner().map_err(|error| failed(error.to_string()))
+    }
+
+    /// The table as Markdown, its columns aligned.
+    #[must_use]
+    pub fn markdown(&self) -> String {
+        let escaped = |text: &String| text.replace('|', "\\|");
+        let rows: Vec<Vec<String>> =
+            std::iter::once(&self.heads).chain(&self.rows).map(|row| row.iter().map(escaped).collect()).collect();
+        let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..self.heads.len()).map(width).collect();
+        let line = |row: &Vec<String>| {
+            let cells: Vec<String> =
+                row.iter().zip(&widths).map(|(cell, &width)| format!(" {cell:<width$} ")).collect();
+            format!("|{}|\n", cells.join("|"))
+        };
+        let rule: Vec<String> = widths.iter().map(|width| "-".repeat(width + 2)).collect();
+        let mut lines = rows.iter().map(line);
+        let head = lines.next().unwrap_or_default();
+        format!("{head}|{}|\n{}", rule.join("|"), lines.collect::<String>())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::results::Standing;
+    use super::super::toy::{complete, study};
+    use super::*;
+
+    #[test]
+    fn a_table_has_all_digits_for_programs_and_four_for_people() {
+        let study = study(
+            "[[axis]]\nkey = 'dx'\nvalues = [1e-5, 0.25]\n[report]\nmeasures = ['m', 'steps', 'wall-time-s', 'other']\n",
+        );
+        let mut results = complete(&study, |_| 1.0 / 3.0);
+        results[1].standing = Standing::Partial;
+        let csv = String::from_utf8(full(&study, &results).csv().unwrap()).unwrap();
+        assert_eq!(
+            csv,
+            "run,dx,status,m,m-uncertainty,steps,wall-time-s,other\n\
+             dx=1e-5,1e-5,done,0.3333333333333333,0.1,10,1.5,\n\
+             dx=0.25,0.25,partial,,,,,\n"
+        );
+        assert_eq!(
+            short(&study, &results).markdown(),
+            "| dx   | status  | m (deg)       | steps | wall-time-s | other |\n\
+             |------|---------|---------------|-------|-------------|-------|\n\
+             | 1e-5 | done    | 0.3333 ± 0.10 | 10    | 1.500       | –     |\n\
+             | 0.25 | partial | –             | –     | –           | –     |\n"
+        );
+    }
+}

@@ -1,0 +1,34 @@
+//! A study without a case and results without runs, for tests of what is made of them.
+
+use super::definition::Study;
+use super::load::load;
+use super::results::{RunReport, RunResult, Standing, Total, Unknowns};
+use super::runs::{Run, runs};
+use crate::run::report::{Reading, Status};
+
+/// A study of these axes, expectations and curves.
+pub fn study(text: &str) -> Study {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("toy.toml");
+    std::fs::write(&path, format!("format = 1\ntitle = \"Toy\"\ncase = \"none.toml\"\n{text}")).unwrap();
+    load(&path).unwrap_or_else(|error| panic!("{}", error.render()))
+}
+
+/// Complete runs whose measure `m` in degrees is what `value` says, with an uncertainty of 0.1; NaN is not measured.
+pub fn complete(study: &Study, value: impl Fn(&Run) -> f64) -> Vec<RunResult> {
+    let result = |run: Run| {
+        let value = Some(value(&run)).filter(|value| value.is_finite());
+        let reading = Reading { value, unit: "deg".into(), uncertainty: Some(0.1), method: String::new() };
+        let report = RunReport {
+            status: Status::Done,
+            error: None,
+            steps: 10,
+            measures: [("m".to_owned(), reading)].into(),
+            resolved_case: String::new(),
+            wall_time_s: Total { total: 1.5 },
+            solver: Unknowns { unknowns: 100 },
+        };
+        RunResult { run, standing: Standing::Complete(Box::new(report)) }
+    };
+    runs(study).into_iter().map(result).collect()
+}

@@ -1,0 +1,155 @@
+//! Whether the runs came out as the study expects: measures within their tolerance, errors that fall, orders.
+
+use super::convergence::{Convergence, convergences};
+use super::definition::{Expectation, Study, Trend};
+use super::results::RunResult;
+use super::runs::shown;
+
+/// What became of an expectation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is met.
+    Met,
+    /// It is missed.
+    Missed,
+    /// A run that it needs is not complete.
+    Open,
+}
+
+impl Verdict {
+    /// One word for tables.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Met => "met",
+            Self::Missed => "MISSED",
+            Self::Open => "open",
+        }
+    }
+
+    fn of(met: bool) -> Self {
+        if met { Self::Met } else { Self::Missed }
+    }
+}
+
+/// An expectation of the study and what became of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgment {
+    /// Of which run or runs.
+    pub of: String,
+    /// Name of the measure.
+    pub measure: String,
+    /// What was expected.
+    pub expected: String,
+    /// What came out.
+    pub found: String,
+    /// The verdict.
+    pub verdict: Verdict,
+}
+
+/// All judgments of a study.
+#[must_use]
+pub fn judgments(study: &Study, results: &[RunResult]) -> Vec<Judgment> {
+    let single = study.expectations.iter().flat_map(|expected| {
+        results.iter().filter(|result| result.run.is_in(&expected.only)).map(|result| judge(expected, result))
+    });
+    let trends = study.trends.iter().flat_map(|trend| {
+        convergences(study, trend, results).into_iter().map(|convergence| judge_trend(trend, &convergence))
+    });
+    single.chain(trends).collect()
+}
+
+fn judge(expected: &Expectation, result: &RunResult) -> Judgment {
+    let value = result.run.quantity(&expected.value);
+    let tolerance = result.run.quantity(&expected.tolerance);
+    let found = result.number(&expected.measure);
+    let verdict = match (result.standing.report(), found, value, tolerance) {
+        (None, ..) => Verdict::Open,
+        (_, Some(found), Some(value), Some(tolerance)) => Verdict::of((found - value).abs() <= tolerance),
+        _ => Verdict::Missed,
+    };
+    // What the user wrote keeps its digits.
+    let number = |number: Option<f64>| number.map_or("?".to_owned(), |number| shown(&number.into()));
+    Judgment {
+        of: result.run.name.clone(),
+        measure: expected.measure.clone(),
+        expected: format!("{} ± {}", number(value), number(tolerance)),
+        found: match (&verdict, found) {
+            (Verdict::Open, _) => result.standing.word().to_owned(),
+            (_, Some(found)) => digits(found),
+            (_, None) => "not measured".to_owned(),
+        },
+        verdict,
+    }
+}
+
+fn judge_trend(trend: &Trend, convergence: &Convergence) -> Judgment {
+    let order = convergence.order();
+    let met = convergence.points.len() > 1
+        && convergence.falls()
+        && trend.order.is_none_or(|least| order.is_some_and(|order| order >= least));
+    let verdict = match (convergence.ended, convergence.complete) {
+        (false, _) => Verdict::Open,
+        (true, false) => Verdict::Missed,
+        (true, true) => Verdict::of(met),
+    };
+    let errors: Vec<String> = convergence.points.iter().map(|(_, error)| digits(*error)).collect();
+    let least = trend.order.map_or(String::new(), |least| format!(", order at least {least}"));
+    let observed = order.map_or(String::new(), |order| format!(", order {order:.2}"));
+    Judgment {
+        of: convergence.of.clone(),
+        measure: trend.measure.clone(),
+        expected: format!("error falls with {}{least}", trend.along),
+        found: format!("errors {}{observed}", if errors.is_empty() { "none".to_owned() } else { errors.join(", ") }),
+        verdict,
+    }
+}
+
+/// A number with four digits; a whole one as it is.
+#[must_use]
+pub fn digits(number: f64) -> String {
+    significant(number, 4)
+}
+
+/// A number with so many digits; a whole one as it is.
+#[must_use]
+pub fn significant(number: f64, digits: usize) -> String {
+    /// Outside of these an exponent is shorter than zeros.
+    const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
+    let size = number.abs();
+    let behind_first = digits.saturating_sub(1);
+    if number.fract() == 0.0 && size < FIXED.end {
+        format!("{number}")
+    } else if FIXED.contains(&size) {
+        let decimals = (behind_first as f64 - size.log10().floor()).max(0.0) as usize;
+        format!("{number:.decimals$}")
+    } else {
+        format!("{number:.behind_first$e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::toy::{complete, study};
+    use super::*;
+
+    #[test]
+    fn an_expectation_of_a_run_that_is_not_complete_is_open_and_one_without_its_measure_is_missed() {
+        let study = study(
+            "[[axis]]\nkey = 'dx'\nvalues = [1, 2, 3]\n[[expect]]\nmeasure = 'm'\nvalue = 1.0\ntolerance = 0.5\n\
+             [[trend]]\nmeasure = 'm'\nalong = 'dx'\n",
+        );
+        let mut results = complete(&study, |run| if run.index == 2 { f64::NAN } else { 1.25 });
+        let verdicts = |results: &[RunResult]| judgments(&study, results).iter().map(|j| j.verdict).collect::<Vec<_>>();
+        assert_eq!(verdicts(&results), [Verdict::Met, Verdict::Missed, Verdict::Met, Verdict::Missed]);
+        results[0].standing = super::super::results::Standing::Partial;
+        assert_eq!(verdicts(&results), [Verdict::Open, Verdict::Missed, Verdict::Met, Verdict::Open]);
+    }
+
+    #[test]
+    fn numbers_have_four_digits_and_whole_ones_are_left_as_they_are() {
+        let found = [0.0, 20.0, 0.0061153, 41.23456, 12345.678, 2.0e-5, -0.5].map(digits);
+        assert_eq!(found, ["0", "20", "0.006115", "41.23", "12346", "2.000e-5", "-0.5000"]);
+        assert_eq!([0.7448, 12.34, 2.0e-5].map(|number| significant(number, 2)), ["0.74", "12", "2.0e-5"]);
+    }
+}
