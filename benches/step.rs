@@ -56,7 +56,7 @@ fn flow(density: f64) -> Flow {
     let path = folder.path().join("case.toml");
     std::fs::write(&path, case(density)).expect("the case can be written");
     let case: Case = meniscus::case::load(&path, &Overrides::default()).expect("a good case").case;
-    let Model::Sph(sph) = &case.model;
+    let Model::Sph(sph) = &case.model else { panic!("the case is one of SPH") };
     setup::build(&case, sph).expect("a case that fits").flow
 }
 

@@ -13,6 +13,7 @@ mod resolve;
 mod schema;
 mod shapes;
 mod sph;
+mod thin_film;
 
 pub use facts::{Facts, check_against};
 pub use load::{Loaded, load, load_default, load_shapes};

@@ -6,7 +6,7 @@ use super::arguments::CheckArguments;
 use super::exit::{BAD_INPUT, DONE, Failure, SOLVER_FAILED};
 use super::output::{duration, readable, say};
 use super::source;
-use crate::case::checked::Model;
+use crate::case::checked::{Case, Model};
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
 
@@ -27,13 +27,13 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         }
     }
     let per_step = clock.elapsed().as_secs_f64() / solver.steps().max(1) as f64;
-    let Model::Sph(sph) = &case.model;
     say(&case.title);
-    say(format_args!("  particles   {} at a spacing of {} m", solver.statistics().unknowns, readable(sph.spacing)));
+    let spacing = spacing(case);
+    say(format_args!("  particles   {} at a spacing of {} m", solver.statistics().unknowns, readable(spacing)));
     match setup::throat(case) {
         Some(width) => say(format_args!(
             "  throat      {:.1} particles across the narrowest one, {} m",
-            width / sph.spacing,
+            width / spacing,
             readable(width)
         )),
         None => say("  throat      none"),
@@ -42,13 +42,21 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         say(format_args!("  memory      {memory}"));
     }
     if let Some(info) = info {
-        let steps = (case.end / info.dt).ceil();
-        say(format_args!("  time step   {} s, ruled by {}", readable(info.dt), info.limit));
-        say(format_args!(
-            "  run         {} s in about {steps} steps, about {}",
-            readable(case.end),
-            duration(steps * per_step)
-        ));
+        match &case.model {
+            Model::Sph(_) => {
+                let steps = (case.end / info.dt).ceil();
+                say(format_args!("  time step   {} s, ruled by {}", readable(info.dt), info.limit));
+                say(format_args!(
+                    "  run         {} s in about {steps} steps, about {}",
+                    readable(case.end),
+                    duration(steps * per_step)
+                ));
+            }
+            // Steps of a film grow a thousandfold while it comes to rest: the first ones do not tell how long it takes.
+            Model::ThinFilm(_) => {
+                say(format_args!("  time step   {} s at first; it grows with time", readable(info.dt)))
+            }
+        }
     }
     let length = Length::of(case);
     let (speed, formula) = expected_speed(case, length);
@@ -58,6 +66,14 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     say(format_args!("  L           = {} m, {}", readable(length.value), length.name));
     say(format_args!("  U           = {} m/s, {formula}", readable(speed)));
     Ok(DONE)
+}
+
+/// Initial distance of particles or nodes in m.
+fn spacing(case: &Case) -> f64 {
+    match &case.model {
+        Model::Sph(sph) => sph.spacing,
+        Model::ThinFilm(film) => film.spacing,
+    }
 }
 
 /// The most memory that the program has used so far, where the system tells.

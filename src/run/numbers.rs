@@ -8,7 +8,7 @@
 use serde::Serialize;
 
 use super::setup;
-use crate::case::checked::{Case, InitialVelocity, Model};
+use crate::case::checked::{Case, InitialVelocity, Model, ThinFilm};
 use crate::math::Vec2;
 
 /// A dimensionless number.
@@ -48,7 +48,10 @@ impl Length {
 /// A speed to expect, in m/s, with its formula: what is known before a run.
 #[must_use]
 pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
-    let Model::Sph(sph) = &case.model;
+    let sph = match &case.model {
+        Model::Sph(sph) => sph,
+        Model::ThinFilm(film) => return (spreading_speed(film), "sigma (H / r)^3 / 3 mu"),
+    };
     let (rho, mu, g, l) = (sph.wetting.density, sph.wetting.viscosity, sph.gravity.norm(), length.value);
     let initial = match sph.initial.velocity {
         InitialVelocity::Rest => 0.0,
@@ -69,7 +72,10 @@ pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
 /// The numbers of a case at the speed `speed` in m/s; those that need a tension are absent without one.
 #[must_use]
 pub fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
-    let Model::Sph(sph) = &case.model;
+    let sph = match &case.model {
+        Model::Sph(sph) => sph,
+        Model::ThinFilm(film) => return of_thin_film(film, speed),
+    };
     let (rho, mu, sigma) = (sph.wetting.density, sph.wetting.viscosity, sph.tension);
     let length = length.value;
     let difference = (rho - sph.non_wetting.map_or(0.0, |fluid| fluid.density)).abs();
@@ -86,4 +92,19 @@ pub fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
         ]);
     }
     all
+}
+
+/// Speed of a contact line by its own slope, without the logarithm of lengths, in m/s: an upper bound by an order of magnitude.
+fn spreading_speed(film: &ThinFilm) -> f64 {
+    film.tension * (film.height / film.half_width).powi(3) / (3.0 * film.viscosity)
+}
+
+/// A thin film has no inertia; what matters is how slow and how flat it is.
+fn of_thin_film(film: &ThinFilm, speed: f64) -> Vec<Number> {
+    let number = |symbol, value, formula| Number { symbol, value, formula };
+    vec![
+        number("Ca", film.viscosity * speed / film.tension, "mu U / sigma"),
+        number("H/W", film.height / (2.0 * film.half_width), "initial height / initial width"),
+        number("alpha/dx", film.smoothing_length / film.spacing, "filter length / spacing"),
+    ]
 }

@@ -1,0 +1,104 @@
+//! From SI units to the scaled equation and back [Pang2022, Sects. 4 and 5].
+//!
+//! Complete wetting: h₀ = (8/3) h_max, L = 2r₀. Partial wetting: h₀ = √(A tan θ), L = √(A/tan θ), so that the scaled mass and
+//! the scaled slope at rest are 1. Both: τ = (3μL/γ)(L/h₀)³; the paper prints tan³θ there where tan⁻³θ is consistent.
+
+use super::droplet::Droplet;
+use crate::case::checked::ThinFilm;
+
+/// One unit of each scaled quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// Along the wall, L in m.
+    pub length: f64,
+    /// Across it, h₀ in m.
+    pub height: f64,
+    /// τ in s.
+    pub time: f64,
+    /// Surface tension γ in N/m.
+    pub tension: f64,
+}
+
+impl Scales {
+    /// The scales of a case.
+    #[must_use]
+    pub fn of(film: &ThinFilm) -> Self {
+        let (length, height) = match film.contact_angle {
+            None => (2.0 * film.half_width, 8.0 / 3.0 * film.height),
+            Some(angle) => {
+                let area = 4.0 / 3.0 * film.half_width * film.height;
+                ((area / angle.tan()).sqrt(), (area * angle.tan()).sqrt())
+            }
+        };
+        let time = 3.0 * film.viscosity * length / film.tension * (length / height).powi(3);
+        Self { length, height, time, tension: film.tension }
+    }
+
+    /// The scaled initial droplet.
+    #[must_use]
+    pub fn droplet(&self, film: &ThinFilm) -> Droplet {
+        let half_width = film.half_width / self.length;
+        Droplet { area: 4.0 / 3.0 * half_width * film.height / self.height, half_width }
+    }
+
+    /// Slope h₀/L.
+    #[must_use]
+    pub fn slope(&self) -> f64 {
+        self.height / self.length
+    }
+
+    /// Cross-section in m².
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.height * self.length
+    }
+
+    /// Velocity in m/s.
+    #[must_use]
+    pub fn velocity(&self) -> f64 {
+        self.length / self.time
+    }
+
+    /// Curvature of a flat profile in 1/m.
+    #[must_use]
+    pub fn curvature(&self) -> f64 {
+        self.slope() / self.length
+    }
+
+    /// Energy per depth, γh₀²/L, in J/m.
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        self.tension * self.slope() * self.height
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::checked::{FilmMethod, FilmWeights};
+
+    #[test]
+    fn the_scaled_droplets_are_those_of_the_paper() {
+        let film = |contact_angle: Option<f64>| ThinFilm {
+            viscosity: 0.01,
+            tension: 0.03,
+            smoothing_length: 5.0e-5,
+            spacing: 5.0e-6,
+            half_width: 5.0e-4,
+            height: 3.75e-5,
+            contact_angle,
+            method: FilmMethod::FiniteDifferences { step_share: 0.01 },
+            weights: FilmWeights::Cell,
+        };
+        let complete = film(None);
+        let scales = Scales::of(&complete);
+        let droplet = scales.droplet(&complete);
+        assert!((droplet.area - 0.25).abs() < 1.0e-14 && (droplet.half_width - 0.5).abs() < 1.0e-14);
+        // 3 mu L / gamma = 1 ms, (L/h0)^3 = 1000.
+        assert!((scales.time - 1.0).abs() < 1.0e-12);
+        let partial = film(Some(0.3));
+        let scales = Scales::of(&partial);
+        assert!((scales.droplet(&partial).area - 1.0).abs() < 1.0e-14);
+        assert!((scales.slope() - 0.3_f64.tan()).abs() < 1.0e-14);
+    }
+}
