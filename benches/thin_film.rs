@@ -3,20 +3,20 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use meniscus::thin_film::droplet::{Droplet, WeightRule};
+use meniscus::thin_film::droplet::{Droplet, WeightRule, particles};
 use meniscus::thin_film::kernel::Kernel;
 use meniscus::thin_film::ode::{Implicit, Integrator, Method, Tolerance};
-use meniscus::thin_film::particles::{LatticeEnergy, ParticleMethod};
+use meniscus::thin_film::particles::{LatticeEnergy, ParticleMethod, Pull};
 use meniscus::thin_film::sums::{FastSums, Smoothed, direct_sums};
 
 const ALPHA: f64 = 0.05;
-const DROPLET: Droplet = Droplet { area: 0.25, half_width: 0.5 };
+const DROPLET: Droplet = Droplet { area: 0.25, half_width: 0.5, center: 0.0 };
 
 fn sums(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("sums");
     group.sample_size(10);
     for count in [100_u64, 1000, 100_000, 1_000_000] {
-        let masses = DROPLET.particles(1.0 / count as f64, WeightRule::Point);
+        let masses = particles(&[DROPLET], 1.0 / count as f64, WeightRule::Point);
         let kernel = Kernel::new(ALPHA);
         let mut out = Smoothed::new(masses.x.len());
         let mut fast = FastSums::new(kernel);
@@ -37,8 +37,9 @@ fn stiff_steps(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("stiff-step");
     group.sample_size(10);
     for count in [200_u64, 20_000] {
-        let masses = DROPLET.particles(1.0 / count as f64, WeightRule::Point);
-        let mut method = ParticleMethod::new(Kernel::new(ALPHA), &masses, 1.16, LatticeEnergy::Kept);
+        let masses = particles(&[DROPLET], 1.0 / count as f64, WeightRule::Point);
+        let mut method =
+            ParticleMethod::new(Kernel::new(ALPHA), &masses, Pull { wetting: 1.16, bond: 0.0 }, LatticeEnergy::Kept);
         let tolerance = Tolerance { absolute: 1.0e-7, relative: 0.0 };
         let start = Integrator::new(Method::Stiff, tolerance, masses.x.clone(), 1.0e-6);
         group.throughput(Throughput::Elements(count));

@@ -1,5 +1,6 @@
 //! A checked case: every value present, in SI units and in range. Made by `case::load`, read by set-up code only.
 
+use super::film::checked::ThinFilm;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::math::Vec2;
 
@@ -26,81 +27,8 @@ pub struct Case {
 pub enum Model {
     /// Direct simulation by incompressible SPH.
     Sph(Box<Sph>),
-    /// A droplet on a flat wall by the Geometric Thin-Film Equation.
+    /// Droplets on a flat wall by a thin-film equation (`[thin-film]`).
     ThinFilm(Box<ThinFilm>),
-}
-
-/// A droplet on the wall y = 0 (`[thin-film]`).
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-pub struct ThinFilm {
-    /// Dynamic viscosity in Pa s.
-    pub viscosity: f64,
-    /// Surface tension in N/m.
-    pub tension: f64,
-    /// Filter length α in m.
-    pub smoothing_length: f64,
-    /// Initial distance of particles, or distance of grid nodes, in m.
-    pub spacing: f64,
-    /// Half of the droplet's initial base width in m.
-    pub half_width: f64,
-    /// The droplet's initial height in m.
-    pub height: f64,
-    /// Angle of rest in rad; absent in complete wetting.
-    pub contact_angle: Option<f64>,
-    /// How the equation is solved.
-    pub method: FilmMethod,
-    /// Whether particles and nodes hold the film of their cell (or the height at their place).
-    pub weights: FilmWeights,
-}
-
-/// Methods for thin films.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum FilmMethod {
-    /// Particles on an infinite line.
-    Particles {
-        /// Integration in time.
-        integrator: FilmIntegrator,
-        /// Largest error of a step over the initial width.
-        tolerance: f64,
-        /// What is done about the energy of the particle lattice.
-        lattice_energy: LatticeEnergy,
-    },
-    /// Implicit finite differences, periodic over the domain.
-    FiniteDifferences {
-        /// Longest step over the time since the start.
-        step_share: f64,
-    },
-}
-
-/// Integration of the particles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum FilmIntegrator {
-    /// Linearly implicit, order 4.
-    Stiff,
-    /// Dormand and Prince, order 5.
-    Explicit,
-}
-
-/// What is done about the energy of the particle lattice.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LatticeEnergy {
-    /// Nothing.
-    Kept,
-    /// Its gradient is taken off the rates.
-    TakenOff,
-}
-
-/// What particles and nodes stand for at time zero.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum FilmWeights {
-    /// The film of their cell.
-    Cell,
-    /// The height at their place.
-    Point,
 }
 
 /// Direct simulation by incompressible SPH (`[sph]`).

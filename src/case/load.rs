@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::check::{self, Checker};
 use super::checked::{Case, Model};
 use super::raw::{RawCase, RawGeometry, RawShapeFile};
-use super::{resolve, shapes, sph, thin_film};
+use super::{film, resolve, shapes, sph};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Document, InputError, Mistake, Overrides, Problem};
 
@@ -96,7 +96,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
 fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>) -> Option<Model> {
     match (&raw.sph, &raw.thin_film) {
         (Some(raw), None) => sph::sph(checker, raw, geometry).map(|sph| Model::Sph(Box::new(sph))),
-        (None, Some(raw)) => thin_film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
+        (None, Some(raw)) => film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
         (Some(_), Some(_)) => {
             let message = "expected exactly one model, found `sph` and `thin-film`";
             checker.refuse(

@@ -6,6 +6,7 @@
 mod check;
 pub mod checked;
 mod facts;
+pub mod film;
 mod load;
 pub mod preset;
 pub mod raw;
@@ -13,7 +14,6 @@ mod resolve;
 mod schema;
 mod shapes;
 mod sph;
-mod thin_film;
 
 pub use facts::{Facts, check_against};
 pub use load::{Loaded, load, load_default, load_shapes};

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::film::raw::RawThinFilm;
 use super::preset::Preset;
 use crate::geometry::spec::{ShapeSpec, SolidSide};
 
@@ -22,6 +23,8 @@ macro_rules! tables {
     )*};
 }
 
+pub(super) use tables;
+
 tables! {
     /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.
     pub struct RawCase {
@@ -33,7 +36,7 @@ tables! {
         pub geometry: RawGeometry,
         /// Direct simulation by incompressible SPH.
         pub sph: RawSph,
-        /// A droplet that spreads on a flat wall, by the Geometric Thin-Film Equation.
+        /// Droplets on a flat wall, by a thin-film equation.
         pub thin_film: RawThinFilm,
         /// How long the simulation runs.
         pub time: RawTime,
@@ -199,72 +202,6 @@ tables! {
         pub time_step_factor: f64,
     }
 
-    /// A droplet that spreads on the wall y = 0, by the Geometric Thin-Film Equation (Pang and O Naraigh 2022).
-    pub struct RawThinFilm {
-        /// Dynamic viscosity in Pa s.
-        pub viscosity: f64,
-        /// Surface tension in N/m.
-        pub tension: f64,
-        /// Filter length alpha in m: film and contact line are smoothed over it.
-        pub smoothing_length: f64,
-        /// Initial distance of particles, or distance of grid nodes, in m.
-        pub spacing: f64,
-        /// The droplet at time zero.
-        pub droplet: RawDroplet,
-        /// How it wets the wall: one table whose name is the model (default `complete`).
-        pub wetting: RawFilmWetting,
-        /// How the equation is solved: one table whose name is the method (default `particles`).
-        pub method: RawFilmMethod,
-        /// What a particle or node stands for at time zero (default `cell`).
-        pub weights: RawFilmWeights,
-    }
-
-    /// A droplet with a parabolic profile about x = 0.
-    pub struct RawDroplet {
-        /// Half of the base width in m.
-        pub half_width: f64,
-        /// Height in the middle in m.
-        pub height: f64,
-    }
-
-    /// Wetting models of thin films.
-    pub struct RawFilmWetting {
-        /// The film spreads for ever.
-        pub complete: Empty,
-        /// The film comes to rest at a contact angle.
-        pub partial: RawPartialWetting,
-    }
-
-    /// Partial wetting of a thin film.
-    pub struct RawPartialWetting {
-        /// Angle at which the droplet rests, in degrees, 0.1 to 45.
-        pub contact_angle_deg: f64,
-    }
-
-    /// Methods for thin films.
-    pub struct RawFilmMethod {
-        /// Particles that carry the film, on an infinite line.
-        pub particles: RawFilmParticles,
-        /// Implicit finite differences, periodic over the domain.
-        pub finite_differences: RawFilmGrid,
-    }
-
-    /// The particle method.
-    pub struct RawFilmParticles {
-        /// Integration in time (default `stiff`).
-        pub integrator: RawFilmIntegrator,
-        /// Largest error of a step over the initial width (default 1e-7).
-        pub tolerance: f64,
-        /// The energy of the particle lattice: `kept` as in the paper (default), or `taken-off`.
-        pub lattice_energy: RawLatticeEnergy,
-    }
-
-    /// The finite-difference method.
-    pub struct RawFilmGrid {
-        /// Longest step over the time since the start (default 0.005).
-        pub step_share: f64,
-    }
-
     /// Groups of measures.
     pub struct RawMeasures {
         /// Base and height of a drop on a straight wall.
@@ -326,36 +263,6 @@ tables! {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Empty {}
-
-/// What a particle or node of a thin film stands for at time zero.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RawFilmWeights {
-    /// The film of its cell: the mass is exact.
-    Cell,
-    /// The height at its place.
-    Point,
-}
-
-/// Integration of the particles of a thin film.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RawFilmIntegrator {
-    /// Linearly implicit, order 4: steps as long as the solution allows.
-    Stiff,
-    /// Dormand and Prince, order 5: steps as short as stability wants.
-    Explicit,
-}
-
-/// What is done about the energy of the particle lattice.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RawLatticeEnergy {
-    /// Nothing, as in the paper.
-    Kept,
-    /// Its gradient is taken off: not in the paper, order 4 where gaps stay below half a filter length.
-    TakenOff,
-}
 
 /// A phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

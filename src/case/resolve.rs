@@ -18,7 +18,7 @@ pub(super) fn text(case: &Case) -> String {
 fn raw(case: &Case) -> RawCase {
     let (sph, thin_film) = match &case.model {
         Model::Sph(sph) => (Some(raw_sph(sph)), None),
-        Model::ThinFilm(film) => (None, Some(super::thin_film::raw(film))),
+        Model::ThinFilm(film) => (None, Some(super::film::resolved(film))),
     };
     let geometry = &case.geometry;
     RawCase {

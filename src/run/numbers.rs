@@ -8,7 +8,8 @@
 use serde::Serialize;
 
 use super::setup;
-use crate::case::checked::{Case, InitialVelocity, Model, ThinFilm};
+use crate::case::checked::{Case, InitialVelocity, Model};
+use crate::case::film::checked::{FilmDroplet, FilmEquation, ThinFilm};
 use crate::math::Vec2;
 
 /// A dimensionless number.
@@ -94,17 +95,32 @@ pub fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
     all
 }
 
-/// Speed of a contact line by its own slope, without the logarithm of lengths, in m/s: an upper bound by an order of magnitude.
+/// Speed of a contact line by the steepest droplet, without the logarithm of lengths, in m/s: an upper bound by an order of
+/// magnitude.
 fn spreading_speed(film: &ThinFilm) -> f64 {
-    film.tension * (film.height / film.half_width).powi(3) / (3.0 * film.viscosity)
+    let slope = film.droplets.iter().map(|droplet| droplet.height / droplet.half_width).fold(0.0, f64::max);
+    film.tension * slope.powi(3) / (3.0 * film.viscosity)
 }
 
-/// A thin film has no inertia; what matters is how slow and how flat it is.
+/// A thin film has no inertia; what matters is how slow, how flat and how well resolved it is. Droplets: the widest and highest.
 fn of_thin_film(film: &ThinFilm, speed: f64) -> Vec<Number> {
     let number = |symbol, value, formula| Number { symbol, value, formula };
-    vec![
+    let largest = |value: fn(&FilmDroplet) -> f64| film.droplets.iter().map(value).fold(0.0, f64::max);
+    let (height, width) = (largest(|droplet| droplet.height), 2.0 * largest(|droplet| droplet.half_width));
+    let mut all = vec![
         number("Ca", film.viscosity * speed / film.tension, "mu U / sigma"),
-        number("H/W", film.height / (2.0 * film.half_width), "initial height / initial width"),
-        number("alpha/dx", film.smoothing_length / film.spacing, "filter length / spacing"),
-    ]
+        number("H/W", height / width, "initial height / initial width"),
+    ];
+    if film.gravity != 0.0 {
+        let bond = film.density * film.gravity * width * width / film.tension;
+        all.push(number("Bo", bond, "rho g W^2 / sigma"));
+    }
+    all.push(match film.equation {
+        FilmEquation::Geometric { smoothing_length } => {
+            number("alpha/dx", smoothing_length / film.spacing, "filter length / spacing")
+        }
+        FilmEquation::Slip { slip_length, .. } => number("slip/H", slip_length / height, "slip length / height"),
+        FilmEquation::Precursor { film_height } => number("film/H", film_height / height, "precursor film / height"),
+    });
+    all
 }

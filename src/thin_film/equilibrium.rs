@@ -47,6 +47,15 @@ impl Equilibrium {
         bisect(|xi| at(xi).wetting() - wetting, XI_RANGE.0, XI_RANGE.1).map(at)
     }
 
+    /// The equilibrium for χ under gravity, which takes the Bond number off ξ²: κ² = ξ² − Bo stands in the place of ξ² in all
+    /// but ξ² = 2χA²/⟨h,h̄⟩². None where κ would leave the range of the search.
+    #[must_use]
+    pub fn under_gravity(alpha: f64, area: f64, wetting: f64, bond: f64) -> Option<Self> {
+        let at = |kappa: f64| Self::of_wave_number(alpha, area, kappa);
+        let excess = |kappa: f64| kappa * kappa + bond - 2.0 * wetting * (area / at(kappa).overlap()).powi(2);
+        bisect(excess, XI_RANGE.0, XI_RANGE.1).map(at)
+    }
+
     /// The equilibrium of unit mass with unit slope at π/(2ξ): it calibrates χ [Pang2022, Sect. 5].
     ///
     /// B₁ξ = 1 is ξ² = 2(1 + s²)(π − 2 arctan s + 2s). None where α is too large for a droplet of unit slope.

@@ -1,7 +1,7 @@
 //! The two methods behind one face: what solver and output need of a film, scaled.
 
 use super::droplet::PointMasses;
-use super::finite_differences::FiniteDifferences;
+use super::grid::GridFilm;
 use super::ode::{Integrator, Rates};
 use super::particles::{ParticleMethod, WIDEST_GAP, widest_gap};
 use super::profile::Profile;
@@ -17,7 +17,7 @@ pub enum Film {
         state: Integrator,
     },
     /// Nodes of a grid.
-    Grid(Box<FiniteDifferences>),
+    Grid(Box<GridFilm>),
 }
 
 /// A step that was not found.
@@ -57,7 +57,7 @@ impl Film {
     pub fn time(&self) -> f64 {
         match self {
             Self::Particles { state, .. } => state.time,
-            Self::Grid(grid) => grid.time,
+            Self::Grid(grid) => grid.state.time,
         }
     }
 
@@ -91,10 +91,11 @@ impl Film {
                 let (height, curvature) = (smoothed.height.clone(), smoothed.curvature.clone());
                 Seen { x: state.x.clone(), height, curvature, velocity, mass }
             }
-            Self::Grid(grid) => {
-                let [_, _, curvature] = grid.derivatives();
-                let mass = grid.height.iter().map(|h| h * grid.spacing()).collect();
-                Seen { x: grid.nodes(), height: grid.height.clone(), curvature, velocity: grid.velocity(), mass }
+            Self::Grid(film) => {
+                let (grid, height) = (film.grid(), film.state.height.clone());
+                let [_, curvature] = grid.slope_and_curvature(&height);
+                let mass = height.iter().zip(grid.sizes()).map(|(h, size)| h * size).collect();
+                Seen { x: grid.nodes(), curvature, velocity: grid.velocity(&height), mass, height }
             }
         }
     }
@@ -107,9 +108,10 @@ impl Film {
                 let s = method.profile(&state.x, places);
                 Profile { x: places.to_vec(), height: s.height, slope: s.slope, curvature: s.curvature }
             }
-            Self::Grid(grid) => {
-                let [_, slope, curvature] = grid.derivatives();
-                Profile { x: grid.nodes(), height: grid.height.clone(), slope, curvature }
+            Self::Grid(film) => {
+                let (grid, height) = (film.grid(), film.state.height.clone());
+                let [slope, curvature] = grid.slope_and_curvature(&height);
+                Profile { x: grid.nodes(), height, slope, curvature }
             }
         }
     }
@@ -169,7 +171,10 @@ impl Film {
                 ("rejected-steps", state.work.rejected as f64),
             ],
             Self::Grid(grid) => {
-                vec![("newton-iterations", grid.iterations as f64), ("rejected-steps", grid.rejected as f64)]
+                vec![
+                    ("newton-iterations", grid.state.iterations as f64),
+                    ("rejected-steps", grid.state.rejected as f64),
+                ]
             }
         }
     }

@@ -1,6 +1,6 @@
-//! The particle method: ẋᵢ = h̄ᵢ² ( h̄ₓₓₓ,ᵢ + ξ² h̄ₓ,ᵢ ), h̄ = Σ wⱼ Φ(x − xⱼ), ξ² = 2χA²/⟨h,h̄⟩² [Pang2022, Sects. 3 and 5].
+//! The particle method: ẋᵢ = h̄ᵢ² ( h̄ₓₓₓ,ᵢ + (ξ² − Bo) h̄ₓ,ᵢ ), h̄ = Σ wⱼ Φ(x − xⱼ), ξ² = 2χA²/⟨h,h̄⟩² [Pang2022, Sects. 3, 5].
 //!
-//! χ = 0 is complete wetting. The line is infinite. A lattice of particles has an energy w²/(24 α⁴) per length more than the
+//! χ = 0 is complete wetting; the Bond number Bo is no part of the paper. The line is infinite. A lattice of particles has an energy w²/(24 α⁴) per length more than the
 //! film that it stands for; its gradient opposes spreading like a contact angle of slope w/(√12 α²), and falls only as the
 //! square of the spacing. [`LatticeEnergy::TakenOff`] adds its opposite, cₖ = (wₖ₋₁² − wₖ₊₁²)/(48 α⁴ wₖ), to the bracket. That
 //! is no part of the paper, and holds only while gaps are below α/2: beyond, the term throws the last particles away.
@@ -23,12 +23,21 @@ pub enum LatticeEnergy {
     TakenOff,
 }
 
+/// What moves a film besides its tension.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Pull {
+    /// χ of partial wetting, 0 for complete wetting.
+    pub wetting: f64,
+    /// Bond number ρgL²/γ, below 0 for a film that hangs.
+    pub bond: f64,
+}
+
 /// Particles with all that their motion depends on but their positions.
 #[derive(Debug, Clone)]
 pub struct ParticleMethod {
     kernel: Kernel,
     weight: Vec<f64>,
-    wetting: f64,
+    pull: Pull,
     area: f64,
     correction: Vec<f64>,
     sums: FastSums,
@@ -36,9 +45,9 @@ pub struct ParticleMethod {
 }
 
 impl ParticleMethod {
-    /// The method for particles of the given weights; `wetting` is χ, 0 for complete wetting.
+    /// The method for particles of the given weights.
     #[must_use]
-    pub fn new(kernel: Kernel, masses: &PointMasses, wetting: f64, lattice: LatticeEnergy) -> Self {
+    pub fn new(kernel: Kernel, masses: &PointMasses, pull: Pull, lattice: LatticeEnergy) -> Self {
         let weight = masses.weight.clone();
         let correction = match lattice {
             LatticeEnergy::Kept => vec![0.0; weight.len()],
@@ -46,7 +55,7 @@ impl ParticleMethod {
         };
         Self {
             kernel,
-            wetting,
+            pull,
             area: weight.iter().sum(),
             correction,
             sums: FastSums::new(kernel),
@@ -110,20 +119,21 @@ impl ParticleMethod {
 
     /// ξ² of the last sums.
     fn xi_squared(&self) -> f64 {
-        if self.wetting == 0.0 { 0.0 } else { 2.0 * self.wetting * (self.area / self.overlap()).powi(2) }
+        if self.pull.wetting == 0.0 { 0.0 } else { 2.0 * self.pull.wetting * (self.area / self.overlap()).powi(2) }
     }
 
-    /// Energy E = −½ Σ wᵢ h̄ₓₓ,ᵢ + χA²/⟨h,h̄⟩, that of the lattice included.
+    /// Energy E = ½ Σ wᵢ (Bo h̄ᵢ − h̄ₓₓ,ᵢ) + χA²/⟨h,h̄⟩, that of the lattice included.
     #[must_use]
     pub fn energy(&mut self, x: &[f64]) -> f64 {
         self.smooth(x);
         let surface: f64 = self.weight.iter().zip(&self.smoothed.curvature).map(|(w, c)| w * c).sum();
-        -0.5 * surface + self.wetting * self.area * self.area / self.overlap()
+        let overlap = self.overlap();
+        0.5 * (self.pull.bond * overlap - surface) + self.pull.wetting * self.area * self.area / overlap
     }
 
-    /// The bracket h̄ₓₓₓ + ξ² h̄ₓ + c of particle i.
-    fn drive(&self, i: usize, xi_squared: f64) -> f64 {
-        self.smoothed.third[i] + xi_squared * self.smoothed.slope[i] + self.correction[i]
+    /// The bracket h̄ₓₓₓ + (ξ² − Bo) h̄ₓ + c of particle i; `pull` is the factor of h̄ₓ.
+    fn drive(&self, i: usize, pull: f64) -> f64 {
+        self.smoothed.third[i] + pull * self.smoothed.slope[i] + self.correction[i]
     }
 }
 
@@ -143,9 +153,9 @@ pub fn widest_gap(x: &[f64]) -> f64 {
 impl Rates for ParticleMethod {
     fn rates(&mut self, x: &[f64], out: &mut [f64]) {
         self.sums.at_particles(x, &self.weight, &mut self.smoothed);
-        let xi_squared = self.xi_squared();
+        let pull = self.xi_squared() - self.pull.bond;
         for (i, rate) in out.iter_mut().enumerate() {
-            *rate = self.smoothed.height[i].powi(2) * self.drive(i, xi_squared);
+            *rate = self.smoothed.height[i].powi(2) * self.drive(i, pull);
         }
     }
 
@@ -196,6 +206,7 @@ impl Implicit for ParticleMethod {
         let count = x.len();
         self.smooth(x);
         let xi_squared = self.xi_squared();
+        let pull = xi_squared - self.pull.bond;
         let alpha = self.kernel.alpha();
         let mut matrix = Banded::new(BLOCK * count, BELOW, ABOVE);
         // (constant, linear) of each derivative's (c₀ + c₁ d) e^(−d/α).
@@ -216,17 +227,17 @@ impl Implicit for ParticleMethod {
             let s = &self.smoothed;
             let (height, slope, weight) = (s.height[i], s.slope[i], self.weight[i]);
             let square = height * height;
-            let drive = self.drive(i, xi_squared);
+            let drive = self.drive(i, pull);
             // A particle's own term moves with it: the diagonal leaves it out.
             let curvature_of_others = s.curvature[i] - weight * second_at_zero;
             let fourth_of_others = fourths[i] - weight * fourth_at_zero;
-            let own = 2.0 * height * slope * drive + square * (fourth_of_others + xi_squared * curvature_of_others);
+            let own = 2.0 * height * slope * drive + square * (fourth_of_others + pull * curvature_of_others);
             let row_of = BLOCK * i;
             matrix.add(row_of, row_of, shift - own);
-            // δvᵢ of the others is −Σ yⱼ [2 h̄ g Φ' + h̄² (Φ'''' + ξ² Φ'')], with Φ' odd; here its negative.
+            // δvᵢ of the others is −Σ yⱼ [2 h̄ g Φ' + h̄² (Φ'''' + (ξ² − Bo) Φ'')], with Φ' odd; here its negative.
             for (part, side) in [(1, 1.0), (3, -1.0)] {
                 let term = |first: f64, second: f64, fourth: f64| {
-                    2.0 * height * drive * side * first + square * (fourth + xi_squared * second)
+                    2.0 * height * drive * side * first + square * (fourth + pull * second)
                 };
                 matrix.add(row_of, row_of + part, term(first.0, second.0, fourth.0));
                 matrix.add(row_of, row_of + part + 1, term(first.1, second.1, fourth.1));
@@ -309,14 +320,17 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::droplet::{Droplet, WeightRule};
+    use super::super::droplet::{Droplet, WeightRule, particles};
     use super::*;
+
+    const DROPLET: Droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
 
     /// A droplet whose particles were moved about a little.
     fn method(wetting: f64, lattice: LatticeEnergy) -> (ParticleMethod, Vec<f64>) {
-        let masses = Droplet { area: 1.0, half_width: 0.5 }.particles(0.02, WeightRule::Cell);
+        let masses = particles(&[DROPLET], 0.02, WeightRule::Cell);
         let wave = |x: &f64| x + 0.004 * (40.0 * x + 0.3).sin();
-        (ParticleMethod::new(Kernel::new(0.05), &masses, wetting, lattice), masses.x.iter().map(wave).collect())
+        let pull = Pull { wetting, bond: 2.0 * wetting };
+        (ParticleMethod::new(Kernel::new(0.05), &masses, pull, lattice), masses.x.iter().map(wave).collect())
     }
 
     #[test]
@@ -369,8 +383,8 @@ mod tests {
 
     #[test]
     fn a_symmetric_droplet_stays_symmetric() {
-        let masses = Droplet { area: 0.25, half_width: 0.5 }.particles(0.01, WeightRule::Cell);
-        let mut method = ParticleMethod::new(Kernel::new(0.05), &masses, 0.0, LatticeEnergy::TakenOff);
+        let masses = particles(&[DROPLET], 0.01, WeightRule::Cell);
+        let mut method = ParticleMethod::new(Kernel::new(0.05), &masses, Pull::default(), LatticeEnergy::TakenOff);
         let mut rate = vec![0.0; masses.x.len()];
         method.rates(&masses.x, &mut rate);
         let largest = rate.iter().map(|v| v.abs()).fold(0.0, f64::max);

@@ -1,5 +1,8 @@
 //! What is read off a profile h̄(x): the contact line by the tangent construction, heights, distances between profiles.
 
+/// A maximum below this share of the highest is no droplet.
+const PEAK: f64 = 0.05;
+
 /// h̄ and two derivatives at equally spaced places, ascending.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Profile {
@@ -25,13 +28,13 @@ pub struct Foot {
 }
 
 impl Profile {
-    /// The foot on the right: y* = argmax(−h̄ₓ) over x > 0, contact line y* + h̄/|h̄ₓ| [Pang2022, Sect. 4].
+    /// The foot on the right: y* = argmax(−h̄ₓ) over x > `from`, contact line y* + h̄/|h̄ₓ| [Pang2022, Sect. 4].
     ///
     /// The paper's text names the maximum of h̄, where the tangent is flat; the steepest place is meant. The position is
     /// stationary in y*, so that a parabola through three slopes finds it to the fourth power of their distance.
     #[must_use]
-    pub fn foot(&self) -> Option<Foot> {
-        let right = (1..self.x.len().saturating_sub(1)).filter(|&i| self.x[i] > 0.0);
+    pub fn foot(&self, from: f64) -> Option<Foot> {
+        let right = (1..self.x.len().saturating_sub(1)).filter(|&i| self.x[i] > from);
         let i = right.min_by(|&i, &j| self.slope[i].total_cmp(&self.slope[j]))?;
         let step = self.x[i + 1] - self.x[i];
         let (before, here, after) = (self.slope[i - 1], self.slope[i], self.slope[i + 1]);
@@ -42,6 +45,17 @@ impl Profile {
         let height = self.height[i] + here * d + 0.25 * (after - before) / step * d * d;
         let steepest = self.x[i] + d;
         (slope < 0.0).then(|| Foot { position: steepest - height / slope, steepest, slope: -slope })
+    }
+
+    /// Number of droplets: maxima above [`PEAK`] of the highest.
+    #[must_use]
+    pub fn peaks(&self) -> usize {
+        let least = PEAK * self.height.iter().copied().fold(0.0, f64::max);
+        let h = &self.height;
+        // A film about an axis has its maximum at its first place.
+        let rises = |i: usize| i == 0 || h[i] > h[i - 1];
+        let falls = |i: usize| i + 1 == h.len() || h[i] >= h[i + 1];
+        (0..h.len()).filter(|&i| h[i] > least && rises(i) && falls(i)).count()
     }
 
     /// ∫ |h̄ − f| dx by the trapezoidal rule.
@@ -78,7 +92,7 @@ mod tests {
             curvature: x.iter().map(|x| -x.cos()).collect(),
             x,
         };
-        let foot = profile.foot().unwrap();
+        let foot = profile.foot(0.0).unwrap();
         assert!((foot.position - std::f64::consts::FRAC_PI_2 - 1.0).abs() < 1.0e-7, "{foot:?}");
         assert!((foot.slope - 1.0).abs() < 1.0e-8);
     }

@@ -1,10 +1,11 @@
 //! From SI units to the scaled equation and back [Pang2022, Sects. 4 and 5].
 //!
-//! Complete wetting: h₀ = (8/3) h_max, L = 2r₀. Partial wetting: h₀ = √(A tan θ), L = √(A/tan θ), so that the scaled mass and
-//! the scaled slope at rest are 1. Both: τ = (3μL/γ)(L/h₀)³; the paper prints tan³θ there where tan⁻³θ is consistent.
+//! Complete wetting: h₀ = (8/3) h_max, L = 2r₀, of the highest and the widest droplet. Partial wetting: h₀ = √(A tan θ),
+//! L = √(A/tan θ) with A the cross-section of all droplets, so that the scaled area and the scaled slope at rest are 1. Both:
+//! τ = (3μL/γ)(L/h₀)³; the paper prints tan³θ there where tan⁻³θ is consistent. Bo = ρgL²/γ.
 
 use super::droplet::Droplet;
-use crate::case::checked::ThinFilm;
+use crate::case::film::checked::{FilmDroplet, ThinFilm};
 
 /// One unit of each scaled quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,28 +18,41 @@ pub struct Scales {
     pub time: f64,
     /// Surface tension γ in N/m.
     pub tension: f64,
+    /// Bond number ρgL²/γ.
+    pub bond: f64,
+}
+
+/// Area of a droplet in m².
+fn cross_section(droplet: &FilmDroplet) -> f64 {
+    4.0 / 3.0 * droplet.half_width * droplet.height
 }
 
 impl Scales {
     /// The scales of a case.
     #[must_use]
     pub fn of(film: &ThinFilm) -> Self {
+        let largest = |value: fn(&FilmDroplet) -> f64| film.droplets.iter().map(value).fold(0.0, f64::max);
         let (length, height) = match film.contact_angle {
-            None => (2.0 * film.half_width, 8.0 / 3.0 * film.height),
+            None => (2.0 * largest(|droplet| droplet.half_width), 8.0 / 3.0 * largest(|droplet| droplet.height)),
             Some(angle) => {
-                let area = 4.0 / 3.0 * film.half_width * film.height;
+                let area: f64 = film.droplets.iter().map(cross_section).sum();
                 ((area / angle.tan()).sqrt(), (area * angle.tan()).sqrt())
             }
         };
         let time = 3.0 * film.viscosity * length / film.tension * (length / height).powi(3);
-        Self { length, height, time, tension: film.tension }
+        let bond = film.density * film.gravity * length * length / film.tension;
+        Self { length, height, time, tension: film.tension, bond }
     }
 
-    /// The scaled initial droplet.
+    /// The scaled initial droplets.
     #[must_use]
-    pub fn droplet(&self, film: &ThinFilm) -> Droplet {
-        let half_width = film.half_width / self.length;
-        Droplet { area: 4.0 / 3.0 * half_width * film.height / self.height, half_width }
+    pub fn droplets(&self, film: &ThinFilm) -> Vec<Droplet> {
+        let scaled = |droplet: &FilmDroplet| Droplet {
+            area: cross_section(droplet) / self.area(),
+            half_width: droplet.half_width / self.length,
+            center: droplet.center / self.length,
+        };
+        film.droplets.iter().map(scaled).collect()
     }
 
     /// Slope h₀/L.
@@ -75,30 +89,33 @@ impl Scales {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::checked::{FilmMethod, FilmWeights};
+    use crate::case::film::checked::{FilmEquation, FilmMethod, FilmSymmetry, FilmWeights};
 
     #[test]
     fn the_scaled_droplets_are_those_of_the_paper() {
         let film = |contact_angle: Option<f64>| ThinFilm {
             viscosity: 0.01,
             tension: 0.03,
-            smoothing_length: 5.0e-5,
+            density: 800.0,
+            gravity: 9.81,
             spacing: 5.0e-6,
-            half_width: 5.0e-4,
-            height: 3.75e-5,
+            symmetry: FilmSymmetry::Plane,
+            droplets: vec![FilmDroplet { center: 0.0, half_width: 5.0e-4, height: 3.75e-5 }],
+            equation: FilmEquation::Geometric { smoothing_length: 5.0e-5 },
             contact_angle,
             method: FilmMethod::FiniteDifferences { step_share: 0.01 },
             weights: FilmWeights::Cell,
         };
         let complete = film(None);
         let scales = Scales::of(&complete);
-        let droplet = scales.droplet(&complete);
+        let droplet = scales.droplets(&complete)[0];
         assert!((droplet.area - 0.25).abs() < 1.0e-14 && (droplet.half_width - 0.5).abs() < 1.0e-14);
         // 3 mu L / gamma = 1 ms, (L/h0)^3 = 1000.
         assert!((scales.time - 1.0).abs() < 1.0e-12);
+        assert!((scales.bond - 800.0 * 9.81 * 1.0e-6 / 0.03).abs() < 1.0e-12);
         let partial = film(Some(0.3));
         let scales = Scales::of(&partial);
-        assert!((scales.droplet(&partial).area - 1.0).abs() < 1.0e-14);
+        assert!((scales.droplets(&partial)[0].area - 1.0).abs() < 1.0e-14);
         assert!((scales.slope() - 0.3_f64.tan()).abs() < 1.0e-14);
     }
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::equilibrium::Equilibrium;
 use super::film::{Film, Stuck};
+use super::history::{History, Record};
 use super::measures;
 use super::profile::{Foot, Profile};
 use super::scales::Scales;
@@ -14,7 +15,7 @@ use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Lines, Snapshot, Values};
 use crate::solver::{Measure, PartTime, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo};
 
-/// Points of the output's profile per filter length; the foot is then good to 1e-7 of it.
+/// Points of the output's profile of particles per filter length; the foot is then good to 1e-7 of it.
 const POINTS_PER_FILTER: f64 = 20.0;
 /// Most points of that profile.
 const MOST_POINTS: f64 = 2.0e4;
@@ -26,9 +27,20 @@ pub struct Surroundings {
     pub scales: Scales,
     /// Left and right end of the wall in m.
     pub wall: [f64; 2],
-    /// Scaled filter length α.
-    pub smoothing_length: f64,
-    /// The droplet at rest, in partial wetting.
+    /// Scaled length that the film varies over at its contact line: the filter length, or the grid's spacing.
+    pub resolution: f64,
+    /// Scaled middle of the droplet on the right.
+    pub right: f64,
+    /// Whether the film is the same all around the axis x = 0.
+    pub about_axis: bool,
+    /// Scaled slope at rest, in partial wetting.
+    pub rest: Option<f64>,
+    /// For a partially wetting droplet that rests as a parabola: directions that its curvature is the sum of, 1 in the plane
+    /// and 2 about an axis.
+    pub cap_sides: Option<f64>,
+    /// Whether the droplet comes to a self-similar shape by surface tension.
+    pub is_self_similar: bool,
+    /// The droplet at rest, where its form is known.
     pub equilibrium: Option<Equilibrium>,
 }
 
@@ -37,6 +49,7 @@ pub struct Surroundings {
 pub struct ThinFilmSolver {
     film: Film,
     surroundings: Surroundings,
+    history: History,
     time: f64,
     dt: f64,
     steps: u64,
@@ -54,13 +67,23 @@ struct Saved {
     next: f64,
     corrects: bool,
     values: Vec<f64>,
+    history: History,
 }
 
 impl ThinFilmSolver {
     /// A solver at time zero.
     #[must_use]
     pub fn new(film: Film, surroundings: Surroundings) -> Self {
-        Self { film, surroundings, time: 0.0, dt: 0.0, steps: 0, steps_here: 0, seconds: 0.0 }
+        Self {
+            film,
+            surroundings,
+            history: History::default(),
+            time: 0.0,
+            dt: 0.0,
+            steps: 0,
+            steps_here: 0,
+            seconds: 0.0,
+        }
     }
 
     /// The film, scaled.
@@ -75,11 +98,17 @@ impl ThinFilmSolver {
         &self.surroundings
     }
 
+    /// The way of the contact line.
+    #[must_use]
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
     /// The scaled profile over the wall.
     #[must_use]
     pub fn profile(&self) -> Profile {
         let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
-        let wanted = POINTS_PER_FILTER * (right - left) / self.surroundings.smoothing_length;
+        let wanted = POINTS_PER_FILTER * (right - left) / self.surroundings.resolution;
         let count = wanted.ceil().clamp(2.0, MOST_POINTS);
         let places: Vec<f64> = (0..=count as usize).map(|i| left + (right - left) * i as f64 / count).collect();
         self.film.profile(&places)
@@ -88,7 +117,13 @@ impl ThinFilmSolver {
     /// The scaled contact line on the right.
     #[must_use]
     pub fn foot(&self) -> Option<Foot> {
-        self.profile().foot()
+        self.profile().foot(self.surroundings.right)
+    }
+
+    /// Column of the film's size, and its unit of scaled mass: an area in the plane, a volume about an axis.
+    fn mass_unit(&self) -> (&'static str, f64) {
+        let s = &self.surroundings.scales;
+        if self.surroundings.about_axis { ("volume_m3", s.area() * s.length) } else { ("area_m2", s.area()) }
     }
 
     fn fastest(&self) -> (f64, f64) {
@@ -108,8 +143,8 @@ impl ThinFilmSolver {
             Stuck::Residual(residual) => SolverError::NotConverged {
                 system: "the thin film on its grid",
                 residual,
-                tolerance: super::finite_differences::RESIDUAL,
-                iterations: super::finite_differences::ITERATIONS as usize,
+                tolerance: super::backward_euler::RESIDUAL,
+                iterations: super::backward_euler::ITERATIONS as usize,
                 time,
                 step,
             },
@@ -137,6 +172,13 @@ impl Solver for ThinFilmSolver {
         let stepped = self.film.step(end);
         self.seconds += clock.elapsed().as_secs_f64();
         let dt = stepped.map_err(|stuck| self.stuck(stuck))? * scale;
+        let time = self.film.time();
+        if self.history.is_due(time)
+            && let Some(foot) = self.foot()
+        {
+            let (position, slope, last) = (foot.position, foot.slope, self.film.last_particle());
+            self.history.records.push(Record { time, position, slope, last });
+        }
         let landed = self.film.time() >= end;
         self.time = if landed { until } else { (self.film.time() * scale).min(until.next_down()) };
         self.dt = dt;
@@ -153,13 +195,18 @@ impl Solver for ThinFilmSolver {
         let count = points.len();
         let velocity: Vec<Vec2> = seen.velocity.iter().map(|v| Vec2::new(v * s.velocity(), 0.0)).collect();
         let pressure = -s.tension * s.curvature();
+        let (_, mass) = self.mass_unit();
         let integers = |values: Vec<i64>| Values::Integer(Cow::Owned(values));
         let fields = vec![
             Field { name: "id", unit: "", values: integers((0..count as i64).collect()) },
             Field { name: "phase", unit: "", values: integers(vec![0; count]) },
             Field { name: "velocity", unit: "m/s", values: Values::Vector(velocity.into()) },
             scalar("pressure", "Pa", seen.curvature.iter().map(|c| c * pressure)),
-            scalar("volume", "m^2", seen.mass.iter().map(|m| m * s.area())),
+            scalar(
+                "volume",
+                if self.surroundings.about_axis { "m^3" } else { "m^2" },
+                seen.mass.iter().map(|m| m * mass),
+            ),
             scalar("film-height", "m", seen.height.iter().map(|h| h * s.height)),
         ];
         let profile = self.profile();
@@ -183,6 +230,12 @@ impl Solver for ThinFilmSolver {
     fn sample(&self) -> Vec<Sample> {
         let s = &self.surroundings.scales;
         let foot = self.foot();
+        let (mass_name, mass) = self.mass_unit();
+        let (energy_name, energy) = if self.surroundings.about_axis {
+            ("energy_J", s.energy() * s.length)
+        } else {
+            ("energy_J_per_m", s.energy())
+        };
         let or_nothing = |value: Option<f64>| value.unwrap_or(f64::NAN);
         let row = [
             ("time_s", self.time),
@@ -192,24 +245,24 @@ impl Solver for ThinFilmSolver {
             ("last_particle_position_m", or_nothing(self.film.last_particle().map(|x| x * s.length))),
             ("contact_angle_deg", or_nothing(foot.map(|foot| (foot.slope * s.slope()).atan().to_degrees()))),
             ("center_height_m", self.film.center_height() * s.height),
-            ("area_m2", self.film.mass() * s.area()),
-            ("energy_J_per_m", self.film.energy() * s.energy()),
+            (mass_name, self.film.mass() * mass),
+            (energy_name, self.film.energy() * energy),
             ("max_speed_m_per_s", self.fastest().0 * s.velocity()),
         ];
         row.into_iter().map(|(name, value)| Sample { name, value }).collect()
     }
 
-    fn measures(&self, series: &Series) -> Vec<Measure> {
-        measures::all(self, series)
+    fn measures(&self, _series: &Series) -> Vec<Measure> {
+        measures::all(self)
     }
 
     fn state(&self) -> Vec<u8> {
         let (scaled_time, next, corrects, values) = match &self.film {
             Film::Particles { method, state } => (state.time, state.next, method.corrects(), state.x.clone()),
-            Film::Grid(grid) => (grid.time, grid.next, false, grid.height.clone()),
+            Film::Grid(grid) => (grid.state.time, grid.state.next, false, grid.state.height.clone()),
         };
         let (time, dt, steps) = (self.time, self.dt, self.steps);
-        let saved = Saved { time, dt, steps, scaled_time, next, corrects, values };
+        let saved = Saved { time, dt, steps, scaled_time, next, corrects, values, history: self.history.clone() };
         // Numbers in a list always fit into a vector of bytes.
         postcard::to_stdvec(&saved).unwrap_or_default()
     }
@@ -218,12 +271,13 @@ impl Solver for ThinFilmSolver {
         let saved: Saved = postcard::from_bytes(state).map_err(|error| StateError(error.to_string()))?;
         let count = match &self.film {
             Film::Particles { state, .. } => state.x.len(),
-            Film::Grid(grid) => grid.height.len(),
+            Film::Grid(grid) => grid.state.height.len(),
         };
         if saved.values.len() != count {
             return Err(StateError(format!("expected {count} particles or nodes, found {}", saved.values.len())));
         }
         (self.time, self.dt, self.steps) = (saved.time, saved.dt, saved.steps);
+        self.history = saved.history;
         match &mut self.film {
             Film::Particles { method, state } => {
                 (state.time, state.next, state.x) = (saved.scaled_time, saved.next, saved.values);
@@ -231,7 +285,10 @@ impl Solver for ThinFilmSolver {
                     method.keep_lattice_energy();
                 }
             }
-            Film::Grid(grid) => (grid.time, grid.next, grid.height) = (saved.scaled_time, saved.next, saved.values),
+            Film::Grid(grid) => {
+                let state = &mut grid.state;
+                (state.time, state.next, state.height) = (saved.scaled_time, saved.next, saved.values);
+            }
         }
         Ok(())
     }
@@ -240,7 +297,7 @@ impl Solver for ThinFilmSolver {
         Statistics {
             unknowns: match &self.film {
                 Film::Particles { state, .. } => state.x.len(),
-                Film::Grid(grid) => grid.height.len(),
+                Film::Grid(grid) => grid.state.height.len(),
             },
             steps: self.steps_here,
             parts: vec![PartTime { part: "film", seconds: self.seconds }],
