@@ -97,7 +97,7 @@ fn waves_on_a_film_decay_at_their_exact_rate() {
 #[test]
 fn films_in_cells_have_second_order() {
     let at = |symmetry, model, count| {
-        let mut film = film(half(symmetry, model, 1.5, count, 2.0), DROPLET, StepRule::fixed(2.0e-3));
+        let mut film = film(half(symmetry, model, 1.5, count, 2.0), DROPLET, StepRule::ADAPTIVE);
         film.run(0.2).unwrap();
         assert_eq!(film.state.rejected, 0, "steps must be the same on all grids");
         film.state.height

@@ -9,7 +9,7 @@ use super::film::raw::RawThinFilm;
 use super::preset::Preset;
 use crate::geometry::spec::{ShapeSpec, SolidSide};
 
-/// Derives and attributes of every table of a case file.
+/// Derives and attributes of every table of a case file or another input file.
 macro_rules! tables {
     ($($(#[$outer:meta])* pub struct $name:ident { $($(#[$inner:meta])* pub $field:ident: $kind:ty,)* })*) => {$(
         $(#[$outer])*
@@ -22,8 +22,7 @@ macro_rules! tables {
         }
     )*};
 }
-
-pub(super) use tables;
+pub(crate) use tables;
 
 tables! {
     /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.

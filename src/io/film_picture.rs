@@ -59,7 +59,7 @@ pub fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u8>, Pic
     let below = floor + WALL + 30.0;
     canvas.rectangle([RIM, below - 4.0], [(across * length) as f32, 8.0], BLACK);
     canvas.text(&length_text(length), [RIM, below + 38.0], TEXT_SIZE);
-    let note = format!("highest {}, drawn {:.3} times as high as wide", length_text(rounded(highest)), up / across);
+    let note = format!("highest {}, drawn {:.0} times as high as wide", length_text(rounded(highest)), up / across);
     let anchor = [WIDTH as f32 - RIM - canvas.text_width(&note, TEXT_SIZE), below + 38.0];
     canvas.text(&note, anchor, TEXT_SIZE);
     canvas.png()

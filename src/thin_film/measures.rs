@@ -79,7 +79,9 @@ fn laws(solver: &ThinFilmSolver) -> Vec<Measure> {
     let surroundings = solver.surroundings();
     let scales = surroundings.scales;
     let mut found = Vec::new();
-    if let Some(law) = surroundings.rest.and_then(|rest| solver.history().cox_voinov(rest)) {
+    if surroundings.cap_sides.is_none()
+        && let Some(law) = surroundings.rest.and_then(|rest| solver.history().cox_voinov(rest))
+    {
         let [from, to] = [WINDOW.0, WINDOW.1].map(|time| time * scales.time);
         let method = |what: &str| {
             format!(

@@ -137,6 +137,7 @@ impl ParticleMethod {
     }
 }
 
+/// cₖ of each particle; beyond the ends there is no weight.
 fn lattice_correction(kernel: &Kernel, weight: &[f64]) -> Vec<f64> {
     let at = |i: Option<usize>| i.and_then(|i| weight.get(i)).copied().unwrap_or(0.0);
     let scale = 48.0 * kernel.alpha().powi(4);

@@ -105,7 +105,11 @@ fn the_defaults_of_the_reference_are_those_of_the_program() {
         let table: toml::Table = resolved.parse().unwrap();
         for row in rows.iter().filter(|row| row.len() == 5) {
             let path = code(&row[0]).remove(0);
-            let (Some(last), false) = (path.rsplit('.').next(), path.starts_with("sph.phases")) else { continue };
+            let (Some(last), false) =
+                (path.rsplit('.').next(), path.starts_with("sph.phases") || path.starts_with("thin-film.fluid"))
+            else {
+                continue;
+            };
             let value =
                 path.split('.').try_fold(toml::Value::Table(table.clone()), |value, key| value.get(key).cloned());
             let Some(number) = value.and_then(|value| value.as_float()) else { continue };

@@ -79,6 +79,15 @@ pub(in crate::case) fn thin_film(
             rounding(checker, spacing, smoothing_length);
         }
     }
+    if let (Some(FilmMethod::Particles { lattice_energy: LatticeEnergy::TakenOff, .. }), Some([_, _, ..])) =
+        (method, droplets.as_deref())
+    {
+        checker.refuse(
+            "thin-film.method.particles.lattice-energy",
+            "the lattice energy can be taken off one droplet, and there are several",
+            "where droplets meet their lattices would not fit; take a smaller spacing, or finite differences",
+        );
+    }
     if let Some(geometry) = geometry {
         domain(checker, geometry, droplets.as_deref().unwrap_or_default(), symmetry);
         if let Some(spacing) = spacing {
