@@ -7,6 +7,7 @@ Usage: check_output.py DIR
 """
 
 import argparse
+import functools
 import itertools
 import sys
 from pathlib import Path
@@ -24,16 +25,20 @@ def measure(path: str | Path) -> dict:
     """What is wrong with the folder (`problems`, empty when nothing is), with the times and counts that were found."""
     directory = Path(path)
     problems: list[str] = []
+    film = results.is_film(directory)
+    arrays = results.FILM_PARTICLE_ARRAYS if film else results.PARTICLE_ARRAYS
+    columns = results.FILM_SERIES_COLUMNS if film else results.SERIES_COLUMNS
     found = {
         "problems": problems,
-        "times": check_collection(directory, "particles", check_particles, problems),
-        "grid-times": check_collection(directory, "grid", check_grid, problems),
+        "times": check_collection(directory, "particles", functools.partial(check_particles, arrays), problems),
         "interface-times": check_collection(directory, "interface", check_interface, problems),
-        "records": check_series(directory / "series.csv", problems),
+        "records": check_series(directory / "series.csv", columns, problems),
         "status": check_report(directory, problems),
     }
+    if not film:
+        found["grid-times"] = check_collection(directory, "grid", check_grid, problems)
     for kind in ("grid-times", "interface-times"):
-        if found[kind] != found["times"]:
+        if found.get(kind, found["times"]) != found["times"]:
             problems.append(f"the {kind} are not the times of the particles")
     solid = directory / "solid.vtp"
     if not solid.is_file():
@@ -93,7 +98,7 @@ def check_arrays(data, arrays: dict[str, int], may_be_nan, place: str, problems:
             problems.append(f"{place}: {name} is not finite at {wrong} of {data.n_points} points")
 
 
-def check_particles(data, place: str, problems: list[str]) -> None:
+def check_particles(arrays: dict[str, int], data, place: str, problems: list[str]) -> None:
     """Each particle is a vertex cell with all arrays; ids are unique and phases known."""
     if not isinstance(data, pv.UnstructuredGrid) or data.n_points == 0:
         problems.append(f"{place}: no particles in an unstructured grid")
@@ -102,7 +107,7 @@ def check_particles(data, place: str, problems: list[str]) -> None:
         problems.append(f"{place}: {data.n_points} particles but {data.n_cells} cells, or cells that are no vertices")
     if not ({"time", "TimeValue"} & set(data.field_data.keys())):
         problems.append(f"{place}: no time in the field data")
-    check_arrays(data, results.PARTICLE_ARRAYS, np.zeros(data.n_points, dtype=bool), place, problems)
+    check_arrays(data, arrays, np.zeros(data.n_points, dtype=bool), place, problems)
     if "id" in data.point_data and len(np.unique(data.point_data["id"])) != data.n_points:
         problems.append(f"{place}: ids are not unique")
     if "phase" in data.point_data and not np.isin(data.point_data["phase"], [0, 1, 2]).all():
@@ -133,13 +138,13 @@ def check_interface(data, place: str, problems: list[str]) -> None:
         check_arrays(data, results.INTERFACE_ARRAYS, np.ones(data.n_points, dtype=bool), place, problems)
 
 
-def check_series(path: Path, problems: list[str]) -> int:
+def check_series(path: Path, expected: list[str], problems: list[str]) -> int:
     """Columns are present and times ascend; returns the number of records."""
     if not path.is_file():
         problems.append("series.csv is missing")
         return 0
     columns = results.series(path)
-    problems.extend(f"series.csv: no column {name}" for name in results.SERIES_COLUMNS if name not in columns)
+    problems.extend(f"series.csv: no column {name}" for name in expected if name not in columns)
     for name in ALWAYS_FINITE:
         if name in columns and not np.isfinite(columns[name]).all():
             problems.append(f"series.csv: {name} is not finite in every row")

@@ -46,6 +46,20 @@ SERIES_COLUMNS = [
     "density_error",
     "ppe_iterations",
 ]
+# The same of thin films, which have no grid.
+FILM_PARTICLE_ARRAYS = {"id": 1, "phase": 1, "velocity": 3, "pressure": 1, "volume": 1, "film-height": 1}
+FILM_SERIES_COLUMNS = [
+    "time_s",
+    "step",
+    "dt_s",
+    "contact_line_position_m",
+    "last_particle_position_m",
+    "contact_angle_deg",
+    "center_height_m",
+    "area_m2",
+    "energy_J_per_m",
+    "max_speed_m_per_s",
+]
 UNITS = {
     "velocity": "m/s",
     "pressure": "Pa",
@@ -90,6 +104,13 @@ def series(path: Path) -> dict[str, np.ndarray]:
 def report(directory: Path) -> dict:
     """The content of report.json."""
     return json.loads((directory / "report.json").read_text(encoding="utf-8"))
+
+
+def is_film(directory: Path) -> bool:
+    """Whether the folder is that of a thin film; one without a report is taken for a flow."""
+    if not (directory / "report.json").is_file():
+        return False
+    return "thin-film" in report(directory).get("case", {}).get("model", {})
 
 
 def requested_angle(content) -> float | None:

@@ -14,6 +14,7 @@ pub mod case;
 
 pub mod analysis;
 pub mod sph;
+pub mod thin_film;
 
 pub mod io;
 

@@ -38,3 +38,17 @@ fn fresh_output_keeps_the_contract_and_is_drawn() {
         assert!(target.metadata().is_ok_and(|m| m.len() > 2000), "{file} is empty");
     }
 }
+
+#[test]
+fn a_fresh_thin_film_keeps_the_contract_and_is_drawn() {
+    let directory = tempfile::tempdir().expect("a temporary folder");
+    let out = directory.path().join("out");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_meniscus"));
+    command.arg("run").arg(root().join("cases/thin-film/partial-wetting.toml")).arg("--out").arg(&out);
+    command.args(["--set", "time.end=0.1", "--set", "expect=[]"]);
+    run(&mut command, "the film must run");
+    run(script("check_output.py").arg(&out), "the output must keep the contract");
+    let picture = directory.path().join("film.png");
+    run(script("film_profiles.py").arg(&out).arg("--picture").arg(&picture), "the figure must be drawn");
+    assert!(picture.metadata().is_ok_and(|m| m.len() > 2000), "the figure is empty");
+}

@@ -1,5 +1,6 @@
 //! A checked case: every value present, in SI units and in range. Made by `case::load`, read by set-up code only.
 
+use super::film::checked::ThinFilm;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::math::Vec2;
 
@@ -26,6 +27,8 @@ pub struct Case {
 pub enum Model {
     /// Direct simulation by incompressible SPH.
     Sph(Box<Sph>),
+    /// Droplets on a flat wall by a thin-film equation (`[thin-film]`).
+    ThinFilm(Box<ThinFilm>),
 }
 
 /// Direct simulation by incompressible SPH (`[sph]`).

@@ -30,7 +30,7 @@ impl std::fmt::Debug for Facts<'_> {
 /// What is wrong with a case on its real geometry.
 #[must_use]
 pub fn check_against(case: &Case, facts: &Facts) -> Vec<Problem> {
-    let Model::Sph(sph) = &case.model;
+    let Model::Sph(sph) = &case.model else { return Vec::new() };
     let mut problems: Vec<Problem> = throat(sph, facts).into_iter().collect();
     problems.extend(regions(case, sph, facts));
     problems

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::check::{self, Checker};
 use super::checked::{Case, Model};
 use super::raw::{RawCase, RawGeometry, RawShapeFile};
-use super::{resolve, shapes, sph};
+use super::{film, resolve, shapes, sph};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Document, InputError, Mistake, Overrides, Problem};
 
@@ -94,17 +94,23 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
 }
 
 fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>) -> Option<Model> {
-    if raw.thin_film.is_some() {
-        let message = match raw.sph {
-            Some(_) => "expected exactly one model, found `sph` and `thin-film`",
-            None => "thin films are not yet available",
-        };
-        checker.refuse("thin-film", message, "use [sph], direct simulation, and leave out [thin-film]");
+    match (&raw.sph, &raw.thin_film) {
+        (Some(raw), None) => sph::sph(checker, raw, geometry).map(|sph| Model::Sph(Box::new(sph))),
+        (None, Some(raw)) => film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
+        (Some(_), Some(_)) => {
+            let message = "expected exactly one model, found `sph` and `thin-film`";
+            checker.refuse(
+                "thin-film",
+                message,
+                "use [sph], direct simulation, or [thin-film], a droplet on a flat wall",
+            );
+            None
+        }
+        (None, None) => {
+            checker.refuse("sph", "expected a model, found none", "add the table [sph], or [thin-film]");
+            None
+        }
     }
-    if raw.sph.is_none() && raw.thin_film.is_none() {
-        checker.refuse("sph", "expected a model, found none", "add the table [sph]");
-    }
-    sph::sph(checker, raw.sph.as_ref()?, geometry).map(|sph| Model::Sph(Box::new(sph)))
 }
 
 fn geometry(

@@ -6,6 +6,7 @@
 mod check;
 pub mod checked;
 mod facts;
+pub mod film;
 mod load;
 pub mod preset;
 pub mod raw;

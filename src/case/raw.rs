@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::film::raw::RawThinFilm;
 use super::preset::Preset;
 use crate::geometry::spec::{ShapeSpec, SolidSide};
 
@@ -34,8 +35,8 @@ tables! {
         pub geometry: RawGeometry,
         /// Direct simulation by incompressible SPH.
         pub sph: RawSph,
-        /// Thin films by the lubrication equation (not yet available).
-        pub thin_film: Empty,
+        /// Droplets on a flat wall, by a thin-film equation.
+        pub thin_film: RawThinFilm,
         /// How long the simulation runs.
         pub time: RawTime,
         /// What is written and when.

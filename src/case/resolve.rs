@@ -17,7 +17,10 @@ pub(super) fn text(case: &Case) -> String {
 }
 
 fn raw(case: &Case) -> RawCase {
-    let Model::Sph(sph) = &case.model;
+    let (sph, thin_film) = match &case.model {
+        Model::Sph(sph) => (Some(raw_sph(sph)), None),
+        Model::ThinFilm(film) => (None, Some(super::film::resolved(film))),
+    };
     let geometry = &case.geometry;
     RawCase {
         format: Some(1),
@@ -29,8 +32,8 @@ fn raw(case: &Case) -> RawCase {
             solid: Some(geometry.solid),
             shapes: Some(geometry.shapes.clone()),
         }),
-        sph: Some(raw_sph(sph)),
-        thin_film: None,
+        sph,
+        thin_film,
         time: Some(RawTime { end: Some(case.end) }),
         output: Some(raw_output(&case.output)),
         expect: Some(

@@ -4,7 +4,7 @@ use super::arguments::CheckArguments;
 use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED};
 use super::output::{duration, readable, say};
 use super::source;
-use crate::case::checked::Model;
+use crate::case::checked::{Case, Model};
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
 use crate::run::trial::trial;
@@ -23,13 +23,13 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         say(text);
         return Ok(DONE);
     }
-    let Model::Sph(sph) = &case.model;
     say(&case.title);
-    say(format_args!("  particles   {} at a spacing of {} m", found.unknowns, readable(sph.spacing)));
+    let spacing = spacing(case);
+    say(format_args!("  particles   {} at a spacing of {} m", found.unknowns, readable(spacing)));
     match setup::throat(case) {
         Some(width) => say(format_args!(
             "  throat      {:.1} particles across the narrowest one, {} m",
-            width / sph.spacing,
+            width / spacing,
             readable(width)
         )),
         None => say("  throat      none"),
@@ -37,13 +37,17 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     if let Some(memory) = found.memory_bytes {
         say(format_args!("  memory      {:.0} MiB", memory as f64 / BYTES_PER_MEBIBYTE));
     }
-    say(format_args!("  time step   {} s, ruled by {}", readable(found.time_step_s), found.limit));
-    say(format_args!(
-        "  run         {} s in about {} steps, about {}",
-        readable(case.end),
-        found.steps,
-        duration(found.duration_s)
-    ));
+    match &case.model {
+        Model::Sph(_) => {
+            say(format_args!("  time step   {} s, ruled by {}", readable(found.time_step_s), found.limit));
+            let (steps, time) = (found.steps, duration(found.duration_s));
+            say(format_args!("  run         {} s in about {steps} steps, about {time}", readable(case.end)));
+        }
+        // Steps of a film grow a thousandfold while it comes to rest: the first ones do not tell how long it takes.
+        Model::ThinFilm(_) => {
+            say(format_args!("  time step   {} s at first; it grows with time", readable(found.time_step_s)));
+        }
+    }
     let length = Length::of(case);
     let (speed, formula) = expected_speed(case, length);
     for number in numbers::numbers(case, length, speed) {
@@ -52,4 +56,12 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     say(format_args!("  L           = {} m, {}", readable(length.value), length.name));
     say(format_args!("  U           = {} m/s, {formula}", readable(speed)));
     Ok(DONE)
+}
+
+/// Initial distance of particles or nodes in m.
+fn spacing(case: &Case) -> f64 {
+    match &case.model {
+        Model::Sph(sph) => sph.spacing,
+        Model::ThinFilm(film) => film.spacing,
+    }
 }

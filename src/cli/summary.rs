@@ -49,8 +49,10 @@ fn ending(report: &Report) -> String {
 
 /// The angle that the case asks for, in degrees.
 fn requested_angle(case: &Case) -> Option<f64> {
-    let Model::Sph(sph) = &case.model;
-    sph.wetting_model.map(|WettingModel::Young { contact_angle }| contact_angle.to_degrees())
+    match &case.model {
+        Model::Sph(sph) => sph.wetting_model.map(|WettingModel::Young { contact_angle }| contact_angle.to_degrees()),
+        Model::ThinFilm(film) => film.contact_angle.map(f64::to_degrees),
+    }
 }
 
 fn with_uncertainty(reading: &Reading) -> String {
@@ -113,7 +115,7 @@ mod tests {
     #[test]
     fn the_summary_shows_both_angles_measures_and_files() {
         let mut case = case();
-        let Model::Sph(sph) = &mut case.model;
+        let Model::Sph(sph) = &mut case.model else { panic!("the toy case is one of SPH") };
         sph.wetting_model = Some(WettingModel::Young { contact_angle: 40.0_f64.to_radians() });
         let folder = tempfile::tempdir().unwrap();
         let job = Job { case: &case, resolved: "", folder: folder.path().to_path_buf(), mode: Mode::New };

@@ -3,22 +3,23 @@
 //! Gray is solid: the fluids are drawn over it as dots that just touch. Leaves out every field but `phase`; those are for ParaView.
 
 use super::draw::{Canvas, Rgb};
+use super::film_picture::{film_picture, is_film};
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot, Values};
 
 /// Width of the picture in pixels.
-const WIDTH: u32 = 1200;
+pub(super) const WIDTH: u32 = 1200;
 /// Largest height of the drawing in pixels: a tall pore must still fit on a screen.
 const TALLEST: f32 = 1400.0;
 /// White rim in pixels.
-const RIM: f32 = 30.0;
+pub(super) const RIM: f32 = 30.0;
 /// Room above the drawing for title and time, in pixels.
-const HEAD: f32 = 100.0;
+pub(super) const HEAD: f32 = 100.0;
 /// Room below the drawing for scale bar and legend, in pixels.
 const FOOT: f32 = 90.0;
 /// Heights of the letters in pixels.
-const TITLE_SIZE: f32 = 32.0;
-const TEXT_SIZE: f32 = 24.0;
+pub(super) const TITLE_SIZE: f32 = 32.0;
+pub(super) const TEXT_SIZE: f32 = 24.0;
 /// Radius of a dot over the particle spacing: half the diagonal of a square, so that dots on a lattice leave no hole.
 const COVER: f32 = 0.71;
 /// Radius of the inner dot, which shows where each particle is.
@@ -26,18 +27,18 @@ const CORE: f32 = 0.38;
 /// Below this radius in pixels an inner dot is only noise.
 const SMALLEST_CORE: f32 = 1.5;
 /// The scale bar takes at most this share of the drawing's width.
-const BAR_SHARE: f64 = 0.25;
+pub(super) const BAR_SHARE: f64 = 0.25;
 
-const SOLID: Rgb = [196, 192, 186];
-const OUTLINE: Rgb = [84, 80, 76];
-const INTERFACE: Rgb = [178, 34, 52];
-const BLACK: Rgb = [0, 0, 0];
+pub(super) const SOLID: Rgb = [196, 192, 186];
+pub(super) const OUTLINE: Rgb = [84, 80, 76];
+pub(super) const INTERFACE: Rgb = [178, 34, 52];
+pub(super) const BLACK: Rgb = [0, 0, 0];
 
 /// A phase of the drawing: number in the field `phase`, name, color, color of the inner dot.
-struct Phase {
+pub(super) struct Phase {
     number: i64,
     name: &'static str,
-    color: Rgb,
+    pub(super) color: Rgb,
     core: Rgb,
 }
 
@@ -45,7 +46,7 @@ struct Phase {
 pub const PORE: i64 = 3;
 
 /// What fills the pore; blue and yellow keep apart for color-blind eyes and in print.
-const FLUIDS: [Phase; 3] = [
+pub(super) const FLUIDS: [Phase; 3] = [
     Phase { number: 0, name: "wetting", color: [86, 146, 204], core: [58, 116, 176] },
     Phase { number: 1, name: "non-wetting", color: [248, 232, 176], core: [236, 212, 136] },
     Phase { number: PORE, name: "pore", color: [228, 238, 246], core: [228, 238, 246] },
@@ -100,6 +101,9 @@ impl View {
 /// # Errors
 /// [`PictureError`].
 pub fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
+    if is_film(snapshot) {
+        return film_picture(snapshot, title);
+    }
     let points = &snapshot.particles.points;
     let finite = |x: &&Vec2| x.iter().all(|c| c.is_finite());
     let tight = hull(points.iter().filter(finite)).ok_or(PictureError::Empty)?;
@@ -211,7 +215,7 @@ fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
 }
 
 /// The largest of 1, 2, 5 times a power of ten that is at most `length`, in m.
-fn round_length(length: f64) -> f64 {
+pub(super) fn round_length(length: f64) -> f64 {
     let power = 10_f64.powf(length.log10().floor());
     [5.0, 2.0].into_iter().map(|digit| digit * power).find(|&candidate| candidate <= length).unwrap_or(power)
 }
@@ -226,11 +230,11 @@ fn with_prefix(value: f64, unit: &str) -> String {
     format!("{} {prefix}{unit}", digits.trim_end_matches('0').trim_end_matches('.'))
 }
 
-fn length_text(length: f64) -> String {
+pub(super) fn length_text(length: f64) -> String {
     with_prefix(length, "m")
 }
 
-fn time_text(time: f64) -> String {
+pub(super) fn time_text(time: f64) -> String {
     format!("t = {}", with_prefix(time, "s"))
 }
 

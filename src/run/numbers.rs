@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::setup;
 use crate::case::checked::{Case, InitialVelocity, Model};
+use crate::case::film::checked::{FilmDroplet, FilmEquation, ThinFilm};
 use crate::math::Vec2;
 
 /// A dimensionless number.
@@ -48,7 +49,10 @@ impl Length {
 /// A speed to expect, in m/s, with its formula: what is known before a run.
 #[must_use]
 pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
-    let Model::Sph(sph) = &case.model;
+    let sph = match &case.model {
+        Model::Sph(sph) => sph,
+        Model::ThinFilm(film) => return (spreading_speed(film), "sigma (H / r)^3 / 3 mu"),
+    };
     let (rho, mu, g, l) = (sph.wetting.density, sph.wetting.viscosity, sph.gravity.norm(), length.value);
     let initial = match sph.initial.velocity {
         InitialVelocity::Rest => 0.0,
@@ -69,7 +73,10 @@ pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
 /// The numbers of a case at the speed `speed` in m/s; those that need a tension are absent without one.
 #[must_use]
 pub fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
-    let Model::Sph(sph) = &case.model;
+    let sph = match &case.model {
+        Model::Sph(sph) => sph,
+        Model::ThinFilm(film) => return of_thin_film(film, speed),
+    };
     let (rho, mu, sigma) = (sph.wetting.density, sph.wetting.viscosity, sph.tension);
     let length = length.value;
     let difference = (rho - sph.non_wetting.map_or(0.0, |fluid| fluid.density)).abs();
@@ -85,5 +92,35 @@ pub fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
             number("La", laplace, "rho sigma L / mu^2"),
         ]);
     }
+    all
+}
+
+/// Speed of a contact line by the steepest droplet, without the logarithm of lengths, in m/s: an upper bound by an order of
+/// magnitude.
+fn spreading_speed(film: &ThinFilm) -> f64 {
+    let slope = film.droplets.iter().map(|droplet| droplet.height / droplet.half_width).fold(0.0, f64::max);
+    film.tension * slope.powi(3) / (3.0 * film.viscosity)
+}
+
+/// A thin film has no inertia; what matters is how slow, how flat and how well resolved it is. Droplets: the widest and highest.
+fn of_thin_film(film: &ThinFilm, speed: f64) -> Vec<Number> {
+    let number = |symbol, value, formula| Number { symbol, value, formula };
+    let largest = |value: fn(&FilmDroplet) -> f64| film.droplets.iter().map(value).fold(0.0, f64::max);
+    let (height, width) = (largest(|droplet| droplet.height), 2.0 * largest(|droplet| droplet.half_width));
+    let mut all = vec![
+        number("Ca", film.viscosity * speed / film.tension, "mu U / sigma"),
+        number("H/W", height / width, "initial height / initial width"),
+    ];
+    if film.gravity != 0.0 {
+        let bond = film.density * film.gravity * width * width / film.tension;
+        all.push(number("Bo", bond, "rho g W^2 / sigma"));
+    }
+    all.push(match film.equation {
+        FilmEquation::Geometric { smoothing_length } => {
+            number("alpha/dx", smoothing_length / film.spacing, "filter length / spacing")
+        }
+        FilmEquation::Slip { slip_length, .. } => number("slip/H", slip_length / height, "slip length / height"),
+        FilmEquation::Precursor { film_height } => number("film/H", film_height / height, "precursor film / height"),
+    });
     all
 }

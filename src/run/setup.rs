@@ -4,7 +4,7 @@ use crate::case::checked::{Case, Model};
 use crate::case::{Facts, check_against};
 use crate::input::Problem;
 use crate::solver::Solver;
-use crate::sph;
+use crate::{sph, thin_film};
 
 /// A case that no solver can be made for.
 #[derive(Debug, thiserror::Error)]
@@ -12,6 +12,9 @@ pub enum SetupError {
     /// The direct simulation cannot be set up.
     #[error("{0}")]
     Sph(#[from] sph::setup::SetupError),
+    /// The thin film cannot be set up.
+    #[error("{0}")]
+    ThinFilm(#[from] thin_film::setup::SetupError),
 }
 
 /// The solver of a case, in its initial state.
@@ -21,6 +24,7 @@ pub enum SetupError {
 pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => Ok(Box::new(sph::setup::build(case, sph)?)),
+        Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
     }
 }
 
@@ -29,7 +33,7 @@ pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
 /// # Errors
 /// [`SetupError`] where the shapes themselves are not usable.
 pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
-    let Model::Sph(sph) = &case.model;
+    let Model::Sph(sph) = &case.model else { return Ok(Vec::new()) };
     let geometry = sph::setup::geometry(case, sph)?;
     let region = |shape| sph::setup::region(case, std::slice::from_ref(shape));
     let regions: Vec<_> = sph.initial.wetting.iter().map(region).collect();
@@ -44,7 +48,7 @@ pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
 /// Width of the narrowest throat of a case in m; none where there is no throat, or no usable geometry.
 #[must_use]
 pub fn throat(case: &Case) -> Option<f64> {
-    let Model::Sph(sph) = &case.model;
+    let Model::Sph(sph) = &case.model else { return None };
     let geometry = sph::setup::geometry(case, sph).ok()?;
     geometry.narrowest_throat().map(|throat| throat.width)
 }

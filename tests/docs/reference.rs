@@ -89,7 +89,16 @@ fn the_reference_names_every_key_of_a_study_file_and_no_other() {
 fn the_reference_names_every_word_that_a_key_can_be() {
     let schema = schema();
     let page = page("docs/reference/case-file.md").text + &text("docs/reference/presets.md");
-    for definition in ["RawSide", "RawPhase", "RawViscousTerm", "SolidSide", "Preset"] {
+    for definition in [
+        "RawSide",
+        "RawPhase",
+        "RawViscousTerm",
+        "SolidSide",
+        "Preset",
+        "RawFilmWeights",
+        "RawFilmIntegrator",
+        "RawLatticeEnergy",
+    ] {
         let variants = schema["$defs"][definition]["oneOf"].as_array().unwrap_or_else(|| panic!("{definition}"));
         let words: Vec<&str> = variants.iter().filter_map(|one| one["const"].as_str()).collect();
         assert!(!words.is_empty(), "{definition}");
@@ -102,13 +111,17 @@ fn the_reference_names_every_word_that_a_key_can_be() {
 #[test]
 fn the_defaults_of_the_reference_are_those_of_the_program() {
     let rows = page("docs/reference/case-file.md").rows();
-    for case in ["cases/poiseuille.toml", "cases/sessile-drop.toml", "cases/laplace-drop.toml"] {
+    for case in ["cases/poiseuille.toml", "cases/sessile-drop.toml", "cases/laplace-drop.toml", FILM] {
         let given = text(case);
         let resolved = load(&root().join(case), &Overrides::default()).unwrap().resolved;
         let table: toml::Table = resolved.parse().unwrap();
         for row in rows.iter().filter(|row| row.len() == 5) {
             let path = code(&row[0]).remove(0);
-            let (Some(last), false) = (path.rsplit('.').next(), path.starts_with("sph.phases")) else { continue };
+            let (Some(last), false) =
+                (path.rsplit('.').next(), path.starts_with("sph.phases") || path.starts_with("thin-film.fluid"))
+            else {
+                continue;
+            };
             let value =
                 path.split('.').try_fold(toml::Value::Table(table.clone()), |value, key| value.get(key).cloned());
             let Some(number) = value.and_then(|value| value.as_float()) else { continue };
@@ -164,25 +177,37 @@ fn the_presets_of_the_reference_are_those_of_the_program() {
     }
 }
 
-fn solver() -> Box<dyn Solver> {
-    setup::build(&load(&root().join("cases/poiseuille.toml"), &Overrides::default()).unwrap().case).unwrap()
+fn solver(case: &str) -> Box<dyn Solver> {
+    setup::build(&load(&root().join(case), &Overrides::default()).unwrap().case).unwrap()
 }
+
+const FLOW: &str = "cases/poiseuille.toml";
+const FILM: &str = "cases/thin-film/partial-wetting.toml";
 
 #[test]
 fn every_column_of_the_series_is_described() {
-    let there = solver().sample().into_iter().map(|sample| sample.name).collect::<Vec<_>>();
-    assert_eq!(names(&section(&page("docs/reference/output.md"), "series.csv")), there);
+    for (case, title) in [(FLOW, "# `series.csv`"), (FILM, "Film columns")] {
+        let there = solver(case).sample().into_iter().map(|sample| sample.name).collect::<Vec<_>>();
+        assert_eq!(names(&section(&page("docs/reference/output.md"), title)), there);
+    }
 }
 
 #[test]
 fn every_array_is_described_with_its_unit() {
-    let solver = solver();
-    let snapshot = solver.snapshot();
-    let grid = snapshot.grid.as_ref().unwrap();
-    let interface = snapshot.interface.as_ref().unwrap();
-    let rows = section(&page("docs/reference/output.md"), "Arrays");
-    let groups: [&[Field]; 3] = [&snapshot.particles.fields, &grid.fields, &interface.fields];
-    for (fields, column) in groups.into_iter().zip(2..) {
+    for (case, title) in [(FLOW, "Arrays"), (FILM, "Film arrays")] {
+        let solver = solver(case);
+        let snapshot = solver.snapshot();
+        let rows = section(&page("docs/reference/output.md"), title);
+        let grid = snapshot.grid.as_ref().map(|grid| grid.fields.as_slice());
+        let interface = snapshot.interface.as_ref().map(|lines| lines.fields.as_slice());
+        let groups = [Some(snapshot.particles.fields.as_slice()), grid, interface];
+        columns_tell(&rows, groups.into_iter().flatten());
+    }
+}
+
+/// Columns from the third on say "yes" where a group of fields has the array.
+fn columns_tell<'f>(rows: &[Vec<String>], groups: impl Iterator<Item = &'f [Field<'f>]>) {
+    for (fields, column) in groups.zip(2..) {
         let told = rows.iter().filter(|row| row[column] == "yes").map(|row| (code(&row[0]).remove(0), row[1].clone()));
         let there = fields.iter().map(|field| (field.name.to_owned(), field.unit.to_owned()));
         assert_eq!(told.collect::<BTreeSet<_>>(), there.collect::<BTreeSet<_>>());
@@ -192,7 +217,8 @@ fn every_array_is_described_with_its_unit() {
 #[test]
 fn every_measure_is_described() {
     let mut there = BTreeSet::new();
-    for file in files(&root().join("src/sph/measures"), &["rs"]) {
+    let film = root().join("src/thin_film/measures.rs");
+    for file in files(&root().join("src/sph/measures"), &["rs"]).into_iter().chain([film]) {
         let source = std::fs::read_to_string(file).unwrap();
         let calls = source.split("measure(").skip(1).filter_map(|rest| rest.trim_start().strip_prefix('"'));
         there.extend(calls.filter_map(|rest| rest.split('"').next().map(str::to_owned)));

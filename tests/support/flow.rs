@@ -12,6 +12,6 @@ pub fn flow(text: &str) -> Flow {
     std::fs::write(&path, text).expect("the case can be written");
     let case: Case =
         meniscus::case::load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{error:?}")).case;
-    let Model::Sph(sph) = &case.model;
+    let Model::Sph(sph) = &case.model else { panic!("the case is one of SPH") };
     setup::build(&case, sph).expect("a case that fits").flow
 }

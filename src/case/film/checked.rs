@@ -1,0 +1,122 @@
+//! A checked `[thin-film]`: every value present, in SI units and in range.
+
+/// Droplets on the wall y = 0.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct ThinFilm {
+    /// Dynamic viscosity in Pa s.
+    pub viscosity: f64,
+    /// Surface tension in N/m.
+    pub tension: f64,
+    /// Density in kg/m³; 0 where nothing depends on it.
+    pub density: f64,
+    /// Gravity towards the wall in m/s².
+    pub gravity: f64,
+    /// Initial distance of particles, or distance of grid nodes, in m.
+    pub spacing: f64,
+    /// The film across the plane of the picture.
+    pub symmetry: FilmSymmetry,
+    /// The droplets at time zero, from left to right.
+    pub droplets: Vec<FilmDroplet>,
+    /// The equation.
+    pub equation: FilmEquation,
+    /// Angle of rest in rad; absent in complete wetting.
+    pub contact_angle: Option<f64>,
+    /// How the equation is solved.
+    pub method: FilmMethod,
+    /// Whether particles and nodes hold the film of their cell (or the height at their place).
+    pub weights: FilmWeights,
+}
+
+/// A parabolic droplet; lengths in m.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct FilmDroplet {
+    /// Its middle.
+    pub center: f64,
+    /// Half of the base width.
+    pub half_width: f64,
+    /// Height in the middle.
+    pub height: f64,
+}
+
+/// The film across the plane of the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmSymmetry {
+    /// The same at any depth.
+    Plane,
+    /// The same all around the axis x = 0.
+    Axis,
+}
+
+/// Thin-film equations; lengths in m.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmEquation {
+    /// Geometric Thin-Film Equation.
+    Geometric {
+        /// Filter length α.
+        smoothing_length: f64,
+    },
+    /// Navier slip.
+    Slip {
+        /// Slip length.
+        slip_length: f64,
+        /// Height of the film on the wall that counts as dry.
+        film_height: f64,
+    },
+    /// Precursor film.
+    Precursor {
+        /// Its height.
+        film_height: f64,
+    },
+}
+
+/// Methods for thin films.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmMethod {
+    /// Particles on an infinite line.
+    Particles {
+        /// Integration in time.
+        integrator: FilmIntegrator,
+        /// Largest error of a step over the initial width.
+        tolerance: f64,
+        /// What is done about the energy of the particle lattice.
+        lattice_energy: LatticeEnergy,
+    },
+    /// Implicit finite differences: over a periodic domain for the geometric equation in the plane, else between walls.
+    FiniteDifferences {
+        /// Longest step over the time since the start.
+        step_share: f64,
+    },
+}
+
+/// Integration of the particles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmIntegrator {
+    /// Linearly implicit, order 4.
+    Stiff,
+    /// Dormand and Prince, order 5.
+    Explicit,
+}
+
+/// What is done about the energy of the particle lattice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LatticeEnergy {
+    /// Nothing.
+    Kept,
+    /// Its gradient is taken off the rates.
+    TakenOff,
+}
+
+/// What particles and nodes stand for at time zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmWeights {
+    /// The film of their cell.
+    Cell,
+    /// The height at their place.
+    Point,
+}

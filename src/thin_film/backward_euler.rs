@@ -1,0 +1,169 @@
+//! Implicit steps of a film on a grid: backward Euler, Newton's method with a line search, and the choice of the step.
+//!
+//! A step solves G(v) = 0 for the heights v at its end. Order 1 in time. Newton's method ends where the residual is small, or where its
+//! next change of the heights is: on fine grids rounding keeps the residual of a fourth derivative from being small. A step depends on the heights, the time and the proposed
+//! step only, so that a run resumed from them gives the same bits as an unbroken one.
+
+/// Newton's method stops below this 2-norm of the residual or of a change, in scaled heights [Pang2022, Sect. 6].
+pub const RESIDUAL: f64 = 1.0e-9;
+/// More iterations than this mean a step that is too large; a healthy one takes 2 to 4.
+pub const ITERATIONS: u32 = 12;
+/// Shortest share of a Newton step that is tried.
+const SHORTEST: f64 = 1.0 / 64.0;
+/// By how much a step is cut that was not solved.
+const CUT: f64 = 0.3;
+/// Shortest step over the first one of the rule.
+const SMALLEST: f64 = 1.0e-6;
+
+/// What a step has to solve.
+pub trait Balance {
+    /// G(v), for a step of length `dt` that begins at the heights `old`.
+    fn residual(&self, v: &[f64], old: &[f64], dt: f64) -> Vec<f64>;
+
+    /// 2-norm of the residual in heights.
+    fn size(&self, residual: &[f64]) -> f64;
+
+    /// J⁻¹ `residual` with the Jacobian J of G at `v`; none where J is singular.
+    fn newton(&self, v: &[f64], residual: &[f64], dt: f64) -> Option<Vec<f64>>;
+
+    /// Whether a solution can be a film.
+    fn acceptable(&self, v: &[f64]) -> bool;
+}
+
+/// How long steps are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepRule {
+    /// The first step.
+    pub first: f64,
+    /// Most by which a step may be longer than the one before.
+    pub growth: f64,
+    /// Longest step over the present time.
+    pub share: f64,
+    /// Longest step.
+    pub longest: f64,
+}
+
+impl StepRule {
+    /// The rule that starts partially wetting droplets without a rejected step.
+    pub const ADAPTIVE: Self = Self { first: 1.0e-6, growth: 1.3, share: 0.02, longest: f64::INFINITY };
+
+    /// Equal steps.
+    #[must_use]
+    pub fn fixed(dt: f64) -> Self {
+        Self { first: dt, growth: 1.0, share: f64::INFINITY, longest: dt }
+    }
+}
+
+/// A step that Newton's method does not solve, however short.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NotSolved {
+    /// The step.
+    pub dt: f64,
+    /// 2-norm of the residual reached.
+    pub residual: f64,
+}
+
+/// Heights on their way.
+#[derive(Debug, Clone)]
+pub struct BackwardEuler {
+    /// Heights at the nodes.
+    pub height: Vec<f64>,
+    /// Time.
+    pub time: f64,
+    /// The step to try next.
+    pub next: f64,
+    rule: StepRule,
+    /// Newton iterations so far.
+    pub iterations: u64,
+    /// Steps tried again with less.
+    pub rejected: u64,
+}
+
+impl BackwardEuler {
+    /// Heights at time zero.
+    #[must_use]
+    pub fn new(height: Vec<f64>, rule: StepRule) -> Self {
+        Self { height, time: 0.0, next: rule.first, rule, iterations: 0, rejected: 0 }
+    }
+
+    /// Does one step that ends at `until` or before; landing there is exact. Gives back its length.
+    ///
+    /// # Errors
+    /// [`NotSolved`]; the state is kept.
+    pub fn step(&mut self, balance: &(impl Balance + ?Sized), until: f64) -> Result<f64, NotSolved> {
+        loop {
+            let left = until - self.time;
+            let longest = self.rule.longest.min((self.rule.share * self.time).max(self.rule.first));
+            let wanted = self.next.min(longest);
+            // Equal steps miss their end by rounding only: that is no step of its own.
+            let lands = wanted * (1.0 + 1.0e-9) >= left;
+            // Two halves rather than a step and a sliver.
+            let dt = if lands { left } else { wanted.min(0.5 * left).max(0.5 * wanted) };
+            match self.solve(balance, dt) {
+                Ok(height) => {
+                    self.height = height;
+                    self.time = if lands { until } else { self.time + dt };
+                    self.next = if dt < wanted { wanted } else { self.rule.growth * dt };
+                    return Ok(dt);
+                }
+                Err(residual) => {
+                    self.rejected += 1;
+                    self.next = CUT * dt;
+                    if self.next < SMALLEST * self.rule.first {
+                        return Err(NotSolved { dt, residual });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Runs to `until`.
+    ///
+    /// # Errors
+    /// [`NotSolved`].
+    pub fn run(&mut self, balance: &(impl Balance + ?Sized), until: f64) -> Result<(), NotSolved> {
+        while self.time < until {
+            self.step(balance, until)?;
+        }
+        Ok(())
+    }
+
+    /// Newton's method with a line search on the norm of the residual; the residual reached where it fails.
+    fn solve(&mut self, balance: &(impl Balance + ?Sized), dt: f64) -> Result<Vec<f64>, f64> {
+        let mut v = self.height.clone();
+        let mut residual = balance.residual(&v, &self.height, dt);
+        let mut size = balance.size(&residual);
+        for _ in 0..ITERATIONS {
+            if size < RESIDUAL {
+                return if balance.acceptable(&v) { Ok(v) } else { Err(size) };
+            }
+            self.iterations += 1;
+            let change = balance.newton(&v, &residual, dt).ok_or(size)?;
+            let moved = |share: f64| -> Vec<f64> { v.iter().zip(&change).map(|(v, c)| v - share * c).collect() };
+            let mut share = 1.0;
+            if norm(&change) < RESIDUAL {
+                v = moved(share);
+                return if balance.acceptable(&v) { Ok(v) } else { Err(size) };
+            }
+            loop {
+                let trial = moved(share);
+                let residual_there = balance.residual(&trial, &self.height, dt);
+                let size_there = balance.size(&residual_there);
+                if size_there < size {
+                    (v, residual, size) = (trial, residual_there, size_there);
+                    break;
+                }
+                share *= 0.5;
+                if share < SHORTEST {
+                    return Err(size);
+                }
+            }
+        }
+        Err(size)
+    }
+}
+
+/// 2-norm.
+pub(super) fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|v| v * v).sum::<f64>().sqrt()
+}

@@ -1,0 +1,181 @@
+//! The two methods behind one face: what solver and output need of a film, scaled.
+
+use super::droplet::PointMasses;
+use super::grid::GridFilm;
+use super::ode::{Integrator, Rates};
+use super::particles::{ParticleMethod, WIDEST_GAP, widest_gap};
+use super::profile::Profile;
+
+/// A film on its way.
+#[derive(Debug, Clone)]
+pub enum Film {
+    /// Particles on an infinite line.
+    Particles {
+        /// The equation.
+        method: Box<ParticleMethod>,
+        /// The state.
+        state: Integrator,
+    },
+    /// Nodes of a grid.
+    Grid(Box<GridFilm>),
+}
+
+/// A step that was not found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stuck {
+    /// No step of the particles is accurate enough, down to this one.
+    Inaccurate(f64),
+    /// Newton's method on the grid ended with this residual.
+    Residual(f64),
+}
+
+/// What is seen of a film at its particles or nodes.
+#[derive(Debug, Clone, Default)]
+pub struct Seen {
+    /// Places.
+    pub x: Vec<f64>,
+    /// h̄.
+    pub height: Vec<f64>,
+    /// h̄ₓₓ.
+    pub curvature: Vec<f64>,
+    /// Velocity along the wall.
+    pub velocity: Vec<f64>,
+    /// Mass of the particle or node.
+    pub mass: Vec<f64>,
+}
+
+impl Film {
+    /// Particles at time zero.
+    #[must_use]
+    pub fn particles(method: ParticleMethod, masses: &PointMasses, state: Integrator) -> Self {
+        debug_assert_eq!(masses.x.len(), state.x.len());
+        Self::Particles { method: Box::new(method), state }
+    }
+
+    /// Scaled time.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        match self {
+            Self::Particles { state, .. } => state.time,
+            Self::Grid(grid) => grid.state.time,
+        }
+    }
+
+    /// Does one step that ends at `until` or before. Gives back its length.
+    ///
+    /// # Errors
+    /// [`Stuck`]; the state is kept.
+    pub fn step(&mut self, until: f64) -> Result<f64, Stuck> {
+        match self {
+            Self::Particles { method, state } => {
+                if method.corrects() && widest_gap(&state.x) > WIDEST_GAP * method.kernel().alpha() {
+                    method.keep_lattice_energy();
+                }
+                state.step(method.as_mut(), until).map_err(|error| Stuck::Inaccurate(error.0))
+            }
+            Self::Grid(grid) => grid.step(until).map_err(|error| Stuck::Residual(error.residual)),
+        }
+    }
+
+    /// Particles or nodes with what is known there.
+    #[must_use]
+    pub fn seen(&self) -> Seen {
+        match self {
+            Self::Particles { method, state } => {
+                // The sums need room to work in; this one is thrown away.
+                let mut method = method.clone();
+                let mut velocity = vec![0.0; state.x.len()];
+                method.rates(&state.x, &mut velocity);
+                let mass = method.weight().to_vec();
+                let smoothed = method.smooth(&state.x);
+                let (height, curvature) = (smoothed.height.clone(), smoothed.curvature.clone());
+                Seen { x: state.x.clone(), height, curvature, velocity, mass }
+            }
+            Self::Grid(film) => {
+                let (grid, height) = (film.grid(), film.state.height.clone());
+                let [_, curvature] = grid.slope_and_curvature(&height);
+                let mass = height.iter().zip(grid.sizes()).map(|(h, size)| h * size).collect();
+                Seen { x: grid.nodes(), curvature, velocity: grid.velocity(&height), mass, height }
+            }
+        }
+    }
+
+    /// The profile at ascending places; nodes of a grid stand where they stand.
+    #[must_use]
+    pub fn profile(&self, places: &[f64]) -> Profile {
+        match self {
+            Self::Particles { method, state } => {
+                let s = method.profile(&state.x, places);
+                Profile { x: places.to_vec(), height: s.height, slope: s.slope, curvature: s.curvature }
+            }
+            Self::Grid(film) => {
+                let (grid, height) = (film.grid(), film.state.height.clone());
+                let [slope, curvature] = grid.slope_and_curvature(&height);
+                Profile { x: grid.nodes(), height, slope, curvature }
+            }
+        }
+    }
+
+    /// h̄ at x = 0.
+    #[must_use]
+    pub fn center_height(&self) -> f64 {
+        match self {
+            Self::Particles { method, state } => method.profile(&state.x, &[0.0]).height[0],
+            Self::Grid(grid) => grid.center_height(),
+        }
+    }
+
+    /// The last particle, where there are particles.
+    #[must_use]
+    pub fn last_particle(&self) -> Option<f64> {
+        match self {
+            Self::Particles { state, .. } => state.x.last().copied(),
+            Self::Grid(_) => None,
+        }
+    }
+
+    /// Energy.
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        match self {
+            Self::Particles { method, state } => method.clone().energy(&state.x),
+            Self::Grid(grid) => grid.energy(),
+        }
+    }
+
+    /// Mass.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        match self {
+            Self::Particles { method, .. } => method.area(),
+            Self::Grid(grid) => grid.mass(),
+        }
+    }
+
+    /// Slope of the contact angle that the lattice of particles imitates; none on a grid, or where it is taken off.
+    #[must_use]
+    pub fn lattice_slope(&self) -> Option<f64> {
+        match self {
+            Self::Particles { method, .. } => (!method.corrects()).then(|| method.lattice_slope()),
+            Self::Grid(_) => None,
+        }
+    }
+
+    /// Counts of the work by name.
+    #[must_use]
+    pub fn counts(&self) -> Vec<(&'static str, f64)> {
+        match self {
+            Self::Particles { state, .. } => vec![
+                ("rate-evaluations", state.work.rates as f64),
+                ("factorizations", state.work.factors as f64),
+                ("rejected-steps", state.work.rejected as f64),
+            ],
+            Self::Grid(grid) => {
+                vec![
+                    ("newton-iterations", grid.state.iterations as f64),
+                    ("rejected-steps", grid.state.rejected as f64),
+                ]
+            }
+        }
+    }
+}

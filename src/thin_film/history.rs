@@ -1,0 +1,128 @@
+//! The way of a contact line, kept at times that are even in the logarithm, and what is fitted to it. Scaled.
+//!
+//! Records of a case stand at even times, which say little about a droplet whose steps grow a millionfold.
+
+use nalgebra::{Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
+
+use super::profile::exponent;
+
+/// Records per tenfold of time.
+const PER_DECADE: f64 = 40.0;
+/// The first record.
+const FIRST: f64 = 1.0e-4;
+/// The law of Cox and Voinov is fitted to records in this window of scaled time. Its two constants depend on the window, which
+/// is why there is no choice.
+pub const WINDOW: (f64, f64) = (1.0e-2, 1.0);
+/// Factor of the law in units of the scaled speed 3 Ca: θ³ = θₑ³ + 9 Ca ln(x/d).
+pub const COX_VOINOV: f64 = 3.0;
+/// Fewest records for a fit.
+const FEWEST: usize = 8;
+
+/// The contact line at one time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Time.
+    pub time: f64,
+    /// Where the contact line is.
+    pub position: f64,
+    /// Slope of the apparent contact angle.
+    pub slope: f64,
+    /// Position of the last particle, where there are particles.
+    pub last: Option<f64>,
+}
+
+/// Records so far.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    /// In the order of time.
+    pub records: Vec<Record>,
+}
+
+/// A law of Cox and Voinov: θ³ = θₑ³ + c v ln(x/d).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CoxVoinov {
+    /// c.
+    pub factor: f64,
+    /// d.
+    pub length: f64,
+    /// Root mean square of the misfit of θ³.
+    pub error: f64,
+}
+
+impl History {
+    /// Whether a record is due at `time`.
+    #[must_use]
+    pub fn is_due(&self, time: f64) -> bool {
+        let place = |time: f64| (PER_DECADE * (time / FIRST).log10()).floor();
+        time >= FIRST && self.records.last().is_none_or(|last| place(time) > place(last.time))
+    }
+
+    /// Exponent of a length in time from `start` on.
+    #[must_use]
+    pub fn exponent(&self, start: f64, length: impl Fn(&Record) -> Option<f64>) -> Option<f64> {
+        let later = self.records.iter().filter(|record| record.time >= start);
+        exponent(later.filter_map(|record| Some((record.time, length(record)?))))
+    }
+
+    /// The law of Cox and Voinov for the slope of rest `rest`, by linear least squares in c and c ln d over the window.
+    #[must_use]
+    pub fn cox_voinov(&self, rest: f64) -> Option<CoxVoinov> {
+        let points: Vec<[f64; 3]> = self
+            .records
+            .windows(3)
+            .filter(|w| (WINDOW.0..=WINDOW.1).contains(&w[1].time))
+            .map(|w| {
+                let (before, after) = (w[1].time - w[0].time, w[2].time - w[1].time);
+                let (rise, next) = ((w[1].position - w[0].position) / before, (w[2].position - w[1].position) / after);
+                let speed = (rise * after + next * before) / (before + after);
+                [speed * w[1].position.ln(), -speed, w[1].slope.powi(3) - rest.powi(3)]
+            })
+            .collect();
+        if points.len() < FEWEST {
+            return None;
+        }
+        let sum = |i: usize, j: usize| points.iter().map(|p| p[i] * p[j]).sum::<f64>();
+        let matrix = Matrix2::new(sum(0, 0), sum(0, 1), sum(0, 1), sum(1, 1));
+        let solution = matrix.try_inverse()? * Vector2::new(sum(0, 2), sum(1, 2));
+        let off = |p: &[f64; 3]| (p[0] * solution.x + p[1] * solution.y - p[2]).powi(2);
+        let error = (points.iter().map(off).sum::<f64>() / points.len() as f64).sqrt();
+        Some(CoxVoinov { factor: solution.x, length: (solution.y / solution.x).exp(), error })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_are_due_forty_times_a_decade() {
+        let mut history = History::default();
+        let mut time = 1.0e-5;
+        while time < 1.0 {
+            if history.is_due(time) {
+                history.records.push(Record { time, position: time.powf(0.2), slope: 1.0, last: None });
+            }
+            time *= 1.001;
+        }
+        assert_eq!(history.records.len(), 160);
+        assert!((history.exponent(0.0, |r| Some(r.position)).unwrap() - 0.2).abs() < 1.0e-12);
+        assert_eq!(history.exponent(0.0, |r| r.last), None);
+    }
+
+    #[test]
+    fn a_line_that_moves_by_the_law_of_cox_and_voinov_gives_back_its_constants() {
+        let (factor, length) = (3.0, 0.4);
+        // x = t^(1/10), its speed x/(10 t).
+        let record = |i: i32| {
+            let time = 1.0e-3 * 10_f64.powf(f64::from(i) / 400.0);
+            let position = time.powf(0.1);
+            let cube = 1.0 + factor * 0.1 * position / time * (position / length).ln();
+            Record { time, position, slope: cube.cbrt(), last: None }
+        };
+        let found = History { records: (0..1400).map(record).collect() }.cox_voinov(1.0).unwrap();
+        // Speeds by differences over 1/400 of a decade.
+        assert!((found.factor / factor - 1.0).abs() < 1.0e-3 && (found.length / length - 1.0).abs() < 1.0e-3);
+        assert!(found.error < 1.0e-3);
+    }
+}

@@ -1,0 +1,25 @@
+//! The Geometric Thin-Film Equation of Pang and Ó Náraigh 2022: droplets that spread on a flat wall.
+//!
+//! h_t = −∂ₓ( h h̄² ∂ₓ( h̄ₓₓ + (ξ² − Bo) h̄ ) ), h̄ = Φ∗h, by particles and by implicit finite differences; beside it the
+//! equations with a slip length and with a precursor film, which regularize the contact line in other ways. All but the case
+//! and the output of the solver is dimensionless; [`scales`] stands between.
+
+pub mod backward_euler;
+mod banded;
+pub mod cells;
+pub mod droplet;
+pub mod equilibrium;
+pub mod film;
+pub mod grid;
+pub mod history;
+pub mod kernel;
+mod measures;
+pub mod ode;
+pub mod particles;
+pub mod profile;
+pub mod ring;
+pub mod scales;
+pub mod setup;
+pub mod similarity;
+pub mod solver;
+pub mod sums;

@@ -1,0 +1,121 @@
+//! From SI units to the scaled equation and back [Pang2022, Sects. 4 and 5].
+//!
+//! Complete wetting: h₀ = (8/3) h_max, L = 2r₀, of the highest and the widest droplet. Partial wetting: h₀ = √(A tan θ),
+//! L = √(A/tan θ) with A the cross-section of all droplets, so that the scaled area and the scaled slope at rest are 1. Both:
+//! τ = (3μL/γ)(L/h₀)³; the paper prints tan³θ there where tan⁻³θ is consistent. Bo = ρgL²/γ.
+
+use super::droplet::Droplet;
+use crate::case::film::checked::{FilmDroplet, ThinFilm};
+
+/// One unit of each scaled quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// Along the wall, L in m.
+    pub length: f64,
+    /// Across it, h₀ in m.
+    pub height: f64,
+    /// τ in s.
+    pub time: f64,
+    /// Surface tension γ in N/m.
+    pub tension: f64,
+    /// Bond number ρgL²/γ.
+    pub bond: f64,
+}
+
+/// Area of a droplet in m².
+fn cross_section(droplet: &FilmDroplet) -> f64 {
+    4.0 / 3.0 * droplet.half_width * droplet.height
+}
+
+impl Scales {
+    /// The scales of a case.
+    #[must_use]
+    pub fn of(film: &ThinFilm) -> Self {
+        let largest = |value: fn(&FilmDroplet) -> f64| film.droplets.iter().map(value).fold(0.0, f64::max);
+        let (length, height) = match film.contact_angle {
+            None => (2.0 * largest(|droplet| droplet.half_width), 8.0 / 3.0 * largest(|droplet| droplet.height)),
+            Some(angle) => {
+                let area: f64 = film.droplets.iter().map(cross_section).sum();
+                ((area / angle.tan()).sqrt(), (area * angle.tan()).sqrt())
+            }
+        };
+        let time = 3.0 * film.viscosity * length / film.tension * (length / height).powi(3);
+        let bond = film.density * film.gravity * length * length / film.tension;
+        Self { length, height, time, tension: film.tension, bond }
+    }
+
+    /// The scaled initial droplets.
+    #[must_use]
+    pub fn droplets(&self, film: &ThinFilm) -> Vec<Droplet> {
+        let scaled = |droplet: &FilmDroplet| Droplet {
+            area: cross_section(droplet) / self.area(),
+            half_width: droplet.half_width / self.length,
+            center: droplet.center / self.length,
+        };
+        film.droplets.iter().map(scaled).collect()
+    }
+
+    /// Slope h₀/L.
+    #[must_use]
+    pub fn slope(&self) -> f64 {
+        self.height / self.length
+    }
+
+    /// Cross-section in m².
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.height * self.length
+    }
+
+    /// Velocity in m/s.
+    #[must_use]
+    pub fn velocity(&self) -> f64 {
+        self.length / self.time
+    }
+
+    /// Curvature of a flat profile in 1/m.
+    #[must_use]
+    pub fn curvature(&self) -> f64 {
+        self.slope() / self.length
+    }
+
+    /// Energy per depth, γh₀²/L, in J/m.
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        self.tension * self.slope() * self.height
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::film::checked::{FilmEquation, FilmMethod, FilmSymmetry, FilmWeights};
+
+    #[test]
+    fn the_scaled_droplets_are_those_of_the_paper() {
+        let film = |contact_angle: Option<f64>| ThinFilm {
+            viscosity: 0.01,
+            tension: 0.03,
+            density: 800.0,
+            gravity: 9.81,
+            spacing: 5.0e-6,
+            symmetry: FilmSymmetry::Plane,
+            droplets: vec![FilmDroplet { center: 0.0, half_width: 5.0e-4, height: 3.75e-5 }],
+            equation: FilmEquation::Geometric { smoothing_length: 5.0e-5 },
+            contact_angle,
+            method: FilmMethod::FiniteDifferences { step_share: 0.01 },
+            weights: FilmWeights::Cell,
+        };
+        let complete = film(None);
+        let scales = Scales::of(&complete);
+        let droplet = scales.droplets(&complete)[0];
+        assert!((droplet.area - 0.25).abs() < 1.0e-14 && (droplet.half_width - 0.5).abs() < 1.0e-14);
+        // 3 mu L / gamma = 1 ms, (L/h0)^3 = 1000.
+        assert!((scales.time - 1.0).abs() < 1.0e-12);
+        assert!((scales.bond - 800.0 * 9.81 * 1.0e-6 / 0.03).abs() < 1.0e-12);
+        let partial = film(Some(0.3));
+        let scales = Scales::of(&partial);
+        assert!((scales.droplets(&partial)[0].area - 1.0).abs() < 1.0e-14);
+        assert!((scales.slope() - 0.3_f64.tan()).abs() < 1.0e-14);
+    }
+}

@@ -1,0 +1,169 @@
+//! From a checked case to a film at time zero.
+
+use super::backward_euler::StepRule;
+use super::cells::{Cells, Layout, Model, Symmetry};
+use super::droplet::{Droplet, WeightRule, particles};
+use super::equilibrium::Equilibrium;
+use super::film::Film;
+use super::grid::{Equation, GridFilm};
+use super::kernel::Kernel;
+use super::ode::{Integrator, Method, Tolerance};
+use super::particles::{self, ParticleMethod, Pull};
+use super::ring::{Line, Ring};
+use super::scales::Scales;
+use super::solver::{Surroundings, ThinFilmSolver};
+use crate::case::checked::Case;
+use crate::case::film::checked::{
+    FilmEquation, FilmIntegrator, FilmMethod, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
+};
+
+/// Scaled first step: a droplet that starts far from rest changes fast.
+const FIRST_STEP: f64 = 1.0e-6;
+
+/// A film that cannot be set up.
+#[derive(Debug, thiserror::Error)]
+pub enum SetupError {
+    /// The filter is too wide for the droplet.
+    #[error(
+        "no droplet rests at the given angle where the film is smoothed over {length:.3e} m; a tenth of the droplet's half \
+         width, {usual:.3e} m, is usual"
+    )]
+    TooSmooth {
+        /// Smoothing length in m.
+        length: f64,
+        /// A usual one in m.
+        usual: f64,
+    },
+}
+
+/// The solver of a case at time zero.
+///
+/// # Errors
+/// [`SetupError`].
+pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError> {
+    let scales = Scales::of(film);
+    let droplets = scales.droplets(film);
+    let wall = [case.geometry.min[0], case.geometry.max[0]];
+    let (wetting, equilibrium) = rest(film, &scales, &droplets)?;
+    let pull = Pull { wetting, bond: scales.bond };
+    let moving = match film.method {
+        FilmMethod::Particles { integrator, tolerance, lattice_energy } => {
+            let alpha = smoothing_length(film).unwrap_or(film.spacing) / scales.length;
+            let masses = particles(&droplets, film.spacing / scales.length, weights(film));
+            let lattice = match lattice_energy {
+                LatticeEnergy::Kept => particles::LatticeEnergy::Kept,
+                LatticeEnergy::TakenOff => particles::LatticeEnergy::TakenOff,
+            };
+            let method = match integrator {
+                FilmIntegrator::Stiff => Method::Stiff,
+                FilmIntegrator::Explicit => Method::Explicit,
+            };
+            let width = droplets.iter().map(|droplet| 2.0 * droplet.half_width).fold(0.0, f64::max);
+            let tolerance = Tolerance { absolute: tolerance * width, relative: 0.0 };
+            let state = Integrator::new(method, tolerance, masses.x.clone(), FIRST_STEP);
+            Film::particles(ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice), &masses, state)
+        }
+        FilmMethod::FiniteDifferences { step_share } => {
+            let rule = StepRule { first: FIRST_STEP, share: step_share, ..StepRule::ADAPTIVE };
+            let (equation, height) = grid(film, &scales, &droplets, wall, pull);
+            Film::Grid(Box::new(GridFilm::new(equation, height, rule)))
+        }
+    };
+    let resolution = match film.equation {
+        FilmEquation::Geometric { smoothing_length } => smoothing_length,
+        FilmEquation::Slip { .. } | FilmEquation::Precursor { .. } => film.spacing,
+    };
+    let right = droplets.last().map_or(0.0, |droplet| droplet.center);
+    let resolution = resolution / scales.length;
+    let surroundings = Surroundings {
+        scales,
+        wall,
+        resolution,
+        right,
+        about_axis: film.symmetry == FilmSymmetry::Axis,
+        rest: film.contact_angle.map(|_| 1.0),
+        cap_sides: cap_sides(film),
+        is_self_similar: film.contact_angle.is_none()
+            && film.symmetry == FilmSymmetry::Plane
+            && film.gravity == 0.0
+            && film.droplets.len() == 1
+            && right == 0.0,
+        equilibrium,
+    };
+    Ok(ThinFilmSolver::new(moving, surroundings))
+}
+
+/// A droplet on a precursor film without gravity rests as a parabola; that of the geometric equation is a cosine.
+fn cap_sides(film: &ThinFilm) -> Option<f64> {
+    let is_cap = matches!(film.equation, FilmEquation::Precursor { .. })
+        && film.contact_angle.is_some()
+        && film.gravity == 0.0
+        && film.droplets.len() == 1;
+    is_cap.then_some(match film.symmetry {
+        FilmSymmetry::Plane => 1.0,
+        FilmSymmetry::Axis => 2.0,
+    })
+}
+
+fn smoothing_length(film: &ThinFilm) -> Option<f64> {
+    match film.equation {
+        FilmEquation::Geometric { smoothing_length } => Some(smoothing_length),
+        FilmEquation::Slip { .. } | FilmEquation::Precursor { .. } => None,
+    }
+}
+
+fn weights(film: &ThinFilm) -> WeightRule {
+    match film.weights {
+        FilmWeights::Cell => WeightRule::Cell,
+        FilmWeights::Point => WeightRule::Point,
+    }
+}
+
+/// χ of the geometric equation, and the droplet at rest where its form is known.
+///
+/// Droplets share one ξ, so χ is that of a droplet of their mean area: equal ones rest at the angle that is asked for.
+fn rest(film: &ThinFilm, scales: &Scales, droplets: &[Droplet]) -> Result<(f64, Option<Equilibrium>), SetupError> {
+    let (Some(_), Some(length)) = (film.contact_angle, smoothing_length(film)) else { return Ok((0.0, None)) };
+    let mean = 1.0 / droplets.len() as f64;
+    let alpha = length / scales.length;
+    let least = film.droplets.iter().map(|droplet| droplet.half_width).fold(f64::INFINITY, f64::min);
+    let too_smooth = SetupError::TooSmooth { length, usual: 0.1 * least };
+    let wetting = Equilibrium::of_unit_slope(alpha / mean.sqrt()).ok_or(too_smooth)?.wetting();
+    let alone = (droplets.len() == 1).then(|| Equilibrium::under_gravity(alpha, 1.0, wetting, scales.bond));
+    Ok((wetting, alone.flatten()))
+}
+
+/// The equation on its grid, with the heights at time zero.
+fn grid(film: &ThinFilm, scales: &Scales, droplets: &[Droplet], wall: [f64; 2], pull: Pull) -> (Equation, Vec<f64>) {
+    let spacing = film.spacing / scales.length;
+    let count = ((wall[1] - wall[0]) / film.spacing).round() as usize;
+    let model = match (film.equation, film.symmetry) {
+        (FilmEquation::Geometric { smoothing_length }, FilmSymmetry::Plane) => {
+            // A node stands at x = 0.
+            let before = (-wall[0] / film.spacing).round();
+            let alpha = smoothing_length / scales.length;
+            let Pull { wetting, bond } = pull;
+            let line = Line { from: -before * spacing, count, spacing, alpha, wetting, bond };
+            let (ring, height) = Ring::new(line, droplets, weights(film));
+            return (Equation::Ring(ring), height);
+        }
+        (FilmEquation::Geometric { smoothing_length }, FilmSymmetry::Axis) => {
+            Model::Geometric { alpha: smoothing_length / scales.length }
+        }
+        (FilmEquation::Slip { slip_length, film_height }, _) => {
+            Model::Slip { length: slip_length / scales.height, film: film_height / scales.height }
+        }
+        (FilmEquation::Precursor { film_height }, _) => {
+            // The scaled slope at rest is 1.
+            let slope = if film.contact_angle.is_some() { 1.0 } else { 0.0 };
+            Model::Precursor { film: film_height / scales.height, slope }
+        }
+    };
+    let symmetry = match film.symmetry {
+        FilmSymmetry::Plane => Symmetry::Plane,
+        FilmSymmetry::Axis => Symmetry::Axis,
+    };
+    let layout = Layout { from: wall[0] / scales.length, count, spacing, symmetry, model, bond: scales.bond };
+    let (cells, height) = Cells::new(layout, droplets, weights(film));
+    (Equation::Cells(cells), height)
+}
