@@ -42,20 +42,19 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         say(format_args!("  memory      {memory}"));
     }
     if let Some(info) = info {
-        match &case.model {
-            Model::Sph(_) => {
-                let steps = (case.end / info.dt).ceil();
-                say(format_args!("  time step   {} s, ruled by {}", readable(info.dt), info.limit));
-                say(format_args!(
-                    "  run         {} s in about {steps} steps, about {}",
-                    readable(case.end),
-                    duration(steps * per_step)
-                ));
-            }
-            // Steps of a film grow a thousandfold while it comes to rest: the first ones do not tell how long it takes.
-            Model::ThinFilm(_) => {
-                say(format_args!("  time step   {} s at first; it grows with time", readable(info.dt)))
-            }
+        let steps = match &case.model {
+            Model::Sph(_) => Some((case.end / info.dt).ceil()),
+            // Steps of a film grow a millionfold while it comes to rest: the first ones do not tell how long it takes.
+            Model::ThinFilm(_) => solver.steps_to(case.end),
+        };
+        say(format_args!("  time step   {} s, ruled by {}", readable(info.dt), info.limit));
+        match steps {
+            Some(steps) => say(format_args!(
+                "  run         {} s in about {steps} steps, about {}",
+                readable(case.end),
+                duration(steps * per_step)
+            )),
+            None => say(format_args!("  run         {} s, in steps that grow with time", readable(case.end))),
         }
     }
     let length = Length::of(case);

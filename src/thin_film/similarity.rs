@@ -130,18 +130,18 @@ mod tests {
 
     #[test]
     fn a_shot_solves_its_equation() {
-        let step = 0.01;
-        let eta: Vec<f64> = (0..50).map(|i| step * f64::from(i)).collect();
+        let step = 0.005;
+        let eta: Vec<f64> = (0..97).map(|i| step * f64::from(i)).collect();
         let f = shoot(0.27, -1.2, &eta);
         assert_eq!(f.len(), eta.len());
-        for i in 2..48 {
+        for i in 2..95 {
             let third = (f[i + 2] - 2.0 * f[i + 1] + 2.0 * f[i - 1] - f[i - 2]) / (2.0 * step.powi(3));
             // The differences are good to the fifth derivative times a quarter of the squared step.
             assert!((third - eta[i] / (7.0 * f[i] * f[i])).abs() < 1.0e-2, "{i}: {third}");
         }
         // It comes to the wall at about sqrt(2 * 0.27 / 1.2).
-        let far: Vec<f64> = (0..200).map(|i| step * f64::from(i)).collect();
-        assert!((60..80).contains(&shoot(0.27, -1.2, &far).len()));
+        let far: Vec<f64> = (0..400).map(|i| step * f64::from(i)).collect();
+        assert!((120..160).contains(&shoot(0.27, -1.2, &far).len()));
     }
 
     #[test]
