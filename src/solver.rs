@@ -179,6 +179,11 @@ pub trait Solver {
     /// [`StateError`] where the bytes are not such a state.
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError>;
 
+    /// About how many steps lead from here to `end` in s, where the solver knows better than the length of its last step tells.
+    fn steps_to(&self, _end: f64) -> Option<f64> {
+        None
+    }
+
     /// Wall time by part and counts of the solver's work.
     fn statistics(&self) -> Statistics;
 }

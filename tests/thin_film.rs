@@ -372,3 +372,13 @@ fn any_filter_and_number_of_nodes_runs_or_is_refused_with_a_reason() {
     }
     assert!(ran > 60 && refused > 8, "{ran} {refused}");
 }
+
+#[test]
+fn steps_on_a_grid_are_counted_ahead() {
+    let case = loaded(&named("partial-wetting"), &[]).case;
+    let mut solver = setup::build(&case).unwrap();
+    let ahead = solver.steps_to(case.end).unwrap();
+    advance(solver.as_mut(), &[case.end]);
+    // Landing at the end splits a step.
+    near(solver.steps() as f64, ahead, 2.0);
+}

@@ -37,16 +37,17 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     if let Some(memory) = found.memory_bytes {
         say(format_args!("  memory      {:.0} MiB", memory as f64 / BYTES_PER_MEBIBYTE));
     }
+    say(format_args!("  time step   {} s, ruled by {}", readable(found.time_step_s), found.limit));
+    let (steps, time) = (found.steps, duration(found.duration_s));
     match &case.model {
-        Model::Sph(_) => {
-            say(format_args!("  time step   {} s, ruled by {}", readable(found.time_step_s), found.limit));
-            let (steps, time) = (found.steps, duration(found.duration_s));
-            say(format_args!("  run         {} s in about {steps} steps, about {time}", readable(case.end)));
+        // The steps of a film of particles grow a millionfold while it comes to rest: the first ones tell only the most it can take.
+        Model::ThinFilm(_) if solver.steps_to(case.end).is_none() => {
+            say(format_args!(
+                "  run         {} s in steps that grow with time, at most about {time}",
+                readable(case.end)
+            ));
         }
-        // Steps of a film grow a thousandfold while it comes to rest: the first ones do not tell how long it takes.
-        Model::ThinFilm(_) => {
-            say(format_args!("  time step   {} s at first; it grows with time", readable(found.time_step_s)));
-        }
+        _ => say(format_args!("  run         {} s in about {steps} steps, about {time}", readable(case.end))),
     }
     let length = Length::of(case);
     let (speed, formula) = expected_speed(case, length);

@@ -42,7 +42,8 @@ pub fn trial(case: &Case, solver: &mut dyn Solver) -> Result<Trial, SolverError>
         info = solver.step(case.end)?;
     }
     let per_step = clock.elapsed().as_secs_f64() / solver.steps().max(1) as f64;
-    let steps = (case.end / info.dt).ceil();
+    let known = solver.steps_to(case.end).map(|left| left + solver.steps() as f64);
+    let steps = known.unwrap_or_else(|| (case.end / info.dt).ceil());
     Ok(Trial {
         unknowns: solver.statistics().unknowns,
         time_step_s: info.dt,

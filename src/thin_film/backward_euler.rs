@@ -15,6 +15,9 @@ const CUT: f64 = 0.3;
 /// Shortest step over the first one of the rule.
 const SMALLEST: f64 = 1.0e-6;
 
+/// Steps beyond these are not counted ahead.
+const MOST_COUNTED: f64 = 1.0e8;
+
 /// What a step has to solve.
 pub trait Balance {
     /// G(v), for a step of length `dt` that begins at the heights `old`.
@@ -84,6 +87,19 @@ impl BackwardEuler {
     #[must_use]
     pub fn new(height: Vec<f64>, rule: StepRule) -> Self {
         Self { height, time: 0.0, next: rule.first, rule, iterations: 0, rejected: 0 }
+    }
+
+    /// How many steps lead to `end` where none is rejected.
+    #[must_use]
+    pub fn steps_to(&self, end: f64) -> f64 {
+        let (mut time, mut next, mut count) = (self.time, self.next, 0.0);
+        while time < end && count < MOST_COUNTED {
+            let dt: f64 = next.min(self.rule.longest).min((self.rule.share * time).max(self.rule.first));
+            time += dt;
+            next = self.rule.growth * dt;
+            count += 1.0;
+        }
+        count
     }
 
     /// Does one step that ends at `until` or before; landing there is exact. Gives back its length.

@@ -293,6 +293,13 @@ impl Solver for ThinFilmSolver {
         Ok(())
     }
 
+    fn steps_to(&self, end: f64) -> Option<f64> {
+        match &self.film {
+            Film::Particles { .. } => None,
+            Film::Grid(grid) => Some(grid.state.steps_to(end / self.surroundings.scales.time)),
+        }
+    }
+
     fn statistics(&self) -> Statistics {
         Statistics {
             unknowns: match &self.film {
