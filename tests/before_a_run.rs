@@ -25,7 +25,9 @@ fn check_tells_what_a_run_of_each_case_would_be_like() {
             line(&text, label);
         }
         assert!(line(&text, "time step").contains("ruled by"), "{text}");
-        if std::fs::read_to_string(&case).unwrap().contains("[sph.interface]") {
+        let written = std::fs::read_to_string(&case).unwrap();
+        // The numbers of an interface are those of its tension; one case has an interface without.
+        if written.contains("[sph.interface]") && !written.contains("tension = 0.0 ") {
             for number in ["Ca", "We", "Bo", "Oh", "La"] {
                 line(&text, number);
             }

@@ -2,8 +2,8 @@
 //!
 //! The way of a measurement: particles are resampled onto a regular grid ([`resample`]), the c = 0.5 contour of the
 //! smoothed color is traced ([`contour`]), circles are fitted to it ([`circle`]) and extrapolated to the wall, where
-//! they give the contact angle with an error bar ([`contact`]). Sums over particles are in [`phases`] and [`blobs`],
-//! closed forms to compare with in [`laws`] and [`young_laplace`], observed orders in [`convergence`].
+//! they give the contact angle with an error bar ([`contact`]). Sums over particles are in [`phases`], [`blobs`] and
+//! [`moments`], oscillations are fitted by [`damped`], closed forms to compare with in [`laws`] and [`young_laplace`], observed orders in [`convergence`].
 
 pub mod blobs;
 pub mod cells;
@@ -11,9 +11,11 @@ pub mod circle;
 pub mod contact;
 pub mod contour;
 pub mod convergence;
+pub mod damped;
 pub mod lattice;
 pub mod laws;
 pub mod lines;
+pub mod moments;
 pub mod phases;
 pub mod resample;
 pub mod roots;

@@ -52,6 +52,8 @@ pub struct Sph {
     pub gravity: Vec2,
     /// What stands at the four sides of the domain.
     pub sides: Sides,
+    /// Speeds in m/s of the walls at the left, right, bottom and top side, along x or y.
+    pub wall_speeds: [f64; 4],
     /// Initial phases and velocity.
     pub initial: Initial,
     /// Parameters of the method with a default that rarely needs a change (`[sph.numerics]`).
@@ -184,6 +186,26 @@ pub struct MeasureSet {
     pub capillary_bridge: bool,
     /// `interface-curvature-per-m` of the menisci between four discs.
     pub four_discs: bool,
+    /// Wetted part and height of a drop on a disc.
+    pub drop_on_disc: bool,
+    /// Period and decay of a free drop that oscillates between two ellipses.
+    pub oscillating_drop: bool,
+    /// Amplitude of a standing wave on a flat interface.
+    pub capillary_wave: bool,
+    /// Height, speed and roundness of a bubble (the wetting phase) that rises.
+    pub rising_bubble: bool,
+    /// Deformation of a drop between two moving walls.
+    pub shear_drop: bool,
+    /// Velocity and flow rates of two layers between plates.
+    pub layered_poiseuille: bool,
+    /// Extreme velocities on the center lines of a lid-driven cavity.
+    pub cavity: bool,
+    /// Drag on the solids of a periodic cell that a body force drives fluid through.
+    pub cylinder_array: bool,
+    /// Capillary pressure over the entry pressure of the throat between two discs.
+    pub throat_entry: bool,
+    /// Difference of the mean levels on both sides of a plate.
+    pub jurin: bool,
 }
 
 /// What is written and when.

@@ -155,6 +155,20 @@ tables! {
         pub bottom: RawSide,
         /// y = max (default `wall`).
         pub top: RawSide,
+        /// Speeds of walls along themselves (default at rest).
+        pub speed: RawWallSpeeds,
+    }
+
+    /// Speeds of the walls at the sides, each along itself.
+    pub struct RawWallSpeeds {
+        /// Along y in m/s (default 0).
+        pub left: f64,
+        /// Along y in m/s (default 0).
+        pub right: f64,
+        /// Along x in m/s (default 0).
+        pub bottom: f64,
+        /// Along x in m/s (default 0).
+        pub top: f64,
     }
 
     /// The state at time zero.
@@ -217,6 +231,26 @@ tables! {
         pub capillary_bridge: Empty,
         /// Curvature of the menisci between four discs.
         pub four_discs: Empty,
+        /// Wetted part and height of a drop on a disc.
+        pub drop_on_disc: Empty,
+        /// Period and decay of a free drop that oscillates between two ellipses.
+        pub oscillating_drop: Empty,
+        /// Amplitude of a standing wave on a flat interface.
+        pub capillary_wave: Empty,
+        /// Height, speed and roundness of a bubble (the wetting phase) that rises.
+        pub rising_bubble: Empty,
+        /// Deformation of a drop between two moving walls.
+        pub shear_drop: Empty,
+        /// Velocity and flow rates of two layers between plates.
+        pub layered_poiseuille: Empty,
+        /// Extreme velocities on the center lines of a lid-driven cavity.
+        pub cavity: Empty,
+        /// Drag on the solids of a periodic cell that a body force drives fluid through.
+        pub cylinder_array: Empty,
+        /// Capillary pressure over the entry pressure of the throat between two discs.
+        pub throat_entry: Empty,
+        /// Difference of the mean levels on both sides of a plate.
+        pub jurin: Empty,
     }
 
     /// How long the simulation runs.

@@ -7,7 +7,7 @@ use super::checked::{
 use super::raw::{
     Empty, RawCase, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface, RawMeasures,
     RawNumerics, RawOutput, RawPhase, RawPhases, RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime,
-    RawVelocity, RawViscousTerm, RawWetting, RawYoung,
+    RawVelocity, RawViscousTerm, RawWallSpeeds, RawWetting, RawYoung,
 };
 
 /// The case as TOML that loads to the same case (angles to the last bit of a degree).
@@ -78,7 +78,7 @@ fn raw_sph(sph: &Sph) -> RawSph {
         wetting: sph.wetting_model.map(|WettingModel::Young { contact_angle }| RawWetting {
             young: Some(RawYoung { contact_angle_deg: Some(contact_angle.to_degrees().clamp(0.0, 180.0)) }),
         }),
-        sides: Some(raw_sides(&sph.sides)),
+        sides: Some(raw_sides(&sph.sides, sph.wall_speeds)),
         initial: Some(RawInitial {
             background: two_phases.then_some(background),
             wetting: two_phases.then(|| sph.initial.wetting.clone()),
@@ -93,7 +93,7 @@ fn raw_fluid(fluid: &Fluid) -> RawFluid {
     RawFluid { preset: None, temperature_c: None, density: Some(fluid.density), viscosity: Some(fluid.viscosity) }
 }
 
-fn raw_sides(sides: &Sides) -> RawSides {
+fn raw_sides(sides: &Sides, speeds: [f64; 4]) -> RawSides {
     let side = |side| {
         Some(match side {
             Side::Periodic => RawSide::Periodic,
@@ -102,7 +102,22 @@ fn raw_sides(sides: &Sides) -> RawSides {
             Side::Symmetry => RawSide::Symmetry,
         })
     };
-    RawSides { left: side(sides.left), right: side(sides.right), bottom: side(sides.bottom), top: side(sides.top) }
+    // A side that is not a wall has no speed, not even 0.
+    let given = |side, speed| (side == Side::Wall && speed != 0.0).then_some(speed);
+    let [left, right, bottom, top] = speeds;
+    let speed = RawWallSpeeds {
+        left: given(sides.left, left),
+        right: given(sides.right, right),
+        bottom: given(sides.bottom, bottom),
+        top: given(sides.top, top),
+    };
+    RawSides {
+        left: side(sides.left),
+        right: side(sides.right),
+        bottom: side(sides.bottom),
+        top: side(sides.top),
+        speed: Some(speed),
+    }
 }
 
 fn raw_velocity(velocity: &InitialVelocity) -> RawVelocity {
@@ -139,5 +154,15 @@ fn raw_measures(measure: &MeasureSet) -> RawMeasures {
         taylor_green: table(measure.taylor_green),
         capillary_bridge: table(measure.capillary_bridge),
         four_discs: table(measure.four_discs),
+        drop_on_disc: table(measure.drop_on_disc),
+        oscillating_drop: table(measure.oscillating_drop),
+        capillary_wave: table(measure.capillary_wave),
+        rising_bubble: table(measure.rising_bubble),
+        shear_drop: table(measure.shear_drop),
+        layered_poiseuille: table(measure.layered_poiseuille),
+        cavity: table(measure.cavity),
+        cylinder_array: table(measure.cylinder_array),
+        throat_entry: table(measure.throat_entry),
+        jurin: table(measure.jurin),
     }
 }

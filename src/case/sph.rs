@@ -45,7 +45,9 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
     if !two_phases {
         refuse_single_phase_keys(checker, raw);
     }
-    let sides = sides(checker, &raw.sides.clone().unwrap_or_default());
+    let raw_sides = raw.sides.clone().unwrap_or_default();
+    let wall_speeds = wall_speeds(checker, &raw_sides);
+    let sides = sides(checker, &raw_sides);
     let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
     let default = default_numerics(surface_force, wetting_model.is_some());
     let numerics = numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
@@ -62,6 +64,7 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         wetting_model,
         gravity: Vec2::from(raw.gravity.unwrap_or_default()),
         sides: sides?,
+        wall_speeds,
         initial: initial?,
         numerics,
         measure: measures(&raw.measure.clone().unwrap_or_default()),
@@ -248,6 +251,27 @@ fn sides(checker: &mut Checker, raw: &RawSides) -> Option<Sides> {
     Some(Sides { left: left?, right: right?, bottom: bottom?, top: top? })
 }
 
+/// Speeds of the left, right, bottom and top wall; only a side that is a wall can have one.
+fn wall_speeds(checker: &mut Checker, raw: &RawSides) -> [f64; 4] {
+    let speed = raw.speed.clone().unwrap_or_default();
+    let sides = [
+        ("left", raw.left, speed.left),
+        ("right", raw.right, speed.right),
+        ("bottom", raw.bottom, speed.bottom),
+        ("top", raw.top, speed.top),
+    ];
+    sides.map(|(key, side, speed)| {
+        if speed.is_some() && side.is_some_and(|side| side != RawSide::Wall) {
+            checker.refuse(
+                format!("sph.sides.speed.{key}"),
+                format!("the side `{key}` is not a wall and cannot move"),
+                format!("set sides.{key} = \"wall\", or leave the speed out"),
+            );
+        }
+        speed.unwrap_or_default()
+    })
+}
+
 fn initial(checker: &mut Checker, raw: &RawInitial, two_phases: bool) -> Option<Initial> {
     let wetting = raw.wetting.clone().unwrap_or_default();
     for (index, shape) in wetting.iter().enumerate() {
@@ -353,5 +377,15 @@ fn measures(raw: &RawMeasures) -> MeasureSet {
         taylor_green: raw.taylor_green.is_some(),
         capillary_bridge: raw.capillary_bridge.is_some(),
         four_discs: raw.four_discs.is_some(),
+        drop_on_disc: raw.drop_on_disc.is_some(),
+        oscillating_drop: raw.oscillating_drop.is_some(),
+        capillary_wave: raw.capillary_wave.is_some(),
+        rising_bubble: raw.rising_bubble.is_some(),
+        shear_drop: raw.shear_drop.is_some(),
+        layered_poiseuille: raw.layered_poiseuille.is_some(),
+        cavity: raw.cavity.is_some(),
+        cylinder_array: raw.cylinder_array.is_some(),
+        throat_entry: raw.throat_entry.is_some(),
+        jurin: raw.jurin.is_some(),
     }
 }

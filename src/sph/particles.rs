@@ -46,7 +46,7 @@ pub struct Particles {
     pub phase: Vec<Phase>,
     /// Position in m.
     pub position: Vec<Vec2>,
-    /// Velocity in m/s; zero on walls.
+    /// Velocity in m/s; on walls that of the wall.
     pub velocity: Vec<Vec2>,
     /// Pressure in Pa; also the first guess of the next solve.
     pub pressure: Vec<f64>,

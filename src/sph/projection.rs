@@ -193,6 +193,8 @@ impl Flow {
             let forces = (f.surface_force[a] + f.line_force[a]) / f.density[a];
             particles.velocity[a] + step.dt * (viscous[a] + self.method.gravity + forces + background[a])
         });
+        // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
+        velocity[fluids..particles.len()].fill(Vec2::zeros());
         self.images.extend_velocity(&mut velocity);
         Ok(Predicted { dt: step.dt, limit: step.limit, velocity })
     }

@@ -93,10 +93,15 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         particles.velocity[a] = velocity(&sph.initial.velocity, particles.position[a], bounds);
     }
     let outline = geometry.outline();
+    for a in particles.fluids..particles.len() {
+        particles.velocity[a] = wall_velocity(sph.wall_speeds, particles.position[a], bounds);
+    }
     let surroundings = Surroundings {
         wall_samples: wall_samples(&polylines(&outline), 0.5 * sph.spacing),
         outline,
         discs: discs(&case.geometry),
+        plates: plates(&case.geometry),
+        wall_speeds: sph.wall_speeds,
         measures: sph.measure.clone(),
         grid_spacing: case.output.grid_ratio * sph.spacing,
     };
@@ -165,6 +170,33 @@ fn velocity(initial: &InitialVelocity, x: Vec2, bounds: Bounds) -> Vec2 {
             speed * Vec2::new(-phase.x.cos() * phase.y.sin(), phase.x.sin() * phase.y.cos())
         }
     }
+}
+
+/// Velocity of a wall particle in m/s: that of the side which it stands behind, none behind a corner.
+fn wall_velocity(speeds: [f64; 4], x: Vec2, bounds: Bounds) -> Vec2 {
+    let [left, right, bottom, top] = speeds;
+    let behind = |i: usize, lower: f64, upper: f64| match () {
+        () if x[i] < bounds.min[i] => Some(lower),
+        () if x[i] > bounds.max[i] => Some(upper),
+        () => None,
+    };
+    match (behind(0, left, right), behind(1, bottom, top)) {
+        (Some(along), None) => Vec2::new(0.0, along),
+        (None, Some(along)) => Vec2::new(along, 0.0),
+        _ => Vec2::zeros(),
+    }
+}
+
+/// The upright rectangles among the solids.
+fn plates(spec: &GeometrySpec) -> Vec<Bounds> {
+    let plate = |shape: &ShapeSpec| match shape {
+        ShapeSpec::Rectangle(r) if r.rotation_deg == 0.0 => {
+            let (center, half) = (Vec2::from(r.center), 0.5 * Vec2::from(r.size));
+            Some(Bounds { min: center - half, max: center + half })
+        }
+        _ => None,
+    };
+    spec.shapes.iter().filter_map(plate).collect()
 }
 
 fn discs(spec: &GeometrySpec) -> Vec<DiscOf> {

@@ -4,10 +4,10 @@ use std::sync::OnceLock;
 
 use crate::analysis::phases::{WallSample, density_error};
 use crate::case::checked::MeasureSet;
-use crate::math::Vec2;
+use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{Measure, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo};
-use crate::sph::measures::{DiscOf, Subject, all};
+use crate::sph::measures::{DiscOf, Subject, all, columns};
 use crate::sph::observe::Observation;
 use crate::sph::projection::Flow;
 use crate::sph::{output, state};
@@ -30,6 +30,10 @@ pub struct Surroundings {
     pub wall_samples: Vec<WallSample>,
     /// The discs among the solids.
     pub discs: Vec<DiscOf>,
+    /// The upright rectangles among the solids.
+    pub plates: Vec<Bounds>,
+    /// Speeds of the walls at the left, right, bottom and top side in m/s.
+    pub wall_speeds: [f64; 4],
     /// Groups of measures.
     pub measures: MeasureSet,
     /// Distance of grid nodes in m.
@@ -89,7 +93,7 @@ impl Solver for SphSolver {
         let (flow, seen) = (&self.flow, self.observe());
         let fluids = flow.particles.fluids;
         let [error, _] = density_error(&flow.fields.volume[..fluids], flow.method.volume);
-        let speed = flow.particles.velocity.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        let speed = flow.particles.velocity[..fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
         let momentum = self.momentum();
         let row = [
             ("time_s", flow.time),
@@ -111,12 +115,22 @@ impl Solver for SphSolver {
             ("momentum_x_kg_per_m_s", momentum.x),
             ("momentum_y_kg_per_m_s", momentum.y),
         ];
-        row.into_iter().map(|(name, value)| Sample { name, value }).collect()
+        let asked = columns(flow, seen, &self.surroundings.measures);
+        row.into_iter().chain(asked).map(|(name, value)| Sample { name, value }).collect()
     }
 
     fn measures(&self, series: &Series) -> Vec<Measure> {
-        let (seen, discs) = (self.observe(), &self.surroundings.discs);
-        all(&Subject { flow: &self.flow, seen, start: &self.start, series, discs }, &self.surroundings.measures)
+        let (seen, around) = (self.observe(), &self.surroundings);
+        let subject = Subject {
+            flow: &self.flow,
+            seen,
+            start: &self.start,
+            series,
+            discs: &around.discs,
+            plates: &around.plates,
+            wall_speeds: around.wall_speeds,
+        };
+        all(&subject, &around.measures)
     }
 
     fn state(&self) -> Vec<u8> {

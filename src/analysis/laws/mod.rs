@@ -3,3 +3,4 @@
 pub mod drops;
 pub mod flow;
 pub mod pores;
+pub mod waves;

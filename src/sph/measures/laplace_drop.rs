@@ -1,6 +1,7 @@
 //! Laplace jump and parasitic currents of a free drop (B1 of the benchmarks).
 
-use super::{Subject, measure};
+use super::{Subject, measure, wetting_points};
+use crate::analysis::moments::Moments;
 use crate::analysis::phases::{PressureSamples, laplace_jump};
 use crate::math::Vec2;
 use crate::solver::Measure;
@@ -20,7 +21,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
         smoothing_length: flow.method.kernel.h,
         period: flow.domain.periods(),
     };
-    let jump = laplace_jump(&samples, center(s, &colors), radius);
+    let jump = laplace_jump(&samples, center(s), radius);
     let scale = flow.method.tension / radius;
     let from = flow.time * (1.0 - LAST);
     let speeds = s.series.column("time_s").zip(s.series.column("max_speed_m_per_s"));
@@ -41,14 +42,26 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
             None,
             "drop viscosity times the largest speed of the records in the last tenth of the run over the tension",
         ),
+        measure(
+            "radius-scatter-ratio",
+            scatter(s),
+            "",
+            None,
+            "standard deviation over mean of the distance of the c = 0.5 contour from the center of the drop",
+        ),
     ]
 }
 
+/// Standard deviation over mean of the distance of contour points from the center.
+fn scatter(s: &Subject) -> f64 {
+    let center = center(s);
+    let points = s.seen.interface.iter().flat_map(|line| &line.points);
+    let radii: Vec<f64> = points.map(|x| s.flow.domain.separation(*x, center).norm()).collect();
+    let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+    (radii.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / radii.len() as f64).sqrt() / mean
+}
+
 /// Center of the drop in m, also where it lies across a periodic side.
-fn center(s: &Subject, colors: &[f64]) -> Vec2 {
-    let domain = &s.flow.domain;
-    let inside = || s.flow.particles.position.iter().zip(colors).filter(|(_, c)| **c > 0.5).map(|(x, _)| *x);
-    let Some(first) = inside().next() else { return domain.bounds.center() };
-    let count = inside().count() as f64;
-    domain.wrapped(first + inside().map(|x| domain.separation(x, first)).sum::<Vec2>() / count)
+fn center(s: &Subject) -> Vec2 {
+    Moments::of(&wetting_points(s.flow)).center
 }

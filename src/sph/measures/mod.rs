@@ -1,23 +1,36 @@
 //! Final results: those that every run reports, and groups that a case asks for, one file each.
 
 mod bridge;
+mod bubble;
+mod cavity;
+mod cylinder_array;
+mod drop_on_disc;
 mod every_run;
 mod four_discs;
+mod jurin;
 mod laplace_drop;
+mod layered;
+mod moving_drop;
 mod poiseuille;
 mod sessile_drop;
 mod taylor_green;
+mod throat;
+mod wave;
+
+use std::f64::consts::TAU;
 
 use crate::case::checked::MeasureSet;
+use crate::math::{Bounds, Vec2};
 use crate::solver::{Measure, Series};
 use crate::sph::observe::Observation;
+use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
 
 /// A disc of the geometry, for measures that compare with closed forms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DiscOf {
     /// Center in m.
-    pub center: crate::math::Vec2,
+    pub center: Vec2,
     /// Radius in m.
     pub radius: f64,
 }
@@ -34,6 +47,10 @@ pub struct Subject<'a> {
     pub series: &'a Series,
     /// The discs of the geometry.
     pub discs: &'a [DiscOf],
+    /// The upright rectangles of the geometry.
+    pub plates: &'a [Bounds],
+    /// Speeds of the walls at the left, right, bottom and top side in m/s.
+    pub wall_speeds: [f64; 4],
 }
 
 impl Subject<'_> {
@@ -64,16 +81,82 @@ type Group = fn(&Subject) -> Vec<Measure>;
 #[must_use]
 pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
     let mut measures = every_run::measures(subject);
-    let groups: [(bool, Group); 6] = [
+    let groups: [(bool, Group); 16] = [
         (set.sessile_drop, sessile_drop::measures),
         (set.laplace_drop, laplace_drop::measures),
         (set.poiseuille, poiseuille::measures),
         (set.taylor_green, taylor_green::measures),
         (set.capillary_bridge, bridge::measures),
         (set.four_discs, four_discs::measures),
+        (set.drop_on_disc, drop_on_disc::measures),
+        (set.oscillating_drop, moving_drop::oscillation),
+        (set.shear_drop, moving_drop::shear),
+        (set.capillary_wave, wave::measures),
+        (set.rising_bubble, bubble::measures),
+        (set.layered_poiseuille, layered::measures),
+        (set.cavity, cavity::measures),
+        (set.cylinder_array, cylinder_array::measures),
+        (set.throat_entry, throat::measures),
+        (set.jurin, jurin::measures),
     ];
     for (_, group) in groups.iter().filter(|(wanted, _)| *wanted) {
         measures.extend(group(subject));
     }
     measures
+}
+
+/// Further columns of the series that the groups of `set` need for their measures: name and value.
+#[must_use]
+pub fn columns(flow: &Flow, seen: &Observation, set: &MeasureSet) -> Vec<(&'static str, f64)> {
+    let mut columns = Vec::new();
+    if set.oscillating_drop || set.shear_drop {
+        columns.extend(moving_drop::columns(flow));
+    }
+    if set.capillary_wave {
+        columns.extend(wave::columns(flow));
+    }
+    if set.rising_bubble {
+        columns.extend(bubble::columns(flow, seen));
+    }
+    columns
+}
+
+/// Positions in m of the wetting particles, joined across periodic sides: right for parts shorter than a period.
+fn wetting_points(flow: &Flow) -> Vec<Vec2> {
+    let fluids = flow.particles.fluids;
+    let wetting = |a: &usize| flow.particles.phase[*a] == Phase::Wetting;
+    let inside: Vec<Vec2> = (0..fluids).filter(wetting).map(|a| flow.particles.position[a]).collect();
+    let middle = Vec2::from_fn(|axis, _| match flow.domain.periods()[axis] {
+        Some(period) => mean_on_circle(inside.iter().map(|x| x[axis]), period),
+        None => 0.0,
+    });
+    // Points of a drop wider than half a period are still within half a period of its middle.
+    inside.into_iter().map(|x| middle + flow.domain.separation(x, middle)).collect()
+}
+
+/// The mean direction of coordinates that repeat with `period`, in m.
+fn mean_on_circle(coordinates: impl Iterator<Item = f64>, period: f64) -> f64 {
+    let (sine, cosine) = coordinates.fold((0.0, 0.0), |(sine, cosine), x| {
+        let angle = TAU * x / period;
+        (sine + angle.sin(), cosine + angle.cos())
+    });
+    sine.atan2(cosine) / TAU * period
+}
+
+/// The values of two columns of the series, row by row.
+fn pairs(series: &Series, column: &str) -> (Vec<f64>, Vec<f64>) {
+    series.column("time_s").zip(series.column(column)).unzip()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mean_on_a_circle_lies_in_the_middle_of_a_part_across_the_seam() {
+        // From 0.8 over the seam at 1 to 0.4: more than half of the period 1.
+        let part = (0..=60).map(|i| (0.8 + 0.01 * f64::from(i)).rem_euclid(1.0));
+        let mean = mean_on_circle(part, 1.0);
+        assert!((mean - 0.1).abs() < 1e-12, "{mean}");
+    }
 }

@@ -1,0 +1,104 @@
+//! The physics at coarse resolution: whole runs of shipped cases against exact solutions. The studies hold the fine ones.
+//!
+//! Tolerances are those that the method is meant to keep at 20 spacings per length, a little wider where a case is coarser.
+
+#[path = "support/program.rs"]
+mod program;
+
+use std::path::Path;
+
+use program::{assert_code, meniscus, report};
+
+/// Runs a shipped case with overrides and returns its measures by name.
+fn measures(name: &str, overrides: &[String]) -> impl Fn(&str) -> f64 + use<> {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
+    let mut arguments = vec!["run", case.to_str().unwrap(), "--out", "out", "--threads", "1"];
+    arguments.extend(overrides.iter().flat_map(|setting| ["--set", setting]));
+    run(folder.path(), &arguments)
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> impl Fn(&str) -> f64 + use<> {
+    let output = meniscus(folder, arguments);
+    assert_code(&output, 0);
+    let report = report(&folder.join("out"));
+    move |measure| {
+        report["measures"][measure]["value"].as_f64().unwrap_or_else(|| panic!("no {measure} in {report:#}"))
+    }
+}
+
+/// A sessile drop at 12.5 spacings per square root of its area; `expect` in degrees.
+fn sessile(angle: f64, tolerance: f64, more: &[&str]) -> impl Fn(&str) -> f64 + use<> {
+    let set = [
+        "sph.spacing=8.0e-5".to_owned(),
+        format!("sph.wetting.young.contact-angle-deg={angle:?}"),
+        format!("expect[0].value={angle:?}"),
+        format!("expect[0].tolerance={tolerance:?}"),
+    ];
+    measures("sessile-drop.toml", &set.into_iter().chain(more.iter().map(|s| (*s).to_owned())).collect::<Vec<_>>())
+}
+
+#[test]
+fn a_sessile_drop_spreads_to_its_angle() {
+    let found = sessile(60.0, 1.5, &[]);
+    // Circular segment of the area of the half disc it starts as; the lattice fills that area to half a percent.
+    assert!((found("base-m") / 2.21596e-3 - 1.0).abs() < 0.015, "{}", found("base-m"));
+    assert!((found("height-m") / 6.3969e-4 - 1.0).abs() < 0.015, "{}", found("height-m"));
+    assert!(found("area-drift").abs() < 2e-3);
+}
+
+#[test]
+fn a_sessile_drop_draws_together_to_its_angle() {
+    let found = sessile(120.0, 1.5, &[]);
+    assert!((found("base-m") / 1.09238e-3 - 1.0).abs() < 0.03, "{}", found("base-m"));
+}
+
+#[test]
+fn the_angle_is_as_good_at_a_density_ratio_of_a_hundred() {
+    let gas = ["sph.phases.non-wetting.density=10.0", "sph.phases.non-wetting.viscosity=5.0e-4"];
+    sessile(60.0, 2.0, &gas);
+}
+
+#[test]
+fn a_free_drop_has_the_pressure_of_laplace_and_rests() {
+    let found = measures("laplace-drop.toml", &["sph.spacing=4.0e-5".to_owned()]);
+    assert!((found("laplace-jump-ratio") - 1.0).abs() < 5e-3, "{}", found("laplace-jump-ratio"));
+    assert!(found("parasitic-capillary-number") < 3e-4, "{}", found("parasitic-capillary-number"));
+    assert!(found("largest-density-error") < 0.01);
+}
+
+#[test]
+fn the_angle_on_a_wall_turned_by_27_degrees_is_that_on_a_level_one() {
+    // The wall cuts the lattice; the drop starts as a half disc about a point of it.
+    let case = r#"
+format = 1
+title = "A drop on a turned wall"
+[geometry]
+min = [-2.0e-3, -2.0e-3] # m
+max = [2.0e-3, 2.0e-3] # m
+shapes = [{ half-plane = { point = [0.0, 0.0], rotation-deg = 27.0 } }]
+[sph]
+spacing = 8.0e-5 # m
+[sph.phases.wetting]
+density = 1000.0 # kg/m3
+viscosity = 5.0e-3 # Pa s
+[sph.phases.non-wetting]
+density = 1000.0 # kg/m3
+viscosity = 5.0e-3 # Pa s
+[sph.interface]
+tension = 0.025 # N/m
+[sph.wetting.young]
+contact-angle-deg = 60.0
+[[sph.initial.wetting]]
+disc = { center = [0.0, 0.0], radius = 8.0e-4 } # m
+[sph.measure.sessile-drop]
+[time]
+end = 0.05 # s
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("turned.toml"), case).unwrap();
+    let found = run(folder.path(), &["run", "turned.toml", "--out", "out", "--threads", "1"]);
+    println!("turned: {} {} {}", found("contact-angle-deg"), found("base-m"), found("height-m"));
+    // A cut lattice is rougher than a level one.
+    assert!((found("contact-angle-deg") - 60.0).abs() < 3.0, "{}", found("contact-angle-deg"));
+}
