@@ -123,10 +123,30 @@ fn fill(mut file: fs::File, bytes: &[u8]) -> io::Result<()> {
     file.flush()
 }
 
+/// Removes the temporary files that a killed program left in `folder` and the folders in it.
+///
+/// # Errors
+/// [`FileError`] where a folder cannot be read or a file cannot be removed.
+pub fn remove_leftovers(folder: &Path) -> Result<(), FileError> {
+    for entry in fs::read_dir(folder).map_err(FileError::read(folder))? {
+        let path = entry.map_err(FileError::read(folder))?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if path.is_dir() {
+            remove_leftovers(&path)?;
+        } else if name.starts_with('.') && name.ends_with(TEMPORARY) {
+            fs::remove_file(&path).map_err(FileError::write(&path))?;
+        }
+    }
+    Ok(())
+}
+
+/// Ending of the names of temporary files.
+const TEMPORARY: &str = ".part";
+
 /// A name in the same folder that no other process uses: hidden, with the process number.
 fn temporary_name(path: &Path) -> PathBuf {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    path.with_file_name(format!(".{name}.{}.part", std::process::id()))
+    path.with_file_name(format!(".{name}.{}{TEMPORARY}", std::process::id()))
 }
 
 #[cfg(test)]
@@ -141,6 +161,17 @@ mod tests {
         write(&path, b"new").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"new");
         assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_a_killed_program_leaves_behind_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("restart/state.bin");
+        write(&path, b"state").unwrap();
+        fs::write(temporary_name(&path), b"half a st").unwrap();
+        remove_leftovers(folder.path()).unwrap();
+        assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+        assert_eq!(fs::read(&path).unwrap(), b"state");
     }
 
     #[test]

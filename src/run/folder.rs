@@ -89,7 +89,7 @@ pub fn create(folder: &Path) -> Result<(), FolderError> {
     Ok(())
 }
 
-/// The saved state of the run in `folder`.
+/// The saved state of the run in `folder`; what a killed run left half written there is removed.
 ///
 /// # Errors
 /// [`FolderError`] where there is none, where it is damaged, or where it belongs to another case.
@@ -102,5 +102,6 @@ pub fn resume(folder: &Path, case_hash: u64) -> Result<Saved, FolderError> {
     if saved.case_hash != case_hash {
         return Err(FolderError::OtherCase { folder: folder.to_path_buf(), saved: saved.case_hash, now: case_hash });
     }
+    atomic::remove_leftovers(folder)?;
     Ok(saved)
 }
