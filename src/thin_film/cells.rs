@@ -4,11 +4,11 @@
 //! - geometric: p = ∇²h̄ − Bo h̄, M = h h̄², h = (1 − α²∇²)² h̄, solved for h̄ [Pang2022, Eq. 40];
 //! - slip: p = ∇²h − Bo h, M = h³ + 3λh², λ the slip length over the scale of heights [Pang2022, Eq. 16];
 //! - precursor film: p = ∇²h + Π(h) − Bo h, M = h³; Π is 0 in complete wetting, else (1/h*) ((h*/h)³ − (h*/h)²) with the
-//!   film's height h*: it makes a droplet of slope 1 rest beside the film [Schwartz1998].
+//!   film's height h*: it makes a droplet of slope 1 rest beside the film (Schwartz and Eley 1998).
 //!
 //! Pressures stand in the cells, fluxes on the faces between them; none passes the walls at both ends. The mobility on a face
 //! vanishes with the lower of its two heights, so that no cell is emptied: 2a²b²/(a + b) for h³ and ab for h²
-//! [Zhornitskaya2000]. Order 2 in space, 1 in time. About an axis the geometric equation has no partial wetting: its wetting
+//! (Zhornitskaya and Bertozzi 2000). Order 2 in space, 1 in time. About an axis the geometric equation has no partial wetting: its wetting
 //! parameter is known for plane droplets only.
 
 use std::f64::consts::{PI, TAU};

@@ -47,7 +47,7 @@ impl Profile {
         (slope < 0.0).then(|| Foot { position: steepest - height / slope, steepest, slope: -slope })
     }
 
-    /// Number of droplets: maxima above [`PEAK`] of the highest.
+    /// Number of droplets: maxima above a twentieth of the highest.
     #[must_use]
     pub fn peaks(&self) -> usize {
         let least = PEAK * self.height.iter().copied().fold(0.0, f64::max);
