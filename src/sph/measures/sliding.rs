@@ -7,7 +7,9 @@
 
 use super::{Subject, measure};
 use crate::analysis::WallPoint;
-use crate::analysis::contact::{ContactLine, ContactSettings, contact_lines};
+use crate::analysis::contact::ContactSettings;
+use crate::analysis::contour::Polyline;
+use crate::analysis::meniscus::{MeniscusEnd, ends_under_force};
 use crate::math::Vec2;
 use crate::solver::{Measure, Series};
 use crate::sph::method::ViscousTerm;
@@ -17,9 +19,9 @@ use crate::sph::projection::Flow;
 use crate::sph::terms::viscosity::Viscous;
 use crate::sph::wetting::lines::{Line, nearest};
 
-/// Share of the contour next to a line that its circle is fitted to, where the drop has advancing and receding lines, which differ. A
-/// meniscus that moves as a whole is fitted as a whole.
-const WINDOW: f64 = 0.25;
+/// Share of the contour next to a line that is fitted, where the drop has advancing and receding lines, which the flow bends unlike. A meniscus
+/// that moves as a whole is fitted as a whole.
+const WINDOW: f64 = 0.5;
 
 /// Measured lines belong to followed ones within this distance over h.
 const SAME_LINE: f64 = 6.0;
@@ -83,16 +85,18 @@ fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
     Some(Ends { ahead, lines })
 }
 
-/// Contact lines with a circle fitted to the share `window` of the contour next to each.
-fn fitted(flow: &Flow, seen: &Observation, window: f64) -> Vec<ContactLine> {
+/// The ends of the interface, by fits to the share `window` of the contour next to each.
+fn fitted(flow: &Flow, seen: &Observation, window: f64) -> Vec<MeniscusEnd> {
+    let m = &flow.method;
     let wall = |x: Vec2| {
         let (distance, normal) = (flow.wall)(x);
         WallPoint { distance, normal }
     };
-    let fit = |contour: &crate::analysis::contour::Polyline| {
+    let force = (m.wetting_fluid.density - m.other_fluid.density) / m.tension * m.gravity;
+    let fit = |contour: &Polyline| {
         let window = window * contour.length();
-        let settings = ContactSettings { window, ..ContactSettings::for_smoothing_length(flow.method.kernel.h) };
-        contact_lines(std::slice::from_ref(contour), &wall, &settings)
+        let settings = ContactSettings { window, ..ContactSettings::for_smoothing_length(m.kernel.h) };
+        ends_under_force(std::slice::from_ref(contour), &wall, &settings, force)
     };
     seen.interface.iter().flat_map(fit).collect()
 }
@@ -173,7 +177,8 @@ fn last(series: &Series, column: &str) -> Vec<(f64, f64)> {
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
     let m = &s.flow.method;
-    let fit = "circle fitted to the quarter of the contour next to the line (a meniscus that moves as a whole: to all of it), 2h from the wall left out; mean over the last quarter of the records";
+    let fit = "static meniscus under the body force fitted to the half of the contour next to the line (a meniscus that moves as a \
+               whole: to all of it), 2h from the wall left out; mean over the last quarter of the records";
     let (advancing, advancing_scatter) = last_mean(s.series, "advancing_angle_deg");
     let (receding, receding_scatter) = last_mean(s.series, "receding_angle_deg");
     let mut found = vec![
