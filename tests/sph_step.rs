@@ -8,8 +8,9 @@ mod flow;
 
 use std::f64::consts::TAU;
 
-use flow::flow;
+use flow::{flow, solver};
 use meniscus::math::Vec2;
+use meniscus::solver::Solver;
 use meniscus::sph::projection::Flow;
 use meniscus::sph::surface_force::equivalent::volume_forces;
 
@@ -333,5 +334,46 @@ fn fluid_that_falls_into_a_corner_stays_out_of_both_walls() {
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         // Four passes in a right corner leave a few percent of the distance that is kept.
         assert!(nearest > 0.045 * flow.method.spacing, "{nearest:.2e} m at step {}", flow.steps);
+    }
+}
+
+#[test]
+fn a_flow_that_is_taken_up_again_remembers_speeds_and_anchors_of_its_lines() {
+    const MODELS: [&str; 2] = [
+        "hysteresis]\nadvancing-angle-deg = 95.0\nreceding-angle-deg = 60.0",
+        "line-friction]\ncontact-angle-deg = 60.0\nfriction = 0.02",
+    ];
+    for (model, form) in MODELS.iter().flat_map(|model| SURFACE_FORCES.map(|form| (model, form))) {
+        // Walls left and right move, so that there is something to remember.
+        let sides = "bottom = \"periodic\"\ntop = \"periodic\"\nspeed = { left = 0.05 }\n";
+        let place = ([-2.5e-4, 0.0], [5.0e-4, 5.0e-4]);
+        let text = liquid_on_a_wall(place, [0.0, 0.0], 60.0, sides, ("non-wetting", form))
+            .replace("young]\ncontact-angle-deg = 60.0", model);
+        let (mut unbroken, mut again) = (solver(&text), solver(&text));
+        for _ in 0..10 {
+            unbroken.step(1.0).unwrap();
+        }
+        again.restore(&unbroken.state()).unwrap();
+        let lines = &unbroken.flow.fields.lines;
+        assert!(lines.len() >= 2 && lines.iter().any(|line| line.speed != 0.0), "{form}: {lines:?}");
+        assert_eq!(*lines, again.flow.fields.lines, "{form}");
+        for _ in 0..10 {
+            unbroken.step(1.0).unwrap();
+            again.step(1.0).unwrap();
+        }
+        assert_eq!(unbroken.state(), again.state(), "{model}, {form}");
+    }
+}
+
+#[test]
+fn a_patch_changes_the_angle_of_its_wall_alone() {
+    let sides = "bottom = \"periodic\"\ntop = \"periodic\"\n[[sph.wetting.patches]]\nside = \"right\"\ncontact-angle-deg = 120.0\n";
+    // A layer from wall to wall, with two lines at each.
+    let place = ([0.0, 0.0], [2.0e-3, 5.0e-4]);
+    let flow = flow(&liquid_on_a_wall(place, [0.0, 0.0], 60.0, sides, ("non-wetting", "pressure-jump")));
+    assert_eq!(flow.fields.lines.len(), 4, "{:?}", flow.fields.lines);
+    for line in &flow.fields.lines {
+        let expected = if line.position.x > 0.0 { 120.0 } else { 60.0 };
+        assert!((line.angle.to_degrees() - expected).abs() < 1e-9, "{line:?}");
     }
 }

@@ -7,7 +7,8 @@ use cloud::{Cloud, Dice};
 use meniscus::math::Vec2;
 use meniscus::sph::terms::viscosity::Viscous;
 use meniscus::sph::terms::{color, curvature, divergence, pressure_gradient, surface_tension};
-use meniscus::sph::wetting::contact_line::{LineFields, line_force};
+use meniscus::sph::wetting::contact_line::{LineFields, LineParticles};
+use meniscus::sph::wetting::lines::Following;
 use meniscus::sph::wetting::{Wetting, YoungForce};
 use nalgebra::Matrix2;
 
@@ -238,7 +239,10 @@ fn upright_lines(contact_angle: f64) -> ([Vec2; 2], usize) {
     let distance: Vec<f64> = cloud.points.iter().map(|x| if x.y < 0.5 { x.y } else { f64::INFINITY }).collect();
     let normal: Vec<Vec2> = distance.iter().map(|d| if d.is_finite() { Vec2::y() } else { Vec2::zeros() }).collect();
     let ones = vec![1.0; n];
+    let zeros = vec![Vec2::zeros(); n];
     let fields = LineFields {
+        position: &cloud.points,
+        velocity: &zeros,
         normal: &interface.normal,
         unit_normal: &interface.unit_normal,
         wall_distance: &distance,
@@ -248,7 +252,20 @@ fn upright_lines(contact_angle: f64) -> ([Vec2; 2], usize) {
     };
     let law = Wetting::Young(YoungForce { contact_angle });
     let mut force = vec![Vec2::zeros(); n];
-    let lines = line_force(&cloud.pairs, &cloud.images, &fields, &cloud.kernel, (&law, 0.03), &mut force);
+    let following = Following {
+        domain: &cloud.domain,
+        model: &|_| law,
+        wall_velocity: &|_| Vec2::zeros(),
+        tension: 0.03,
+        viscosity: 1.0,
+        h: cloud.kernel.h,
+        mean_over: 1.0,
+    };
+    let found = LineParticles::find((&cloud.pairs, &cloud.images), &fields, &cloud.kernel, n);
+    let lines = following.follow(&[], &found.sightings(&fields, &cloud.domain), 0.0);
+    let angles: Vec<f64> = lines.iter().map(|line| line.angle).collect();
+    found.line_force(&fields, &angles, 0.03, &mut force);
+    let lines = found.count();
     let half = |right: bool| {
         let near = |a: &usize| (0.25..0.75).contains(&cloud.points[*a].x) == right;
         (0..n).filter(near).map(|a| cloud.volume[a] * force[a]).sum()

@@ -102,6 +102,29 @@ fn two_drops_that_touch_become_one_round_drop() {
 }
 
 #[test]
+fn a_drop_under_gravity_has_the_shape_of_young_and_laplace() {
+    let found = measures("sessile-gravity.toml", &["sph.spacing=8.0e-5".to_owned()]);
+    // The case expects base, height and angle; the lattice fills the area to half a percent.
+    assert!(found("area-drift").abs() < 2e-3, "{}", found("area-drift"));
+}
+
+#[test]
+fn a_drop_within_its_hysteresis_window_does_not_creep() {
+    let pulled = |gravity: &str, end: &str| {
+        let set = ["sph.spacing=8.0e-5", gravity, end, "expect=[]"];
+        measures("incline.toml", &set.map(str::to_owned))
+    };
+    // Seven tenths of what the lines can bear, then eleven and a half.
+    let found = pulled("sph.gravity=[13.2, 0.0]", "time.end=0.06");
+    let ways = [found("advancing-way-m-per-s"), found("receding-way-m-per-s")];
+    // A spacing in a second: the drop takes 5 ms for a swing.
+    assert!(ways.iter().all(|way| way.abs() < 8.0e-5), "{ways:?}");
+    // Ended before the drop comes near the end of the box.
+    let found = pulled("sph.gravity=[21.7, 0.0]", "time.end=0.03");
+    assert!(found("receding-way-m-per-s") > 2.0e-3, "{}", found("receding-way-m-per-s"));
+}
+
+#[test]
 fn the_angle_on_a_wall_turned_by_27_degrees_is_that_on_a_level_one() {
     // The wall cuts the lattice; the drop starts as a half disc about a point of it.
     let case = r#"

@@ -115,7 +115,7 @@ fn unmeasured(position: Vec2, side: WettingSide, contour: usize, problem: Contac
 }
 
 /// The run of vertices beyond the exclusion distance that is next to one end, limited to the window.
-fn fitted_points<'a>(
+pub(super) fn fitted_points<'a>(
     line: &'a Polyline,
     distances: &[f64],
     side: WettingSide,

@@ -15,6 +15,7 @@ pub mod damped;
 pub mod lattice;
 pub mod laws;
 pub mod lines;
+pub mod meniscus;
 pub mod moments;
 pub mod phases;
 pub mod resample;

@@ -148,6 +148,19 @@ impl SessileFit {
     }
 }
 
+impl SessileFit {
+    /// Length in m of the wetted part of a level floor at `depth` (m) below the origin along gravity; nothing where the profile
+    /// does not come down to it.
+    #[must_use]
+    pub fn base_at(&self, depth: f64) -> Option<f64> {
+        let points = profile(self.apex_curvature, self.capillary_length, std::f64::consts::PI);
+        let below = depth - self.apex.dot(&self.down);
+        let k = points.iter().position(|p| p.z >= below)?;
+        let (a, b) = (points.get(k.checked_sub(1)?)?, points.get(k)?);
+        Some(2.0 * (a.x + (b.x - a.x) * (below - a.z) / (b.z - a.z)))
+    }
+}
+
 /// Fits a symmetric sessile drop to `points` (m) of its contour, by Gauss-Newton for apex curvature and place of the apex.
 ///
 /// `down` is the unit vector of gravity, `capillary_length` in m. Nothing where there are fewer than six points or the
@@ -292,6 +305,8 @@ mod tests {
         let fit = fit_sessile_drop(&ordered, down, lc).expect("a fit");
         assert!((fit.apex - apex).norm() < 1e-4, "{fit:?}");
         assert!((fit.apex_curvature / drop.apex_curvature - 1.0).abs() < 1e-3, "{fit:?}");
+        let base = fit.base_at(apex.dot(&down) + drop.height).expect("a floor below the apex");
+        assert!((base / drop.base - 1.0).abs() < 1e-3, "{base} for {}", drop.base);
         let [found, error] = fit.angle_at(apex.dot(&down) + drop.height).expect("a floor below the apex");
         assert!((found - angle).abs() < 0.05 && error < 0.05, "{found} +- {error}");
     }

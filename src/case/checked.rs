@@ -48,6 +48,8 @@ pub struct Sph {
     pub surface_force: Option<SurfaceForce>,
     /// Wetting model; absent: no line force.
     pub wetting_model: Option<WettingModel>,
+    /// Parts of the walls with angles of their own.
+    pub wetting_patches: Vec<WettingPatch>,
     /// Body force per mass in m/s².
     pub gravity: Vec2,
     /// What stands at the four sides of the domain.
@@ -81,15 +83,126 @@ pub enum SurfaceForce {
     PressureJump,
 }
 
-/// Wetting models.
+/// Wetting models; angles through the wetting phase in rad.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WettingModel {
     /// Unbalanced Young force [Huber2013, Eqs. 7 and 23].
     Young {
-        /// Static contact angle through the wetting phase, in rad.
+        /// Static contact angle.
         contact_angle: f64,
     },
+    /// Static angle from two measured ones [Tadmor2004].
+    Tadmor {
+        /// Advancing angle.
+        advancing: f64,
+        /// Receding angle.
+        receding: f64,
+    },
+    /// Friction of the line in proportion to its speed [BrochardWyart1992].
+    LineFriction {
+        /// Static contact angle.
+        contact_angle: f64,
+        /// Friction in Pa s.
+        friction: f64,
+    },
+    /// Molecular kinetic theory [Blake1969].
+    MolecularKinetic {
+        /// Static contact angle.
+        contact_angle: f64,
+        /// Jumps per second at rest, in 1/s.
+        frequency: f64,
+        /// Length of a jump in m.
+        jump_length: f64,
+        /// Temperature in K.
+        temperature: f64,
+    },
+    /// Viscous bending below the scale of the fit [Voinov1976; Cox1986].
+    CoxVoinov {
+        /// Static contact angle.
+        contact_angle: f64,
+        /// Slip length in m.
+        slip_length: f64,
+    },
+    /// Kistler's fit of Hoffman's data [Kistler1993].
+    Kistler {
+        /// Static contact angle.
+        contact_angle: f64,
+    },
+    /// The fit of Jiang, Oh and Slattery of Hoffman's data [Jiang1979].
+    Jiang {
+        /// Static contact angle.
+        contact_angle: f64,
+    },
+    /// A line that holds between two angles.
+    Hysteresis {
+        /// Advancing angle.
+        advancing: f64,
+        /// Receding angle.
+        receding: f64,
+    },
+}
+
+impl WettingModel {
+    /// The smallest and the largest angle in rad that were written for a line at rest.
+    #[must_use]
+    pub fn angles(&self) -> [f64; 2] {
+        match *self {
+            Self::Young { contact_angle }
+            | Self::LineFriction { contact_angle, .. }
+            | Self::MolecularKinetic { contact_angle, .. }
+            | Self::CoxVoinov { contact_angle, .. }
+            | Self::Kistler { contact_angle }
+            | Self::Jiang { contact_angle } => [contact_angle; 2],
+            Self::Tadmor { advancing, receding } | Self::Hysteresis { advancing, receding } => [receding, advancing],
+        }
+    }
+}
+
+/// A part of the walls with angles of its own (`[[sph.wetting.patches]]`); later ones lie over earlier ones.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct WettingPatch {
+    /// Which walls.
+    pub on: PatchedWall,
+    /// Which part of them; absent: all.
+    pub stripes: Option<Stripes>,
+    /// The model with the angles of the patch.
+    pub model: WettingModel,
+}
+
+/// The walls that a patch lies on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PatchedWall {
+    /// All of them.
+    All,
+    /// A shape by its number, from 0 on.
+    Shape(u32),
+    /// The left, right, bottom or top side, 0 to 3.
+    Side(u32),
+}
+
+/// Stripes across an axis: where the coordinate less `start`, modulo `period`, is below `width`.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Stripes {
+    /// 0: along x, 1: along y.
+    pub axis: usize,
+    /// Where one of them begins, in m.
+    pub start: f64,
+    /// Width in m.
+    pub width: f64,
+    /// From one to the next in m; absent: a single stripe.
+    pub period: Option<f64>,
+}
+
+impl Stripes {
+    /// Whether a point of the wall with the given coordinates in m lies in a stripe.
+    #[must_use]
+    pub fn contains(&self, x: Vec2) -> bool {
+        let along = x[self.axis] - self.start;
+        let along = self.period.map_or(along, |period| along.rem_euclid(period));
+        (0.0..self.width).contains(&along)
+    }
 }
 
 /// One side of the domain.
@@ -208,6 +321,10 @@ pub struct MeasureSet {
     pub throat_entry: bool,
     /// Difference of the mean levels on both sides of a plate.
     pub jurin: bool,
+    /// Angles, speeds and forces of a drop that moves or is held on a wall.
+    pub moving_drop: bool,
+    /// Exponent of a drop that spreads.
+    pub spreading: bool,
 }
 
 /// What is written and when.

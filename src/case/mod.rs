@@ -14,6 +14,7 @@ mod resolve;
 mod schema;
 mod shapes;
 mod sph;
+mod wetting;
 
 pub(crate) use check::Checker;
 pub use facts::{Facts, check_against};

@@ -2,13 +2,13 @@
 
 use super::checked::{
     Case, Fluid, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides, Sph, SurfaceForce, ViscousTerm,
-    WettingModel,
 };
 use super::raw::{
     Empty, RawCase, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface, RawMeasures,
     RawNumerics, RawOutput, RawPhase, RawPhases, RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime,
-    RawVelocity, RawViscousTerm, RawWallSpeeds, RawWetting, RawYoung,
+    RawVelocity, RawViscousTerm, RawWallSpeeds,
 };
+use super::wetting;
 
 /// The case as TOML that loads to the same case (angles to the last bit of a degree).
 pub(super) fn text(case: &Case) -> String {
@@ -75,9 +75,7 @@ fn raw_sph(sph: &Sph) -> RawSph {
             csf: (force == SurfaceForce::Csf).then_some(Empty {}),
             pressure_jump: (force == SurfaceForce::PressureJump).then_some(Empty {}),
         }),
-        wetting: sph.wetting_model.map(|WettingModel::Young { contact_angle }| RawWetting {
-            young: Some(RawYoung { contact_angle_deg: Some(contact_angle.to_degrees().clamp(0.0, 180.0)) }),
-        }),
+        wetting: sph.wetting_model.map(|model| wetting::raw(&model, &sph.wetting_patches)),
         sides: Some(raw_sides(&sph.sides, sph.wall_speeds)),
         initial: Some(RawInitial {
             background: two_phases.then_some(background),
@@ -165,5 +163,7 @@ fn raw_measures(measure: &MeasureSet) -> RawMeasures {
         cylinder_array: table(measure.cylinder_array),
         throat_entry: table(measure.throat_entry),
         jurin: table(measure.jurin),
+        moving_drop: table(measure.moving_drop),
+        spreading: table(measure.spreading),
     }
 }

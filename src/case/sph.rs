@@ -2,11 +2,12 @@
 
 use super::check::Checker;
 use super::checked::{
-    Fluid, Initial, InitialVelocity, MeasureSet, Numerics, Side, Sides, Sph, SurfaceForce, ViscousTerm, WettingModel,
+    Fluid, Initial, InitialVelocity, MeasureSet, Numerics, Side, Sides, Sph, SurfaceForce, ViscousTerm,
 };
 use super::preset::{COLD, WARM};
 use super::raw::{RawFluid, RawInitial, RawMeasures, RawNumerics, RawPhase, RawSide, RawSides, RawSph, RawViscousTerm};
 use super::shapes::shape_problems;
+use super::wetting;
 use crate::geometry::spec::GeometrySpec;
 use crate::math::Vec2;
 
@@ -32,29 +33,36 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
     let ratio =
         checker.within("sph.smoothing-ratio", raw.smoothing_ratio, SMOOTHING_RATIO, "smoothing length over spacing");
     let phases = raw.phases.clone().unwrap_or_default();
-    let wetting = phases.wetting.as_ref().map(|fluid| self::fluid(checker, "sph.phases.wetting", fluid));
-    let wetting =
-        checker.require("sph.phases.wetting", wetting, "[sph.phases.wetting] with preset, or density and viscosity");
+    let fluid_of_drop = phases.wetting.as_ref().map(|fluid| self::fluid(checker, "sph.phases.wetting", fluid));
+    let liquid = checker.require(
+        "sph.phases.wetting",
+        fluid_of_drop,
+        "[sph.phases.wetting] with preset, or density and viscosity",
+    );
     let other = phases.non_wetting.as_ref().map(|fluid| self::fluid(checker, "sph.phases.non-wetting", fluid));
-    if let (Some(Some(a)), Some(Some(b))) = (&wetting, &other) {
+    if let (Some(Some(a)), Some(Some(b))) = (&liquid, &other) {
         density_ratio(checker, a, b);
     }
     let two_phases = other.is_some();
     let (tension, surface_force) = if two_phases { interface(checker, raw) } else { (Some(0.0), None) };
-    let wetting_model = if two_phases { wetting_model(checker, raw, tension) } else { None };
+    let wetting_model = if two_phases { wetting::model(checker, raw.wetting.as_ref(), tension) } else { None };
     if !two_phases {
         refuse_single_phase_keys(checker, raw);
     }
     let raw_sides = raw.sides.clone().unwrap_or_default();
     let wall_speeds = wall_speeds(checker, &raw_sides);
     let sides = sides(checker, &raw_sides);
+    let patches = match wetting_model {
+        Some(model) => wetting::patches(checker, raw.wetting.as_ref(), model, sides.as_ref(), geometry),
+        None => Vec::new(),
+    };
     let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
     let default = default_numerics(surface_force, wetting_model.is_some());
     let numerics = numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
     Some(Sph {
         spacing: spacing?,
         smoothing_ratio: ratio.unwrap_or(DEFAULT_SMOOTHING_RATIO),
-        wetting: wetting??,
+        wetting: liquid??,
         non_wetting: match other {
             Some(other) => Some(other?),
             None => None,
@@ -62,6 +70,7 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         tension: tension?,
         surface_force,
         wetting_model,
+        wetting_patches: patches,
         gravity: Vec2::from(raw.gravity.unwrap_or_default()),
         sides: sides?,
         wall_speeds,
@@ -176,29 +185,6 @@ fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<Surfac
         );
     }
     (tension, tension.filter(|tension| *tension > 0.0).map(|_| chosen))
-}
-
-fn wetting_model(checker: &mut Checker, raw: &RawSph, tension: Option<f64>) -> Option<WettingModel> {
-    let model = raw.wetting.as_ref()?;
-    let Some(young) = &model.young else {
-        checker.refuse(
-            "sph.wetting",
-            "expected exactly one wetting model, found none",
-            "add the table [sph.wetting.young]",
-        );
-        return None;
-    };
-    const PATH: &str = "sph.wetting.young.contact-angle-deg";
-    let degrees = checker.require(PATH, young.contact_angle_deg, "contact-angle-deg = 40.0");
-    let degrees = checker.within(PATH, degrees, (0.0, 180.0), "an angle in degrees")?;
-    if tension == Some(0.0) {
-        checker.refuse(
-            PATH,
-            "a contact angle needs a tension above 0",
-            "raise sph.interface.tension, or leave [sph.wetting] out",
-        );
-    }
-    Some(WettingModel::Young { contact_angle: degrees.to_radians() })
 }
 
 fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
@@ -388,5 +374,7 @@ fn measures(raw: &RawMeasures) -> MeasureSet {
         cylinder_array: raw.cylinder_array.is_some(),
         throat_entry: raw.throat_entry.is_some(),
         jurin: raw.jurin.is_some(),
+        moving_drop: raw.moving_drop.is_some(),
+        spreading: raw.spreading.is_some(),
     }
 }

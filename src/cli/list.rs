@@ -3,7 +3,7 @@
 use super::output::say;
 
 /// Table of a case file, what it does, where it comes from.
-const MODELS: [[&str; 3]; 9] = [
+const MODELS: [[&str; 3]; 17] = [
     ["[sph]", "direct simulation by incompressible SPH", "Huber et al. 2013"],
     [
         "[sph.surface-force.pressure-jump]",
@@ -12,6 +12,14 @@ const MODELS: [[&str; 3]; 9] = [
     ],
     ["[sph.surface-force.csf]", "continuum surface force", "Huber et al. 2013, Eq. 20; Brackbill et al. 1992"],
     ["[sph.wetting.young]", "unbalanced Young force at the contact line", "Huber et al. 2013, Eqs. 7 and 23"],
+    ["[sph.wetting.tadmor]", "static angle from advancing and receding one", "Tadmor 2004"],
+    ["[sph.wetting.hysteresis]", "a line that holds between two angles", "Dussan 1979; docs/numerics"],
+    ["[sph.wetting.line-friction]", "friction of the line", "Brochard-Wyart and de Gennes 1992"],
+    ["[sph.wetting.molecular-kinetic]", "molecular kinetic theory of the line", "Blake and Haynes 1969"],
+    ["[sph.wetting.cox-voinov]", "viscous bending below the fit", "Voinov 1976; Cox 1986"],
+    ["[sph.wetting.kistler]", "dynamic angle, Hoffman's data", "Kistler 1993"],
+    ["[sph.wetting.jiang]", "dynamic angle, Hoffman's data", "Jiang et al. 1979"],
+    ["[[sph.wetting.patches]]", "angles of shapes, sides and stripes", ""],
     [
         "sph.numerics.viscous-term = \"stress\"",
         "viscous term with the transposed gradient (default)",

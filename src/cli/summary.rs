@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::output::{duration, readable};
+use crate::analysis::laws::drops::tadmor;
 use crate::case::checked::{Case, Model, WettingModel};
 use crate::run::execute::Finished;
 use crate::run::report::{Reading, Report, Status};
@@ -47,12 +48,17 @@ fn ending(report: &Report) -> String {
     }
 }
 
-/// The angle that the case asks for, in degrees.
-fn requested_angle(case: &Case) -> Option<f64> {
-    match &case.model {
-        Model::Sph(sph) => sph.wetting_model.map(|WettingModel::Young { contact_angle }| contact_angle.to_degrees()),
-        Model::ThinFilm(film) => film.contact_angle.map(f64::to_degrees),
+/// The angle that the case asks for, or the two angles between which a line holds, in degrees.
+fn requested_angle(case: &Case) -> Option<String> {
+    let [smallest, largest] = match &case.model {
+        Model::Sph(sph) => match sph.wetting_model? {
+            WettingModel::Tadmor { advancing, receding } => [tadmor(advancing, receding); 2],
+            model => model.angles(),
+        },
+        Model::ThinFilm(film) => [film.contact_angle?; 2],
     }
+    .map(f64::to_degrees);
+    Some(if smallest == largest { format!("{smallest:.1}") } else { format!("{smallest:.1} to {largest:.1}") })
 }
 
 fn with_uncertainty(reading: &Reading) -> String {
@@ -73,7 +79,7 @@ fn push_angles(text: &mut String, report: &Report) {
             Some(reading) => with_uncertainty(reading),
             None => "not measured".into(),
         };
-        let _ = writeln!(text, "  contact angle through the wetting phase: requested {requested:.1} deg, {measured}");
+        let _ = writeln!(text, "  contact angle through the wetting phase: requested {requested} deg, {measured}");
     }
 }
 

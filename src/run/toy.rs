@@ -154,6 +154,7 @@ pub fn case() -> Case {
         tension: 0.0,
         surface_force: None,
         wetting_model: None,
+        wetting_patches: Vec::new(),
         gravity: Vec2::zeros(),
         sides: Sides { left: Side::Wall, right: Side::Wall, bottom: Side::Wall, top: Side::Wall },
         wall_speeds: [0.0; 4],

@@ -15,10 +15,21 @@ use crate::sph::surface_force::fit::InterfaceFit;
 use crate::sph::surface_force::jump::Jump;
 use crate::sph::surface_force::points::{PointFields, interface_points};
 use crate::sph::terms::{color, curvature, density, surface_tension};
-use crate::sph::wetting::Wetting;
-use crate::sph::wetting::contact_line::{LineFields, line_force};
+use crate::sph::wetting::contact_line::{LineFields, LineParticles};
+use crate::sph::wetting::lines::{Following, LINE_REACH, Line, nearest};
+use crate::sph::wetting::wall::WallSpots;
 
 use rayon::prelude::*;
+
+/// Where the interface is in space: sides, walls, and what they are made of.
+pub struct Place<'a> {
+    /// Box and sides.
+    pub domain: &'a Domain,
+    /// Wall distance and normal.
+    pub wall: &'a WallQuery,
+    /// Wetting models and velocities of walls.
+    pub spots: &'a WallSpots,
+}
 
 /// Fields over particles and images; forces over fluid particles only.
 #[derive(Debug, Clone, Default)]
@@ -51,6 +62,10 @@ pub struct Fields {
     pub jump: Option<Jump>,
     /// Number of contact lines that a line force acts on.
     pub contact_lines: usize,
+    /// The contact lines now: the state of the next step.
+    pub lines: Vec<Line>,
+    /// Receding and advancing angle in rad of the wall next to each fluid particle, NaN where none is in reach.
+    pub wall_window: Vec<[f64; 2]>,
 }
 
 impl Fields {
@@ -93,12 +108,14 @@ impl Fields {
     }
 
     /// Normals, curvature and the forces of interface and contact lines [Huber2013, Eqs. 18-23].
+    ///
+    /// `lines` are the contact lines of the step before, `dt` (s) ago.
     pub fn update_interface(
         &mut self,
         neighborhood: (&Particles, &Pairs, &Images),
         method: &Method,
-        domain: &Domain,
-        wall: &WallQuery,
+        place: &Place,
+        (lines, dt): (&[Line], f64),
     ) {
         let (particles, pairs, images) = neighborhood;
         let (n, fluids) = (particles.len(), particles.fluids);
@@ -118,19 +135,26 @@ impl Fields {
         self.color.extend_from_slice(&sharp[..n]);
         self.jump = None;
         self.contact_lines = 0;
+        self.lines.clear();
         if method.tension == 0.0 {
             return;
         }
         color::smoothed_color(pairs, &self.fluid_volume, &sharp, &mut self.color);
         images.extend(&mut self.color);
         match method.surface_force {
-            SurfaceForce::Csf => self.continuum_forces(neighborhood, method),
-            SurfaceForce::PressureJump => self.pressure_jump(neighborhood, &sharp, method, (domain, wall)),
+            SurfaceForce::Csf => self.continuum_forces(neighborhood, method, place, (lines, dt)),
+            SurfaceForce::PressureJump => self.pressure_jump((neighborhood, &sharp), method, place, (lines, dt)),
         }
     }
 
     /// The paper's forces: normals and curvature in a band, surface force and line force [Huber2013, Eqs. 18-23].
-    fn continuum_forces(&mut self, (particles, pairs, images): (&Particles, &Pairs, &Images), method: &Method) {
+    fn continuum_forces(
+        &mut self,
+        (particles, pairs, images): (&Particles, &Pairs, &Images),
+        method: &Method,
+        place: &Place,
+        (lines, dt): (&[Line], f64),
+    ) {
         let fluids = particles.fluids;
         color::color_gradient(pairs, &self.fluid_volume, &self.color, &mut self.normal[..fluids]);
         images.extend_reflected(&mut self.normal);
@@ -139,43 +163,69 @@ impl Fields {
         curvature::curvature(pairs, &self.fluid_volume, &self.unit_normal, &mut self.curvature[..fluids]);
         let weight: Vec<f64> = self.density[..fluids].iter().map(|&rho| method.force_weight(rho)).collect();
         surface_tension::surface_force(method.tension, &self.curvature, &self.normal, &weight, &mut self.surface_force);
-        if let Some(wetting) = &method.wetting {
-            let fields = LineFields {
-                normal: &self.normal,
-                unit_normal: &self.unit_normal,
-                wall_distance: &self.wall_distance,
-                wall_normal: &self.wall_normal,
-                volume: &self.volume,
-                weight: &weight,
-            };
-            let law = (wetting, method.tension);
-            self.contact_lines = line_force(pairs, images, &fields, &method.kernel, law, &mut self.line_force);
+        if method.wetting.is_none() {
+            return;
         }
+        let fields = LineFields {
+            position: &particles.position,
+            velocity: &particles.velocity,
+            normal: &self.normal,
+            unit_normal: &self.unit_normal,
+            wall_distance: &self.wall_distance,
+            wall_normal: &self.wall_normal,
+            volume: &self.volume,
+            weight: &weight,
+        };
+        let found = LineParticles::find((pairs, images), &fields, &method.kernel, fluids);
+        let seen = found.sightings(&fields, place.domain);
+        self.contact_lines = found.count();
+        self.lines = place.following(method, |following| following.follow(lines, &seen, dt));
+        let angles: Vec<f64> = self.lines.iter().map(|line| line.angle).collect();
+        found.line_force(&fields, &angles, method.tension, &mut self.line_force);
     }
+
     /// Sides and curvatures for the pressure jump; the normal is the consistent gradient of the smoothed color.
     fn pressure_jump(
         &mut self,
-        (particles, pairs, images): (&Particles, &Pairs, &Images),
-        sharp: &[f64],
+        ((particles, pairs, images), sharp): ((&Particles, &Pairs, &Images), &[f64]),
         method: &Method,
-        (domain, wall): (&Domain, &WallQuery),
+        place: &Place,
+        (lines, dt): (&[Line], f64),
     ) {
-        let (fluids, position) = (particles.fluids, &particles.position);
+        let (fluids, position, domain) = (particles.fluids, &particles.position, place.domain);
         let r_ab = |a: usize, b: usize| domain.separation(position[a], images.position(b, position));
         let normal = &mut self.normal[..fluids];
         color::consistent_gradient(pairs, &self.fluid_volume, &self.color, r_ab, normal);
         images.extend_reflected(&mut self.normal);
+        let mut velocity = particles.velocity.clone();
+        images.extend_velocity(&mut velocity);
         let fields = PointFields {
             position,
             color: &self.color,
             gradient: &self.normal,
+            velocity: &velocity,
             wall_distance: &self.wall_distance,
             wall_normal: &self.wall_normal,
         };
         let lengths = (method.spacing, method.kernel.h);
         let points = interface_points((pairs, images), domain, &fields, fluids, lengths);
-        let angle = method.wetting.as_ref().map(Wetting::static_angle);
-        let fit = InterfaceFit::new(&points, domain, lengths, angle, wall);
+        let mut fit = InterfaceFit::new(&points, domain, lengths, place.wall);
+        if method.wetting.is_some() {
+            let seen = fit.lines(domain);
+            self.contact_lines = seen.len();
+            self.lines = place.following(method, |following| following.follow(lines, &seen, dt));
+        }
+        let lines = &self.lines;
+        let angle_at = |x: Vec2, outward: Vec2| {
+            // Without a model this is not asked for.
+            let Some(model) = place.spots.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
+            let line =
+                if model.is_static() { None } else { nearest(lines, domain, x, outward, LINE_REACH * lengths.1) };
+            line.map_or_else(|| model.static_angle(), |line| line.angle)
+        };
+        if method.wetting.is_some() {
+            fit = fit.held_to(&angle_at);
+        }
         let mut side = sharp.to_vec();
         carry::into_walls(pairs, &self.fluid_volume, fluids, &mut side);
         let mut jump = Jump::default();
@@ -184,5 +234,29 @@ impl Fields {
             *kappa = if found.is_nan() { 0.0 } else { *found };
         }
         self.jump = Some(jump);
+        let window = |a: usize| {
+            let model = if self.wall_distance[a].is_finite() { place.spots.model(method, position[a]) } else { None };
+            model.map_or([f64::NAN; 2], |model| model.window())
+        };
+        self.wall_window = (0..fluids).map(window).collect();
+    }
+}
+
+impl Place<'_> {
+    /// Hands out what the contact lines are followed with.
+    fn following(&self, method: &Method, follow: impl Fn(&Following) -> Vec<Line>) -> Vec<Line> {
+        let Some(base) = method.wetting else { return Vec::new() };
+        let (h, viscosity) = (method.kernel.h, method.wetting_fluid.viscosity);
+        // Nothing happens at a line faster than an interface of the size h moves.
+        let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
+        follow(&Following {
+            domain: self.domain,
+            model: &|x| self.spots.model(method, x).unwrap_or(base),
+            wall_velocity: &|x| self.spots.velocity(x),
+            tension: method.tension,
+            viscosity,
+            h,
+            mean_over,
+        })
     }
 }

@@ -64,6 +64,8 @@ pub struct Method {
     pub surface_force: SurfaceForce,
     /// Wetting model.
     pub wetting: Option<Wetting>,
+    /// Wetting models of parts of the walls that differ.
+    pub patches: Vec<Wetting>,
     /// Body force per mass in m/s².
     pub gravity: Vec2,
     /// Wall velocities.
@@ -93,6 +95,12 @@ impl Method {
     #[must_use]
     pub fn mean_density(&self) -> f64 {
         0.5 * (self.wetting_fluid.density + self.other_fluid.density)
+    }
+
+    /// The larger viscosity in Pa s.
+    #[must_use]
+    pub fn largest_viscosity(&self) -> f64 {
+        self.wetting_fluid.viscosity.max(self.other_fluid.viscosity)
     }
 
     /// Larger over smaller density.

@@ -7,7 +7,6 @@ use crate::sph::particles::Phase;
 use crate::sph::projection::{Flow, Predicted};
 use crate::sph::terms::shifting;
 use crate::sph::terms::strays::Strays;
-use crate::sph::wetting::Wetting;
 
 /// A particle that moves farther than this share of h in a step has run away.
 const LARGEST_MOVE: f64 = 0.5;
@@ -70,9 +69,10 @@ impl Flow {
                 fluid_volume: &f.fluid_volume,
                 wall_distance: &f.wall_distance,
                 wall_normal: &f.wall_normal,
-                angle: m.wetting.as_ref().map(Wetting::static_angle),
+                weight: (m.wetting_fluid.density - m.other_fluid.density) / m.mean_density() * m.gravity,
+                wall_window: &f.wall_window,
             };
-            strays.send_back(&self.pairs, m.kernel.h, m.capillary_speed() * dt, &mut by);
+            strays.send_back(&self.pairs, m.kernel.h, (m.capillary_speed(), dt), &mut by);
         } else if diffusion == 0.0 {
             return;
         }

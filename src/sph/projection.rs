@@ -6,7 +6,7 @@ use crate::math::Vec2;
 use crate::solver::{PartTime, SolverError, StepInfo};
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
-use crate::sph::fields::Fields;
+use crate::sph::fields::{Fields, Place};
 use crate::sph::images::Images;
 use crate::sph::method::{Method, PressureGradient, ViscousTerm};
 use crate::sph::pairs::{Pairs, each, largest};
@@ -16,6 +16,8 @@ use crate::sph::terms::divergence::divergence;
 use crate::sph::terms::pressure_gradient;
 use crate::sph::terms::viscosity::Viscous;
 use crate::sph::time_step::landing;
+use crate::sph::wetting::lines::Line;
+use crate::sph::wetting::wall::WallSpots;
 
 /// The particles are put in the order of their cells every so many steps, so that neighbors are near in memory.
 const REORDER_EVERY: u64 = 20;
@@ -54,6 +56,10 @@ pub struct Flow {
     pub domain: Domain,
     /// Wall distance and normal.
     pub wall: WallQuery,
+    /// Wetting models and velocities of the walls.
+    pub spots: WallSpots,
+    /// The contact lines as the last step left them; those of the present positions are among the fields.
+    pub lines: Vec<Line>,
     /// The particles.
     pub particles: Particles,
     /// Depth of each wall particle in m.
@@ -92,6 +98,8 @@ impl Flow {
             method,
             domain,
             wall,
+            spots: WallSpots::default(),
+            lines: Vec::new(),
             particles,
             wall_depth,
             time: 0.0,
@@ -107,6 +115,14 @@ impl Flow {
         flow.prepare();
         flow.particles.part = parts(&flow.pairs, &flow.images);
         flow
+    }
+
+    /// The same flow at time zero with walls that differ or move.
+    #[must_use]
+    pub fn with_walls(mut self, spots: WallSpots) -> Self {
+        self.spots = spots;
+        self.prepare();
+        self
     }
 
     /// All that follows from the positions: neighbors, volumes, normals, forces of interface and lines.
@@ -127,7 +143,8 @@ impl Flow {
         let after = Instant::now();
         let neighborhood = (&self.particles, &self.pairs, &self.images);
         self.fields.update_bulk(neighborhood, &self.method, &self.wall);
-        self.fields.update_interface(neighborhood, &self.method, &self.domain, &self.wall);
+        let place = Place { domain: &self.domain, wall: &self.wall, spots: &self.spots };
+        self.fields.update_interface(neighborhood, &self.method, &place, (&self.lines, self.last.dt));
         self.work.seconds[0] += (after - start).as_secs_f64();
         self.work.seconds[1] += after.elapsed().as_secs_f64();
     }
@@ -161,6 +178,7 @@ impl Flow {
         self.work.seconds[2] += (after_pressure - after_forces).as_secs_f64();
         self.work.seconds[3] += after_pressure.elapsed().as_secs_f64();
         self.work.steps += 1;
+        self.lines = std::mem::take(&mut self.fields.lines);
         self.prepare();
         Ok(self.last)
     }

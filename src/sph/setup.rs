@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::analysis::contour::Polyline;
 use crate::analysis::phases::wall_samples;
-use crate::case::checked::{self, Case, InitialVelocity, Side, Sph, WettingModel};
+use crate::case::checked::{self, Case, InitialVelocity, PatchedWall, Side, Sph, WettingModel, WettingPatch};
 use crate::geometry::Geometry;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use crate::math::{Bounds, Vec2};
@@ -21,7 +21,10 @@ use crate::sph::poisson::Tolerance;
 use crate::sph::projection::{Flow, WallQuery};
 use crate::sph::solver::{SphSolver, Surroundings};
 use crate::sph::surface_force::SurfaceForce;
-use crate::sph::wetting::{Wetting, YoungForce};
+use crate::sph::wetting::wall::{WallSpot, WallSpots};
+use crate::sph::wetting::{
+    CoxVoinov, Hysteresis, Jiang, Kistler, LineFriction, MolecularKinetic, TadmorAngle, Wetting, YoungForce,
+};
 
 /// Most iterations of a pressure solve; a healthy one takes about ten.
 const ITERATIONS: usize = 300;
@@ -105,11 +108,63 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         measures: sph.measure.clone(),
         grid_spacing: case.output.grid_ratio * sph.spacing,
     };
+    let walls = wall_spots(sph, &geometry);
     let query: WallQuery = Box::new(move |x| {
         let wall = geometry.wall(x);
         (wall.distance, wall.normal)
     });
-    Ok(SphSolver::new(Flow::new(method, domain, query, particles, depth), surroundings))
+    let mut flow = Flow::new(method, domain, query, particles, depth);
+    if let Some(walls) = walls {
+        flow = flow.with_walls(walls);
+    }
+    Ok(SphSolver::new(flow, surroundings))
+}
+
+/// Patches and velocities of the walls; none where all walls are alike and at rest.
+fn wall_spots(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallSpots> {
+    if sph.wetting_patches.is_empty() && sph.wall_speeds == [0.0; 4] {
+        return None;
+    }
+    let (patches, speeds, geometry) = (sph.wetting_patches.clone(), sph.wall_speeds, Arc::clone(geometry));
+    Some(WallSpots::new(Box::new(move |x| {
+        let wall = geometry.wall(x);
+        // Walls at the sides are numbered after the shapes.
+        let side = wall.shape.checked_sub(geometry.shape_count()).filter(|side| *side < 4);
+        let velocity = match side {
+            Some(side @ (0 | 1)) => Vec2::new(0.0, speeds[side as usize]),
+            Some(side) => Vec2::new(speeds[side as usize], 0.0),
+            None => Vec2::zeros(),
+        };
+        let foot = geometry.wrapped(x - wall.distance * wall.normal);
+        let lies_there = |patch: &WettingPatch| {
+            let on = match patch.on {
+                PatchedWall::All => true,
+                PatchedWall::Shape(shape) => wall.shape == shape,
+                PatchedWall::Side(number) => side == Some(number),
+            };
+            on && wall.distance.is_finite() && patch.stripes.is_none_or(|stripes| stripes.contains(foot))
+        };
+        WallSpot { patch: patches.iter().rposition(lies_there), velocity }
+    })))
+}
+
+fn wetting(model: WettingModel) -> Wetting {
+    match model {
+        WettingModel::Young { contact_angle } => Wetting::Young(YoungForce { contact_angle }),
+        WettingModel::Tadmor { advancing, receding } => Wetting::Tadmor(TadmorAngle { advancing, receding }),
+        WettingModel::LineFriction { contact_angle, friction } => {
+            Wetting::LineFriction(LineFriction { contact_angle, friction })
+        }
+        WettingModel::MolecularKinetic { contact_angle, frequency, jump_length, temperature } => {
+            Wetting::MolecularKinetic(MolecularKinetic { contact_angle, frequency, jump_length, temperature })
+        }
+        WettingModel::CoxVoinov { contact_angle, slip_length } => {
+            Wetting::CoxVoinov(CoxVoinov { contact_angle, slip_length })
+        }
+        WettingModel::Kistler { contact_angle } => Wetting::Kistler(Kistler { contact_angle }),
+        WettingModel::Jiang { contact_angle } => Wetting::Jiang(Jiang { contact_angle }),
+        WettingModel::Hysteresis { advancing, receding } => Wetting::Hysteresis(Hysteresis { advancing, receding }),
+    }
 }
 
 fn method(sph: &Sph, lattice: &Lattice) -> Method {
@@ -128,9 +183,8 @@ fn method(sph: &Sph, lattice: &Lattice) -> Method {
             Some(checked::SurfaceForce::PressureJump) => SurfaceForce::PressureJump,
             Some(checked::SurfaceForce::Csf) | None => SurfaceForce::Csf,
         },
-        wetting: sph.wetting_model.map(|model| match model {
-            WettingModel::Young { contact_angle } => Wetting::Young(YoungForce { contact_angle }),
-        }),
+        wetting: sph.wetting_model.map(wetting),
+        patches: sph.wetting_patches.iter().map(|patch| wetting(patch.model)).collect(),
         gravity: sph.gravity,
         no_slip: NoSlip { spacing: sph.spacing, largest_stretch: numerics.wall_stretch },
         viscous_term: match numerics.viscous_term {

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::solver::{StateError, StepInfo};
 use crate::sph::particles::Particles;
 use crate::sph::projection::Flow;
+use crate::sph::wetting::lines::Line;
 
 #[derive(Serialize, Deserialize)]
 struct State {
@@ -13,6 +14,7 @@ struct State {
     dt: f64,
     particles: Particles,
     wall_depth: Vec<f64>,
+    lines: Vec<Line>,
 }
 
 /// The state of the flow as bytes.
@@ -24,6 +26,7 @@ pub fn save(flow: &Flow) -> Vec<u8> {
         dt: flow.last.dt,
         particles: flow.particles.clone(),
         wall_depth: flow.wall_depth.clone(),
+        lines: flow.lines.clone(),
     };
     // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
     postcard::to_stdvec(&state).unwrap_or_default()
@@ -44,6 +47,7 @@ pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
     flow.last = StepInfo { dt: state.dt, limit: "restart" };
     flow.particles = state.particles;
     flow.wall_depth = state.wall_depth;
+    flow.lines = state.lines;
     flow.prepare();
     Ok(())
 }

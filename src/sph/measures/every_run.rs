@@ -50,6 +50,11 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
         let angle = s.seen.angle();
         let method = how_the_angle_was_measured(s);
         found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
+        let asked = s.seen.contact_lines.iter().filter_map(|line| s.flow.spots.model(&s.flow.method, line.position));
+        let angles: Vec<f64> = asked.map(|model| model.static_angle().to_degrees()).collect();
+        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+        let method = "mean over the contact lines of the static angle of the wetting model at their places";
+        found.push(measure("requested-angle-deg", mean, "deg", None, method));
     }
     found
 }

@@ -13,6 +13,8 @@ mod layered;
 mod moving_drop;
 mod poiseuille;
 mod sessile_drop;
+mod sliding;
+mod spreading;
 mod taylor_green;
 mod throat;
 mod wave;
@@ -81,7 +83,7 @@ type Group = fn(&Subject) -> Vec<Measure>;
 #[must_use]
 pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
     let mut measures = every_run::measures(subject);
-    let groups: [(bool, Group); 16] = [
+    let groups: [(bool, Group); 18] = [
         (set.sessile_drop, sessile_drop::measures),
         (set.laplace_drop, laplace_drop::measures),
         (set.poiseuille, poiseuille::measures),
@@ -98,6 +100,8 @@ pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
         (set.cylinder_array, cylinder_array::measures),
         (set.throat_entry, throat::measures),
         (set.jurin, jurin::measures),
+        (set.moving_drop, sliding::measures),
+        (set.spreading, spreading::measures),
     ];
     for (_, group) in groups.iter().filter(|(wanted, _)| *wanted) {
         measures.extend(group(subject));
@@ -117,6 +121,12 @@ pub fn columns(flow: &Flow, seen: &Observation, set: &MeasureSet) -> Vec<(&'stat
     }
     if set.rising_bubble {
         columns.extend(bubble::columns(flow, seen));
+    }
+    if set.moving_drop {
+        columns.extend(sliding::columns(flow, seen));
+    }
+    if set.spreading {
+        columns.extend(spreading::columns(seen));
     }
     columns
 }

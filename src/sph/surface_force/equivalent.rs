@@ -3,23 +3,26 @@
 use crate::math::Vec2;
 use crate::sph::projection::Flow;
 use crate::sph::terms::{curvature, surface_tension};
-use crate::sph::wetting::contact_line::{LineFields, line_force};
+use crate::sph::wetting::contact_line::{LineFields, LineParticles};
+use crate::sph::wetting::lines::{LINE_REACH, Sighting, nearest};
 
 /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³, with the curvature and the normal
 /// that the jump uses; the forces of the flow itself where they are volume forces.
 #[must_use]
 pub fn volume_forces(flow: &Flow) -> (Vec<Vec2>, Vec<Vec2>) {
-    let (f, m, fluids) = (&flow.fields, &flow.method, flow.particles.fluids);
+    let (f, m, p) = (&flow.fields, &flow.method, &flow.particles);
     if f.jump.is_none() {
         return (f.surface_force.clone(), f.line_force.clone());
     }
-    let (mut surface, mut line) = (vec![Vec2::zeros(); fluids], vec![Vec2::zeros(); fluids]);
-    let weight = vec![1.0; fluids];
+    let (mut surface, mut line) = (vec![Vec2::zeros(); p.fluids], vec![Vec2::zeros(); p.fluids]);
+    let weight = vec![1.0; p.fluids];
     surface_tension::surface_force(m.tension, &f.curvature, &f.normal, &weight, &mut surface);
-    if let Some(wetting) = &m.wetting {
-        let mut unit_normal = vec![Vec2::zeros(); fluids];
-        curvature::unit_normal(&f.normal[..fluids], m.kernel.h, &mut unit_normal);
+    if m.wetting.is_some() {
+        let mut unit_normal = vec![Vec2::zeros(); p.fluids];
+        curvature::unit_normal(&f.normal[..p.fluids], m.kernel.h, &mut unit_normal);
         let fields = LineFields {
+            position: &p.position,
+            velocity: &p.velocity,
             normal: &f.normal,
             unit_normal: &unit_normal,
             wall_distance: &f.wall_distance,
@@ -27,7 +30,14 @@ pub fn volume_forces(flow: &Flow) -> (Vec<Vec2>, Vec<Vec2>) {
             volume: &f.volume,
             weight: &weight,
         };
-        line_force(&flow.pairs, &flow.images, &fields, &m.kernel, (wetting, m.tension), &mut line);
+        let found = LineParticles::find((&flow.pairs, &flow.images), &fields, &m.kernel, p.fluids);
+        // A line that the jump does not know is not driven: its angle is that which is there.
+        let angle = |seen: &dyn Sighting| {
+            nearest(&f.lines, &flow.domain, seen.place(), seen.outward(), LINE_REACH * m.kernel.h)
+                .map_or_else(|| seen.present(None), |line| line.angle)
+        };
+        let angles: Vec<f64> = found.sightings(&fields, &flow.domain).iter().map(|seen| angle(seen)).collect();
+        found.line_force(&fields, &angles, m.tension, &mut line);
     }
     (surface, line)
 }

@@ -21,7 +21,7 @@ const TIE: f64 = 1e-9;
 const SAME_PIECE: f64 = 0.3;
 
 /// Fewest points of a fit: three unknowns and some redundancy.
-const FEWEST: usize = 5;
+pub(super) const FEWEST: usize = 5;
 
 /// Largest curvature over 1/h: smaller drops are not resolved.
 const LARGEST_CURVATURE: f64 = 0.75;
@@ -44,37 +44,52 @@ const TOUCHING: f64 = 1.2;
 /// Signed distance in m and normal of the wall at a point.
 pub type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
 
+/// The angle in rad at which the interface is to meet the wall at a point of it (m), with ν_ns there.
+pub type AngleAt<'a> = dyn Fn(Vec2, Vec2) -> f64 + Sync + 'a;
+
 /// The interface, ready for fits.
 pub struct InterfaceFit<'a> {
-    points: &'a [InterfacePoint],
-    cells: Cells,
-    h: f64,
-    spacing: f64,
-    /// Angle of the wetting law in rad, where there is one.
-    angle: Option<f64>,
-    wall: &'a Wall<'a>,
+    pub(super) points: &'a [InterfacePoint],
+    pub(super) cells: Cells,
+    pub(super) h: f64,
+    pub(super) spacing: f64,
+    /// Angle of the wetting law, where there is one.
+    angle: Option<&'a AngleAt<'a>>,
+    pub(super) wall: &'a Wall<'a>,
 }
 
 /// A point of the window relative to the nearest one, with its weight.
-struct Near {
-    index: usize,
-    x: Vec2,
-    weight: f64,
+pub(super) struct Near {
+    pub(super) index: usize,
+    pub(super) x: Vec2,
+    pub(super) weight: f64,
+}
+
+/// Where the straight continuation of the interface meets the wall.
+pub(super) struct Foot {
+    /// From the point of the interface to the wall, in m.
+    pub(super) contact: Vec2,
+    /// Wall normal there.
+    pub(super) normal: Vec2,
+    /// ν_ns there.
+    pub(super) outwards: Vec2,
+    /// Way along the interface to the wall in m.
+    pub(super) way: f64,
 }
 
 impl<'a> InterfaceFit<'a> {
-    /// Sorts the points; `angle` in rad through the wetting phase.
+    /// Sorts the points; the interface meets walls at any angle.
     #[must_use]
-    pub fn new(
-        points: &'a [InterfacePoint],
-        domain: &Domain,
-        (spacing, h): (f64, f64),
-        angle: Option<f64>,
-        wall: &'a Wall<'a>,
-    ) -> Self {
+    pub fn new(points: &'a [InterfacePoint], domain: &Domain, (spacing, h): (f64, f64), wall: &'a Wall<'a>) -> Self {
         let places: Vec<Vec2> = points.iter().map(|p| p.x).collect();
         let cells = Cells::build(&places, domain, WINDOW * h);
-        Self { points, cells, h, spacing, angle, wall }
+        Self { points, cells, h, spacing, angle: None, wall }
+    }
+
+    /// The same interface, which is to meet walls at the given angle.
+    #[must_use]
+    pub fn held_to(self, angle: &'a AngleAt<'a>) -> Self {
+        Self { angle: Some(angle), ..self }
     }
 
     /// Curvature in 1/m of the interface nearest to `x`, none where there is no interface within the window.
@@ -91,7 +106,7 @@ impl<'a> InterfaceFit<'a> {
     /// The curvature from the window around the point `p`, which lies at `x_p` next to the particle asked for.
     fn curvature_at(&self, p: usize, x_p: Vec2) -> Option<f64> {
         let point = &self.points[p];
-        let near = self.window(point, x_p);
+        let near = self.window(point.normal, x_p);
         let free = free_fit(&near, point.normal);
         let limit = LARGEST_CURVATURE / self.h;
         let held = self.held_fit(point, &near);
@@ -117,34 +132,31 @@ impl<'a> InterfaceFit<'a> {
         nearest
     }
 
-    /// The points of the same piece within the window around `x_p`, the place of `point` next to the particle asked for.
-    fn window(&self, point: &InterfacePoint, x_p: Vec2) -> Vec<Near> {
+    /// The points of the piece with about the unit `normal` within the window around `x_p` (m).
+    pub(super) fn window(&self, normal: Vec2, x_p: Vec2) -> Vec<Near> {
         let reach2 = (WINDOW * self.h).powi(2);
         let mut near = Vec::new();
         self.cells.visit_near(x_p, |i, r| {
             let index = i as usize;
             let d2 = r.norm_squared();
-            if d2 < reach2 && self.points[index].normal.dot(&point.normal) > SAME_PIECE {
+            if d2 < reach2 && self.points[index].normal.dot(&normal) > SAME_PIECE {
                 near.push(Near { index, x: -r, weight: (1.0 - d2 / reach2).powi(2) });
             }
         });
         near
     }
 
-    /// The curvature held to the contact angle, and its share, where the interface meets a wall near `point`.
-    fn held_fit(&self, point: &InterfacePoint, near: &[Near]) -> Option<(f64, f64)> {
-        let angle = self.angle?;
+    /// The straight way from `point` to a wall in reach, none where the interface runs along the wall.
+    pub(super) fn foot(&self, point: &InterfacePoint) -> Option<Foot> {
         if !point.wall_distance.is_finite() {
             return None;
         }
         let along = |n: Vec2, e: Vec2| n - n.dot(&e) * e;
         let slope = along(point.normal, point.wall_normal).norm();
-        let way = point.wall_distance.max(0.0) / slope.max(2.0 * SMALLEST_TANGENT);
-        let share = ((REACH * self.h - way) / (2.0 * self.h)).clamp(0.0, 1.0);
-        let touches = near.iter().any(|q| self.points[q.index].wall_distance < TOUCHING * self.spacing);
-        if slope < SMALLEST_TANGENT || share == 0.0 || !touches || near.len() < FEWEST {
+        if slope < SMALLEST_TANGENT {
             return None;
         }
+        let way = point.wall_distance.max(0.0) / slope.max(2.0 * SMALLEST_TANGENT);
         // Down along the interface to the wall, then onto it.
         let mut down = perpendicular(point.normal);
         if down.dot(&point.wall_normal) > 0.0 {
@@ -154,13 +166,30 @@ impl<'a> InterfaceFit<'a> {
         let (distance, normal) = (self.wall)(foot);
         let contact = foot - distance * normal - point.x;
         let outwards = -along(point.normal, normal).try_normalize(0.5 * SMALLEST_TANGENT)?;
+        Some(Foot { contact, normal, outwards, way })
+    }
+
+    /// Whether the interface is so near to its wall at `point` that it touches it.
+    pub(super) fn touches(&self, point: &InterfacePoint) -> bool {
+        point.wall_distance < TOUCHING * self.spacing
+    }
+
+    /// The curvature held to the contact angle, and its share, where the interface meets a wall near `point`.
+    fn held_fit(&self, point: &InterfacePoint, near: &[Near]) -> Option<(f64, f64)> {
+        let angle_at = self.angle?;
+        let touches = near.iter().any(|q| self.touches(&self.points[q.index]));
+        if !touches || near.len() < FEWEST {
+            return None;
+        }
+        let Foot { contact, normal, outwards, way } = self.foot(point)?;
+        let share = ((REACH * self.h - way) / (2.0 * self.h)).clamp(0.0, 1.0);
+        if share == 0.0 {
+            return None;
+        }
         let present = (-point.normal.dot(&normal)).clamp(-1.0, 1.0).acos();
-        let angle = angle
-            .clamp(present - LARGEST_PULL, present + LARGEST_PULL)
-            .clamp(SMALLEST_ANGLE, std::f64::consts::PI - SMALLEST_ANGLE);
-        let n_e = -angle.sin() * outwards - angle.cos() * normal;
-        let t_e = angle.sin() * normal - angle.cos() * outwards;
-        Some((fit_from_contact(near, contact, (t_e, n_e), angle)?, share))
+        let angle = angle_at(point.x + contact, outwards).clamp(present - LARGEST_PULL, present + LARGEST_PULL);
+        let (kappa, _) = fit_from_contact(near, contact, (outwards, normal), angle)?;
+        Some((kappa, share))
     }
 }
 
@@ -186,8 +215,18 @@ fn free_fit(near: &[Near], normal: Vec2) -> Option<f64> {
 /// Steps of the fixed-point iteration for the place of the contact point; each gains about a digit at small angles.
 const ITERATIONS: usize = 12;
 
-/// Curvature of the circle that leaves the wall at `contact` + δ ν with tangent `t_e` and normal `n_e`; δ is fitted too.
-fn fit_from_contact(near: &[Near], contact: Vec2, (t_e, n_e): (Vec2, Vec2), angle: f64) -> Option<f64> {
+/// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.
+///
+/// `contact` in m from the point that `near` is relative to; ν along the wall and its normal.
+pub(super) fn fit_from_contact(
+    near: &[Near],
+    contact: Vec2,
+    (outwards, normal): (Vec2, Vec2),
+    angle: f64,
+) -> Option<(f64, f64)> {
+    let angle = angle.clamp(SMALLEST_ANGLE, std::f64::consts::PI - SMALLEST_ANGLE);
+    let n_e = -angle.sin() * outwards - angle.cos() * normal;
+    let t_e = angle.sin() * normal - angle.cos() * outwards;
     let (mut delta, mut kappa) = (0.0, None);
     for _ in 0..ITERATIONS {
         let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
@@ -203,7 +242,26 @@ fn fit_from_contact(near: &[Near], contact: Vec2, (t_e, n_e): (Vec2, Vec2), angl
         delta = -solution[0] / angle.sin();
         kappa = Some(solution[1]);
     }
-    kappa
+    kappa.map(|kappa| (kappa, delta))
+}
+
+/// Angle in rad at which the circle through `anchor` (m, from the point that `near` is relative to) meets the wall with the
+/// normal `wall`; `normal` is about that of the interface.
+///
+/// Least squares of v = b u + k (u² + v²)/2 about the anchor: the normal there is (−b, 1)/√(1 + b²).
+pub(super) fn angle_through(near: &[Near], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {
+    let tangent = -perpendicular(normal);
+    let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
+    for q in near {
+        let x = q.x - anchor;
+        let (u, v) = (x.dot(&tangent), x.dot(&normal));
+        let row = Vector2::new(u, 0.5 * (u * u + v * v));
+        matrix += q.weight * row * row.transpose();
+        right += q.weight * v * row;
+    }
+    let slope = matrix.cholesky()?.solve(&right)[0];
+    let at_anchor = (normal - slope * tangent).normalize();
+    Some((-at_anchor.dot(&wall)).clamp(-1.0, 1.0).acos())
 }
 
 #[cfg(test)]
@@ -224,7 +282,13 @@ mod tests {
             .map(|t| Vec2::new(t.cos(), t.sin()))
             .map(|n| (n + Vec2::new(0.0, height), -n))
             .filter(|(x, _)| x.y > 0.0)
-            .map(|(x, normal)| InterfacePoint { x, normal, wall_distance: x.y, wall_normal: Vec2::y() })
+            .map(|(x, normal)| InterfacePoint {
+                x,
+                normal,
+                velocity: Vec2::zeros(),
+                wall_distance: x.y,
+                wall_normal: Vec2::y(),
+            })
             .collect()
     }
 
@@ -235,7 +299,7 @@ mod tests {
     #[test]
     fn the_curvature_of_a_circle_is_one_over_its_radius() {
         let points = circle(2.0);
-        let fit = InterfaceFit::new(&points, &domain(), (0.1, H), None, &floor);
+        let fit = InterfaceFit::new(&points, &domain(), (0.1, H), &floor);
         for t in [0.0_f64, 0.7, 2.0, 4.0] {
             let x = Vec2::new(0.0, 2.0) + 1.1 * Vec2::new(t.cos(), t.sin());
             let kappa = fit.curvature(x).unwrap();
@@ -249,7 +313,8 @@ mod tests {
         for degrees in [30.0_f64, 60.0, 90.0, 120.0, 150.0] {
             let angle = degrees.to_radians();
             let points = circle(-angle.cos());
-            let fit = InterfaceFit::new(&points, &domain(), (0.1, H), Some(angle), &floor);
+            let law = |_, _| angle;
+            let fit = InterfaceFit::new(&points, &domain(), (0.1, H), &floor).held_to(&law);
             // From .1 up at 30 degrees the tangent misses the contact point by so much that the steps end 1e-3 off.
             let tolerance = if degrees == 30.0 { 2e-3 } else { 1e-5 };
             // Points below the top of the cap only.
@@ -265,7 +330,8 @@ mod tests {
     fn a_cap_that_is_too_steep_bends_outwards_at_the_wall() {
         let points = circle(0.0);
         let fit = |angle: f64| {
-            InterfaceFit::new(&points, &domain(), (0.1, H), Some(angle), &floor)
+            InterfaceFit::new(&points, &domain(), (0.1, H), &floor)
+                .held_to(&|_, _| angle)
                 .curvature(Vec2::new(1.0, 0.02))
                 .unwrap()
         };
@@ -276,8 +342,8 @@ mod tests {
     #[test]
     fn an_interface_that_only_comes_near_the_wall_feels_no_angle() {
         let points = circle(1.0 + 2.0 * 0.1);
-        let free = InterfaceFit::new(&points, &domain(), (0.1, H), None, &floor);
-        let held = InterfaceFit::new(&points, &domain(), (0.1, H), Some(0.5), &floor);
+        let free = InterfaceFit::new(&points, &domain(), (0.1, H), &floor);
+        let held = InterfaceFit::new(&points, &domain(), (0.1, H), &floor).held_to(&|_, _| 0.5);
         let x = Vec2::new(0.3, 0.3);
         assert_eq!(free.curvature(x), held.curvature(x));
     }

@@ -21,6 +21,8 @@ pub struct InterfacePoint {
     pub x: Vec2,
     /// Unit normal into the wetting phase.
     pub normal: Vec2,
+    /// Velocity in m/s.
+    pub velocity: Vec2,
     /// Distance to the wall in m, infinite where none is in reach.
     pub wall_distance: f64,
     /// Wall normal into the fluid, zero where none is in reach.
@@ -35,6 +37,8 @@ pub struct PointFields<'a> {
     pub color: &'a [f64],
     /// Consistent gradient of the smoothed color in 1/m.
     pub gradient: &'a [Vec2],
+    /// Velocity in m/s.
+    pub velocity: &'a [Vec2],
     /// Wall distance in m of fluid particles, infinite where no wall is in reach.
     pub wall_distance: &'a [f64],
     /// Wall normal at fluid particles.
@@ -71,7 +75,9 @@ pub fn interface_points(
             let g = (1.0 - f) * fields.gradient[a] + f * fields.gradient[ab.b];
             if r_ba.norm_squared() < link2 && g.norm() > SMALLEST_GRADIENT / h {
                 let (wall_distance, wall_normal) = wall_between(fields, a, source, f);
-                points.push(InterfacePoint { x: x_a + f * r_ba, normal: g.normalize(), wall_distance, wall_normal });
+                let velocity = (1.0 - f) * fields.velocity[a] + f * fields.velocity[ab.b];
+                let (x, normal) = (x_a + f * r_ba, g.normalize());
+                points.push(InterfacePoint { x, normal, velocity, wall_distance, wall_normal });
             }
         }
     }
@@ -103,7 +109,8 @@ fn reflect(points: &mut Vec<InterfacePoint>, domain: &Domain, reach: f64) {
                 let mut x = point.x;
                 x[mirror.axis] = 2.0 * mirror.at - x[mirror.axis];
                 let (normal, wall_normal) = (mirror.reflect(point.normal), mirror.reflect(point.wall_normal));
-                points.push(InterfacePoint { x, normal, wall_normal, ..point });
+                let velocity = mirror.velocity(point.velocity);
+                points.push(InterfacePoint { x, normal, velocity, wall_normal, ..point });
             }
         }
     }

@@ -4,6 +4,9 @@
 //! first layer of particles leaves a trail of them behind a receding contact line. Like the compression of the color
 //! function in volume-of-fluid codes, a drift across the interface keeps the phases apart; it is zero wherever a particle
 //! has its own kind around it, so an interface at rest does not feel it.
+//!
+//! A heavy phase beside or above a light one is kept in by the surface tension, but the curvature sees nothing shorter than its fit:
+//! single particles would fall out of the interface one by one. There, and there only, particles that stand out of the first layer go back too.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -16,6 +19,13 @@ const FEW: f64 = 0.2;
 
 /// Largest speed of strays over the capillary speed: a few times that of the contact lines which leave them.
 const SPEED: f64 = 0.2;
+
+/// Where the body force pulls a phase out through its interface, a particle with a smaller share than this goes back: a little
+/// less than that of the first layer of a flat interface.
+const FIRST_LAYER: f64 = 0.45;
+
+/// Speed of such particles over √(g h): twice the speed at which a heavy layer of the thickness h falls out of a light one.
+const SAG: f64 = 2.0;
 
 /// Below this color gradient, in units of 1/h, no interface is in reach to go back to.
 const SMALLEST_GRADIENT: f64 = 0.02;
@@ -32,23 +42,30 @@ pub struct Strays<'a> {
     pub wall_distance: &'a [f64],
     /// Wall normal at fluid particles, zero where no wall is in reach.
     pub wall_normal: &'a [Vec2],
-    /// Static contact angle in rad, if any.
-    pub angle: Option<f64>,
+    /// Density of the wetting less that of the other phase over their mean, times the body force per mass, in m/s².
+    pub weight: Vec2,
+    /// Receding and advancing angle in rad of the wall next to each fluid particle, NaN where there is none.
+    pub wall_window: &'a [[f64; 2]],
 }
 
 impl Strays<'_> {
-    /// Adds to `shift` (m) the way of strays across the interface. `h` in m, `way` = capillary speed times Δt in m.
-    pub fn send_back(&self, pairs: &Pairs, h: f64, way: f64, shift: &mut [Vec2]) {
+    /// Adds to `shift` (m) the way of strays across the interface. `h` in m, capillary speed in m/s, `dt` in s.
+    pub fn send_back(&self, pairs: &Pairs, h: f64, (speed, dt): (f64, f64), shift: &mut [Vec2]) {
         let mut back = vec![Vec2::zeros(); shift.len()];
         each(&mut back, |a| {
             let n = self.normal[a];
             if n.norm() < SMALLEST_GRADIENT / h {
                 return Vec2::zeros();
             }
-            let few = self.few(a);
-            let share = self.share_of_own_kind(pairs, a);
-            let into_own_phase = if self.side[a] > 0.5 { n.normalize() } else { -n.normalize() };
-            SPEED * way * (1.0 - share / few).max(0.0) * self.off_the_wall(a, h, into_own_phase)
+            let wedge = self.wedge(a);
+            let share = self.share_of_own_kind(pairs, a) / wedge;
+            let n_hat = n.normalize();
+            let into_own_phase = if self.side[a] > 0.5 { n_hat } else { -n_hat };
+            let stray = SPEED * speed * (1.0 - share / FEW).max(0.0);
+            // Both phases are pulled across the interface by the same force: the heavy one out, the light one in.
+            let pull = -self.weight.dot(&n_hat);
+            let sag = SAG * (pull.max(0.0) * h).sqrt() * (1.0 - share / FIRST_LAYER).max(0.0);
+            dt * stray.max(sag) * self.off_the_wall(a, h, into_own_phase)
         });
         shift.iter_mut().zip(&back).for_each(|(shift, back)| *shift += back);
     }
@@ -62,15 +79,11 @@ impl Strays<'_> {
         }
     }
 
-    /// The share below which a particle is a stray: smaller in the thin wedge of its phase at a wall.
-    fn few(&self, a: usize) -> f64 {
-        match self.angle {
-            Some(angle) if self.wall_distance[a].is_finite() => {
-                let own = if self.side[a] > 0.5 { angle } else { PI - angle };
-                FEW * (own / FRAC_PI_2).clamp(f64::EPSILON, 1.0)
-            }
-            _ => FEW,
-        }
+    /// What a share of one half becomes in the thin wedge of its phase at a wall, over one half.
+    fn wedge(&self, a: usize) -> f64 {
+        let [receding, advancing] = self.wall_window[a];
+        let own = if self.side[a] > 0.5 { receding } else { PI - advancing };
+        if own.is_nan() { 1.0 } else { (own / FRAC_PI_2).clamp(f64::EPSILON, 1.0) }
     }
 
     /// Σ V W over fluid neighbors of the same kind over that of all fluid neighbors, the particle itself left out.
@@ -93,7 +106,7 @@ mod tests {
     const H: f64 = 1.5;
 
     /// A lattice of spacing 1 whose left half is the wetting phase; `swapped` is the place of one particle of the wrong kind.
-    fn shifts(swapped: Option<Vec2>) -> Vec<(Vec2, Vec2)> {
+    fn shifts(swapped: Option<Vec2>, weight: Vec2) -> Vec<(Vec2, Vec2)> {
         let bounds = Bounds { min: Vec2::repeat(-8.0), max: Vec2::repeat(8.0) };
         let domain = Domain::new(bounds, [false; 2], vec![]);
         let points: Vec<Vec2> = (0..256).map(|i| Vec2::new(f64::from(i % 16) - 7.5, f64::from(i / 16) - 7.5)).collect();
@@ -108,27 +121,44 @@ mod tests {
             fluid_volume: &ones,
             wall_distance: &far,
             wall_normal: &zeros,
-            angle: None,
+            weight,
+            wall_window: &vec![[f64::NAN; 2]; 256],
         };
         let mut shift = vec![Vec2::zeros(); points.len()];
-        strays.send_back(&pairs, H, 0.1, &mut shift);
+        strays.send_back(&pairs, H, (1.0, 0.1), &mut shift);
         points.into_iter().zip(shift).collect()
     }
 
     #[test]
     fn a_flat_interface_feels_nothing() {
-        assert!(shifts(None).iter().all(|(_, by)| *by == Vec2::zeros()));
+        for weight in [Vec2::zeros(), Vec2::x(), -Vec2::x()] {
+            assert!(shifts(None, weight).iter().all(|(_, by)| *by == Vec2::zeros()), "{weight:?}");
+        }
     }
 
     #[test]
     fn a_particle_alone_in_the_other_phase_goes_back_across_the_interface() {
         let stray = Vec2::new(2.5, 0.5);
-        for (x, by) in shifts(Some(stray)) {
+        for (x, by) in shifts(Some(stray), Vec2::zeros()) {
             if x == stray {
                 assert!(by.x < 0.0 && by.y == 0.0, "{by:?}");
             } else {
                 assert_eq!(by, Vec2::zeros(), "at {x:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_particle_that_stands_out_goes_back_where_its_phase_would_fall_out_only() {
+        // The place next to the interface in the other phase.
+        let standing_out = Vec2::new(0.5, 0.5);
+        let shift = |weight: Vec2| {
+            let found = shifts(Some(standing_out), weight).into_iter().find(|(x, _)| *x == standing_out);
+            found.map_or(Vec2::zeros(), |(_, by)| by)
+        };
+        assert_eq!(shift(Vec2::zeros()), Vec2::zeros());
+        assert_eq!(shift(-Vec2::x()), Vec2::zeros());
+        let back = shift(Vec2::x());
+        assert!(back.x < 0.0 && back.y == 0.0, "{back:?}");
     }
 }

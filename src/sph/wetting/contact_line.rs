@@ -3,10 +3,12 @@
 //! The particles of a line are found as connected components, so that each line's force sums to f_wns (Eq. 12).
 
 use crate::math::Vec2;
+use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::kernel::WendlandC2;
 use crate::sph::pairs::Pairs;
-use crate::sph::wetting::{LineState, Wetting};
+use crate::sph::wetting::driving_force;
+use crate::sph::wetting::lines::Sighting;
 
 /// Where the unit normal has less than this share along the wall, the interface runs parallel to it: no line there.
 const SMALLEST_TANGENT: f64 = 0.15;
@@ -16,6 +18,10 @@ const SMALLEST_LINE: f64 = 0.5;
 
 /// What the line force needs of the particles; slices over fluid particles at least.
 pub struct LineFields<'a> {
+    /// Position in m.
+    pub position: &'a [Vec2],
+    /// Velocity in m/s.
+    pub velocity: &'a [Vec2],
     /// n in 1/m [Huber2013, Eq. 18].
     pub normal: &'a [Vec2],
     /// n̂, zero where not valid.
@@ -41,34 +47,107 @@ struct LineParticle {
     delta: f64,
 }
 
-/// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eq. 23], δ_wns,a = |n_a| W(d_s, h)/N [Eqs. 21, 22].
-///
-/// Returns the number of contact lines found. `tension` is σ_wn in N/m.
-pub fn line_force(
-    pairs: &Pairs,
-    images: &Images,
-    fields: &LineFields,
-    kernel: &WendlandC2,
-    (wetting, tension): (&Wetting, f64),
-    force: &mut [Vec2],
-) -> usize {
-    force.fill(Vec2::zeros());
-    let particles = line_particles(fields, kernel, force.len());
-    let line_of = components(&particles, pairs, images, force.len());
-    let lines = line_of.iter().max().map_or(0, |last| last + 1);
-    let (mut norm, mut share) = (vec![0.0; lines], vec![0.0; lines]);
-    for (p, &line) in particles.iter().zip(&line_of) {
-        let weight = fields.volume[p.a] * p.delta;
-        norm[line] += weight;
-        share[line] += weight * fields.weight[p.a];
+/// The particles of all contact lines.
+pub struct LineParticles {
+    /// Line by line.
+    lines: Vec<Vec<LineParticle>>,
+    /// N of each line [Huber2013, Eq. 22].
+    norm: Vec<f64>,
+    smallest: f64,
+}
+
+/// A contact line as the means over its particles with the weights V δ tell it.
+#[derive(Debug, Clone, Copy)]
+pub struct MeanLine {
+    place: Vec2,
+    outward: Vec2,
+    speed: f64,
+    present: f64,
+}
+
+impl Sighting for MeanLine {
+    fn place(&self) -> Vec2 {
+        self.place
     }
-    let smallest = SMALLEST_LINE * kernel.line_integral();
-    for (p, &line) in particles.iter().zip(&line_of) {
-        let n = share[line] * (smallest / norm[line]).max(1.0);
-        let f = wetting.driving_force(&LineState { cos_alpha: p.cos_alpha, tension });
-        force[p.a] = f * p.delta * fields.weight[p.a] / n * p.tangent;
+    fn outward(&self) -> Vec2 {
+        self.outward
     }
-    norm.iter().filter(|&&n| n >= smallest).count()
+    fn speed(&self) -> f64 {
+        self.speed
+    }
+    /// The mean angle, also for a line that is held: the band of the continuum force is too wide to pass through a point.
+    fn present(&self, _: Option<Vec2>) -> f64 {
+        self.present
+    }
+    fn meets(&self, _: f64) -> Vec2 {
+        self.place
+    }
+}
+
+impl LineParticles {
+    /// The particles near walls at which the interface stands, sorted into lines.
+    #[must_use]
+    pub fn find((pairs, images): (&Pairs, &Images), fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Self {
+        let particles = line_particles(fields, kernel, fluids);
+        let line_of = components(&particles, pairs, images, fluids);
+        let mut lines = vec![Vec::new(); line_of.iter().max().map_or(0, |last| last + 1)];
+        for (p, &line) in particles.iter().zip(&line_of) {
+            lines[line].push(*p);
+        }
+        let weights = |line: &Vec<LineParticle>| line.iter().map(|p| fields.volume[p.a] * p.delta).sum();
+        let norm = lines.iter().map(weights).collect();
+        Self { lines, norm, smallest: SMALLEST_LINE * kernel.line_integral() }
+    }
+
+    /// What is seen of each line, small ones included, in their order.
+    #[must_use]
+    pub fn sightings(&self, fields: &LineFields, domain: &Domain) -> Vec<MeanLine> {
+        self.lines.iter().zip(&self.norm).map(|(line, norm)| mean(line, *norm, fields, domain)).collect()
+    }
+
+    /// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eq. 23], δ_wns,a = |n_a| W(d_s, h)/N [Eqs. 21, 22].
+    ///
+    /// `angles` in rad are those of the wetting law at each line, in the order of the sightings; `tension` is σ_wn in N/m.
+    pub fn line_force(&self, fields: &LineFields, angles: &[f64], tension: f64, force: &mut [Vec2]) {
+        force.fill(Vec2::zeros());
+        for ((particles, norm), angle) in self.lines.iter().zip(&self.norm).zip(angles) {
+            let share: f64 = particles.iter().map(|p| fields.volume[p.a] * p.delta * fields.weight[p.a]).sum();
+            let n = share * (self.smallest / norm).max(1.0);
+            for p in particles {
+                let f = driving_force(tension, *angle, p.cos_alpha);
+                force[p.a] = f * p.delta * fields.weight[p.a] / n * p.tangent;
+            }
+        }
+    }
+
+    /// Number of lines that are long enough to bear their whole force.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.norm.iter().filter(|&&n| n >= self.smallest).count()
+    }
+}
+
+/// The means over the particles of a line, of which there is one at least; `norm` is the sum of the weights.
+fn mean(line: &[LineParticle], norm: f64, fields: &LineFields, domain: &Domain) -> MeanLine {
+    let from = fields.position[line[0].a];
+    let (mut place, mut outward, mut cosine) = (Vec2::zeros(), Vec2::zeros(), 0.0);
+    let (mut moved, mut along) = (0.0, 0.0);
+    for p in line {
+        let weight = fields.volume[p.a] * p.delta / norm;
+        let foot = fields.position[p.a] - fields.wall_distance[p.a] * fields.wall_normal[p.a];
+        place += weight * domain.separation(foot, from);
+        outward += weight * p.tangent;
+        cosine += weight * p.cos_alpha;
+        moved += weight * fields.velocity[p.a].dot(&fields.unit_normal[p.a]);
+        along += weight * p.tangent.dot(&fields.unit_normal[p.a]);
+    }
+    MeanLine {
+        place: domain.wrapped(from + place),
+        outward: outward.try_normalize(f64::EPSILON).unwrap_or(line[0].tangent),
+        // Along the wall, the interface moves at the speed U where v·n = U ν·n; ν·n is −sin of the angle.
+        speed: if along < 0.0 { moved / along } else { 0.0 },
+        present: cosine.clamp(-1.0, 1.0).acos(),
+    }
 }
 
 fn line_particles(fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Vec<LineParticle> {

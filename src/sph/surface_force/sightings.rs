@@ -1,0 +1,202 @@
+//! The contact lines of a sharp interface: where points of it touch a wall.
+//!
+//! Points nearer to the wall than 1.2 dx that continue to the same place are one line. Around that place, the points within the
+//! window of a fit tell its speed and its angle. Leaves out lines with fewer points than a fit needs.
+
+use crate::math::Vec2;
+use crate::sph::domain::Domain;
+use crate::sph::surface_force::fit::{FEWEST, Foot, InterfaceFit, Near, angle_through, fit_from_contact};
+use crate::sph::wetting::lines::Sighting;
+
+/// Points whose continuations meet the wall nearer to each other than this, over h, are of one line.
+const ONE_LINE: f64 = 2.0;
+
+/// Walls whose normals differ more than this (cosine) bear different lines: both sides of a narrow throat.
+const ONE_WALL: f64 = 0.3;
+
+/// A contact line as the interface shows it.
+pub struct InterfaceLine<'a> {
+    fit: &'a InterfaceFit<'a>,
+    domain: &'a Domain,
+    /// About where it is, on the wall, in m.
+    place: Vec2,
+    outward: Vec2,
+    /// Wall normal.
+    normal: Vec2,
+    /// Mean unit normal of the interface.
+    into_wetting: Vec2,
+    /// The points around it, relative to the place.
+    near: Vec<Near>,
+}
+
+impl InterfaceFit<'_> {
+    /// The contact lines in the order of their first points.
+    #[must_use]
+    pub fn lines<'a>(&'a self, domain: &'a Domain) -> Vec<InterfaceLine<'a>> {
+        const NONE: usize = usize::MAX;
+        let feet: Vec<(usize, Foot)> = (0..self.points.len())
+            .filter(|&i| self.touches(&self.points[i]) && is_inside(domain, self.points[i].x))
+            .filter_map(|i| Some((i, self.foot(&self.points[i])?)))
+            .collect();
+        let mut foot_of = vec![NONE; self.points.len()];
+        for (k, (i, _)) in feet.iter().enumerate() {
+            foot_of[*i] = k;
+        }
+        let mut taken = vec![false; feet.len()];
+        let mut lines = Vec::new();
+        for first in 0..feet.len() {
+            if std::mem::replace(&mut taken[first], true) {
+                continue;
+            }
+            let (mut group, mut next) = (vec![first], 0);
+            while let Some(&k) = group.get(next) {
+                next += 1;
+                let (i, foot) = &feet[k];
+                self.cells.visit_near(self.points[*i].x, |j, r| {
+                    let other = foot_of[j as usize];
+                    if other == NONE || taken[other] {
+                        return;
+                    }
+                    let (_, there) = &feet[other];
+                    // From the foot of k to that of the other one; r = x_k − x_j.
+                    let apart = (there.contact - r - foot.contact).norm();
+                    let same = there.outwards.dot(&foot.outwards) > 0.0 && there.normal.dot(&foot.normal) > ONE_WALL;
+                    if same && apart < ONE_LINE * self.h {
+                        taken[other] = true;
+                        group.push(other);
+                    }
+                });
+            }
+            lines.extend(self.line(domain, &feet, &group));
+        }
+        lines
+    }
+
+    /// The line at the mean of the feet of a group.
+    fn line<'a>(&'a self, domain: &'a Domain, feet: &[(usize, Foot)], group: &[usize]) -> Option<InterfaceLine<'a>> {
+        let from = self.points[feet[group[0]].0].x;
+        let count = group.len() as f64;
+        let place = |k: &usize| domain.separation(self.points[feet[*k].0].x, from) + feet[*k].1.contact;
+        let mean = from + group.iter().map(place).sum::<Vec2>() / count;
+        let (distance, normal) = (self.wall)(mean);
+        let place = mean - distance * normal;
+        let into_wetting: Vec2 = group.iter().map(|k| self.points[feet[*k].0].normal).sum();
+        let into_wetting = into_wetting.try_normalize(f64::EPSILON)?;
+        let outward = -(into_wetting - into_wetting.dot(&normal) * normal).try_normalize(f64::EPSILON)?;
+        let near = self.window(into_wetting, place);
+        (near.len() >= FEWEST).then_some(InterfaceLine {
+            fit: self,
+            domain,
+            place,
+            outward,
+            normal,
+            into_wetting,
+            near,
+        })
+    }
+}
+
+/// Whether a point is not the image of one behind a mirror.
+fn is_inside(domain: &Domain, x: Vec2) -> bool {
+    domain.mirrors.iter().all(|m| domain.bounds.min[m.axis] <= x[m.axis] && x[m.axis] <= domain.bounds.max[m.axis])
+}
+
+impl Sighting for InterfaceLine<'_> {
+    fn place(&self) -> Vec2 {
+        self.domain.wrapped(self.place)
+    }
+
+    fn outward(&self) -> Vec2 {
+        self.outward
+    }
+
+    /// Σ w v·n/Σ w ν·n: along the wall, the interface moves at the speed U where v·n = U ν·n.
+    fn speed(&self) -> f64 {
+        let (moved, along) = self.near.iter().fold((0.0, 0.0), |(moved, along), q| {
+            let p = &self.fit.points[q.index];
+            (moved + q.weight * p.velocity.dot(&p.normal), along + q.weight * self.outward.dot(&p.normal))
+        });
+        // ν·n is −sin of the angle; where its mean vanishes the interface lies along the wall and tells no speed.
+        if along < 0.0 { moved / along } else { 0.0 }
+    }
+
+    fn present(&self, anchor: Option<Vec2>) -> f64 {
+        let anchor = anchor.map_or(Vec2::zeros(), |anchor| self.domain.separation(anchor, self.place));
+        let straight = (-self.into_wetting.dot(&self.normal)).clamp(-1.0, 1.0).acos();
+        angle_through(&self.near, anchor, self.into_wetting, self.normal).unwrap_or(straight)
+    }
+
+    fn meets(&self, angle: f64) -> Vec2 {
+        let shift = fit_from_contact(&self.near, Vec2::zeros(), (self.outward, self.normal), angle);
+        // A fit that runs away along the wall is no better than the straight continuation.
+        let shift = shift.map(|(_, shift)| shift).filter(|shift| shift.abs() < ONE_LINE * self.fit.h).unwrap_or(0.0);
+        let x = self.place + shift * self.outward;
+        let (distance, normal) = (self.fit.wall)(x);
+        x - distance * normal
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Bounds;
+    use crate::sph::surface_force::points::InterfacePoint;
+
+    const H: f64 = 0.15;
+
+    fn domain() -> Domain {
+        Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![])
+    }
+
+    fn floor(x: Vec2) -> (f64, Vec2) {
+        (x.y, Vec2::y())
+    }
+
+    /// A drop of radius 1 on the floor that moves with (`speed`, 0) and turns about its own center, which does not move the interface.
+    fn drop(degrees: f64, speed: f64) -> Vec<InterfacePoint> {
+        (0..400)
+            .map(|i| std::f64::consts::TAU * (f64::from(i) + 0.3) / 400.0)
+            .map(|t| (Vec2::new(t.cos(), t.sin()), Vec2::new(-t.sin(), t.cos())))
+            .map(|(n, turn)| (n - Vec2::new(0.0, degrees.to_radians().cos()), -n, Vec2::new(speed, 0.0) + 5.0 * turn))
+            .filter(|(x, ..)| x.y > 0.0)
+            .map(|(x, normal, velocity)| InterfacePoint {
+                x,
+                normal,
+                velocity,
+                wall_distance: x.y,
+                wall_normal: Vec2::y(),
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_drop_has_two_lines_with_their_place_angle_and_speed() {
+        for degrees in [40.0_f64, 60.0, 90.0, 120.0, 140.0] {
+            let (points, domain) = (drop(degrees, 0.3), domain());
+            let fit = InterfaceFit::new(&points, &domain, (0.1, H), &floor);
+            let lines = fit.lines(&domain);
+            assert_eq!(lines.len(), 2, "{degrees}");
+            for line in lines {
+                let side = line.outward().x;
+                let exact = Vec2::new(side * degrees.to_radians().sin(), 0.0);
+                assert!(side.abs() == 1.0 && (line.speed() - 0.3 * side).abs() < 1e-9, "{degrees}: {}", line.speed());
+                let meets = line.meets(degrees.to_radians());
+                // The iteration for the place of the contact point gains about a digit a step at small angles.
+                assert!((meets - exact).norm() < 1e-3, "{degrees}: {meets:?}");
+                let present = line.present(Some(exact)).to_degrees();
+                assert!((present - degrees).abs() < 1e-6, "{degrees}: {present}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_interface_that_stands_out_over_its_anchor_looks_steeper() {
+        let (points, domain) = (drop(90.0, 0.0), domain());
+        let fit = InterfaceFit::new(&points, &domain, (0.1, H), &floor);
+        for line in fit.lines(&domain) {
+            let inside = line.present(Some(Vec2::new(0.97 * line.outward().x, 0.0))).to_degrees();
+            let outside = line.present(Some(Vec2::new(1.03 * line.outward().x, 0.0))).to_degrees();
+            assert!(inside > 92.0 && outside < 88.0, "{inside} {outside}");
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! Contact lines that last from step to step: where they stand, how fast they move, and where they are held.
+//!
+//! **Speed.** An interface that moves along a wall with the speed U has the normal velocity v·n = U ν·n at every height, ν along the wall
+//! towards the non-wetting phase and n into the wetting one. So U = Σ w v·n/Σ w ν·n over the interface within the window of a fit,
+//! less the speed of the wall: a mean over a dozen points in which the flow along the interface has no part. Noise must not feed back
+//! through a law θ(U), so each line keeps the mean over the time τ = √(ρ̄h³/σ) + μh/σ, in which an interface of the size h
+//! answers to a change of its angle, as part of the state.
+//!
+//! **Place.** A line of a model that holds has an anchor, a point of the wall. The circle fit goes through it, with the angle free.
+//! Where that angle is within the window, the interface is to meet the wall at that angle: a line that has left its anchor is
+//! drawn back. Where it is not, the angle is the bound, and the anchor moves to where the fit with that angle meets the wall.
+
+use serde::{Deserialize, Serialize};
+
+use crate::math::Vec2;
+use crate::sph::domain::Domain;
+use crate::sph::wetting::{LineState, Wetting};
+
+/// A line is looked for this far from where it was, over h: more than it moves in a step, less than lines are apart.
+const SAME_LINE: f64 = 1.5;
+
+/// A line that is not seen is kept for this many times τ, so that a moment without a fit does not loose its anchor.
+const KEPT: f64 = 5.0;
+
+/// A place at a wall belongs to a contact line within this distance over h: the held fit reaches 3h along the interface.
+pub const LINE_REACH: f64 = 4.0;
+
+/// A contact line.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Line {
+    /// Where the interface meets the wall, in m.
+    pub position: Vec2,
+    /// ν_ns: unit vector along the wall from the wetting to the other phase.
+    pub outward: Vec2,
+    /// Speed U in m/s relative to the wall along ν_ns, a mean over τ.
+    pub speed: f64,
+    /// The angle in rad at which the interface is to meet the wall.
+    pub angle: f64,
+    /// The point of the wall in m that a model which holds keeps the line at.
+    pub anchor: Vec2,
+    /// Way in m that the position has gone along ν_ns since the line was first seen.
+    pub travel: f64,
+    /// Time in s since the line was last seen.
+    pub unseen: f64,
+}
+
+/// What the interface tells of a contact line at one time.
+pub trait Sighting {
+    /// About where the line is: a point of the wall in m.
+    fn place(&self) -> Vec2;
+    /// ν_ns.
+    fn outward(&self) -> Vec2;
+    /// Speed in m/s along ν_ns, not relative to the wall.
+    fn speed(&self) -> f64;
+    /// Angle in rad of the interface through the point `anchor` (m) of the wall; without one at the place of the line.
+    fn present(&self, anchor: Option<Vec2>) -> f64;
+    /// Where in m the interface meets the wall if it does so at the angle (rad).
+    fn meets(&self, angle: f64) -> Vec2;
+}
+
+/// What the lines need to know of the flow and the wall.
+pub struct Following<'a> {
+    /// Sides.
+    pub domain: &'a Domain,
+    /// The wetting model at a point of the wall.
+    pub model: &'a (dyn Fn(Vec2) -> Wetting + Sync + 'a),
+    /// Velocity of the wall at a point in m/s.
+    pub wall_velocity: &'a (dyn Fn(Vec2) -> Vec2 + Sync + 'a),
+    /// Interfacial tension in N/m.
+    pub tension: f64,
+    /// Dynamic viscosity of the wetting phase in Pa s.
+    pub viscosity: f64,
+    /// Smoothing length h in m.
+    pub h: f64,
+    /// τ in s.
+    pub mean_over: f64,
+}
+
+impl Following<'_> {
+    /// The lines now, from those of the step before, `dt` (s) ago, and from what is seen; those seen come first, in the order of the sightings.
+    #[must_use]
+    pub fn follow(&self, before: &[Line], seen: &[impl Sighting], dt: f64) -> Vec<Line> {
+        let moved: Vec<Line> = before.iter().map(|line| self.carried(line, dt)).collect();
+        let known = self.matches(&moved, seen);
+        let mut lines: Vec<Line> = seen
+            .iter()
+            .zip(&known)
+            .map(|(sighting, known)| self.update(sighting, known.map(|i| moved[i]), dt))
+            .collect();
+        let lost = |i: &usize| !known.contains(&Some(*i)) && moved[*i].unseen + dt < KEPT * self.mean_over;
+        lines.extend((0..moved.len()).filter(lost).map(|i| Line { unseen: moved[i].unseen + dt, ..moved[i] }));
+        lines
+    }
+
+    /// The line carried along by its wall for `dt` (s).
+    fn carried(&self, line: &Line, dt: f64) -> Line {
+        let by = dt * (self.wall_velocity)(line.anchor);
+        Line { anchor: self.domain.wrapped(line.anchor + by), ..*line }
+    }
+
+    /// For each sighting the line that it is, nearest pairs first.
+    fn matches(&self, lines: &[Line], seen: &[impl Sighting]) -> Vec<Option<usize>> {
+        let mut near = Vec::new();
+        for (s, sighting) in seen.iter().enumerate() {
+            for (i, line) in lines.iter().enumerate() {
+                let distance = self.domain.separation(sighting.place(), line.position).norm();
+                if distance < SAME_LINE * self.h && sighting.outward().dot(&line.outward) > 0.0 {
+                    near.push((distance, s, i));
+                }
+            }
+        }
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        let (mut found, mut taken) = (vec![None; seen.len()], vec![false; lines.len()]);
+        for (_, s, i) in near {
+            if found[s].is_none() && !taken[i] {
+                (found[s], taken[i]) = (Some(i), true);
+            }
+        }
+        found
+    }
+
+    fn update(&self, seen: &impl Sighting, known: Option<Line>, dt: f64) -> Line {
+        let (place, outward) = (seen.place(), seen.outward());
+        let speed = seen.speed() - (self.wall_velocity)(place).dot(&outward);
+        let speed = match known {
+            Some(line) => line.speed + (speed - line.speed) * (1.0 - (-dt / self.mean_over).exp()),
+            None => speed,
+        };
+        let model = (self.model)(place);
+        let anchor = known.map(|line| line.anchor).filter(|_| model.holds());
+        let present = seen.present(anchor);
+        let state = LineState { present, speed, tension: self.tension, viscosity: self.viscosity, length: self.h };
+        let angle = model.angle(&state);
+        let is_held = model.holds() && angle == present;
+        let position = match anchor {
+            Some(anchor) if is_held => anchor,
+            _ => self.domain.wrapped(seen.meets(angle)),
+        };
+        let way = known.map_or(0.0, |line| line.travel + self.domain.separation(position, line.position).dot(&outward));
+        Line { position, outward, speed, angle, anchor: position, travel: way, unseen: 0.0 }
+    }
+}
+
+/// The line that a place (m) at the wall belongs to: the nearest one with the same side within `reach` (m).
+#[must_use]
+pub fn nearest<'l>(lines: &'l [Line], domain: &Domain, place: Vec2, outward: Vec2, reach: f64) -> Option<&'l Line> {
+    let distance = |line: &&Line| domain.separation(place, line.position).norm();
+    lines
+        .iter()
+        .filter(|line| line.outward.dot(&outward) > 0.0 && distance(line) < reach)
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Bounds;
+    use crate::sph::wetting::{Hysteresis, YoungForce};
+
+    const H: f64 = 0.1;
+
+    /// A straight interface over the floor y = 0 that meets it at x with an angle, and moves.
+    struct Straight {
+        x: f64,
+        angle: f64,
+        speed: f64,
+    }
+
+    impl Sighting for Straight {
+        fn place(&self) -> Vec2 {
+            Vec2::new(self.x, 0.0)
+        }
+        fn outward(&self) -> Vec2 {
+            Vec2::x()
+        }
+        fn speed(&self) -> f64 {
+            self.speed
+        }
+        fn present(&self, anchor: Option<Vec2>) -> f64 {
+            // Through the anchor and the point of the interface at the height h.
+            anchor.map_or(self.angle, |anchor| H.atan2(anchor.x - self.x + H / self.angle.tan()))
+        }
+        fn meets(&self, angle: f64) -> Vec2 {
+            Vec2::new(self.x - H / self.angle.tan() + H / angle.tan(), 0.0)
+        }
+    }
+
+    fn follow(model: Wetting, wall: f64, before: &[Line], seen: &[Straight], dt: f64) -> Vec<Line> {
+        let bounds = Bounds { min: Vec2::repeat(-5.0), max: Vec2::repeat(5.0) };
+        let domain = Domain::new(bounds, [true, false], vec![]);
+        let following = Following {
+            domain: &domain,
+            model: &|_| model,
+            wall_velocity: &|_| Vec2::new(wall, 0.0),
+            tension: 1.0,
+            viscosity: 1.0,
+            h: H,
+            mean_over: 1.0,
+        };
+        following.follow(before, seen, dt)
+    }
+
+    fn degrees(angle: f64) -> f64 {
+        angle.to_radians()
+    }
+
+    fn window() -> Wetting {
+        Wetting::Hysteresis(Hysteresis { advancing: degrees(100.0), receding: degrees(60.0) })
+    }
+
+    #[test]
+    fn a_line_within_its_window_is_drawn_back_to_its_anchor() {
+        let start = follow(window(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
+        assert_eq!(start[0].anchor, Vec2::zeros());
+        let off = follow(window(), 0.0, &start, &[Straight { x: 0.01, angle: degrees(80.0), speed: 0.0 }], 0.1);
+        assert_eq!(off[0].anchor, Vec2::zeros());
+        // An interface that went out is to stand steeper, which draws it in.
+        assert!(off[0].angle > degrees(80.0) && off[0].angle < degrees(100.0), "{:?}", off[0]);
+    }
+
+    #[test]
+    fn a_line_beyond_its_window_has_the_bound_and_takes_its_anchor_along() {
+        let start = follow(window(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(95.0), speed: 0.0 }], 0.0);
+        let off = follow(window(), 0.0, &start, &[Straight { x: 0.05, angle: degrees(95.0), speed: 0.0 }], 0.1);
+        assert!((off[0].angle - degrees(100.0)).abs() < 1e-12, "{:?}", off[0]);
+        assert!(off[0].anchor.x > 0.01 && off[0].anchor == off[0].position && off[0].travel > 0.01, "{:?}", off[0]);
+    }
+
+    #[test]
+    fn an_anchor_goes_with_its_wall_and_through_a_periodic_side() {
+        let at = |x: f64| [Straight { x, angle: degrees(80.0), speed: 1.0 }];
+        let mut lines = follow(window(), 1.0, &[], &at(4.98), 0.0);
+        for step in 1..=4 {
+            let x = 4.98 + 0.01 * f64::from(step);
+            lines = follow(window(), 1.0, &lines, &at(if x >= 5.0 { x - 10.0 } else { x }), 0.01);
+        }
+        let [line] = lines[..] else { panic!("{lines:?}") };
+        assert!((line.anchor.x + 4.98).abs() < 1e-9 && line.speed.abs() < 1e-12, "{line:?}");
+        assert!((line.travel - 0.04).abs() < 1e-9 && (line.angle - degrees(80.0)).abs() < 1e-6, "{line:?}");
+    }
+
+    #[test]
+    fn the_speed_is_a_mean_over_time() {
+        let young = Wetting::Young(YoungForce { contact_angle: 1.0 });
+        let at = |speed: f64| [Straight { x: 0.0, angle: 1.0, speed }];
+        let mut lines = follow(young, 0.0, &[], &at(0.0), 0.0);
+        for _ in 0..100 {
+            lines = follow(young, 0.0, &lines, &at(1.0), 0.01);
+        }
+        // One mean time after a step from 0 to 1.
+        assert!((lines[0].speed - (1.0 - (-1.0_f64).exp())).abs() < 1e-9, "{:?}", lines[0]);
+    }
+
+    #[test]
+    fn a_line_that_is_lost_for_a_moment_keeps_its_anchor() {
+        let start = follow(window(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
+        let lost = follow(window(), 0.0, &start, &[], 0.5);
+        assert_eq!((lost.len(), lost[0].anchor, lost[0].unseen), (1, start[0].anchor, 0.5));
+        assert!(follow(window(), 0.0, &lost, &[], 10.0).is_empty());
+    }
+}
