@@ -295,7 +295,7 @@ impl Solver for ThinFilmSolver {
 
     fn steps_to(&self, end: f64) -> Option<f64> {
         match &self.film {
-            Film::Particles { .. } => None,
+            Film::Particles { state, .. } => state.steps_to(end / self.surroundings.scales.time),
             Film::Grid(grid) => Some(grid.state.steps_to(end / self.surroundings.scales.time)),
         }
     }
