@@ -14,6 +14,7 @@ pub mod grid;
 pub mod history;
 pub mod kernel;
 mod measures;
+mod model;
 pub mod ode;
 pub mod particles;
 pub mod profile;

@@ -153,10 +153,10 @@ fn grid(film: &ThinFilm, scales: &Scales, droplets: &[Droplet], wall: [f64; 2], 
         (FilmEquation::Slip { slip_length, film_height }, _) => {
             Model::Slip { length: slip_length / scales.height, film: film_height / scales.height }
         }
-        (FilmEquation::Precursor { film_height }, _) => {
+        (FilmEquation::Precursor { film_height, slip_length }, _) => {
             // The scaled slope at rest is 1.
             let slope = if film.contact_angle.is_some() { 1.0 } else { 0.0 };
-            Model::Precursor { film: film_height / scales.height, slope }
+            Model::Precursor { film: film_height / scales.height, slope, slip: slip_length / scales.height }
         }
     };
     let symmetry = match film.symmetry {

@@ -68,6 +68,8 @@ pub enum FilmEquation {
     Precursor {
         /// Its height.
         film_height: f64,
+        /// Slip length; 0 for a wall that sticks.
+        slip_length: f64,
     },
 }
 

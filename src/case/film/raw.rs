@@ -68,6 +68,8 @@ tables! {
     pub struct RawPrecursor {
         /// Height of the film in m.
         pub film_height: f64,
+        /// Slip length in m (default: the wall sticks).
+        pub slip_length: f64,
     }
 
     /// Wetting models of thin films.
