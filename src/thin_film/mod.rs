@@ -7,6 +7,8 @@
 pub mod backward_euler;
 mod banded;
 pub mod cells;
+#[cfg(feature = "diffsol")]
+pub mod diffsol;
 pub mod droplet;
 pub mod equilibrium;
 pub mod film;

@@ -37,15 +37,40 @@ pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_b
     let raw = raw.particles.clone().unwrap_or_default();
     let path = "thin-film.method.particles.tolerance";
     let tolerance = checker.within(path, raw.tolerance, TOLERANCES, "a relative error");
+    let integrator = match raw.integrator {
+        None | Some(RawFilmIntegrator::Stiff) => FilmIntegrator::Stiff,
+        Some(RawFilmIntegrator::Explicit) => FilmIntegrator::Explicit,
+        Some(RawFilmIntegrator::DiffsolStiff) => FilmIntegrator::DiffsolStiff,
+        Some(RawFilmIntegrator::DiffsolExplicit) => FilmIntegrator::DiffsolExplicit,
+    };
+    let is_of_library = matches!(integrator, FilmIntegrator::DiffsolStiff | FilmIntegrator::DiffsolExplicit);
+    if is_of_library {
+        library(checker, raw.lattice_energy);
+    }
     Some(FilmMethod::Particles {
-        integrator: match raw.integrator {
-            None | Some(RawFilmIntegrator::Stiff) => FilmIntegrator::Stiff,
-            Some(RawFilmIntegrator::Explicit) => FilmIntegrator::Explicit,
-        },
+        integrator,
         tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE),
         lattice_energy: match raw.lattice_energy {
             None | Some(RawLatticeEnergy::Kept) => LatticeEnergy::Kept,
             Some(RawLatticeEnergy::TakenOff) => LatticeEnergy::TakenOff,
         },
     })
+}
+
+/// What the integrators of the library diffsol need.
+fn library(checker: &mut Checker, lattice_energy: Option<RawLatticeEnergy>) {
+    if !cfg!(feature = "diffsol") {
+        checker.refuse(
+            "thin-film.method.particles.integrator",
+            "this program was built without the library diffsol",
+            "build it with `cargo build --release --features diffsol`, or take `stiff` or `explicit`, which are faster",
+        );
+    }
+    if lattice_energy == Some(RawLatticeEnergy::TakenOff) {
+        checker.refuse(
+            "thin-film.method.particles.lattice-energy",
+            "the integrators of diffsol leave the lattice energy as it is",
+            "take `stiff` or `explicit`",
+        );
+    }
 }
