@@ -23,7 +23,7 @@ const MAY_IMPORT: [(&str, &[&str]); 13] = [
 ];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
-const ONE_PLACE: [(&str, &[&str]); 14] = [
+const ONE_PLACE: [(&str, &[&str]); 15] = [
     ("parry2d_f64", &["geometry/"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/"]),
@@ -39,6 +39,7 @@ const ONE_PLACE: [(&str, &[&str]); 14] = [
     // Pipes of other processes are called so too.
     ("stdout", &["cli/", "study/child.rs"]),
     ("stderr", &["cli/", "study/child.rs"]),
+    ("OdeBuilder", &["thin_film/diffsol.rs"]),
     ("plotters", &["study/curve.rs"]),
 ];
 

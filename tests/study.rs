@@ -235,6 +235,12 @@ values = [5e-5, 4e-5]
     std::fs::write(folder.path().join("study.toml"), study.replace("4e-5]", "4.5e-5, 4e-5]")).unwrap();
     assert_code(&run_study(folder.path(), "out"), 0);
     assert_eq!((begun("5e-5"), begun("4e-5")), (1, 1));
+    // What the base case expects is no part of the runs: the study has expectations of its own.
+    let mut expecting = read(&folder.path().join("drop.toml"));
+    expecting.push_str("\n[[expect]]\nmeasure = \"wetting-blobs\"\nvalue = 7.0\ntolerance = 0.5\n");
+    std::fs::write(folder.path().join("drop.toml"), expecting).unwrap();
+    assert_code(&run_study(folder.path(), "out"), 0);
+    assert_eq!((begun("5e-5"), begun("4e-5")), (1, 1));
     // Another case: all are done again.
     let case = read(&folder.path().join("drop.toml")).replace("tension = 0.02", "tension = 0.021");
     std::fs::write(folder.path().join("drop.toml"), case).unwrap();

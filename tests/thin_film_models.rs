@@ -76,8 +76,9 @@ fn waves_on_a_film_decay_at_their_exact_rate() {
         let models = [
             (Model::Geometric { alpha: 0.1 }, (1.0 + 0.01 * square).powi(-2), 0.0),
             (Model::Slip { length: 0.2, film: 0.1 }, 1.6, 0.0),
-            (Model::Precursor { film: 0.3, slope: 0.0 }, 1.0, 0.0),
-            (Model::Precursor { film: 0.3, slope: 2.0 }, 1.0, 4.0 * (2.0 * 0.3 - 3.0 * 0.09)),
+            (Model::Precursor { film: 0.3, slope: 0.0, slip: 0.0 }, 1.0, 0.0),
+            (Model::Precursor { film: 0.3, slope: 0.0, slip: 0.2 }, 1.6, 0.0),
+            (Model::Precursor { film: 0.3, slope: 2.0, slip: 0.0 }, 1.0, 4.0 * (2.0 * 0.3 - 3.0 * 0.09)),
         ];
         for (model, mobility, disjoining) in models {
             let (cells, _) = Cells::new(half(symmetry, model, 1.0, count, bond), &[], WeightRule::Cell);
@@ -105,7 +106,9 @@ fn films_in_cells_have_second_order() {
     // A mean of two cells in the plane is the larger cell; about an axis it differs by the square of the spacing.
     let coarser = |fine: &[f64]| -> Vec<f64> { fine.chunks(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect() };
     for symmetry in SYMMETRIES {
-        for model in [GEOMETRIC, Model::Slip { length: 0.1, film: 0.05 }, Model::Precursor { film: 0.1, slope: 1.0 }] {
+        for model in
+            [GEOMETRIC, Model::Slip { length: 0.1, film: 0.05 }, Model::Precursor { film: 0.1, slope: 1.0, slip: 0.0 }]
+        {
             let heights = [400, 800, 1600].map(|count| at(symmetry, model, count));
             let error = |coarse: &[f64], fine: &[f64]| {
                 coarse.iter().zip(coarser(fine)).map(|(a, b)| (a - b).abs()).sum::<f64>() / coarse.len() as f64
@@ -121,9 +124,11 @@ fn droplets_in_the_plane_and_about_an_axis_spread_by_tanner_s_law() {
     // The law leaves out a logarithm, which moves exponents over a decade by some hundredths: the geometric equation comes from
     // below, films and slip of a thousandth of the droplet's height come from above.
     for (symmetry, law) in [(Symmetry::Plane, 1.0 / 7.0), (Symmetry::Axis, 0.1)] {
-        for model in
-            [GEOMETRIC, Model::Slip { length: 1.0e-3, film: 1.0e-4 }, Model::Precursor { film: 1.0e-3, slope: 0.0 }]
-        {
+        for model in [
+            GEOMETRIC,
+            Model::Slip { length: 1.0e-3, film: 1.0e-4 },
+            Model::Precursor { film: 1.0e-3, slope: 0.0, slip: 0.0 },
+        ] {
             let mut film = film(half(symmetry, model, 2.0, 500, 0.0), DROPLET, RULE);
             let found = exponent_over_a_decade(&mut film, 50.0, |film| foot(film).position);
             near(found, law, 0.0145);
@@ -203,7 +208,7 @@ fn a_droplet_on_a_precursor_film_rests_at_its_angle() {
     // At rest hₓₓ + Π = −p, so that ½hₓ² = W(h) − W(f) − p (h − f), with f the height of the film beside the droplet.
     let droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
     let caps = [0.04, 0.02, 0.01].map(|thin| {
-        let layout = half(Symmetry::Plane, Model::Precursor { film: thin, slope: 1.0 }, 2.0, 500, 0.0);
+        let layout = half(Symmetry::Plane, Model::Precursor { film: thin, slope: 1.0, slip: 0.0 }, 2.0, 500, 0.0);
         let mut film = film(layout, droplet, StepRule::ADAPTIVE);
         film.run(300.0).unwrap();
         let seen = profile(&film);
@@ -224,7 +229,7 @@ fn a_droplet_on_a_precursor_film_rests_at_its_angle() {
 fn a_heavy_droplet_on_a_precursor_film_is_a_puddle_of_its_known_height() {
     let droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
     let (thin, bond): (f64, f64) = (0.005, 50.0);
-    let layout = half(Symmetry::Plane, Model::Precursor { film: thin, slope: 1.0 }, 6.0, 1500, bond);
+    let layout = half(Symmetry::Plane, Model::Precursor { film: thin, slope: 1.0, slip: 0.0 }, 6.0, 1500, bond);
     let mut film = film(layout, droplet, StepRule::ADAPTIVE);
     film.run(300.0).unwrap();
     // Level in the middle, so p = Bo h, and W(h) − W(f) = ½ Bo h² with W(f) = −½: all far above the film.

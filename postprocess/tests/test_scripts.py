@@ -9,6 +9,7 @@ from pathlib import Path
 SCRIPTS = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(SCRIPTS))
 
+import numpy as np  # noqa: E402
 import pyvista as pv  # noqa: E402
 
 import angle_and_saturation  # noqa: E402
@@ -16,6 +17,7 @@ import check_output  # noqa: E402
 import field_picture  # noqa: E402
 import movie  # noqa: E402
 import results  # noqa: E402
+import spreading  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import synthetic  # noqa: E402
@@ -97,6 +99,19 @@ class Scripts(unittest.TestCase):
         self.assertAlmostEqual(found["max"], 0.03 / (6.0 * synthetic.SPACING))
         self.draws("field_picture.py", "--picture", "figure.png")
         self.draws("field_picture.py", "--picture", "speed.png", "--field", "velocity", "--time", "0.001")
+
+    def test_caps_are_continued_to_the_wall(self):
+        """A circle and a parabola of known base and angle, seen from a fifth of their height on."""
+        angles = np.linspace(0.2, 0.4, 30) * np.pi
+        circle = np.column_stack([np.cos(angles), np.sin(angles) - 0.5])
+        base, angle = spreading.cap(circle, is_film=False)
+        self.assertAlmostEqual(base, 2.0 * np.cos(np.pi / 6.0))
+        self.assertAlmostEqual(angle, 60.0)
+        x = np.linspace(-0.8, 0.7, 30)
+        base, angle = spreading.cap(np.column_stack([x, 0.5 * (1.0 - x**2)]), is_film=True)
+        self.assertAlmostEqual(base, 2.0)
+        self.assertAlmostEqual(angle, 45.0)
+        self.draws("spreading.py", "--picture", "spreading.png", "--above", "0.0")
 
     def test_movies_are_made(self):
         """One range for all frames, all formats."""

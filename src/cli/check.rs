@@ -40,7 +40,7 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     say(format_args!("  time step   {} s, ruled by {}", readable(found.time_step_s), found.limit));
     let (steps, time) = (found.steps, duration(found.duration_s));
     match &case.model {
-        // The steps of a film of particles grow a millionfold while it comes to rest: the first ones tell only the most it can take.
+        // Stability bounds the explicit steps of a film, the less the flatter it is: the first ones tell only the most it can take.
         Model::ThinFilm(_) if solver.steps_to(case.end).is_none() => {
             say(format_args!(
                 "  run         {} s in steps that grow with time, at most about {time}",

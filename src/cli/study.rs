@@ -124,9 +124,10 @@ fn totals(results: &[RunResult], estimates: &[Estimate], cores: Cores) -> String
     let open = || results.iter().zip(estimates).filter(|(result, _)| result.standing.report().is_none());
     let seconds: Vec<f64> =
         open().filter_map(|(_, estimate)| estimate.as_ref().ok()).map(|trial| trial.duration_s).collect();
-    let total: f64 = seconds.iter().sum();
+    // The sum of nothing is minus zero.
+    let total = seconds.iter().sum::<f64>() + 0.0;
     // As many runs at once as there are jobs; none is shorter than the longest of them.
-    let wall = (total / cores.jobs as f64).max(seconds.iter().copied().fold(0.0, f64::max));
+    let wall = (total / cores.jobs as f64).max(seconds.iter().copied().fold(0.0, f64::max)) + 0.0;
     let mut memory: Vec<u64> = open().map(|(_, estimate)| memory_of(Some(estimate))).collect();
     memory.sort_unstable_by(|a, b| b.cmp(a));
     let memory = memory.iter().take(cores.jobs).sum::<u64>() as f64 / BYTES_PER_MEBIBYTE;

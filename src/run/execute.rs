@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::folder::{self, FolderError};
 use super::numbers::{self, Length};
-use super::report::{Machine, REPORT, Report, SolverReport, Status, readings, verdicts, wall_time};
+use super::report::{self, Machine, Report, SolverReport, Status, readings, verdicts, wall_time};
 use super::schedule::Schedule;
 use super::simulation::{Outcome, Records, Simulation, Watcher};
 use super::sink::Start;
@@ -106,7 +106,7 @@ pub fn execute(
     report.error = error;
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
     // The report of the run that reached the end tells more: its wall time, its machine.
-    let is_told = was_at_end && job.folder.join(REPORT).exists();
+    let is_told = was_at_end && report::is_of_the_end(&job.folder);
     let written = if is_told { Ok(()) } else { report.write(&job.folder) };
     // The record that could not be written is the error to tell, not the report after it.
     ended?;
@@ -256,6 +256,23 @@ mod tests {
         std::fs::copy(early.path().join("restart/state.bin"), killed.path().join("restart/state.bin")).unwrap();
         run(&case(), killed.path(), Mode::Resume).unwrap();
         assert!(files(killed.path()) == files(unbroken.path()));
+    }
+
+    #[test]
+    fn a_run_killed_between_its_last_state_and_its_report_is_told_anew() {
+        let folder = tempfile::tempdir().unwrap();
+        let interrupt = AtomicBool::new(true);
+        execute(&job(&case(), folder.path(), Mode::New), &mut ToySolver::new(), &interrupt, &mut Unwatched).unwrap();
+        let old = std::fs::read(folder.path().join("report.json")).unwrap();
+        run(&case(), folder.path(), Mode::Resume).unwrap();
+        std::fs::write(folder.path().join("report.json"), old).unwrap();
+        assert_eq!(json(folder.path())["status"], "interrupted");
+        assert!(run(&case(), folder.path(), Mode::Resume).unwrap().was_at_end);
+        assert_eq!(json(folder.path())["status"], "done");
+        // The report of the run that did the work stays.
+        let done = std::fs::read(folder.path().join("report.json")).unwrap();
+        run(&case(), folder.path(), Mode::Resume).unwrap();
+        assert!(std::fs::read(folder.path().join("report.json")).unwrap() == done);
     }
 
     #[test]

@@ -120,7 +120,9 @@ fn of_thin_film(film: &ThinFilm, speed: f64) -> Vec<Number> {
             number("alpha/dx", smoothing_length / film.spacing, "filter length / spacing")
         }
         FilmEquation::Slip { slip_length, .. } => number("slip/H", slip_length / height, "slip length / height"),
-        FilmEquation::Precursor { film_height } => number("film/H", film_height / height, "precursor film / height"),
+        FilmEquation::Precursor { film_height, .. } => {
+            number("film/H", film_height / height, "precursor film / height")
+        }
     });
     all
 }

@@ -181,6 +181,17 @@ pub fn verdicts(expectations: &[Expectation], readings: &BTreeMap<String, Readin
         .collect()
 }
 
+/// Whether a folder holds the report of a run that reached its end.
+#[must_use]
+pub fn is_of_the_end(folder: &Path) -> bool {
+    #[derive(Deserialize)]
+    struct Told {
+        status: Status,
+    }
+    let told = std::fs::read(folder.join(REPORT)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    told.is_some_and(|told: Told| matches!(told.status, Status::Done | Status::ExpectationFailed))
+}
+
 impl Report {
     /// Writes `report.json` in `folder`.
     ///

@@ -1,10 +1,7 @@
 //! Thin-film equations in cells between walls, plane or about an axis, by conservative differences.
 //!
-//! h_t = −(1/xᵐ) ∂ₓ( xᵐ M ∂ₓ p ), m = 0 in the plane and 1 about an axis, with one of
-//! - geometric: p = ∇²h̄ − Bo h̄, M = h h̄², h = (1 − α²∇²)² h̄, solved for h̄ [Pang2022, Eq. 40];
-//! - slip: p = ∇²h − Bo h, M = h³ + 3λh², λ the slip length over the scale of heights [Pang2022, Eq. 16];
-//! - precursor film: p = ∇²h + Π(h) − Bo h, M = h³; Π is 0 in complete wetting, else (1/h*) ((h*/h)³ − (h*/h)²) with the
-//!   film's height h*: it makes a droplet of slope 1 rest beside the film (Schwartz and Eley 1998).
+//! h_t = −(1/xᵐ) ∂ₓ( xᵐ M ∂ₓ p ), m = 0 in the plane and 1 about an axis, with the mobility M and the disjoining pressure Π of the
+//! [`Model`]. Geometric: p = ∇²h̄ − Bo h̄ and h = (1 − α²∇²)² h̄, solved for h̄; all others: p = ∇²h + Π(h) − Bo h, solved for h.
 //!
 //! Pressures stand in the cells, fluxes on the faces between them; none passes the walls at both ends. The mobility on a face
 //! vanishes with the lower of its two heights, so that no cell is emptied: 2a²b²/(a + b) for h³ and ab for h²
@@ -17,6 +14,7 @@ use super::backward_euler::{Balance, norm};
 use super::banded::Banded;
 use super::droplet::{Droplet, WeightRule};
 use super::grid::Grid;
+pub use super::model::Model;
 
 /// The shape of the film across the plane of the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,30 +23,6 @@ pub enum Symmetry {
     Plane,
     /// The same all around the axis x = 0.
     Axis,
-}
-
-/// Equations.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Model {
-    /// Geometric Thin-Film Equation of complete wetting.
-    Geometric {
-        /// Filter length α.
-        alpha: f64,
-    },
-    /// Navier slip, complete wetting.
-    Slip {
-        /// Slip length λ.
-        length: f64,
-        /// Height of the film on the wall that counts as dry.
-        film: f64,
-    },
-    /// Precursor film.
-    Precursor {
-        /// Height h* of the film.
-        film: f64,
-        /// Slope at which droplets rest; 0 in complete wetting.
-        slope: f64,
-    },
 }
 
 /// Where the cells stand, and what flows in them.
@@ -196,54 +170,16 @@ impl Cells {
             .collect()
     }
 
-    /// Disjoining pressure and its derivative.
-    fn disjoining(&self, h: f64) -> (f64, f64) {
-        match self.layout.model {
-            Model::Precursor { film, slope } if slope > 0.0 => {
-                let (scale, ratio) = (slope * slope / film, film / h);
-                (scale * (ratio.powi(3) - ratio.powi(2)), scale * (2.0 * ratio.powi(2) - 3.0 * ratio.powi(3)) / h)
-            }
-            _ => (0.0, 0.0),
-        }
-    }
-
     /// p in every cell.
     fn pressure(&self, v: &[f64]) -> Vec<f64> {
         let curvature = self.laplacian(v);
-        let of = |(c, &h): (&f64, &f64)| c + self.disjoining(h).0 - self.layout.bond * h;
+        let of = |(c, &h): (&f64, &f64)| c + self.layout.model.disjoining(h).0 - self.layout.bond * h;
         curvature.iter().zip(v).map(of).collect()
     }
 
-    /// The mobility on a face between cells of heights a and b and sharp heights g and h, with its four derivatives.
-    fn mobility(&self, [a, b]: [f64; 2], [g, h]: [f64; 2]) -> (f64, [f64; 2], [f64; 2]) {
-        match self.layout.model {
-            Model::Geometric { .. } => {
-                let (v, s) = (0.5 * (a + b), 0.5 * (g + h));
-                (s * v * v, [s * v; 2], [0.5 * v * v; 2])
-            }
-            Model::Slip { length, .. } => {
-                let (cube, [ca, cb]) = cubic(a, b);
-                let slip = 3.0 * length;
-                (cube + slip * a * b, [ca + slip * b, cb + slip * a], [0.0; 2])
-            }
-            Model::Precursor { .. } => {
-                let (cube, derivatives) = cubic(a, b);
-                (cube, derivatives, [0.0; 2])
-            }
-        }
-    }
-
     fn face_mobility(&self, face: usize, v: &[f64], sharp: &[f64]) -> (f64, [f64; 2], [f64; 2]) {
-        self.mobility([v[face - 1], v[face]], [sharp[face - 1], sharp[face]])
+        self.layout.model.mobility([v[face - 1], v[face]], [sharp[face - 1], sharp[face]])
     }
-}
-
-/// 2a²b²/(a + b) and its derivatives.
-fn cubic(a: f64, b: f64) -> (f64, [f64; 2]) {
-    let sum = a + b;
-    let value = 2.0 * (a * b).powi(2) / sum;
-    let by = |x: f64, y: f64| 2.0 * x * y * y * (x + 2.0 * y) / (sum * sum);
-    (value, [by(a, b), by(b, a)])
 }
 
 impl Balance for Cells {
@@ -288,7 +224,7 @@ impl Balance for Cells {
             for (side, cell) in [face - 1, face].into_iter().enumerate() {
                 let sign = if side == 0 { -1.0 } else { 1.0 };
                 row[2 + side] += by_height[side] * drive;
-                row[2 + side] += sign * mobility * (self.disjoining(v[cell]).1 - self.layout.bond);
+                row[2 + side] += sign * mobility * (self.layout.model.disjoining(v[cell]).1 - self.layout.bond);
                 for (offset, value) in self.laplace_row(cell).into_iter().enumerate() {
                     row[1 + side + offset] += sign * mobility * value;
                 }
@@ -360,16 +296,8 @@ impl Grid for Cells {
     /// ½ ∫ (hₓ h̄ₓ + Bo h h̄) + W(h), with W' = −Π and W = 0 far above the film.
     fn energy(&self, v: &[f64]) -> f64 {
         let (sharp, curvature) = (self.sharp(v), self.laplacian(v));
-        let density = |i: usize| {
-            let attraction = match self.layout.model {
-                Model::Precursor { film, slope } if slope > 0.0 => {
-                    let ratio = film / v[i];
-                    slope * slope * (0.5 * ratio * ratio - ratio)
-                }
-                _ => 0.0,
-            };
-            0.5 * sharp[i] * (self.layout.bond * v[i] - curvature[i]) + attraction
-        };
+        let density =
+            |i: usize| 0.5 * sharp[i] * (self.layout.bond * v[i] - curvature[i]) + self.layout.model.attraction(v[i]);
         (0..v.len()).map(|i| self.size[i] * density(i)).sum()
     }
 }
@@ -383,8 +311,8 @@ mod tests {
     const MODELS: [Model; 4] = [
         Model::Geometric { alpha: 0.05 },
         Model::Slip { length: 0.02, film: 1.0e-3 },
-        Model::Precursor { film: 0.02, slope: 0.0 },
-        Model::Precursor { film: 0.02, slope: 1.0 },
+        Model::Precursor { film: 0.02, slope: 0.0, slip: 0.0 },
+        Model::Precursor { film: 0.02, slope: 1.0, slip: 0.01 },
     ];
 
     fn layout(symmetry: Symmetry, model: Model, count: usize, bond: f64) -> Layout {

@@ -15,6 +15,9 @@ pub enum Film {
         method: Box<ParticleMethod>,
         /// The state.
         state: Integrator,
+        /// Whether the library diffsol does the steps.
+        #[cfg(feature = "diffsol")]
+        by_library: bool,
     },
     /// Nodes of a grid.
     Grid(Box<GridFilm>),
@@ -49,7 +52,22 @@ impl Film {
     #[must_use]
     pub fn particles(method: ParticleMethod, masses: &PointMasses, state: Integrator) -> Self {
         debug_assert_eq!(masses.x.len(), state.x.len());
-        Self::Particles { method: Box::new(method), state }
+        Self::Particles {
+            method: Box::new(method),
+            state,
+            #[cfg(feature = "diffsol")]
+            by_library: false,
+        }
+    }
+
+    /// The same film with its steps done by the library diffsol, where there are particles.
+    #[cfg(feature = "diffsol")]
+    #[must_use]
+    pub fn by_library(mut self) -> Self {
+        if let Self::Particles { by_library, .. } = &mut self {
+            *by_library = true;
+        }
+        self
     }
 
     /// Scaled time.
@@ -67,7 +85,11 @@ impl Film {
     /// [`Stuck`]; the state is kept.
     pub fn step(&mut self, until: f64) -> Result<f64, Stuck> {
         match self {
-            Self::Particles { method, state } => {
+            #[cfg(feature = "diffsol")]
+            Self::Particles { method, state, by_library: true } => {
+                super::diffsol::step(method, state, until).map_err(|error| Stuck::Inaccurate(error.0))
+            }
+            Self::Particles { method, state, .. } => {
                 if method.corrects() && widest_gap(&state.x) > WIDEST_GAP * method.kernel().alpha() {
                     method.keep_lattice_energy();
                 }
@@ -81,7 +103,7 @@ impl Film {
     #[must_use]
     pub fn seen(&self) -> Seen {
         match self {
-            Self::Particles { method, state } => {
+            Self::Particles { method, state, .. } => {
                 // The sums need room to work in; this one is thrown away.
                 let mut method = method.clone();
                 let mut velocity = vec![0.0; state.x.len()];
@@ -104,7 +126,7 @@ impl Film {
     #[must_use]
     pub fn profile(&self, places: &[f64]) -> Profile {
         match self {
-            Self::Particles { method, state } => {
+            Self::Particles { method, state, .. } => {
                 let s = method.profile(&state.x, places);
                 Profile { x: places.to_vec(), height: s.height, slope: s.slope, curvature: s.curvature }
             }
@@ -120,7 +142,7 @@ impl Film {
     #[must_use]
     pub fn center_height(&self) -> f64 {
         match self {
-            Self::Particles { method, state } => method.profile(&state.x, &[0.0]).height[0],
+            Self::Particles { method, state, .. } => method.profile(&state.x, &[0.0]).height[0],
             Self::Grid(grid) => grid.center_height(),
         }
     }
@@ -138,7 +160,7 @@ impl Film {
     #[must_use]
     pub fn energy(&self) -> f64 {
         match self {
-            Self::Particles { method, state } => method.clone().energy(&state.x),
+            Self::Particles { method, state, .. } => method.clone().energy(&state.x),
             Self::Grid(grid) => grid.energy(),
         }
     }

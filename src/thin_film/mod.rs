@@ -7,6 +7,8 @@
 pub mod backward_euler;
 mod banded;
 pub mod cells;
+#[cfg(feature = "diffsol")]
+pub mod diffsol;
 pub mod droplet;
 pub mod equilibrium;
 pub mod film;
@@ -14,6 +16,7 @@ pub mod grid;
 pub mod history;
 pub mod kernel;
 mod measures;
+mod model;
 pub mod ode;
 pub mod particles;
 pub mod profile;

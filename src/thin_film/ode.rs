@@ -81,6 +81,9 @@ pub struct StepTooSmall(pub f64);
 const SHRINK: f64 = 0.2;
 const GROW: f64 = 5.0;
 const SAFETY: f64 = 0.9;
+/// A step of the stiff method over the time, in a droplet that spreads, at this tolerance; it goes as its fourth root.
+const SHARE: f64 = 0.2;
+const SHARE_AT: f64 = 1.0e-7;
 /// Smallest step over the present time (or over 1 at time zero).
 const SMALLEST: f64 = 1.0e-15;
 
@@ -125,6 +128,18 @@ impl Integrator {
                 return Err(StepTooSmall(self.next));
             }
         }
+    }
+
+    /// About how many steps of the stiff method lead to `end`: they grow as the time does. Those of the explicit method are bound
+    /// by stability, so that the length of the last one tells more.
+    #[must_use]
+    pub fn steps_to(&self, end: f64) -> Option<f64> {
+        if self.method == Method::Explicit {
+            return None;
+        }
+        let share = SHARE * (self.tolerance.absolute / SHARE_AT).powf(0.25);
+        let start = self.time.max(self.next);
+        Some((end / start).max(1.0).ln() / share.ln_1p())
     }
 
     /// Runs to `until`.

@@ -94,6 +94,12 @@ impl ParticleMethod {
         self.area
     }
 
+    /// What moves the film besides its tension.
+    #[must_use]
+    pub fn pull(&self) -> Pull {
+        self.pull
+    }
+
     /// The kernel.
     #[must_use]
     pub fn kernel(&self) -> Kernel {

@@ -55,13 +55,20 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
                 LatticeEnergy::TakenOff => particles::LatticeEnergy::TakenOff,
             };
             let method = match integrator {
-                FilmIntegrator::Stiff => Method::Stiff,
-                FilmIntegrator::Explicit => Method::Explicit,
+                FilmIntegrator::Stiff | FilmIntegrator::DiffsolStiff => Method::Stiff,
+                FilmIntegrator::Explicit | FilmIntegrator::DiffsolExplicit => Method::Explicit,
             };
             let width = droplets.iter().map(|droplet| 2.0 * droplet.half_width).fold(0.0, f64::max);
             let tolerance = Tolerance { absolute: tolerance * width, relative: 0.0 };
             let state = Integrator::new(method, tolerance, masses.x.clone(), FIRST_STEP);
-            Film::particles(ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice), &masses, state)
+            let film = Film::particles(ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice), &masses, state);
+            // Programs without the library refuse such a case.
+            #[cfg(feature = "diffsol")]
+            let film = match integrator {
+                FilmIntegrator::DiffsolStiff | FilmIntegrator::DiffsolExplicit => film.by_library(),
+                FilmIntegrator::Stiff | FilmIntegrator::Explicit => film,
+            };
+            film
         }
         FilmMethod::FiniteDifferences { step_share } => {
             let rule = StepRule { first: FIRST_STEP, share: step_share, ..StepRule::ADAPTIVE };
@@ -153,10 +160,10 @@ fn grid(film: &ThinFilm, scales: &Scales, droplets: &[Droplet], wall: [f64; 2], 
         (FilmEquation::Slip { slip_length, film_height }, _) => {
             Model::Slip { length: slip_length / scales.height, film: film_height / scales.height }
         }
-        (FilmEquation::Precursor { film_height }, _) => {
+        (FilmEquation::Precursor { film_height, slip_length }, _) => {
             // The scaled slope at rest is 1.
             let slope = if film.contact_angle.is_some() { 1.0 } else { 0.0 };
-            Model::Precursor { film: film_height / scales.height, slope }
+            Model::Precursor { film: film_height / scales.height, slope, slip: slip_length / scales.height }
         }
     };
     let symmetry = match film.symmetry {

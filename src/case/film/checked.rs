@@ -68,6 +68,8 @@ pub enum FilmEquation {
     Precursor {
         /// Its height.
         film_height: f64,
+        /// Slip length; 0 for a wall that sticks.
+        slip_length: f64,
     },
 }
 
@@ -99,6 +101,10 @@ pub enum FilmIntegrator {
     Stiff,
     /// Dormand and Prince, order 5.
     Explicit,
+    /// ESDIRK34 of the library diffsol.
+    DiffsolStiff,
+    /// Tsit45 of the library diffsol.
+    DiffsolExplicit,
 }
 
 /// What is done about the energy of the particle lattice.

@@ -2,7 +2,11 @@
 
 mod check;
 pub mod checked;
+mod droplets;
+mod equation;
+mod method;
 pub mod raw;
+mod resolution;
 mod resolve;
 
 pub(super) use check::thin_film;

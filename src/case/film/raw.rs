@@ -68,6 +68,8 @@ tables! {
     pub struct RawPrecursor {
         /// Height of the film in m.
         pub film_height: f64,
+        /// Slip length in m (default: the wall sticks).
+        pub slip_length: f64,
     }
 
     /// Wetting models of thin films.
@@ -137,6 +139,10 @@ pub enum RawFilmIntegrator {
     Stiff,
     /// Dormand and Prince, order 5: steps as short as stability wants.
     Explicit,
+    /// ESDIRK34 of the library diffsol, in programs built with it.
+    DiffsolStiff,
+    /// Tsit45 of the library diffsol, in programs built with it.
+    DiffsolExplicit,
 }
 
 /// What is done about the energy of the particle lattice.

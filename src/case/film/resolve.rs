@@ -1,7 +1,7 @@
 //! A checked film as a table that loads to the same film.
 
-use super::check::ANGLES;
 use super::checked::{FilmEquation, FilmIntegrator, FilmMethod, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm};
+use super::equation::ANGLES;
 use super::raw::{
     RawDroplet, RawFilmEquation, RawFilmGrid, RawFilmIntegrator, RawFilmMethod, RawFilmParticles, RawFilmSymmetry,
     RawFilmWeights, RawFilmWetting, RawGeometric, RawLatticeEnergy, RawPartialWetting, RawPrecursor, RawSlip,
@@ -52,8 +52,10 @@ fn equation(equation: FilmEquation) -> RawFilmEquation {
             slip: Some(RawSlip { slip_length: Some(slip_length), film_height: Some(film_height) }),
             ..none
         },
-        FilmEquation::Precursor { film_height } => {
-            RawFilmEquation { precursor: Some(RawPrecursor { film_height: Some(film_height) }), ..none }
+        FilmEquation::Precursor { film_height, slip_length } => {
+            let slip_length = (slip_length > 0.0).then_some(slip_length);
+            let precursor = RawPrecursor { film_height: Some(film_height), slip_length };
+            RawFilmEquation { precursor: Some(precursor), ..none }
         }
     }
 }
@@ -78,6 +80,8 @@ fn method(method: FilmMethod) -> RawFilmMethod {
                 integrator: Some(match integrator {
                     FilmIntegrator::Stiff => RawFilmIntegrator::Stiff,
                     FilmIntegrator::Explicit => RawFilmIntegrator::Explicit,
+                    FilmIntegrator::DiffsolStiff => RawFilmIntegrator::DiffsolStiff,
+                    FilmIntegrator::DiffsolExplicit => RawFilmIntegrator::DiffsolExplicit,
                 }),
                 tolerance: Some(tolerance),
                 lattice_energy: Some(match lattice_energy {

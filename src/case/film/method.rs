@@ -1,0 +1,76 @@
+//! Checks of how a thin film is solved.
+
+use super::checked::{FilmIntegrator, FilmMethod, LatticeEnergy};
+use super::raw::{RawFilmIntegrator, RawFilmMethod, RawLatticeEnergy};
+use crate::case::check::Checker;
+
+/// Errors of a step over the initial width.
+const TOLERANCES: (f64, f64) = (1.0e-12, 1.0e-3);
+const DEFAULT_TOLERANCE: f64 = 1.0e-7;
+/// Steps over the time since the start.
+const STEP_SHARES: (f64, f64) = (1.0e-5, 0.1);
+const DEFAULT_STEP_SHARE: f64 = 0.005;
+
+pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_be: bool) -> Option<FilmMethod> {
+    if let (Some(_), Some(_)) = (&raw.particles, &raw.finite_differences) {
+        checker.refuse(
+            "thin-film.method",
+            "expected exactly one method, found 2",
+            "choose one of `particles`, `finite-differences`",
+        );
+        return None;
+    }
+    if raw.particles.is_some() && !particles_can_be {
+        checker.refuse(
+            "thin-film.method.particles",
+            "particles solve the geometric equation in the plane, and no other",
+            "leave the method out for finite differences",
+        );
+        return None;
+    }
+    if raw.finite_differences.is_some() || !particles_can_be {
+        let path = "thin-film.method.finite-differences.step-share";
+        let share = raw.finite_differences.as_ref().and_then(|raw| raw.step_share);
+        let share = checker.within(path, share, STEP_SHARES, "a share");
+        return Some(FilmMethod::FiniteDifferences { step_share: share.unwrap_or(DEFAULT_STEP_SHARE) });
+    }
+    let raw = raw.particles.clone().unwrap_or_default();
+    let path = "thin-film.method.particles.tolerance";
+    let tolerance = checker.within(path, raw.tolerance, TOLERANCES, "a relative error");
+    let integrator = match raw.integrator {
+        None | Some(RawFilmIntegrator::Stiff) => FilmIntegrator::Stiff,
+        Some(RawFilmIntegrator::Explicit) => FilmIntegrator::Explicit,
+        Some(RawFilmIntegrator::DiffsolStiff) => FilmIntegrator::DiffsolStiff,
+        Some(RawFilmIntegrator::DiffsolExplicit) => FilmIntegrator::DiffsolExplicit,
+    };
+    let is_of_library = matches!(integrator, FilmIntegrator::DiffsolStiff | FilmIntegrator::DiffsolExplicit);
+    if is_of_library {
+        library(checker, raw.lattice_energy);
+    }
+    Some(FilmMethod::Particles {
+        integrator,
+        tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE),
+        lattice_energy: match raw.lattice_energy {
+            None | Some(RawLatticeEnergy::Kept) => LatticeEnergy::Kept,
+            Some(RawLatticeEnergy::TakenOff) => LatticeEnergy::TakenOff,
+        },
+    })
+}
+
+/// What the integrators of the library diffsol need.
+fn library(checker: &mut Checker, lattice_energy: Option<RawLatticeEnergy>) {
+    if !cfg!(feature = "diffsol") {
+        checker.refuse(
+            "thin-film.method.particles.integrator",
+            "this program was built without the library diffsol",
+            "build it with `cargo build --release --features diffsol`, or take `stiff` or `explicit`, which are faster",
+        );
+    }
+    if lattice_energy == Some(RawLatticeEnergy::TakenOff) {
+        checker.refuse(
+            "thin-film.method.particles.lattice-energy",
+            "the integrators of diffsol leave the lattice energy as it is",
+            "take `stiff` or `explicit`",
+        );
+    }
+}

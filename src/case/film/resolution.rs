@@ -1,0 +1,128 @@
+//! Checks of spacings against droplets, filter, slip length and films on the wall.
+
+use super::checked::{FilmDroplet, FilmEquation};
+use crate::case::check::Checker;
+use crate::geometry::spec::GeometrySpec;
+
+/// Most particles or nodes.
+const MOST_UNKNOWNS: f64 = 1.0e7;
+/// Fewest spacings in the filter length: with fewer, the particles do not see one another.
+const FEWEST_IN_FILTER: f64 = 1.0;
+/// Most spacings in the filter length on a grid: fourth differences lose (α/Δx)⁴ roundings of their digits.
+const MOST_IN_FILTER: f64 = 1.0e3;
+/// Filter length over the half width: above, there is no droplet of a given slope.
+const LARGEST_SMOOTHING: f64 = 0.4;
+/// Fewest spacings in the half width of a droplet.
+const FEWEST_IN_DROPLET: f64 = 10.0;
+/// Heights of films on the wall over that of the lowest droplet.
+const FILMS: (f64, f64) = (1.0e-6, 0.2);
+/// Most spacings over the height of a film, both over the scale of a droplet: a coarser grid does not see contact lines.
+const COARSEST_FOR_FILM: f64 = 4.0;
+/// Slip lengths over the height of the lowest droplet.
+const LARGEST_SLIP: f64 = 0.5;
+
+pub(super) fn resolution(checker: &mut Checker, spacing: f64, equation: FilmEquation, droplets: &[FilmDroplet]) {
+    let least = |value: fn(&FilmDroplet) -> f64| droplets.iter().map(value).fold(f64::INFINITY, f64::min);
+    let (half_width, height) = (least(|droplet| droplet.half_width), least(|droplet| droplet.height));
+    if half_width < FEWEST_IN_DROPLET * spacing {
+        checker.refuse(
+            "thin-film.spacing",
+            format!(
+                "expected at least {FEWEST_IN_DROPLET} spacings in the half width of {half_width:e} m, found {:.2}",
+                half_width / spacing
+            ),
+            format!("a spacing of {:.2e} m would do", half_width / FEWEST_IN_DROPLET),
+        );
+    }
+    match equation {
+        FilmEquation::Geometric { smoothing_length } => smoothing(checker, spacing, smoothing_length, half_width),
+        FilmEquation::Slip { slip_length, film_height } => {
+            slip(checker, "slip", slip_length, height);
+            film(checker, "slip", film_height, height);
+            coarse(checker, spacing / half_width, slip_length / height);
+        }
+        FilmEquation::Precursor { film_height, slip_length } => {
+            slip(checker, "precursor", slip_length, height);
+            film(checker, "precursor", film_height, height);
+            coarse(checker, spacing / half_width, film_height / height);
+        }
+    }
+}
+
+fn smoothing(checker: &mut Checker, spacing: f64, smoothing: f64, half_width: f64) {
+    let ratio = smoothing / spacing;
+    if ratio < FEWEST_IN_FILTER {
+        checker.refuse(
+            "thin-film.spacing",
+            format!("expected at least one spacing in the smoothing length of {smoothing:e} m, found {ratio:.2}"),
+            format!("a spacing of {:.2e} m is usual, a tenth of it", 0.1 * smoothing),
+        );
+    }
+    if smoothing > LARGEST_SMOOTHING * half_width {
+        checker.refuse(
+            "thin-film.equation.geometric.smoothing-length",
+            format!(
+                "expected at most {LARGEST_SMOOTHING} of the half width of {half_width:e} m, found {smoothing:e} m"
+            ),
+            format!("{:.2e} m is usual, a tenth of it", 0.1 * half_width),
+        );
+    }
+}
+
+pub(super) fn rounding(checker: &mut Checker, spacing: f64, smoothing: f64) {
+    let ratio = smoothing / spacing;
+    if ratio > MOST_IN_FILTER {
+        checker.refuse(
+            "thin-film.spacing",
+            format!("finite differences round off the film where the smoothing length has more than {MOST_IN_FILTER} spacings, found {ratio:.0}"),
+            format!("a spacing of {:.2e} m is more than fine enough; particles may be finer", smoothing / MOST_IN_FILTER),
+        );
+    }
+}
+
+fn slip(checker: &mut Checker, equation: &str, slip: f64, height: f64) {
+    if slip > LARGEST_SLIP * height {
+        checker.refuse(
+            format!("thin-film.equation.{equation}.slip-length"),
+            format!("expected at most {LARGEST_SLIP} of the height of {height:e} m, found {slip:e} m"),
+            format!("{:.2e} m is usual, a hundredth of it", 0.01 * height),
+        );
+    }
+}
+
+/// The film on the wall is thin beside the droplets.
+fn film(checker: &mut Checker, equation: &str, film: f64, height: f64) {
+    let ratio = film / height;
+    if !(FILMS.0..=FILMS.1).contains(&ratio) {
+        checker.refuse(
+            format!("thin-film.equation.{equation}.film-height"),
+            format!(
+                "expected {:e} to {:?} of the droplets' height of {height:e} m, found {film:e} m",
+                FILMS.0, FILMS.1
+            ),
+            format!("{:.2e} m is usual, a hundredth of it", 0.01 * height),
+        );
+    }
+}
+
+/// The grid sees the contact line, where heights are those of the film or of the slip length.
+fn coarse(checker: &mut Checker, spacing: f64, film: f64) {
+    if spacing > COARSEST_FOR_FILM * film {
+        checker.refuse(
+            "thin-film.spacing",
+            format!("the contact line is {film:.2e} of a droplet wide, a spacing is {spacing:.2e} of it"),
+            format!("{COARSEST_FOR_FILM} spacings less coarse would do: the spacing over the half width is to be below {COARSEST_FOR_FILM} times the height of film or slip over that of the droplet"),
+        );
+    }
+}
+
+pub(super) fn count(checker: &mut Checker, geometry: &GeometrySpec, spacing: f64) {
+    let count = (geometry.max[0] - geometry.min[0]) / spacing;
+    if count > MOST_UNKNOWNS {
+        checker.refuse(
+            "thin-film.spacing",
+            format!("{spacing:e} m would give {count:.2e} nodes, more than {MOST_UNKNOWNS:.0e}"),
+            "",
+        );
+    }
+}
