@@ -12,7 +12,9 @@ use crate::math::{Bounds, Vec2};
 use crate::snapshot::Lines;
 use crate::sph::boundary::no_slip::NoSlip;
 use crate::sph::domain::{Domain, ImageVelocity, Mirror};
-use crate::sph::fill::{self, Lattice};
+use crate::geometry::shells::FreeWalls;
+use crate::sph::fill::{self, Lattice, Places};
+use crate::sph::packing::pack;
 use crate::sph::kernel::WendlandC2;
 use crate::sph::measures::DiscOf;
 use crate::sph::method::{Fluid, Method, ViscousTerm};
@@ -85,7 +87,9 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
     };
     let walls = sides.map(|side| side == Side::Wall);
-    let (mut particles, depth) = fill::fill(&lattice, support, walls, |x| geometry.signed_distance(x), phase);
+    let places = places(&geometry, &lattice, &domain, &method, walls);
+    let mut particles = places.particles(phase);
+    let depth = places.depth;
     if particles.fluids == 0 {
         return Err(SetupError::NoFluid(sph.spacing));
     }
@@ -110,6 +114,30 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         (wall.distance, wall.normal)
     });
     Ok(SphSolver::new(Flow::new(method, domain, query, particles, depth), surroundings))
+}
+
+/// Where the particles stand at time zero.
+fn places(geometry: &Geometry, lattice: &Lattice, domain: &Domain, method: &Method, walls: [bool; 4]) -> Places {
+    let support = method.kernel.support();
+    let signed_distance = |x| geometry.signed_distance(x);
+    let free = FreeWalls::new(geometry, support, |a, b| lattice.fits(a, b));
+    if free.is_empty() || !method_follows() {
+        return fill::on_lattice(lattice, support, walls, signed_distance);
+    }
+    let pore_area = geometry.porosity().value * geometry.bounds().area();
+    let mut places = fill::along_walls((lattice, domain), (support, walls), &free, signed_distance, pore_area);
+    let wall = |x: Vec2| {
+        let wall = geometry.wall(x);
+        (wall.distance, wall.normal)
+    };
+    if std::env::var("NO_PACK").is_err() {
+    pack((&mut places.fluid, &places.walls), domain, &method.kernel, (method.spacing, method.volume), wall);
+    }
+    places
+}
+
+fn method_follows() -> bool {
+    std::env::var("CUT").is_err()
 }
 
 fn method(sph: &Sph, lattice: &Lattice) -> Method {
