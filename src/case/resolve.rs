@@ -7,7 +7,7 @@ use super::checked::{
 use super::raw::{
     Empty, RawCase, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface, RawMeasures,
     RawNumerics, RawOutput, RawPhase, RawPhases, RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime,
-    RawVelocity, RawViscousTerm, RawWallSpeeds, RawWetting, RawYoung,
+    RawVelocity, RawViscousTerm, RawWallSpeeds, RawWalls, RawWetting, RawYoung,
 };
 
 /// The case as TOML that loads to the same case (angles to the last bit of a degree).
@@ -79,6 +79,7 @@ fn raw_sph(sph: &Sph) -> RawSph {
             young: Some(RawYoung { contact_angle_deg: Some(contact_angle.to_degrees().clamp(0.0, 180.0)) }),
         }),
         sides: Some(raw_sides(&sph.sides, sph.wall_speeds)),
+        walls: Some(RawWalls { slip_length: Some(sph.slip_length) }),
         initial: Some(RawInitial {
             background: two_phases.then_some(background),
             wetting: two_phases.then(|| sph.initial.wetting.clone()),
@@ -140,6 +141,7 @@ fn raw_numerics(numerics: &Numerics) -> RawNumerics {
         background_pressure: Some(numerics.background_pressure),
         shifting: Some(numerics.shifting),
         wall_stretch: Some(numerics.wall_stretch),
+        fitted_walls: Some(numerics.fitted_walls),
         pressure_tolerance: Some(numerics.pressure_tolerance),
         time_step_factor: Some(numerics.time_step_factor),
     }

@@ -140,20 +140,20 @@ impl<'a> FreeWalls<'a> {
             let follower = if k + 1 < chain.len() { Some(chain[k + 1]) } else { is_closed.then(|| chain[0]) };
             if let Some(j) = follower.filter(|&j| !curve.is_closed() && (self.is_free[i] || self.is_free[j])) {
                 let (from, to) = (curve.tangent(1.0), self.geometry.boundary.pieces[j].curve.tangent(0.0));
-                fan(curve.point(1.0), curve.normal(1.0) * depth, cross(from, to).atan2(from.dot(&to)), step, &mut samples);
+                fan(
+                    curve.point(1.0),
+                    curve.normal(1.0) * depth,
+                    cross(from, to).atan2(from.dot(&to)),
+                    step,
+                    &mut samples,
+                );
             }
         }
         samples
     }
 
     /// The parts of a sampled line that have their depth.
-    fn cut(
-        &self,
-        samples: &[Option<Vec2>],
-        is_closed: bool,
-        (depth, step): (f64, f64),
-        within: Bounds,
-    ) -> Vec<Shell> {
+    fn cut(&self, samples: &[Option<Vec2>], is_closed: bool, (depth, step): (f64, f64), within: Bounds) -> Vec<Shell> {
         let has_depth = |x: Vec2| {
             within.contains(x) && (self.geometry.signed_distance(x) + depth).abs() < SAME_DEPTH * step && self.own(x)
         };

@@ -58,11 +58,9 @@ impl Lattice {
 
     /// The box that [`Lattice::points`] fills.
     fn extent(&self, margin: f64, beyond: [bool; 4]) -> Bounds {
-        let by = |side: usize| if beyond[side] { (margin / self.step[side / 2]).ceil() * self.step[side / 2] } else { 0.0 };
-        Bounds {
-            min: self.bounds.min - Vec2::new(by(0), by(2)),
-            max: self.bounds.max + Vec2::new(by(1), by(3)),
-        }
+        let by =
+            |side: usize| if beyond[side] { (margin / self.step[side / 2]).ceil() * self.step[side / 2] } else { 0.0 };
+        Bounds { min: self.bounds.min - Vec2::new(by(0), by(2)), max: self.bounds.max + Vec2::new(by(1), by(3)) }
     }
 
     /// The lattice points of the box, and of a margin of `margin` (m) beyond the sides for which `beyond` holds.
@@ -109,12 +107,7 @@ impl Places {
 /// support.
 ///
 /// `signed_distance` in m; `walls` tells which sides (left, right, bottom, top) are walls, so that wall particles stand beyond them.
-pub fn on_lattice(
-    lattice: &Lattice,
-    support: f64,
-    walls: [bool; 4],
-    signed_distance: impl Fn(Vec2) -> f64,
-) -> Places {
+pub fn on_lattice(lattice: &Lattice, support: f64, walls: [bool; 4], signed_distance: impl Fn(Vec2) -> f64) -> Places {
     let mut places = Places::default();
     for x in lattice.points(support, walls) {
         let d = signed_distance(x);
@@ -152,23 +145,19 @@ pub fn along_walls(
 ) -> Places {
     let spacing = lattice.step.product().sqrt();
     let mut places = Places::default();
-    let (mut doubtful, mut sure) = (Vec::new(), 0);
+    let mut doubtful: Vec<(f64, Vec2)> = Vec::new();
     for x in lattice.points(support, walls) {
-        let d = signed_distance(x);
-        if lattice.bounds.contains(x) && d > -DOUBTFUL * spacing && (d > 0.0 || free.own(x)) {
+        let (d, own) = (signed_distance(x), free.own(x));
+        if own && d.abs() < DOUBTFUL * spacing && lattice.bounds.contains(x) {
+            doubtful.push((d, x));
+        } else if d > 0.0 && lattice.bounds.contains(x) {
             places.fluid.push(x);
-            if d < DOUBTFUL * spacing && free.own(x) { doubtful.push(d) } else { sure += 1 }
-        }
-        if d <= 0.0 && d > -support && !free.own(x) {
+        } else if d <= 0.0 && d > -support && !own {
             places.push_wall(x, -d);
         }
     }
     let wanted = (pore_area / (spacing * spacing)).round() as usize;
-    let least = nearest_count(doubtful, wanted.saturating_sub(sure), EQUAL * spacing);
-    places.fluid.retain(|&x| {
-        let d = signed_distance(x);
-        d >= DOUBTFUL * spacing || d >= least || !free.own(x)
-    });
+    places.fluid.extend(deepest(doubtful, wanted.saturating_sub(places.fluid.len()), EQUAL * spacing));
     let mut depth = 0.5 * spacing;
     while depth < support {
         for shell in free.shells(depth, SAMPLING * spacing, lattice.extent(support, walls)) {
@@ -183,13 +172,25 @@ pub fn along_walls(
     places
 }
 
-/// The least distance for which the number of `distances` at or above it is nearest to `count`; those within `equal` of each
-/// other stay together.
-fn nearest_count(mut distances: Vec<f64>, count: usize, equal: f64) -> f64 {
-    distances.sort_by(|a, b| b.total_cmp(a));
-    let borders = (1..distances.len()).filter(|&k| distances[k - 1] - distances[k] > equal);
-    let best = borders.chain([distances.len()]).min_by_key(|k| k.abs_diff(count)).unwrap_or_default();
-    if best == 0 || count == 0 { f64::INFINITY } else { distances[best - 1] }
+/// The `count` points with the largest distances. Of those whose distances differ by less than `equal` some can be left out, as in a
+/// symmetric pore: then points from all around, so that no side is preferred.
+fn deepest(mut points: Vec<(f64, Vec2)>, count: usize, equal: f64) -> Vec<Vec2> {
+    points.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut taken = Vec::new();
+    for group in points.chunk_by(|a, b| a.0 - b.0 < equal) {
+        let room = (count - taken.len()).min(group.len());
+        // Steps of the golden section visit all of a list, the next one always far from those before.
+        let mut order: Vec<usize> = (0..group.len()).collect();
+        order.sort_by(|a, b| golden(*a).total_cmp(&golden(*b)));
+        taken.extend(order.into_iter().take(room).map(|i| group[i].1));
+    }
+    taken
+}
+
+/// The fractional part of `index` golden sections.
+fn golden(index: usize) -> f64 {
+    const SECTION: f64 = 0.618_033_988_749_894_9;
+    (SECTION * (index as f64 + 0.5)).fract()
 }
 
 /// Leaves out each wall particle that is nearer than `closest` (m) to one before it.
@@ -198,7 +199,8 @@ fn keep_apart(places: &mut Places, domain: &Domain, closest: f64) {
     let mut kept = vec![true; places.walls.len()];
     for a in 0..kept.len() {
         let mut is_free = true;
-        cells.visit_near(places.walls[a], |b, r| is_free &= b as usize >= a || !kept[b as usize] || r.norm() >= closest);
+        cells
+            .visit_near(places.walls[a], |b, r| is_free &= b as usize >= a || !kept[b as usize] || r.norm() >= closest);
         kept[a] = is_free;
     }
     let mut flags = kept.iter();

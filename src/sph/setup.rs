@@ -7,17 +7,17 @@ use crate::analysis::contour::Polyline;
 use crate::analysis::phases::wall_samples;
 use crate::case::checked::{self, Case, InitialVelocity, Side, Sph, WettingModel};
 use crate::geometry::Geometry;
+use crate::geometry::shells::FreeWalls;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::Lines;
 use crate::sph::boundary::no_slip::NoSlip;
 use crate::sph::domain::{Domain, ImageVelocity, Mirror};
-use crate::geometry::shells::FreeWalls;
 use crate::sph::fill::{self, Lattice, Places};
-use crate::sph::packing::pack;
 use crate::sph::kernel::WendlandC2;
 use crate::sph::measures::DiscOf;
 use crate::sph::method::{Fluid, Method, ViscousTerm};
+use crate::sph::packing::Packing;
 use crate::sph::particles::Phase;
 use crate::sph::poisson::Tolerance;
 use crate::sph::projection::{Flow, WallQuery};
@@ -87,7 +87,11 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
     };
     let walls = sides.map(|side| side == Side::Wall);
-    let places = places(&geometry, &lattice, &domain, &method, walls);
+    let places = if sph.numerics.fitted_walls {
+        fitted_places((&geometry, &domain), &lattice, &method, walls)
+    } else {
+        fill::on_lattice(&lattice, support, walls, |x| geometry.signed_distance(x))
+    };
     let mut particles = places.particles(phase);
     let depth = places.depth;
     if particles.fluids == 0 {
@@ -116,28 +120,34 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
     Ok(SphSolver::new(Flow::new(method, domain, query, particles, depth), surroundings))
 }
 
-/// Where the particles stand at time zero.
-fn places(geometry: &Geometry, lattice: &Lattice, domain: &Domain, method: &Method, walls: [bool; 4]) -> Places {
+/// Where the particles stand at time zero: along walls that the lattice does not fit, and packed to them.
+fn fitted_places(
+    (geometry, domain): (&Geometry, &Domain),
+    lattice: &Lattice,
+    method: &Method,
+    walls: [bool; 4],
+) -> Places {
     let support = method.kernel.support();
     let signed_distance = |x| geometry.signed_distance(x);
     let free = FreeWalls::new(geometry, support, |a, b| lattice.fits(a, b));
-    if free.is_empty() || !method_follows() {
+    if free.is_empty() {
         return fill::on_lattice(lattice, support, walls, signed_distance);
     }
     let pore_area = geometry.porosity().value * geometry.bounds().area();
     let mut places = fill::along_walls((lattice, domain), (support, walls), &free, signed_distance, pore_area);
-    let wall = |x: Vec2| {
-        let wall = geometry.wall(x);
-        (wall.distance, wall.normal)
+    let packing = Packing {
+        walls: &places.walls,
+        domain,
+        kernel: &method.kernel,
+        spacing: method.spacing,
+        volume: method.volume,
+        wall: |x| {
+            let wall = geometry.wall(x);
+            (wall.distance, wall.normal)
+        },
     };
-    if std::env::var("NO_PACK").is_err() {
-    pack((&mut places.fluid, &places.walls), domain, &method.kernel, (method.spacing, method.volume), wall);
-    }
+    packing.pack(&mut places.fluid);
     places
-}
-
-fn method_follows() -> bool {
-    std::env::var("CUT").is_err()
 }
 
 fn method(sph: &Sph, lattice: &Lattice) -> Method {
@@ -160,7 +170,7 @@ fn method(sph: &Sph, lattice: &Lattice) -> Method {
             WettingModel::Young { contact_angle } => Wetting::Young(YoungForce { contact_angle }),
         }),
         gravity: sph.gravity,
-        no_slip: NoSlip { spacing: sph.spacing, largest_stretch: numerics.wall_stretch },
+        no_slip: NoSlip { spacing: sph.spacing, largest_stretch: numerics.wall_stretch, slip_length: sph.slip_length },
         viscous_term: match numerics.viscous_term {
             checked::ViscousTerm::Szewc => ViscousTerm::Szewc,
             checked::ViscousTerm::Morris => ViscousTerm::Morris,

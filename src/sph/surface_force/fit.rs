@@ -150,17 +150,27 @@ impl<'a> InterfaceFit<'a> {
         if down.dot(&point.wall_normal) > 0.0 {
             down = -down;
         }
-        let foot = point.x + way * down;
-        let (distance, normal) = (self.wall)(foot);
-        let contact = foot - distance * normal - point.x;
-        let outwards = -along(point.normal, normal).try_normalize(0.5 * SMALLEST_TANGENT)?;
-        let present = (-point.normal.dot(&normal)).clamp(-1.0, 1.0).acos();
-        let angle = angle
-            .clamp(present - LARGEST_PULL, present + LARGEST_PULL)
-            .clamp(SMALLEST_ANGLE, std::f64::consts::PI - SMALLEST_ANGLE);
-        let n_e = -angle.sin() * outwards - angle.cos() * normal;
-        let t_e = angle.sin() * normal - angle.cos() * outwards;
-        Some((fit_from_contact(near, contact, (t_e, n_e), angle)?, share))
+        let mut place = point.x + way * down;
+        let mut before: Option<(Vec2, f64)> = None;
+        for _ in 0..PROJECTIONS {
+            let (distance, normal) = (self.wall)(place);
+            if let Some((_, kappa)) = before.filter(|(known, _)| (normal - known).norm() < SAME_NORMAL) {
+                return Some((kappa, share));
+            }
+            let contact = place - distance * normal - point.x;
+            let outwards = -along(point.normal, normal).try_normalize(0.5 * SMALLEST_TANGENT)?;
+            let present = (-point.normal.dot(&normal)).clamp(-1.0, 1.0).acos();
+            let angle = angle
+                .clamp(present - LARGEST_PULL, present + LARGEST_PULL)
+                .clamp(SMALLEST_ANGLE, std::f64::consts::PI - SMALLEST_ANGLE);
+            let n_e = -angle.sin() * outwards - angle.cos() * normal;
+            let t_e = angle.sin() * normal - angle.cos() * outwards;
+            let (kappa, delta) = fit_from_contact(near, contact, (t_e, n_e), angle)?;
+            // The contact point found lies on the tangent of the wall; a curved wall is looked at again there.
+            place = point.x + contact + delta.clamp(-self.h, self.h) * outwards;
+            before = Some((normal, kappa));
+        }
+        before.map(|(_, kappa)| (kappa, share))
     }
 }
 
@@ -186,8 +196,14 @@ fn free_fit(near: &[Near], normal: Vec2) -> Option<f64> {
 /// Steps of the fixed-point iteration for the place of the contact point; each gains about a digit at small angles.
 const ITERATIONS: usize = 12;
 
-/// Curvature of the circle that leaves the wall at `contact` + δ ν with tangent `t_e` and normal `n_e`; δ is fitted too.
-fn fit_from_contact(near: &[Near], contact: Vec2, (t_e, n_e): (Vec2, Vec2), angle: f64) -> Option<f64> {
+/// The contact point is projected on a curved wall at most so many times; each gains more than a digit.
+const PROJECTIONS: usize = 4;
+
+/// Walls whose normals differ by less than this are the same straight wall, in rad.
+const SAME_NORMAL: f64 = 1e-4;
+
+/// Curvature of the circle that leaves the wall at `contact` + δ ν with tangent `t_e` and normal `n_e`, and δ, which is fitted too.
+fn fit_from_contact(near: &[Near], contact: Vec2, (t_e, n_e): (Vec2, Vec2), angle: f64) -> Option<(f64, f64)> {
     let (mut delta, mut kappa) = (0.0, None);
     for _ in 0..ITERATIONS {
         let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
@@ -201,7 +217,7 @@ fn fit_from_contact(near: &[Near], contact: Vec2, (t_e, n_e): (Vec2, Vec2), angl
         }
         let solution = matrix.cholesky()?.solve(&right);
         delta = -solution[0] / angle.sin();
-        kappa = Some(solution[1]);
+        kappa = Some((solution[1], delta));
     }
     kappa
 }
@@ -257,6 +273,36 @@ mod tests {
                 let x = Vec2::new((1.0 - (height + angle.cos()).powi(2)).sqrt(), height);
                 let kappa = fit.curvature(x).unwrap();
                 assert!((kappa - 1.0).abs() < tolerance, "at {degrees} degrees, height {height}: {kappa}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_drop_on_a_disc_at_its_contact_angle_has_one_curvature_up_to_the_wall() {
+        // A drop of radius 1 about the origin on a solid disc of radius 1.5: centers at c² = 1 + R² − 2R cos θ.
+        const DISC: f64 = 1.5;
+        for degrees in [40.0_f64, 90.0, 120.0] {
+            let angle = degrees.to_radians();
+            let below = (1.0 + DISC * DISC - 2.0 * DISC * angle.cos()).sqrt();
+            let wall = move |x: Vec2| {
+                let from = x + Vec2::new(0.0, below);
+                (from.norm() - DISC, from.normalize())
+            };
+            let points: Vec<InterfacePoint> = (0..400)
+                .map(|i| std::f64::consts::TAU * f64::from(i) / 400.0)
+                .map(|t| Vec2::new(t.cos(), t.sin()))
+                .filter(|x| wall(*x).0 > 0.0)
+                .map(|x| InterfacePoint { x, normal: -x, wall_distance: wall(x).0, wall_normal: wall(x).1 })
+                .collect();
+            let fit = InterfaceFit::new(&points, &domain(), (0.1, H), Some(angle), &wall);
+            for point in points.iter().filter(|p| p.x.x > 0.0 && p.wall_distance < 0.3) {
+                let kappa = fit.curvature(point.x).unwrap();
+                // The interface is followed down to the wall along its tangent, and the wall along its own.
+                assert!(
+                    (kappa - 1.0).abs() < 2e-3,
+                    "at {degrees} degrees, {:.3} off the wall: {kappa}",
+                    point.wall_distance
+                );
             }
         }
     }
