@@ -209,7 +209,7 @@ tables! {
     pub struct RawNumerics {
         /// Form of the viscous term (default `morris`).
         pub viscous_term: RawViscousTerm,
-        /// Share of the density error taken back per step, 0 to 1 (default 0.02, without tension 0).
+        /// Share of the density error taken back per step, 0 to 1 (default 0.02, with `pressure-jump` 0.05).
         pub drift_source: f64,
         /// Background pressure in units of tension over smoothing length, or of density times speed squared (default
         /// 0.5, without tension 0).
@@ -217,7 +217,7 @@ tables! {
         /// Particle shifting against crowding, over h times the largest speed times the step (default 0, without tension 2).
         pub shifting: f64,
         /// Largest stretch of velocity differences at walls: 10 for no slip, less lets contact lines slip (default 10,
-        /// with a wetting model 1.5: a slip length of a quarter of the spacing).
+        /// with a wetting model and no slip length 1.5: a slip length of a quarter of the spacing).
         pub wall_stretch: f64,
         /// Whether wall particles stand in layers along curved and oblique walls, and the fluid is packed to them, or all
         /// on the lattice (default true).

@@ -326,12 +326,12 @@ fn slip_length(checker: &mut Checker, raw: &RawSph) -> f64 {
 }
 
 /// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and drift source,
-/// the others by shifting (docs/numerics). A wall that a contact line moves along must slip a little, if no slip length is given.
+/// the others by shifting and drift source (docs/numerics). A wall that a contact line moves along must slip a little, if no slip length is given.
 fn default_numerics(surface_force: Option<SurfaceForce>, must_slip: bool) -> Numerics {
     let (drift_source, background_pressure, shifting) = match surface_force {
         Some(SurfaceForce::Csf) => (0.02, 0.5, 0.0),
         Some(SurfaceForce::PressureJump) => (0.05, 0.0, 2.0),
-        None => (0.0, 0.0, 2.0),
+        None => (0.02, 0.0, 2.0),
     };
     Numerics {
         viscous_term: ViscousTerm::Morris,

@@ -216,19 +216,27 @@ fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<Shell> {
         }
     }
     let mut shells: Vec<Shell> = joined.into_iter().map(|points| Shell { points, closed: false }).collect();
-    if let (true, [only]) = (is_closed, &mut shells[..]) {
-        only.closed = (only.points[only.points.len() - 1] - only.points[0]).norm() < reach;
-    } else if let (true, Some(last)) = (is_closed && shells.len() > 1, shells.pop()) {
-        // The last line of a closed chain can lead on into the first.
-        if (last.points[last.points.len() - 1] - shells[0].points[0]).norm() < reach {
-            let points = last.points.into_iter().chain(std::mem::take(&mut shells[0].points)).collect();
-            shells[0].points = points;
-        } else {
-            shells.push(last);
-        }
+    if is_closed {
+        close(&mut shells, reach);
     }
     shells.retain(|shell| shell.points.len() > 1 && shell.length() > reach);
     shells
+}
+
+/// Joins the last line of a closed chain to the first where it leads on into it.
+fn close(shells: &mut Vec<Shell>, reach: f64) {
+    let Some(last) = shells.pop() else { return };
+    let end = last.points[last.points.len() - 1];
+    match shells.first_mut() {
+        None => {
+            let closed = (end - last.points[0]).norm() < reach;
+            shells.push(Shell { closed, ..last });
+        }
+        Some(first) if (end - first.points[0]).norm() < reach => {
+            first.points = last.points.into_iter().chain(std::mem::take(&mut first.points)).collect();
+        }
+        Some(_) => shells.push(last),
+    }
 }
 
 fn overlap(a: &Bounds, b: &Bounds) -> bool {
