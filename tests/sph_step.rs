@@ -377,3 +377,23 @@ fn a_patch_changes_the_angle_of_its_wall_alone() {
         assert!((line.angle.to_degrees() - expected).abs() < 1e-9, "{line:?}");
     }
 }
+
+#[test]
+fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
+    const GRAVITY: f64 = 0.01;
+    for slip in ["0.0", "5.0e-5"] {
+        let mut flow = flow(&case(&format!(
+            "gravity = [{GRAVITY:?}, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n\
+             [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.walls]\nslip-length = {slip}\n"
+        )));
+        // Three viscous times, density H²/viscosity: the slowest part has decayed by exp(-30), with slip by exp(-24).
+        while flow.time < 0.03 {
+            flow.step(0.03).unwrap();
+        }
+        let weight = 1000.0 * flow.method.volume * flow.particles.fluids as f64 * GRAVITY;
+        let all = flow.friction(|_, _| true);
+        assert!((all.x / weight - 1.0).abs() < 1e-6, "slip {slip} m: {:.6} of the weight", all.x / weight);
+        let below = flow.friction(|_, x| x.y < 0.0);
+        assert!((below.x / all.x - 0.5).abs() < 1e-6 && all.y.abs() < 1e-6 * weight, "{below:?} of {all:?}");
+    }
+}

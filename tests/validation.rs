@@ -125,6 +125,23 @@ fn a_drop_within_its_hysteresis_window_does_not_creep() {
 }
 
 #[test]
+fn a_drop_on_a_coarse_disc_comes_to_rest_at_its_angle() {
+    let set = ["sph.spacing=8.0e-5", "sph.wetting.young.contact-angle-deg=90.0", "time.end=0.04", "expect=[]"];
+    let found = measures("drop-on-disc.toml", &set.map(str::to_owned));
+    assert!((found("contact-angle-deg") - 90.0).abs() < 1.5, "{}", found("contact-angle-deg"));
+    assert!((found("half-angle-ratio") - 1.0).abs() < 0.015, "{}", found("half-angle-ratio"));
+    assert!(found("area-drift") < 2e-3, "{}", found("area-drift"));
+}
+
+#[test]
+fn a_wall_slips_by_the_length_that_the_case_gives() {
+    let found = measures("poiseuille.toml", &["sph.walls.slip-length=1.0e-4".to_owned()]);
+    // Two spacings; what the method slips by itself is .02 of one.
+    assert!((found("slip-length-m") / 1.0e-4 - 1.0).abs() < 0.02, "{}", found("slip-length-m"));
+    assert!(found("velocity-l2-error") < 0.01, "{}", found("velocity-l2-error"));
+}
+
+#[test]
 fn the_angle_on_a_wall_turned_by_27_degrees_is_that_on_a_level_one() {
     // The wall cuts the lattice; the drop starts as a half disc about a point of it.
     let case = r#"
@@ -155,7 +172,6 @@ end = 0.05 # s
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("turned.toml"), case).unwrap();
     let found = run(folder.path(), &["run", "turned.toml", "--out", "out", "--threads", "1"]);
-    println!("turned: {} {} {}", found("contact-angle-deg"), found("base-m"), found("height-m"));
-    // A cut lattice is rougher than a level one.
+
     assert!((found("contact-angle-deg") - 60.0).abs() < 1.5, "{}", found("contact-angle-deg"));
 }

@@ -54,6 +54,8 @@ pub struct Sph {
     pub gravity: Vec2,
     /// What stands at the four sides of the domain.
     pub sides: Sides,
+    /// Navier's slip length of all walls in m.
+    pub slip_length: f64,
     /// Speeds in m/s of the walls at the left, right, bottom and top side, along x or y.
     pub wall_speeds: [f64; 4],
     /// Initial phases and velocity.
@@ -268,6 +270,8 @@ pub struct Numerics {
     pub shifting: f64,
     /// Largest stretch β of velocity differences at walls, at least 1: 10 is no slip, 1.5 slips by a quarter of dx.
     pub wall_stretch: f64,
+    /// Whether wall particles follow walls that the lattice does not fit.
+    pub fitted_walls: bool,
     /// Largest relative residual of the pressure solve.
     pub pressure_tolerance: f64,
     /// Factor on all three limits of the time step, above 0 and at most 1.

@@ -91,6 +91,8 @@ tables! {
         pub wetting: RawWetting,
         /// What stands at the four sides of the domain (default walls).
         pub sides: RawSides,
+        /// What all walls are like.
+        pub walls: RawWalls,
         /// Which phase is where at the start, and how it moves.
         pub initial: RawInitial,
         /// Parameters of the method that rarely need a change.
@@ -131,6 +133,12 @@ tables! {
         pub csf: Empty,
         /// Pressure jump across a sharp interface with fitted curvature.
         pub pressure_jump: Empty,
+    }
+
+    /// What all walls are like, those of shapes and those at the sides.
+    pub struct RawWalls {
+        /// Navier's slip length in m: on the wall, the velocity along it is this length times its slope (default 0).
+        pub slip_length: f64,
     }
 
     /// Wetting models, exactly one of them, and parts of the walls that differ.
@@ -281,7 +289,7 @@ tables! {
     pub struct RawNumerics {
         /// Form of the viscous term (default `stress`).
         pub viscous_term: RawViscousTerm,
-        /// Share of the density error taken back per step, 0 to 1 (default 0.02, without tension 0).
+        /// Share of the density error taken back per step, 0 to 1 (default 0.02, with `pressure-jump` 0.2).
         pub drift_source: f64,
         /// Background pressure in units of tension over smoothing length, or of density times speed squared (default
         /// 0.5, without tension 0).
@@ -289,8 +297,11 @@ tables! {
         /// Particle shifting against crowding, over h times the largest speed times the step (default 0, without tension 2).
         pub shifting: f64,
         /// Largest stretch of velocity differences at walls: 10 for no slip, less lets contact lines slip (default 10,
-        /// with a wetting model 1.5: a slip length of a quarter of the spacing).
+        /// with a wetting model and no slip length 1.5: a slip length of a quarter of the spacing).
         pub wall_stretch: f64,
+        /// Whether wall particles stand in layers along curved and oblique walls, and the fluid is packed to them, or all
+        /// on the lattice (default true).
+        pub fitted_walls: bool,
         /// Largest relative residual of the pressure solve (default 1e-6).
         pub pressure_tolerance: f64,
         /// Factor on all limits of the time step, above 0 and at most 1 (default 1).

@@ -6,7 +6,7 @@ use super::checked::{
 use super::raw::{
     Empty, RawCase, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface, RawMeasures,
     RawNumerics, RawOutput, RawPhase, RawPhases, RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime,
-    RawVelocity, RawViscousTerm, RawWallSpeeds,
+    RawVelocity, RawViscousTerm, RawWallSpeeds, RawWalls,
 };
 use super::wetting;
 
@@ -77,6 +77,7 @@ fn raw_sph(sph: &Sph) -> RawSph {
         }),
         wetting: sph.wetting_model.map(|model| wetting::raw(&model, &sph.wetting_patches)),
         sides: Some(raw_sides(&sph.sides, sph.wall_speeds)),
+        walls: Some(RawWalls { slip_length: Some(sph.slip_length) }),
         initial: Some(RawInitial {
             background: two_phases.then_some(background),
             wetting: two_phases.then(|| sph.initial.wetting.clone()),
@@ -139,6 +140,7 @@ fn raw_numerics(numerics: &Numerics) -> RawNumerics {
         background_pressure: Some(numerics.background_pressure),
         shifting: Some(numerics.shifting),
         wall_stretch: Some(numerics.wall_stretch),
+        fitted_walls: Some(numerics.fitted_walls),
         pressure_tolerance: Some(numerics.pressure_tolerance),
         time_step_factor: Some(numerics.time_step_factor),
     }

@@ -57,7 +57,8 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         None => Vec::new(),
     };
     let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
-    let default = default_numerics(surface_force, wetting_model.is_some());
+    let slip_length = slip_length(checker, raw);
+    let default = default_numerics(surface_force, wetting_model.is_some() && slip_length == 0.0);
     let numerics = numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
     Some(Sph {
         spacing: spacing?,
@@ -73,6 +74,7 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         wetting_patches: patches,
         gravity: Vec2::from(raw.gravity.unwrap_or_default()),
         sides: sides?,
+        slip_length,
         wall_speeds,
         initial: initial?,
         numerics,
@@ -299,20 +301,31 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
     }
 }
 
+fn slip_length(checker: &mut Checker, raw: &RawSph) -> f64 {
+    const PATH: &str = "sph.walls.slip-length";
+    let given = raw.walls.as_ref().and_then(|walls| walls.slip_length).unwrap_or_default();
+    if !(given >= 0.0 && given.is_finite()) {
+        checker.refuse(PATH, format!("expected a slip length in m of at least 0, found {given:?}"), "");
+        return 0.0;
+    }
+    given
+}
+
 /// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and drift source,
-/// the others by shifting (docs/numerics). A wall that a contact line moves along must slip a little.
-fn default_numerics(surface_force: Option<SurfaceForce>, has_contact_lines: bool) -> Numerics {
+/// the others by shifting and drift source (docs/numerics). A wall that a contact line moves along must slip a little, if no slip length is given.
+fn default_numerics(surface_force: Option<SurfaceForce>, must_slip: bool) -> Numerics {
     let (drift_source, background_pressure, shifting) = match surface_force {
         Some(SurfaceForce::Csf) => (0.02, 0.5, 0.0),
         Some(SurfaceForce::PressureJump) => (0.2, 0.0, 2.0),
-        None => (0.0, 0.0, 2.0),
+        None => (0.02, 0.0, 2.0),
     };
     Numerics {
         viscous_term: ViscousTerm::Stress,
         drift_source,
         background_pressure,
         shifting,
-        wall_stretch: if has_contact_lines { 1.5 } else { 10.0 },
+        wall_stretch: if must_slip { 1.5 } else { 10.0 },
+        fitted_walls: true,
         pressure_tolerance: 1.0e-6,
         time_step_factor: 1.0,
     }
@@ -339,6 +352,7 @@ fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numerics) -> Nume
         ),
         shifting: within("shifting", raw.shifting, (0.0, 100.0), "a factor", default.shifting),
         wall_stretch: within("wall-stretch", raw.wall_stretch, (1.0, 1.0e3), "a factor", default.wall_stretch),
+        fitted_walls: raw.fitted_walls.unwrap_or(default.fitted_walls),
         pressure_tolerance: within(
             "pressure-tolerance",
             raw.pressure_tolerance,

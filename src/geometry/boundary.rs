@@ -224,6 +224,29 @@ pub(crate) fn followers(pieces: &[Piece], tolerance: f64) -> Vec<Option<usize>> 
     next
 }
 
+/// The pieces in the order in which they follow each other, and whether the last leads back to the first.
+pub(crate) fn chains(pieces: &[Piece], next: &[Option<usize>]) -> Vec<(Vec<usize>, bool)> {
+    let mut has_before = vec![false; pieces.len()];
+    next.iter().flatten().for_each(|&j| has_before[j] = true);
+    let mut done = vec![false; pieces.len()];
+    let mut chains = Vec::new();
+    // Open chains first: they must be entered at their start; what is left then is closed.
+    let open = (0..pieces.len()).filter(|&i| !has_before[i]);
+    for first in open.chain(0..pieces.len()) {
+        let mut chain = Vec::new();
+        let mut at = Some(first);
+        while let Some(i) = at.filter(|&i| !done[i]) {
+            done[i] = true;
+            chain.push(i);
+            at = next[i];
+        }
+        if !chain.is_empty() {
+            chains.push((chain, at == Some(first) || pieces[first].curve.is_closed()));
+        }
+    }
+    chains
+}
+
 fn corners(pieces: &[Piece], tolerance: f64) -> Vec<[Option<Vec2>; 2]> {
     // Below this sum of two unit normals the corner is a cusp whose mean normal says nothing.
     const CUSP: f64 = 1e-3;

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::geometry::body::{Body, Place};
-use crate::geometry::boundary::{Piece, followers, split};
+use crate::geometry::boundary::{Piece, chains, followers, split};
 use crate::geometry::curve::Curve;
 use crate::geometry::solid::Geometry;
 use crate::snapshot::{Field, Lines, Values};
@@ -17,31 +17,16 @@ impl Geometry {
     pub fn outline(&self) -> Lines<'static> {
         let pieces = self.visible_pieces();
         let next = followers(&pieces, 10.0 * self.tolerance());
-        let mut has_before = vec![false; pieces.len()];
-        next.iter().flatten().for_each(|&j| has_before[j] = true);
-        let mut done = vec![false; pieces.len()];
         let (mut points, mut shapes, mut lines) = (Vec::new(), Vec::new(), Vec::new());
-        // Open lines first: they must be entered at their start; what is left then is closed.
-        let open = (0..pieces.len()).filter(|&i| !has_before[i]);
-        for first in open.chain(0..pieces.len()) {
-            if done[first] {
-                continue;
-            }
+        for (chain, is_closed) in chains(&pieces, &next) {
             let begin = points.len() as u32;
-            let mut at = Some(first);
-            let mut is_closed = pieces[first].curve.is_closed();
-            let mut last = first;
-            while let Some(i) = at.filter(|&i| !done[i]) {
-                done[i] = true;
-                last = i;
+            for &i in &chain {
                 for u in samples(&pieces[i].curve) {
                     points.push(pieces[i].curve.point(u));
                     shapes.push(i64::from(pieces[i].shape));
                 }
-                at = next[i];
             }
-            is_closed |= at == Some(first);
-            if !is_closed {
+            if let Some(&last) = chain.last().filter(|_| !is_closed) {
                 points.push(pieces[last].curve.point(1.0));
                 shapes.push(i64::from(pieces[last].shape));
             }

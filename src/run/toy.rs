@@ -157,6 +157,7 @@ pub fn case() -> Case {
         wetting_patches: Vec::new(),
         gravity: Vec2::zeros(),
         sides: Sides { left: Side::Wall, right: Side::Wall, bottom: Side::Wall, top: Side::Wall },
+        slip_length: 0.0,
         wall_speeds: [0.0; 4],
         initial: Initial { wetting: Vec::new(), wetting_is_background: true, velocity: InitialVelocity::Rest },
         numerics: Numerics {
@@ -165,6 +166,7 @@ pub fn case() -> Case {
             background_pressure: 0.0,
             shifting: 0.0,
             wall_stretch: 1.5,
+            fitted_walls: true,
             pressure_tolerance: 1.0e-6,
             time_step_factor: 1.0,
         },

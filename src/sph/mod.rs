@@ -14,6 +14,7 @@ pub mod method;
 mod motion;
 pub mod observe;
 mod output;
+pub mod packing;
 pub mod pairs;
 pub mod particles;
 pub mod poisson;

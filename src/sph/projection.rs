@@ -222,7 +222,7 @@ impl Flow {
         let (fluids, f) = (self.particles.fluids, &self.fields);
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let stretch = |a: usize, b: usize| self.stretch(a, b);
-        let v_ab = |a: usize, b: usize| stretch(a, b) * (velocity[a] - velocity[b]);
+        let v_ab = |a: usize, b: usize| self.velocity_difference(velocity, a, b);
         let mut acceleration = vec![Vec2::zeros(); fluids];
         match self.method.viscous_term {
             ViscousTerm::Stress => {
@@ -237,13 +237,44 @@ impl Flow {
         (acceleration, rate.iter().fold(0.0, |m: f64, r| m.max(*r)))
     }
 
-    /// |v_ab| over the velocity difference: β at walls, 1 between fluid particles.
+    /// v_a − v_b in m/s, at walls as these stretch it.
+    fn velocity_difference(&self, velocity: &[Vec2], a: usize, b: usize) -> Vec2 {
+        let v_ab = velocity[a] - velocity[b];
+        let (distance, normal) = (self.fields.wall_distance[a], self.fields.wall_normal[a]);
+        self.depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, normal, distance, depth))
+    }
+
+    /// The largest |v_ab| over the velocity difference: β at walls, 1 between fluid particles.
     fn stretch(&self, a: usize, b: usize) -> f64 {
-        let (source, fluids) = (self.images.source(b), self.particles.fluids);
-        if source < fluids {
-            return 1.0;
+        self.depth(b).map_or(1.0, |depth| self.method.no_slip.stretch(self.fields.wall_distance[a], depth))
+    }
+
+    /// Depth in m of a wall particle or its image, none for fluid.
+    fn depth(&self, b: usize) -> Option<f64> {
+        let source = self.images.source(b);
+        source.checked_sub(self.particles.fluids).map(|wall| self.wall_depth[wall])
+    }
+
+    /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles and to the wall particles that
+    /// `is_meant` takes by the index and by the place (m).
+    #[must_use]
+    pub fn friction(&self, is_meant: impl Fn(usize, Vec2) -> bool + Sync) -> Vec2 {
+        let (particles, fluids, f) = (&self.particles, self.particles.fluids, &self.fields);
+        let mut velocity = particles.velocity.clone();
+        self.images.extend_velocity(&mut velocity);
+        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
+        let v_ab = |a: usize, b: usize| {
+            let source = self.images.source(b);
+            let counts = source >= fluids && is_meant(a, particles.position[source]);
+            if counts { self.velocity_difference(&velocity, a, b) } else { Vec2::zeros() }
+        };
+        let mut acceleration = vec![Vec2::zeros(); fluids];
+        match self.method.viscous_term {
+            // Walls take the viscosity of the fluid that sees them, so that the transposed part does not act there.
+            ViscousTerm::Morris | ViscousTerm::Stress => viscous.morris(&self.pairs, v_ab, &mut acceleration),
+            ViscousTerm::Szewc => viscous.szewc(&self.pairs, v_ab, &mut acceleration),
         }
-        self.method.no_slip.stretch(self.fields.wall_distance[a], self.wall_depth[source - fluids])
+        -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
     }
 
     /// The background pressure p_0 in Pa for a flow of the given `speed` (m/s).

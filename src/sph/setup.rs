@@ -7,15 +7,17 @@ use crate::analysis::contour::Polyline;
 use crate::analysis::phases::wall_samples;
 use crate::case::checked::{self, Case, InitialVelocity, PatchedWall, Side, Sph, WettingModel, WettingPatch};
 use crate::geometry::Geometry;
+use crate::geometry::shells::FreeWalls;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::Lines;
 use crate::sph::boundary::no_slip::NoSlip;
 use crate::sph::domain::{Domain, ImageVelocity, Mirror};
-use crate::sph::fill::{self, Lattice};
+use crate::sph::fill::{self, Lattice, Places};
 use crate::sph::kernel::WendlandC2;
 use crate::sph::measures::DiscOf;
 use crate::sph::method::{Fluid, Method, ViscousTerm};
+use crate::sph::packing::Packing;
 use crate::sph::particles::Phase;
 use crate::sph::poisson::Tolerance;
 use crate::sph::projection::{Flow, WallQuery};
@@ -88,7 +90,13 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
     };
     let walls = sides.map(|side| side == Side::Wall);
-    let (mut particles, depth) = fill::fill(&lattice, support, walls, |x| geometry.signed_distance(x), phase);
+    let places = if sph.numerics.fitted_walls {
+        fitted_places((&geometry, &domain), &lattice, &method, walls)
+    } else {
+        fill::on_lattice(&lattice, support, walls, |x| geometry.signed_distance(x))
+    };
+    let mut particles = places.particles(phase);
+    let depth = places.depth;
     if particles.fluids == 0 {
         return Err(SetupError::NoFluid(sph.spacing));
     }
@@ -167,6 +175,36 @@ fn wetting(model: WettingModel) -> Wetting {
     }
 }
 
+/// Where the particles stand at time zero: along walls that the lattice does not fit, and packed to them.
+fn fitted_places(
+    (geometry, domain): (&Geometry, &Domain),
+    lattice: &Lattice,
+    method: &Method,
+    walls: [bool; 4],
+) -> Places {
+    let support = method.kernel.support();
+    let signed_distance = |x| geometry.signed_distance(x);
+    let free = FreeWalls::new(geometry, support, |a, b| lattice.fits(a, b));
+    if free.is_empty() {
+        return fill::on_lattice(lattice, support, walls, signed_distance);
+    }
+    let pore_area = geometry.porosity().value * geometry.bounds().area();
+    let mut places = fill::along_walls((lattice, domain), (support, walls), &free, signed_distance, pore_area);
+    let packing = Packing {
+        walls: &places.walls,
+        domain,
+        kernel: &method.kernel,
+        spacing: method.spacing,
+        volume: method.volume,
+        wall: |x| {
+            let wall = geometry.wall(x);
+            (wall.distance, wall.normal)
+        },
+    };
+    packing.pack(&mut places.fluid);
+    places
+}
+
 fn method(sph: &Sph, lattice: &Lattice) -> Method {
     let kernel = lattice.consistent(WendlandC2::new(sph.smoothing_ratio * sph.spacing));
     let fluid = |f: &checked::Fluid| Fluid { density: f.density, viscosity: f.viscosity };
@@ -186,7 +224,7 @@ fn method(sph: &Sph, lattice: &Lattice) -> Method {
         wetting: sph.wetting_model.map(wetting),
         patches: sph.wetting_patches.iter().map(|patch| wetting(patch.model)).collect(),
         gravity: sph.gravity,
-        no_slip: NoSlip { spacing: sph.spacing, largest_stretch: numerics.wall_stretch },
+        no_slip: NoSlip { spacing: sph.spacing, largest_stretch: numerics.wall_stretch, slip_length: sph.slip_length },
         viscous_term: match numerics.viscous_term {
             checked::ViscousTerm::Szewc => ViscousTerm::Szewc,
             checked::ViscousTerm::Morris => ViscousTerm::Morris,

@@ -5,4 +5,5 @@ mod distance;
 mod files;
 mod measures;
 mod shapes;
+mod shells;
 mod sides;

@@ -1,4 +1,4 @@
-//! Drag on the solids of a periodic cell (A5 of the benchmarks; Sangani & Acrivos 1982).
+//! Drag on the solids of a periodic cell (A5 to A7 of the benchmarks; Sangani & Acrivos 1982).
 
 use super::{Subject, measure};
 use crate::math::Vec2;
@@ -13,12 +13,19 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     // Along the force, so that its direction does not matter.
     let along = force.try_normalize(0.0).unwrap_or_else(Vec2::x);
     let mean = flux.dot(&along) / area;
-    let drag = force.norm() * area / (m.wetting_fluid.viscosity * mean);
-    let method = "force per volume times the area of the cell, over viscosity and the velocity averaged over the whole cell, at the end";
-    let method_of_permeability =
-        "viscosity times mean velocity over force per volume; its inverse times the cell's area is the drag";
+    // Side walls take their part; whatever stands within the cell takes the rest.
+    let bounds = flow.domain.bounds;
+    let is_side = |x: Vec2| !bounds.contains(x);
+    let mu_u = m.wetting_fluid.viscosity * mean;
+    let drag = (force.norm() * area - flow.friction(|_, x| is_side(x)).dot(&along)) / mu_u;
+    let permeability = mu_u / force.norm();
+    let method = "force per volume times the area of the cell less the friction on its sides that are walls, over viscosity and the \
+                  velocity averaged over the whole cell, at the end";
+    let method_of_mean = "velocity along the force averaged over the whole cell, solids at rest, at the end";
+    let method_of_permeability = "viscosity times mean velocity over force per volume";
     vec![
         measure("drag-over-mu-u", drag, "", None, method),
-        measure("permeability-m2", area / drag, "m2", None, method_of_permeability),
+        measure("mean-velocity-m-per-s", mean, "m/s", None, method_of_mean),
+        measure("permeability-m2", permeability, "m2", None, method_of_permeability),
     ]
 }

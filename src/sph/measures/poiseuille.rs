@@ -1,4 +1,6 @@
-//! Error of the velocity against plane Poiseuille flow (A1 of the benchmarks), with its start-up.
+//! Error of the velocity against plane Poiseuille flow (A1 of the benchmarks), with its start-up, and the slip length found.
+
+use nalgebra::{Matrix2, Vector2};
 
 use super::{Subject, measure};
 use crate::analysis::laws::flow::Poiseuille;
@@ -7,18 +9,34 @@ use crate::solver::Measure;
 pub fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, bounds) = (s.flow, s.flow.domain.bounds);
     let fluid = flow.method.wetting_fluid;
+    let height = bounds.size().y;
     let law = Poiseuille {
         force: fluid.density * flow.method.gravity.x,
         viscosity: fluid.viscosity,
         density: fluid.density,
-        height: bounds.size().y,
+        height,
+        slip_length: flow.method.no_slip.slip_length,
     };
     let (mut error, mut size) = (0.0, 0.0);
+    // Least squares of u = a y (H − y) + c.
+    let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
     for (x, v) in flow.particles.position.iter().zip(&flow.particles.velocity).take(flow.particles.fluids) {
-        let exact = law.at(x.y - bounds.min.y, flow.time);
+        let y = x.y - bounds.min.y;
+        let exact = law.at(y, flow.time);
         error += (v.x - exact).powi(2) + v.y.powi(2);
         size += exact * exact;
+        let row = Vector2::new(y * (height - y), 1.0);
+        matrix += row * row.transpose();
+        right += v.x * row;
     }
+    let slip = matrix.cholesky().map_or(f64::NAN, |matrix| {
+        let found = matrix.solve(&right);
+        found[1] / (found[0] * height)
+    });
     let method = "L2 norm over particles of the velocity less the start-up series at the end, over that of the series";
-    vec![measure("velocity-l2-error", (error / size).sqrt(), "", None, method)]
+    let method_of_slip = "b of the parabola a (y (H - y) + H b) fitted to the velocities at the end; of a steady flow";
+    vec![
+        measure("velocity-l2-error", (error / size).sqrt(), "", None, method),
+        measure("slip-length-m", slip, "m", None, method_of_slip),
+    ]
 }

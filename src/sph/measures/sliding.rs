@@ -12,11 +12,9 @@ use crate::analysis::contour::Polyline;
 use crate::analysis::meniscus::{MeniscusEnd, ends_under_force};
 use crate::math::Vec2;
 use crate::solver::{Measure, Series};
-use crate::sph::method::ViscousTerm;
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
-use crate::sph::terms::viscosity::Viscous;
 use crate::sph::wetting::lines::{Line, nearest};
 
 /// Share of the contour next to a line that is fitted, where the drop has advancing and receding lines, which the flow bends unlike. A meniscus
@@ -107,24 +105,7 @@ fn forces(flow: &Flow) -> [Vec2; 2] {
     let is_drop = |a: usize| a < p.fluids && p.phase[a] == Phase::Wetting;
     let area: f64 = (0..p.fluids).filter(|&a| is_drop(a)).map(|a| f.volume[a]).sum();
     let drive = (m.wetting_fluid.density - m.other_fluid.density) * area * m.gravity;
-    let mut velocity = p.velocity.clone();
-    flow.images.extend_velocity(&mut velocity);
-    let by_wall = |a: usize, b: usize| {
-        let source = flow.images.source(b);
-        if source < p.fluids || !is_drop(a) {
-            return Vec2::zeros();
-        }
-        m.no_slip.stretch(f.wall_distance[a], flow.wall_depth[source - p.fluids]) * (velocity[a] - velocity[b])
-    };
-    let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
-    let mut acceleration = vec![Vec2::zeros(); p.fluids];
-    match m.viscous_term {
-        ViscousTerm::Szewc => viscous.szewc(&flow.pairs, by_wall, &mut acceleration),
-        // Walls have the viscosity of the fluid: no transposed part there.
-        ViscousTerm::Morris | ViscousTerm::Stress => viscous.morris(&flow.pairs, by_wall, &mut acceleration),
-    }
-    let mass = m.wetting_fluid.density * m.volume;
-    [drive, mass * acceleration.iter().sum::<Vec2>()]
+    [drive, -flow.friction(|a, _| is_drop(a))]
 }
 
 /// Angles, ways and speeds of both ends, and what drives the drop along the wall.

@@ -151,7 +151,6 @@ impl<'a> InterfaceFit<'a> {
         if !point.wall_distance.is_finite() {
             return None;
         }
-        let along = |n: Vec2, e: Vec2| n - n.dot(&e) * e;
         let slope = along(point.normal, point.wall_normal).norm();
         if slope < SMALLEST_TANGENT {
             return None;
@@ -165,7 +164,7 @@ impl<'a> InterfaceFit<'a> {
         let foot = point.x + way * down;
         let (distance, normal) = (self.wall)(foot);
         let contact = foot - distance * normal - point.x;
-        let outwards = -along(point.normal, normal).try_normalize(0.5 * SMALLEST_TANGENT)?;
+        let outwards = outwards_of(point.normal, normal)?;
         Some(Foot { contact, normal, outwards, way })
     }
 
@@ -181,16 +180,38 @@ impl<'a> InterfaceFit<'a> {
         if !touches || near.len() < FEWEST {
             return None;
         }
-        let Foot { contact, normal, outwards, way } = self.foot(point)?;
+        let Foot { mut contact, mut normal, mut outwards, way } = self.foot(point)?;
         let share = ((REACH * self.h - way) / (2.0 * self.h)).clamp(0.0, 1.0);
         if share == 0.0 {
             return None;
         }
-        let present = (-point.normal.dot(&normal)).clamp(-1.0, 1.0).acos();
-        let angle = angle_at(point.x + contact, outwards).clamp(present - LARGEST_PULL, present + LARGEST_PULL);
-        let (kappa, _) = fit_from_contact(near, contact, (outwards, normal), angle)?;
-        Some((kappa, share))
+        let mut kappa = None;
+        for _ in 0..PROJECTIONS {
+            let present = (-point.normal.dot(&normal)).clamp(-1.0, 1.0).acos();
+            let angle = angle_at(point.x + contact, outwards).clamp(present - LARGEST_PULL, present + LARGEST_PULL);
+            let (found, delta) = fit_from_contact(near, contact, (outwards, normal), angle)?;
+            kappa = Some(found);
+            // The contact point found lies on the tangent of the wall; a curved wall is looked at again there.
+            let place = point.x + contact + delta.clamp(-self.h, self.h) * outwards;
+            let (distance, there) = (self.wall)(place);
+            if (there - normal).norm() < SAME_NORMAL {
+                break;
+            }
+            (contact, normal) = (place - distance * there - point.x, there);
+            outwards = outwards_of(point.normal, normal)?;
+        }
+        kappa.map(|kappa| (kappa, share))
     }
+}
+
+/// The part of `n` along the wall with the normal `e`.
+fn along(n: Vec2, e: Vec2) -> Vec2 {
+    n - n.dot(&e) * e
+}
+
+/// ν_ns: the unit vector along the wall towards the non-wetting phase, none where the interface runs along the wall.
+fn outwards_of(normal: Vec2, wall_normal: Vec2) -> Option<Vec2> {
+    (-along(normal, wall_normal)).try_normalize(0.5 * SMALLEST_TANGENT)
 }
 
 /// Least squares of v = a + b u + k (u² + v²)/2 in the frame of `normal`; the curvature is k/√(1 + b² − 2ka).
@@ -214,6 +235,12 @@ fn free_fit(near: &[Near], normal: Vec2) -> Option<f64> {
 
 /// Steps of the fixed-point iteration for the place of the contact point; each gains about a digit at small angles.
 const ITERATIONS: usize = 12;
+
+/// The contact point is projected on a curved wall at most so many times; each gains more than a digit.
+const PROJECTIONS: usize = 4;
+
+/// Walls whose normals differ by less than this are the same straight wall, in rad.
+const SAME_NORMAL: f64 = 1e-4;
 
 /// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.
 ///
@@ -240,9 +267,9 @@ pub(super) fn fit_from_contact(
         }
         let solution = matrix.cholesky()?.solve(&right);
         delta = -solution[0] / angle.sin();
-        kappa = Some(solution[1]);
+        kappa = Some((solution[1], delta));
     }
-    kappa.map(|kappa| (kappa, delta))
+    kappa
 }
 
 /// Angle in rad at which the circle through `anchor` (m, from the point that `near` is relative to) meets the wall with the
@@ -322,6 +349,43 @@ mod tests {
                 let x = Vec2::new((1.0 - (height + angle.cos()).powi(2)).sqrt(), height);
                 let kappa = fit.curvature(x).unwrap();
                 assert!((kappa - 1.0).abs() < tolerance, "at {degrees} degrees, height {height}: {kappa}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_drop_on_a_disc_at_its_contact_angle_has_one_curvature_up_to_the_wall() {
+        // A drop of radius 1 about the origin on a solid disc of radius 1.5: centers at c² = 1 + R² − 2R cos θ.
+        const DISC: f64 = 1.5;
+        for degrees in [40.0_f64, 90.0, 120.0] {
+            let angle = degrees.to_radians();
+            let below = (1.0 + DISC * DISC - 2.0 * DISC * angle.cos()).sqrt();
+            let wall = move |x: Vec2| {
+                let from = x + Vec2::new(0.0, below);
+                (from.norm() - DISC, from.normalize())
+            };
+            let points: Vec<InterfacePoint> = (0..400)
+                .map(|i| std::f64::consts::TAU * f64::from(i) / 400.0)
+                .map(|t| Vec2::new(t.cos(), t.sin()))
+                .filter(|x| wall(*x).0 > 0.0)
+                .map(|x| InterfacePoint {
+                    x,
+                    normal: -x,
+                    velocity: Vec2::zeros(),
+                    wall_distance: wall(x).0,
+                    wall_normal: wall(x).1,
+                })
+                .collect();
+            let law = |_, _| angle;
+            let fit = InterfaceFit::new(&points, &domain(), (0.1, H), &wall).held_to(&law);
+            for point in points.iter().filter(|p| p.x.x > 0.0 && p.wall_distance < 0.3) {
+                let kappa = fit.curvature(point.x).unwrap();
+                // The interface is followed down to the wall along its tangent, and the wall along its own.
+                assert!(
+                    (kappa - 1.0).abs() < 2e-3,
+                    "at {degrees} degrees, {:.3} off the wall: {kappa}",
+                    point.wall_distance
+                );
             }
         }
     }

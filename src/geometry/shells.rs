@@ -1,0 +1,244 @@
+//! Shells: lines within the solid at a constant depth below its surface, along which wall particles stand.
+//!
+//! The surface is followed from piece to piece. Each sample of it is moved into the solid along the normal, a fan of samples around each
+//! corner into the pore closes the gap that opens there, and a sample is kept where it has its depth indeed: where bodies
+//! overlap, and behind a corner into the solid, another part of the surface is nearer, and the line is cut.
+//! Straight walls that the caller's lattice fits already are left out.
+
+use crate::geometry::boundary::{Nearest, Piece, chains, followers};
+use crate::geometry::curve::{Curve, cross};
+use crate::geometry::solid::Geometry;
+use crate::math::{Bounds, Vec2};
+
+/// A depth that differs by less than this share of the distance of samples is the same.
+const SAME_DEPTH: f64 = 1e-2;
+
+/// Halvings of the interval in which a line is cut.
+const HALVINGS: usize = 12;
+
+/// Ends of a line that are nearer than this many distances of samples are joined: the two sides of a corner.
+const JOINED: f64 = 2.0;
+
+/// A line at a constant depth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shell {
+    /// Its points in m, finely sampled.
+    pub points: Vec<Vec2>,
+    /// Whether the last point is joined to the first.
+    pub closed: bool,
+}
+
+impl Shell {
+    /// Length in m.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.segments().map(|(a, b)| (b - a).norm()).sum()
+    }
+
+    fn segments(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+        let back = self.closed.then(|| (self.points[self.points.len() - 1], self.points[0]));
+        self.points.windows(2).map(|pair| (pair[0], pair[1])).chain(back)
+    }
+
+    /// `count` points at equal distances along the line, half of one away from the ends of an open line.
+    #[must_use]
+    pub fn divided(&self, count: usize) -> Vec<Vec2> {
+        let length = self.length();
+        let mut points = Vec::with_capacity(count);
+        let mut passed = 0.0;
+        for (a, b) in self.segments() {
+            let here = (b - a).norm();
+            while points.len() < count {
+                let next = (points.len() as f64 + 0.5) * length / count as f64;
+                if next > passed + here {
+                    break;
+                }
+                points.push(a + (b - a) * ((next - passed) / here));
+            }
+            passed += here;
+        }
+        // The last place can be lost to rounding of the length.
+        let last = self.points[self.points.len() - 1];
+        points.resize(count, last);
+        points
+    }
+}
+
+/// The walls of a geometry that no lattice fits: curved, oblique, or between its rows.
+#[derive(Debug, Clone)]
+pub struct FreeWalls<'a> {
+    geometry: &'a Geometry,
+    is_free: Vec<bool>,
+    next: Vec<Option<usize>>,
+    before: Vec<Option<usize>>,
+}
+
+impl<'a> FreeWalls<'a> {
+    /// The walls near the domain but the straight ones whose ends `is_on_lattice` takes.
+    #[must_use]
+    pub fn new(geometry: &'a Geometry, reach: f64, is_on_lattice: impl Fn(Vec2, Vec2) -> bool) -> Self {
+        let pieces = &geometry.boundary.pieces;
+        let near = geometry.bounds().grown(reach);
+        let is_free = |piece: &Piece| {
+            let on_lattice = matches!(piece.curve, Curve::Segment { a, b } if is_on_lattice(a, b));
+            !on_lattice && overlap(&near, &piece.curve.bounds())
+        };
+        let next = followers(pieces, 10.0 * geometry.tolerance());
+        let mut before = vec![None; pieces.len()];
+        for (i, j) in next.iter().enumerate().filter_map(|(i, j)| j.map(|j| (i, j))) {
+            before[j] = Some(i);
+        }
+        Self { geometry, is_free: pieces.iter().map(is_free).collect(), next, before }
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        !self.is_free.contains(&true)
+    }
+
+    /// Whether the wall nearest to `x` is one of these; a corner is where one of its two sides is.
+    #[must_use]
+    pub fn own(&self, x: Vec2) -> bool {
+        let Some(Nearest { piece, foot }) = self.geometry.boundary.nearest(self.geometry.wrapped(x)) else {
+            return false;
+        };
+        let is_closed = self.geometry.boundary.pieces[piece].curve.is_closed();
+        let beside = match foot.u {
+            _ if is_closed => None,
+            0.0 => self.before[piece],
+            1.0 => self.next[piece],
+            _ => None,
+        };
+        self.is_free[piece] || beside.is_some_and(|beside| self.is_free[beside])
+    }
+
+    /// The lines at `depth` below these walls within the box, sampled every `step`; all in m.
+    #[must_use]
+    pub fn shells(&self, depth: f64, step: f64, within: Bounds) -> Vec<Shell> {
+        let mut shells = Vec::new();
+        for (chain, is_closed) in chains(&self.geometry.boundary.pieces, &self.next) {
+            let samples = self.samples(&chain, is_closed, depth, step);
+            shells.extend(self.cut(&samples, is_closed, (depth, step), within));
+        }
+        shells
+    }
+
+    /// The samples of a chain moved to `depth`; those of walls that are left out are none, and cut the line.
+    fn samples(&self, chain: &[usize], is_closed: bool, depth: f64, step: f64) -> Vec<Option<Vec2>> {
+        let mut samples = Vec::new();
+        for (k, &i) in chain.iter().enumerate() {
+            let curve = &self.geometry.boundary.pieces[i].curve;
+            if self.is_free[i] {
+                let count = (curve.length() / step).ceil().max(1.0) as usize;
+                let last = if curve.is_closed() { count - 1 } else { count };
+                let at = |u: f64| Some(curve.point(u) - depth * curve.normal(u));
+                samples.extend((0..=last).map(|s| at(s as f64 / count as f64)));
+            } else {
+                samples.push(None);
+            }
+            let follower = if k + 1 < chain.len() { Some(chain[k + 1]) } else { is_closed.then(|| chain[0]) };
+            if let Some(j) = follower.filter(|&j| !curve.is_closed() && (self.is_free[i] || self.is_free[j])) {
+                let (from, to) = (curve.tangent(1.0), self.geometry.boundary.pieces[j].curve.tangent(0.0));
+                fan(
+                    curve.point(1.0),
+                    curve.normal(1.0) * depth,
+                    cross(from, to).atan2(from.dot(&to)),
+                    step,
+                    &mut samples,
+                );
+            }
+        }
+        samples
+    }
+
+    /// The parts of a sampled line that have their depth.
+    fn cut(&self, samples: &[Option<Vec2>], is_closed: bool, (depth, step): (f64, f64), within: Bounds) -> Vec<Shell> {
+        let has_depth = |x: Vec2| {
+            within.contains(x) && (self.geometry.signed_distance(x) + depth).abs() < SAME_DEPTH * step && self.own(x)
+        };
+        let good: Vec<bool> = samples.iter().map(|x| x.is_some_and(has_depth)).collect();
+        let place = |i: usize| samples[i].unwrap_or_default();
+        // The last good place between a good sample and a bad one.
+        let end = |good: usize, bad: usize| {
+            let (mut a, mut b) = (place(good), samples[bad]?);
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (a + b);
+                if has_depth(middle) { a = middle } else { b = middle }
+            }
+            Some(a)
+        };
+        let n = samples.len();
+        let first = if is_closed { good.iter().position(|good| !good) } else { None };
+        let Some(first) = first.or((!is_closed).then_some(0)) else {
+            return vec![Shell { points: (0..n).map(place).collect(), closed: true }];
+        };
+        let mut lines: Vec<Vec<Vec2>> = Vec::new();
+        let mut line: Vec<Vec2> = Vec::new();
+        for k in 0..n {
+            let i = (first + k) % n;
+            let before = if k > 0 || is_closed { Some((i + n - 1) % n) } else { None };
+            if good[i] {
+                if let Some(before) = before.filter(|&before| !good[before]) {
+                    line.extend(end(i, before));
+                }
+                line.push(place(i));
+            } else if !line.is_empty() {
+                line.extend(before.and_then(|before| end(before, i)));
+                lines.push(std::mem::take(&mut line));
+            }
+        }
+        if !line.is_empty() {
+            // A closed line was entered at a bad sample, to which its last good one leads.
+            line.extend(if is_closed { end((first + n - 1) % n, first) } else { None });
+            lines.push(line);
+        }
+        join(lines, is_closed, JOINED * step)
+    }
+}
+
+/// Samples around a corner into the pore, which leaves a gap behind it: `spoke` from the corner to the first, turned by `angle` in all.
+fn fan(corner: Vec2, spoke: Vec2, angle: f64, step: f64, samples: &mut Vec<Option<Vec2>>) {
+    if angle < 0.0 {
+        let count = (-angle * spoke.norm() / step).ceil().max(1.0) as usize;
+        let turned = |k: usize| nalgebra::Rotation2::new(angle * k as f64 / count as f64) * spoke;
+        samples.extend((0..=count).map(|k| Some(corner - turned(k))));
+    }
+}
+
+/// Joins lines whose ends are nearer than `reach` (m) to the begin of the next one; none shorter than that is kept.
+fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<Shell> {
+    let mut joined: Vec<Vec<Vec2>> = Vec::new();
+    for line in lines {
+        match joined.last_mut().filter(|last| (last[last.len() - 1] - line[0]).norm() < reach) {
+            Some(last) => last.extend(line),
+            None => joined.push(line),
+        }
+    }
+    let mut shells: Vec<Shell> = joined.into_iter().map(|points| Shell { points, closed: false }).collect();
+    if is_closed {
+        close(&mut shells, reach);
+    }
+    shells.retain(|shell| shell.points.len() > 1 && shell.length() > reach);
+    shells
+}
+
+/// Joins the last line of a closed chain to the first where it leads on into it.
+fn close(shells: &mut Vec<Shell>, reach: f64) {
+    let Some(last) = shells.pop() else { return };
+    let end = last.points[last.points.len() - 1];
+    match shells.first_mut() {
+        None => {
+            let closed = (end - last.points[0]).norm() < reach;
+            shells.push(Shell { closed, ..last });
+        }
+        Some(first) if (end - first.points[0]).norm() < reach => {
+            first.points = last.points.into_iter().chain(std::mem::take(&mut first.points)).collect();
+        }
+        Some(_) => shells.push(last),
+    }
+}
+
+fn overlap(a: &Bounds, b: &Bounds) -> bool {
+    (0..2).all(|i| a.min[i] <= b.max[i] && b.min[i] <= a.max[i])
+}

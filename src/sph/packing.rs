@@ -1,0 +1,122 @@
+//! Packs the fluid of a pore before time zero: particles move from crowded to empty places until all have the same room.
+//!
+//! Beside walls that no lattice fits, a lattice has gaps and crowds. Two displacements take turns. One goes down the gradient of the
+//! concentration (Lind et al. 2012) and orders neighbors; walls hold still, and straight walls on the lattice have no gradient and
+//! leave it as it is. The other is the gradient of a potential whose Laplacian is the density error, as the drift
+//! source of the pressure equation: it evens out what is too much in one part of the pore and too little in another, which
+//! the first, a diffusion, would take long for.
+
+use crate::math::Vec2;
+use crate::sph::domain::Domain;
+use crate::sph::images::Images;
+use crate::sph::kernel::WendlandC2;
+use crate::sph::pairs::{Pairs, each};
+use crate::sph::poisson::{PressureSolve, Tolerance, Unknowns, assemble, parts};
+use crate::sph::terms::{density, pressure_gradient};
+
+/// Coefficient of the first displacement in units of h²; an explicit diffusion of the concentration is stable up to about a half.
+const DIFFUSION: f64 = 0.2;
+
+/// A particle moves by at most this share of the spacing at a time.
+const LARGEST_MOVE: f64 = 0.1;
+
+/// No particle comes nearer to a wall than this share of the spacing.
+const CLOSEST_TO_WALL: f64 = 0.25;
+
+/// Rounds in which neighbors are ordered.
+const ROUNDS: usize = 200;
+
+/// Every so many rounds the density is evened.
+const EVENED_EVERY: usize = 10;
+
+/// Rounds at the end in which the density is evened and nothing else.
+const LAST_ROUNDS: usize = 10;
+
+/// Share of the density error that is taken away at a time.
+const SHARE: f64 = 0.5;
+
+/// The potential need not be exact: the next round takes what is left.
+const TOLERANCE: Tolerance = Tolerance { residual: 1e-3, iterations: 100 };
+
+/// What does not move while a pore is packed.
+pub struct Packing<'a, Wall: Fn(Vec2) -> (f64, Vec2) + Sync> {
+    /// Wall particles in m.
+    pub walls: &'a [Vec2],
+    /// Box and sides.
+    pub domain: &'a Domain,
+    /// Smoothing kernel.
+    pub kernel: &'a WendlandC2,
+    /// Spacing dx in m.
+    pub spacing: f64,
+    /// V_0 in m², the room of a particle.
+    pub volume: f64,
+    /// Signed distance in m and normal of the nearest wall.
+    pub wall: Wall,
+}
+
+impl<Wall: Fn(Vec2) -> (f64, Vec2) + Sync> Packing<'_, Wall> {
+    /// Moves the particles `fluid` (m) to their places.
+    pub fn pack(&self, fluid: &mut [Vec2]) {
+        let mut solve = PressureSolve::default();
+        for round in 0..ROUNDS + LAST_ROUNDS {
+            let mut points: Vec<Vec2> = fluid.iter().chain(self.walls).copied().collect();
+            let count = points.len();
+            let images = Images::append(&mut points, self.domain, self.kernel.support());
+            let pairs = Pairs::find(&points, count, self.domain, self.kernel);
+            let mut by = vec![Vec2::zeros(); fluid.len()];
+            if round < ROUNDS {
+                self.order(&pairs, &mut by);
+            }
+            if round % EVENED_EVERY == EVENED_EVERY - 1 || round >= ROUNDS {
+                self.even(&pairs, &images, &points[..count], &mut solve, &mut by);
+            }
+            self.advance(&pairs, &images, &by, fluid);
+        }
+    }
+
+    /// −D ∇C_a, ∇C_a = Σ_b V_0 ∇_a W_ab, in m.
+    fn order(&self, pairs: &Pairs, by: &mut [Vec2]) {
+        let diffusion = DIFFUSION * self.kernel.h * self.kernel.h * self.volume;
+        pairs.sum_into(by, |_, ab| -diffusion * ab.grad_w);
+    }
+
+    /// Adds −∇φ with −∇²φ = the density error V_0/V − 1 of the fluid.
+    fn even(&self, pairs: &Pairs, images: &Images, points: &[Vec2], solve: &mut PressureSolve, by: &mut [Vec2]) {
+        let (n, fluids) = (points.len(), by.len());
+        let mut volume = vec![self.volume; n];
+        density::volume(pairs, &mut volume[..fluids]);
+        let crowding = |a: usize| if a < fluids { self.volume / volume[a] - 1.0 } else { 0.0 };
+        let mut source: Vec<f64> = (0..n).map(|a| SHARE * volume[a] * crowding(a)).collect();
+        images.extend(&mut volume);
+        let ones = vec![1.0; volume.len()];
+        assemble(&mut solve.matrix, (pairs, images), &volume, &ones);
+        let part = parts(pairs, images);
+        let unknowns = Unknowns { position: points, kind: &vec![0; n], part: &part, spacing: self.spacing };
+        let mut potential = vec![0.0; n];
+        // What the solve leaves over, the next round takes.
+        let _ = solve.solve(&unknowns, &volume[..n], &mut source, &mut potential, TOLERANCE);
+        images.extend(&mut potential);
+        let mut down = vec![Vec2::zeros(); fluids];
+        pressure_gradient::difference(pairs, &volume, &ones, &potential, |_, _| 0.0, &mut down);
+        by.iter_mut().zip(&down).for_each(|(by, down)| *by += down);
+    }
+
+    /// Moves the particles and keeps them off the walls.
+    fn advance(&self, pairs: &Pairs, images: &Images, by: &[Vec2], fluid: &mut [Vec2]) {
+        let (largest, closest) = (LARGEST_MOVE * self.spacing, CLOSEST_TO_WALL * self.spacing);
+        let fluids = fluid.len();
+        let old = fluid.to_vec();
+        each(fluid, |a| {
+            let mut x = old[a] + by[a] * (largest / by[a].norm()).min(1.0);
+            if pairs.of(a).any(|ab| images.source(ab.b) >= fluids) {
+                let (distance, normal) = (self.wall)(x);
+                x += (closest - distance).max(0.0) * normal;
+            }
+            for mirror in &self.domain.mirrors {
+                let inwards = (self.domain.bounds.center()[mirror.axis] - mirror.at).signum();
+                x[mirror.axis] += inwards * (closest - inwards * (x[mirror.axis] - mirror.at)).max(0.0);
+            }
+            self.domain.wrapped(x)
+        });
+    }
+}
