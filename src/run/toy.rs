@@ -157,6 +157,7 @@ pub fn case() -> Case {
         gravity: Vec2::zeros(),
         sides: Sides { left: Side::Wall, right: Side::Wall, bottom: Side::Wall, top: Side::Wall },
         wall_speeds: [0.0; 4],
+        open: [None; 4],
         initial: Initial { wetting: Vec::new(), wetting_is_background: true, velocity: InitialVelocity::Rest },
         numerics: Numerics {
             viscous_term: ViscousTerm::Szewc,

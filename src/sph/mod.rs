@@ -13,6 +13,7 @@ pub mod measures;
 pub mod method;
 mod motion;
 pub mod observe;
+pub mod open;
 mod output;
 pub mod pairs;
 pub mod particles;

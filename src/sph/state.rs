@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::solver::{StateError, StepInfo};
+use crate::sph::open::Ledger;
 use crate::sph::particles::Particles;
 use crate::sph::projection::Flow;
 
@@ -13,6 +14,7 @@ struct State {
     dt: f64,
     particles: Particles,
     wall_depth: Vec<f64>,
+    ledger: Ledger,
 }
 
 /// The state of the flow as bytes.
@@ -24,6 +26,7 @@ pub fn save(flow: &Flow) -> Vec<u8> {
         dt: flow.last.dt,
         particles: flow.particles.clone(),
         wall_depth: flow.wall_depth.clone(),
+        ledger: flow.open.ledger,
     };
     // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
     postcard::to_stdvec(&state).unwrap_or_default()
@@ -36,7 +39,9 @@ pub fn save(flow: &Flow) -> Vec<u8> {
 pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
     let state: State = postcard::from_bytes(bytes).map_err(|e| StateError(format!("{e}")))?;
     let (found, expected) = (state.particles.len(), flow.particles.len());
-    if found != expected || state.particles.fluids != flow.particles.fluids {
+    let is_open = !flow.open.sides.is_empty();
+    let same_fluid = found == expected && state.particles.fluids == flow.particles.fluids;
+    if state.particles.walls != flow.particles.walls || !(is_open || same_fluid) {
         return Err(StateError(format!("it has {found} particles, the case has {expected}")));
     }
     flow.time = state.time;
@@ -44,6 +49,7 @@ pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
     flow.last = StepInfo { dt: state.dt, limit: "restart" };
     flow.particles = state.particles;
     flow.wall_depth = state.wall_depth;
+    flow.open.ledger = state.ledger;
     flow.prepare();
     Ok(())
 }
