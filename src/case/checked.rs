@@ -243,6 +243,10 @@ pub struct MeasureSet {
     pub throat_entry: bool,
     /// Difference of the mean levels on both sides of a plate.
     pub jurin: bool,
+    /// Filled length of a slit between two open sides.
+    pub slit_filling: bool,
+    /// Height of the meniscus that rises from an open side.
+    pub capillary_rise: bool,
 }
 
 /// What is written and when.

@@ -75,7 +75,7 @@ fn side(checker: &mut Checker, (name, kind): (&str, RawSide), raw: Option<&RawOp
         let found = if found.is_empty() { "nothing".to_owned() } else { found.join(", ") };
         checker.refuse(
             if raw.is_some() { path } else { format!("sph.sides.{name}") },
-            format!("the side `{name}` is {kind} and needs one of its values, found {found}"),
+            format!("the side `{name}` is of the kind `{kind}` and takes one value, found {found}"),
             format!("in [sph.sides.open.{name}] give {example}"),
         );
         return None;

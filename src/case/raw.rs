@@ -279,6 +279,10 @@ tables! {
         pub throat_entry: Empty,
         /// Difference of the mean levels on both sides of a plate.
         pub jurin: Empty,
+        /// Filled length of a slit between two open sides.
+        pub slit_filling: Empty,
+        /// Height of the meniscus that rises from an open side.
+        pub capillary_rise: Empty,
     }
 
     /// How long the simulation runs.

@@ -190,5 +190,7 @@ fn raw_measures(measure: &MeasureSet) -> RawMeasures {
         cylinder_array: table(measure.cylinder_array),
         throat_entry: table(measure.throat_entry),
         jurin: table(measure.jurin),
+        slit_filling: table(measure.slit_filling),
+        capillary_rise: table(measure.capillary_rise),
     }
 }

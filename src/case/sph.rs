@@ -384,5 +384,7 @@ fn measures(raw: &RawMeasures) -> MeasureSet {
         cylinder_array: raw.cylinder_array.is_some(),
         throat_entry: raw.throat_entry.is_some(),
         jurin: raw.jurin.is_some(),
+        slit_filling: raw.slit_filling.is_some(),
+        capillary_rise: raw.capillary_rise.is_some(),
     }
 }

@@ -21,7 +21,7 @@ pub mod poisson;
 pub mod projection;
 pub mod setup;
 pub mod solver;
-mod state;
+pub mod state;
 pub mod surface_force;
 pub mod terms;
 pub mod time_step;

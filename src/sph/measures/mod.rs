@@ -11,8 +11,10 @@ mod jurin;
 mod laplace_drop;
 mod layered;
 mod moving_drop;
+pub(super) mod open;
 mod poiseuille;
 mod sessile_drop;
+mod slit;
 mod taylor_green;
 mod throat;
 mod wave;
@@ -81,7 +83,8 @@ type Group = fn(&Subject) -> Vec<Measure>;
 #[must_use]
 pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
     let mut measures = every_run::measures(subject);
-    let groups: [(bool, Group); 16] = [
+    measures.extend(open::measures(subject));
+    let groups: [(bool, Group); 18] = [
         (set.sessile_drop, sessile_drop::measures),
         (set.laplace_drop, laplace_drop::measures),
         (set.poiseuille, poiseuille::measures),
@@ -98,6 +101,8 @@ pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
         (set.cylinder_array, cylinder_array::measures),
         (set.throat_entry, throat::measures),
         (set.jurin, jurin::measures),
+        (set.slit_filling, slit::filling),
+        (set.capillary_rise, slit::rise),
     ];
     for (_, group) in groups.iter().filter(|(wanted, _)| *wanted) {
         measures.extend(group(subject));
@@ -108,7 +113,7 @@ pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
 /// Further columns of the series that the groups of `set` need for their measures: name and value.
 #[must_use]
 pub fn columns(flow: &Flow, seen: &Observation, set: &MeasureSet) -> Vec<(&'static str, f64)> {
-    let mut columns = Vec::new();
+    let mut columns = open::columns(flow);
     if set.oscillating_drop || set.shear_drop {
         columns.extend(moving_drop::columns(flow));
     }
@@ -117,6 +122,12 @@ pub fn columns(flow: &Flow, seen: &Observation, set: &MeasureSet) -> Vec<(&'stat
     }
     if set.rising_bubble {
         columns.extend(bubble::columns(flow, seen));
+    }
+    if set.slit_filling {
+        columns.extend(slit::filling_columns(flow, seen));
+    }
+    if set.capillary_rise {
+        columns.extend(slit::rise_columns(flow, seen));
     }
     columns
 }
