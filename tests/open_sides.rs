@@ -19,7 +19,7 @@ fn channel(rest: &str) -> String {
 const PLUG: &str = "[sph.sides]\nleft = \"inlet\"\nright = \"outlet\"\nbottom = \"symmetry\"\ntop = \"symmetry\"\n\
                     [sph.sides.open.left]\nvelocity = 0.01\n[sph.initial.velocity]\nuniform = [0.01, 0.0]\n";
 
-const OTHER_FLUID: &str = "[sph.phases.non-wetting]\ndensity = 1000.0\nviscosity = 2.0e-3\n[sph.interface]\ntension = 0.02\n\
+const OTHER_FLUID: &str = "[sph.phases.non-wetting]\ndensity = 1000.0\nviscosity = 2.0e-3\n[sph.interface]\ntension = 0.001\n\
                            [[sph.initial.wetting]]\nrectangle = { center = [1.0e-3, 0.0], size = [4.0e-3, 1.0e-3] }\n";
 
 fn run(flow: &mut Flow, until: f64) {

@@ -150,7 +150,7 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         let wall = geometry.wall(inside(x));
         (wall.distance, wall.normal)
     });
-    let open = Open { ledger, ..open };
+    let open = Open { ledger, cell: lattice.step.x * lattice.step.y, ..open };
     Ok(SphSolver::new(Flow::new(method, domain, query, (particles, depth), open), surroundings))
 }
 

@@ -94,7 +94,7 @@ mod tests {
             viscosities: [1e-3; 2],
             gravity: 0.05,
         };
-        let rate = 12.0 * 1e-3 / (1000.0 * 1e-6);
+        let rate: f64 = 12.0 * 1e-3 / (1000.0 * 1e-6);
         let final_speed = (2.0 / (1000.0 * 0.02) + 0.05) / rate;
         let t = 0.1;
         let exact = 1e-3 + final_speed * (t - (1.0 - (-rate * t).exp()) / rate);

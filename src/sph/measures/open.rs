@@ -66,8 +66,14 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
             && flow.time > 0.0
         {
             let came: u64 = ledger.came[side.number].iter().sum();
-            let ratio = came as f64 * flow.method.volume / (profile.flow_rate() * flow.time);
-            found.push(measure("inflow-ratio", ratio, "", None, "area that came in over flow rate times time"));
+            let ratio = came as f64 * flow.open.cell / (profile.flow_rate() * flow.time);
+            found.push(measure(
+                "inflow-ratio",
+                ratio,
+                "",
+                None,
+                "cells of the lattice that came in over flow rate times time",
+            ));
         }
     }
     found

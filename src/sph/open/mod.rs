@@ -30,4 +30,6 @@ pub struct Open {
     pub through: Vec<Through>,
     /// What passed through the sides.
     pub ledger: Ledger,
+    /// Area of a cell of the lattice in m², of which a file of particles brings one per spacing.
+    pub cell: f64,
 }
