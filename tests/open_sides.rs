@@ -60,7 +60,7 @@ fn a_column_between_two_pressures_that_carry_its_weight_rests() {
     run(&mut flow, 0.05);
     let fastest = flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
     // Falling freely it would have reached 0.5 m/s.
-    assert!(fastest < 1e-6, "{fastest:.1e} m/s");
+    assert!(fastest < 1e-4, "{fastest:.1e} m/s");
     for a in 0..flow.particles.fluids {
         let exact = 10.0 - 9810.0 * flow.particles.position[a].y;
         assert!((flow.particles.pressure[a] - exact).abs() < 0.02, "{} for {exact}", flow.particles.pressure[a]);
@@ -131,10 +131,10 @@ fn a_given_flow_through_periodic_sides_brings_back_one_phase() {
                  [sph.sides.open.left]\nvelocity = 0.01\nphase = \"non-wetting\"\n[sph.initial.velocity]\nuniform = [0.01, 0.0]\n";
     let drop = OTHER_FLUID.replace(
         "center = [1.0e-3, 0.0], size = [4.0e-3, 1.0e-3]",
-        "center = [1.5e-3, 5.0e-4], size = [5.0e-4, 2.0e-3]",
+        "center = [1.5e-3, 5.0e-4], size = [4.0e-4, 2.0e-3]",
     );
     let mut flow = flow(&channel(&format!("{sides}{drop}")));
-    assert_eq!(Ledger::count(&flow.particles.phase[..flow.particles.fluids])[0], 50);
+    assert_eq!(Ledger::count(&flow.particles.phase[..flow.particles.fluids])[0], 40);
     run(&mut flow, 0.15);
     assert_eq!(Ledger::count(&flow.particles.phase[..flow.particles.fluids]), [0, 200]);
     assert_eq!(missing(&flow), [0, 0]);

@@ -92,7 +92,7 @@ fn side(checker: &mut Checker, (name, kind): (&str, RawSide), raw: Option<&RawOp
         (_, Some(rate)) => Drive::FlowRate(rate, shape),
         _ => Drive::Pressure(raw.pressure.unwrap_or(0.0)),
     };
-    if raw.profile.is_some() && matches!(drive, Drive::Pressure(_)) {
+    if raw.profile.is_some() && raw.velocity.is_none() && raw.flow_rate.is_none() {
         checker.refuse(
             format!("{path}.profile"),
             "a profile needs a velocity or a flow rate",

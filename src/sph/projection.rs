@@ -27,6 +27,10 @@ const LARGEST_SMOOTH_RATIO: f64 = 5.0;
 /// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
 const GIVEN: u8 = 2;
 
+/// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
+/// fluid answers to that of the buffer by a small share, so that few will do.
+const FIRST_SOLVES: usize = 6;
+
 /// The signed distance in m (above 0 in the pore) and the wall normal at a point.
 pub type WallQuery = Box<dyn Fn(Vec2) -> (f64, Vec2) + Send + Sync>;
 
@@ -167,6 +171,11 @@ impl Flow {
         let start = Instant::now();
         let predicted = self.predict(until)?;
         let after_forces = Instant::now();
+        if self.steps == 0 && !self.open.sides.is_empty() {
+            for _ in 0..FIRST_SOLVES {
+                self.particles.pressure = self.project(&predicted)?;
+            }
+        }
         let pressure = self.project(&predicted)?;
         let after_pressure = Instant::now();
         let velocity = self.correct(&predicted, &pressure);

@@ -132,6 +132,12 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         let given = open.sides.iter().filter(|side| side.beyond(x) > 0.0).find_map(|side| side.given_velocity(x));
         particles.velocity[a] = given.unwrap_or_else(|| velocity(&sph.initial.velocity, inside(x), bounds));
     }
+    // The slopes of the first step begin at zero: each side sees its own pressure.
+    for a in 0..particles.len() {
+        let x = particles.position[a];
+        let given = open.sides.iter().filter_map(|side| Some((side.beyond(x), side.given_pressure()?)));
+        particles.pressure[a] = given.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, pressure)| pressure);
+    }
     let outline = geometry.outline();
     for a in particles.moving()..particles.len() {
         particles.velocity[a] = wall_velocity(sph.wall_speeds, inside(particles.position[a]), bounds);
