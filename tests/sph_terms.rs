@@ -9,6 +9,7 @@ use meniscus::sph::terms::viscosity::Viscous;
 use meniscus::sph::terms::{color, curvature, divergence, pressure_gradient, surface_tension};
 use meniscus::sph::wetting::contact_line::{LineFields, line_force};
 use meniscus::sph::wetting::{Wetting, YoungForce};
+use nalgebra::Matrix2;
 
 /// Sums of some thousand terms of double precision, relative to the sum of their sizes.
 const ROUNDING: f64 = 1e-12;
@@ -109,6 +110,48 @@ fn viscosity_of_a_parabola_is_its_second_derivative_on_the_lattice() {
         // mu/rho times 2; zeta² = 1e-4 h² takes at most 1e-4 h²/dx² off.
         assert!((acceleration[a] - Vec2::repeat(3.0)).norm() < 1e-3, "{:?}", acceleration[a]);
     }
+}
+
+/// The viscous forces in N/m³ of the velocity `gradient`·x on a lattice whose viscosity (Pa s) is `of_place`.
+fn viscous_force(cloud: &Cloud, of_place: impl Fn(Vec2) -> f64, gradient: Matrix2<f64>) -> Vec<Vec2> {
+    let n = cloud.points.len();
+    let (volume, density) = (vec![cloud.lattice_volume; n], vec![1.0; n]);
+    let viscosity: Vec<f64> = cloud.points.iter().map(|&x| of_place(x)).collect();
+    let viscous = Viscous { volume: &volume, density: &density, viscosity: &viscosity };
+    let v_ab = |a: usize, b: usize| gradient * (cloud.points[a] - cloud.points[b]);
+    let mut force = vec![Vec2::zeros(); n];
+    viscous.morris(&cloud.pairs, v_ab, &mut force);
+    viscous.transposed(&cloud.pairs, v_ab, &mut force);
+    force
+}
+
+#[test]
+fn a_fluid_that_turns_as_a_whole_feels_no_viscous_force_at_a_jump_of_the_viscosity() {
+    let cloud = Cloud::new(24, false, 0.0);
+    let of_place = |x: Vec2| if (x - Vec2::repeat(0.5)).norm() < 0.3 { 10.0 } else { 0.1 };
+    let force = viscous_force(&cloud, of_place, Matrix2::new(0.0, -1.0, 1.0, 0.0));
+    for a in cloud.inner() {
+        // Morris's form alone: up to about the viscosity over the spacing, 10·24. What is left is ζ² in its denominators.
+        assert!(force[a].norm() < 0.1, "{:?}", force[a]);
+    }
+}
+
+#[test]
+fn a_step_of_the_viscosity_in_a_stretched_fluid_bears_the_step_of_the_stress() {
+    let cloud = Cloud::new(24, false, 0.0);
+    let (below, above) = (1.0, 10.0);
+    let force = viscous_force(&cloud, |x| if x.y < 0.5 { below } else { above }, Matrix2::new(-1.0, 0.5, 0.0, 1.0));
+    let column = cloud.inner()[0];
+    let x = cloud.points[column].x;
+    let step: Vec2 = cloud
+        .inner()
+        .into_iter()
+        .filter(|&a| (cloud.points[a].x - x).abs() < 1e-9)
+        .map(|a| force[a] * cloud.spacing)
+        .sum();
+    // The step of 2μ D·e_y, with 2D = ∇v + ∇vᵀ = ((−2, .5), (.5, 2)); ζ² takes 1e-4 off.
+    let wanted = (above - below) * Vec2::new(0.5, 2.0);
+    assert!((step - wanted).norm() < 1e-3 * wanted.norm(), "{step:?}");
 }
 
 /// Smoothed color, normal, unit normal and curvature of the region where `color` is 1.

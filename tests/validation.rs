@@ -67,6 +67,41 @@ fn a_free_drop_has_the_pressure_of_laplace_and_rests() {
 }
 
 #[test]
+fn a_drop_of_a_thin_liquid_springs_back_to_140_degrees_in_one_piece() {
+    let found = sessile(140.0, 5.0, &["time.end=0.06"]);
+    // It still swings by two degrees about its angle then.
+    assert!((found("contact-angle-deg") - 140.0).abs() < 5.0, "{}", found("contact-angle-deg"));
+    assert_eq!(found("wetting-blobs"), 1.0);
+    assert!(found("largest-density-error") < 0.03, "{}", found("largest-density-error"));
+}
+
+#[test]
+fn a_drop_of_the_other_phase_has_the_supplementary_angle() {
+    let found = sessile(120.0, 1.5, &["sph.initial.background=wetting"]);
+    // The drop is the other phase, and stands at 60 degrees through itself: its base is that of a drop at 60.
+    assert!((found("contact-angle-deg") - 120.0).abs() < 1.5, "{}", found("contact-angle-deg"));
+}
+
+#[test]
+fn a_capillary_wave_swings_and_decays_as_it_should() {
+    let found = measures("capillary-wave.toml", &[]);
+    assert!(found("wave-rms-error") < 0.03, "{}", found("wave-rms-error"));
+}
+
+#[test]
+fn two_drops_that_touch_become_one_round_drop() {
+    let drops =
+        "sph.initial.wetting=[{disc={center=[-1.7e-4,0.0],radius=1.8e-4}},{disc={center=[1.7e-4,0.0],radius=1.8e-4}}]";
+    let set = ["sph.spacing=3.0e-5", drops, "time.end=0.02", "expect=[]"];
+    let found = measures("laplace-drop.toml", &set.map(str::to_owned));
+    assert_eq!(found("wetting-blobs"), 1.0);
+    assert!(found("area-drift").abs() < 2e-3, "{}", found("area-drift"));
+    // The box is 1.6 mm wide and high.
+    let round = 2.0 * (std::f64::consts::PI * found("saturation")).sqrt() * 1.6e-3;
+    assert!((found("interface-length-m") / round - 1.0).abs() < 0.02, "{} of {round}", found("interface-length-m"));
+}
+
+#[test]
 fn the_angle_on_a_wall_turned_by_27_degrees_is_that_on_a_level_one() {
     // The wall cuts the lattice; the drop starts as a half disc about a point of it.
     let case = r#"

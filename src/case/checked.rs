@@ -206,6 +206,8 @@ pub enum ViscousTerm {
     Szewc,
     /// Morris et al. 1997 with the harmonic mean of the viscosities.
     Morris,
+    /// The same with the transposed velocity gradient where the viscosity changes.
+    Stress,
 }
 
 /// Named groups of measures a case can ask for; each is a table `[sph.measure.NAME]`.

@@ -227,7 +227,7 @@ tables! {
 
     /// Parameters of the method.
     pub struct RawNumerics {
-        /// Form of the viscous term (default `morris`).
+        /// Form of the viscous term (default `stress`).
         pub viscous_term: RawViscousTerm,
         /// Share of the density error taken back per step, 0 to 1 (default 0.02, without tension 0).
         pub drift_source: f64,
@@ -377,4 +377,6 @@ pub enum RawViscousTerm {
     Szewc,
     /// Morris et al. 1997 with the harmonic mean of the viscosities.
     Morris,
+    /// The same with the transposed velocity gradient where the viscosity changes.
+    Stress,
 }

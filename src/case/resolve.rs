@@ -161,6 +161,7 @@ fn raw_numerics(numerics: &Numerics) -> RawNumerics {
         viscous_term: Some(match numerics.viscous_term {
             ViscousTerm::Szewc => RawViscousTerm::Szewc,
             ViscousTerm::Morris => RawViscousTerm::Morris,
+            ViscousTerm::Stress => RawViscousTerm::Stress,
         }),
         drift_source: Some(numerics.drift_source),
         background_pressure: Some(numerics.background_pressure),

@@ -315,11 +315,11 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
 fn default_numerics(surface_force: Option<SurfaceForce>, has_contact_lines: bool) -> Numerics {
     let (drift_source, background_pressure, shifting) = match surface_force {
         Some(SurfaceForce::Csf) => (0.02, 0.5, 0.0),
-        Some(SurfaceForce::PressureJump) => (0.05, 0.0, 2.0),
+        Some(SurfaceForce::PressureJump) => (0.2, 0.0, 2.0),
         None => (0.0, 0.0, 2.0),
     };
     Numerics {
-        viscous_term: ViscousTerm::Morris,
+        viscous_term: ViscousTerm::Stress,
         drift_source,
         background_pressure,
         shifting,
@@ -336,6 +336,7 @@ fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numerics) -> Nume
     Numerics {
         viscous_term: match raw.viscous_term {
             None => default.viscous_term,
+            Some(RawViscousTerm::Stress) => ViscousTerm::Stress,
             Some(RawViscousTerm::Morris) => ViscousTerm::Morris,
             Some(RawViscousTerm::Szewc) => ViscousTerm::Szewc,
         },

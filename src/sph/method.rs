@@ -39,8 +39,10 @@ pub struct Fluid {
 pub enum ViscousTerm {
     /// Szewc et al. 2012 [Huber2013, Eq. 16].
     Szewc,
-    /// Morris et al. 1997.
+    /// Morris et al. 1997, ∇·(μ∇v).
     Morris,
+    /// That of Morris with the transposed gradient, ∇·(μ(∇v + ∇vᵀ)).
+    Stress,
 }
 
 /// All that does not change during a run.

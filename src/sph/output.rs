@@ -9,6 +9,7 @@ use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
 use crate::sph::observe::{Observation, fluid_samples, nodes};
 use crate::sph::projection::Flow;
+use crate::sph::surface_force::equivalent::volume_forces;
 
 /// Reach of the circle fit for the curvature along the interface, over h.
 const CURVATURE_REACH: f64 = 2.5;
@@ -62,6 +63,7 @@ fn particles(flow: &Flow) -> Cloud<'static> {
     let (p, f, n) = (&flow.particles, &flow.fields, flow.particles.len());
     let on_fluid = |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect();
     let (distance, normal) = p.position.iter().map(|&x| wall(flow, x)).unzip();
+    let (surface_force, line_force) = volume_forces(flow);
     let fields = vec![
         integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
         integer("phase", p.phase.iter().map(|phase| phase.number()).collect()),
@@ -72,8 +74,8 @@ fn particles(flow: &Flow) -> Cloud<'static> {
         scalar("color", "", f.color[..n].to_vec()),
         vector("normal", "1/m", f.normal[..n].to_vec()),
         scalar("curvature", "1/m", f.curvature[..n].to_vec()),
-        vector("surface-force", "N/m^3", on_fluid(&f.surface_force)),
-        vector("line-force", "N/m^3", on_fluid(&f.line_force)),
+        vector("surface-force", "N/m^3", on_fluid(&surface_force)),
+        vector("line-force", "N/m^3", on_fluid(&line_force)),
         scalar("wall-distance", "m", distance),
         vector("wall-normal", "", normal),
     ];

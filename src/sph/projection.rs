@@ -236,6 +236,10 @@ impl Flow {
         let v_ab = |a: usize, b: usize| stretch(a, b) * (velocity[a] - velocity[b]);
         let mut acceleration = vec![Vec2::zeros(); fluids];
         match self.method.viscous_term {
+            ViscousTerm::Stress => {
+                viscous.morris(&self.pairs, v_ab, &mut acceleration);
+                viscous.transposed(&self.pairs, v_ab, &mut acceleration);
+            }
             ViscousTerm::Morris => viscous.morris(&self.pairs, v_ab, &mut acceleration),
             ViscousTerm::Szewc => viscous.szewc(&self.pairs, v_ab, &mut acceleration),
         }

@@ -306,6 +306,7 @@ fn method(sph: &Sph, lattice: &Lattice) -> Method {
         viscous_term: match numerics.viscous_term {
             checked::ViscousTerm::Szewc => ViscousTerm::Szewc,
             checked::ViscousTerm::Morris => ViscousTerm::Morris,
+            checked::ViscousTerm::Stress => ViscousTerm::Stress,
         },
         drift_source: numerics.drift_source,
         background_pressure: numerics.background_pressure,

@@ -5,10 +5,22 @@ use rayon::prelude::*;
 use crate::sph::images::Images;
 use crate::sph::pairs::{GRAIN, Pairs, each};
 use crate::sph::poisson::Matrix;
-use crate::sph::surface_force::fit::InterfaceFit;
+use crate::sph::surface_force::fit::{InterfaceFit, WINDOW};
 
 /// Passes of the smoothing of the curvature along the interface: two bring the parasitic currents down by an order of magnitude.
 const PASSES: usize = 2;
+
+/// What the kernel's average takes from a wave of the wavenumber k, over k²h²: half its second moment, 5 h²/18 along each direction.
+const LOSS_OF_A_PASS: f64 = 5.0 / 36.0;
+
+/// What a circle fit takes, over k²h²: k² r_f²/22 for its window r_f and weight (1 − d²/r_f²)².
+const LOSS_OF_THE_FIT: f64 = WINDOW * WINDOW / 22.0;
+
+/// What the smoothing of the color takes, over k²h²: half the second moment of W along the line through its center.
+const LOSS_OF_THE_COLOR: f64 = 1.0 / 7.0;
+
+/// How often the loss of all passes is given back, so that it makes up for those of color and fit too.
+const GIVEN_BACK: f64 = 1.0 + (LOSS_OF_THE_FIT + LOSS_OF_THE_COLOR) / (PASSES as f64 * LOSS_OF_A_PASS);
 
 /// What decides the jump of each pair; slices over particles and images.
 #[derive(Debug, Clone, Default)]
@@ -86,10 +98,10 @@ impl Jump {
     }
 }
 
-/// The curvature without the noise of single fits, S κ + S (κ − S κ) with the average S over fluid particles that have one.
+/// The curvature without the noise of single fits: S κ + g (S κ − S² κ), S the average over fluid particles that have one.
 ///
-/// The second term gives back what the average takes from resolved waves (van Cittert 1931): at λ = 32 dx it takes 2.5 %
-/// from the curvature, and this .06 %. A constant curvature stays as it is, up to a wall too.
+/// The second term gives back what averages take from resolved waves (van Cittert 1931): to fourth order in kh those of S, of the
+/// fits and of the smoothed color. A constant curvature stays as it is, up to a wall too.
 fn smoothed(curvature: Vec<f64>, pairs: &Pairs, images: &Images) -> Vec<f64> {
     let average = |mut field: Vec<f64>| {
         for _ in 0..PASSES {
@@ -110,7 +122,7 @@ fn smoothed(curvature: Vec<f64>, pairs: &Pairs, images: &Images) -> Vec<f64> {
     };
     let once = average(curvature);
     let twice = average(once.clone());
-    once.iter().zip(&twice).map(|(once, twice)| 2.0 * once - twice).collect()
+    once.iter().zip(&twice).map(|(once, twice)| once + GIVEN_BACK * (once - twice)).collect()
 }
 
 fn mean(pairs: &Pairs, curvature: &[f64], a: usize) -> f64 {

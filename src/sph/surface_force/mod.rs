@@ -5,6 +5,7 @@
 //! (Fedkiw et al. 1999; Kang et al. 2000), and the wetting law is the angle at which the interface meets the wall.
 //! `points` finds the interface, `fit` its curvature, `jump` carries it to the pairs.
 
+pub mod equivalent;
 pub mod fit;
 pub mod jump;
 pub mod points;

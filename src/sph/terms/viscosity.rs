@@ -23,6 +23,24 @@ impl Viscous<'_> {
         });
     }
 
+    /// Adds (1/ρ_a) (∇v)ᵀ_a·s_a, s_a = Σ_b V_b 2 (μ_ab − μ_a) ∇_a W_ab, with the harmonic mean μ_ab: what Morris's form lacks of the
+    /// divergence of the viscous stress, ∇·(μ(∇v + ∇vᵀ)) = ∇·(μ∇v) + (∇v)ᵀ·∇μ for ∇·v = 0.
+    ///
+    /// Zero where the viscosity is even. With it a fluid that turns as a whole feels no force at a jump of the viscosity.
+    pub fn transposed(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, acceleration: &mut [Vec2]) {
+        let mut force = vec![Vec2::zeros(); acceleration.len()];
+        each(&mut force, |a| {
+            let step = |b: usize| 2.0 * self.volume[b] * (self.mean_viscosity(a, b) - self.viscosity[a]);
+            let toward: Vec2 = pairs.of(a).map(|ab| step(ab.b) * ab.grad_w).sum();
+            if toward == Vec2::zeros() {
+                return Vec2::zeros();
+            }
+            // ∂_i v_j s_j = −Σ_b V_b (v_ab·s) ∂_i W_ab
+            -pairs.of(a).map(|ab| self.volume[ab.b] * v_ab(a, ab.b).dot(&toward) * ab.grad_w).sum::<Vec2>()
+        });
+        acceleration.iter_mut().zip(&force).zip(self.density).for_each(|((sum, force), rho)| *sum += force / *rho);
+    }
+
     /// Σ_b 8 m_b (η_a + η_b)/(ρ_a + ρ_b) (v_ab·r_ab)/(|r_ab|² + ζ²) ∇_a W_ab with η = μ/ρ [Huber2013, Eq. 16].
     ///
     /// r_ab and ∇_a W_ab are parallel, so that (v_ab·r_ab)/(|r_ab|² + ζ²) is (v_ab·∇_a W_ab) over |∇_a W_ab|², times the slope.
@@ -51,8 +69,13 @@ impl Viscous<'_> {
     /// 2 V_b μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in kg/(m³ s), never above 0: what Morris's form multiplies v_ab with.
     #[inline]
     fn friction(&self, a: usize, ab: &Pair) -> f64 {
-        let (mu_a, mu_b) = (self.viscosity[a], self.viscosity[ab.b]);
-        let mu = if mu_b > 0.0 { 2.0 * mu_a * mu_b / (mu_a + mu_b) } else { mu_a };
-        2.0 * mu * self.volume[ab.b] * ab.slope
+        2.0 * self.mean_viscosity(a, ab.b) * self.volume[ab.b] * ab.slope
+    }
+
+    /// μ_ab = 2 μ_a μ_b/(μ_a + μ_b) in Pa s, which keeps the shear stress even across a step of the viscosity; μ_a at walls.
+    #[inline]
+    fn mean_viscosity(&self, a: usize, b: usize) -> f64 {
+        let (mu_a, mu_b) = (self.viscosity[a], self.viscosity[b]);
+        if mu_b > 0.0 { 2.0 * mu_a * mu_b / (mu_a + mu_b) } else { mu_a }
     }
 }
