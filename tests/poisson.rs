@@ -88,7 +88,8 @@ fn small_systems_are_solved_directly() {
     let n = cloud.points.len();
     let (kind, part) = (vec![0; n], parts(&cloud.pairs, &cloud.images));
     assert!(part.iter().all(|part| *part == 0), "one pore, one part");
-    let unknowns = Unknowns { position: &cloud.points, kind: &kind, part: &part, spacing: cloud.spacing };
+    let unknowns =
+        Unknowns { position: &cloud.points, kind: &kind, part: &part, anchored: &[], spacing: cloud.spacing };
     let (mut b, mut p) = (right_side(n), vec![0.0; n]);
     let wanted = direct(&solver.matrix, &b);
     let found = solver.solve(&unknowns, &cloud.volume, &mut b, &mut p, Tolerance { residual: 1e-6, iterations: 300 });

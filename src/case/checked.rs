@@ -58,6 +58,8 @@ pub struct Sph {
     pub slip_length: f64,
     /// Speeds in m/s of the walls at the left, right, bottom and top side, along x or y.
     pub wall_speeds: [f64; 4],
+    /// What drives the flow through the left, right, bottom and top side, where it is open or periodic with a given flow.
+    pub open: [Option<Open>; 4],
     /// Initial phases and velocity.
     pub initial: Initial,
     /// Parameters of the method with a default that rarely needs a change (`[sph.numerics]`).
@@ -219,6 +221,41 @@ pub enum Side {
     Image,
     /// A mirror: free slip.
     Symmetry,
+    /// Open, with a velocity, a flow rate or a pressure.
+    Inlet,
+    /// Open, with a pressure.
+    Outlet,
+}
+
+/// What drives the flow through an open side, and what comes in.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Open {
+    /// What is given at the side.
+    pub drive: Drive,
+    /// Whether the phase that comes in is the wetting one; absent: what stands at the side at the start.
+    pub enters_wetting: Option<bool>,
+}
+
+/// What is given at an open side.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Drive {
+    /// A pressure in Pa.
+    Pressure(f64),
+    /// The mean velocity inwards in m/s.
+    Velocity(f64, Profile),
+    /// The area that comes in per time in m²/s.
+    FlowRate(f64, Profile),
+}
+
+/// How the velocity of an inlet is spread over its side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Profile {
+    /// The same everywhere.
+    Plug,
+    /// A parabola that vanishes at walls.
+    Parabolic,
 }
 
 /// The four sides.
@@ -329,6 +366,10 @@ pub struct MeasureSet {
     pub moving_drop: bool,
     /// Exponent of a drop that spreads.
     pub spreading: bool,
+    /// Filled length of a slit between two open sides.
+    pub slit_filling: bool,
+    /// Height of the meniscus that rises from an open side.
+    pub capillary_rise: bool,
 }
 
 /// What is written and when.

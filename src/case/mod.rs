@@ -8,6 +8,7 @@ pub mod checked;
 mod facts;
 pub mod film;
 mod load;
+mod open;
 pub mod preset;
 pub mod raw;
 mod resolve;

@@ -245,6 +245,34 @@ tables! {
         pub top: RawSide,
         /// Speeds of walls along themselves (default at rest).
         pub speed: RawWallSpeeds,
+        /// What drives the flow through open sides, and what comes in.
+        pub open: RawOpenSides,
+    }
+
+    /// The open sides: a table for each side that fluid passes through.
+    pub struct RawOpenSides {
+        /// Of the side at x = min.
+        pub left: RawOpenSide,
+        /// Of the side at x = max.
+        pub right: RawOpenSide,
+        /// Of the side at y = min.
+        pub bottom: RawOpenSide,
+        /// Of the side at y = max.
+        pub top: RawOpenSide,
+    }
+
+    /// An inlet, an outlet, or a periodic side with a given flow; one of pressure, velocity and flow rate.
+    pub struct RawOpenSide {
+        /// Pressure at the side in Pa (inlet; outlet, default 0).
+        pub pressure: f64,
+        /// Mean velocity inwards in m/s (inlet, periodic).
+        pub velocity: f64,
+        /// Area that comes in per time in m²/s: volume per time and depth (inlet, periodic).
+        pub flow_rate: f64,
+        /// How the velocity is spread over the side (default `plug`).
+        pub profile: RawProfile,
+        /// Phase that comes in (default: what stands at the side at the start).
+        pub phase: RawPhase,
     }
 
     /// Speeds of the walls at the sides, each along itself.
@@ -346,6 +374,10 @@ tables! {
         pub moving_drop: Empty,
         /// Exponent of the width of a drop that spreads.
         pub spreading: Empty,
+        /// Filled length of a slit between two open sides.
+        pub slit_filling: Empty,
+        /// Height of the meniscus that rises from an open side.
+        pub capillary_rise: Empty,
     }
 
     /// How long the simulation runs.
@@ -416,9 +448,9 @@ pub enum RawSide {
     Image,
     /// A mirror: free slip.
     Symmetry,
-    /// Inflow (not yet available).
+    /// Open, with a velocity, a flow rate or a pressure.
     Inlet,
-    /// Outflow (not yet available).
+    /// Open, with a pressure.
     Outlet,
 }
 
@@ -444,6 +476,16 @@ pub enum RawAxis {
     X,
     /// The second coordinate.
     Y,
+}
+
+/// How the velocity of an inlet is spread over its side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RawProfile {
+    /// The same everywhere.
+    Plug,
+    /// A parabola that vanishes at walls.
+    Parabolic,
 }
 
 /// Forms of the viscous term.

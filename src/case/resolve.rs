@@ -1,12 +1,13 @@
 //! A checked case written out as one case file: no defaults, presets, overrides or other files left.
 
 use super::checked::{
-    Case, Fluid, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides, Sph, SurfaceForce, ViscousTerm,
+    Case, Drive, Fluid, InitialVelocity, MeasureSet, Model, Numerics, Open, Output, Profile, Side, Sides, Sph,
+    SurfaceForce, ViscousTerm,
 };
 use super::raw::{
     Empty, RawCase, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface, RawMeasures,
-    RawNumerics, RawOutput, RawPhase, RawPhases, RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime,
-    RawVelocity, RawViscousTerm, RawWallSpeeds, RawWalls,
+    RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawProfile, RawSide, RawSides, RawSph,
+    RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousTerm, RawWallSpeeds, RawWalls,
 };
 use super::wetting;
 
@@ -76,7 +77,7 @@ fn raw_sph(sph: &Sph) -> RawSph {
             pressure_jump: (force == SurfaceForce::PressureJump).then_some(Empty {}),
         }),
         wetting: sph.wetting_model.map(|model| wetting::raw(&model, &sph.wetting_patches)),
-        sides: Some(raw_sides(&sph.sides, sph.wall_speeds)),
+        sides: Some(raw_sides(&sph.sides, sph.wall_speeds, sph.open)),
         walls: Some(RawWalls { slip_length: Some(sph.slip_length) }),
         initial: Some(RawInitial {
             background: two_phases.then_some(background),
@@ -92,13 +93,15 @@ fn raw_fluid(fluid: &Fluid) -> RawFluid {
     RawFluid { preset: None, temperature_c: None, density: Some(fluid.density), viscosity: Some(fluid.viscosity) }
 }
 
-fn raw_sides(sides: &Sides, speeds: [f64; 4]) -> RawSides {
+fn raw_sides(sides: &Sides, speeds: [f64; 4], open: [Option<Open>; 4]) -> RawSides {
     let side = |side| {
         Some(match side {
             Side::Periodic => RawSide::Periodic,
             Side::Wall => RawSide::Wall,
             Side::Image => RawSide::Image,
             Side::Symmetry => RawSide::Symmetry,
+            Side::Inlet => RawSide::Inlet,
+            Side::Outlet => RawSide::Outlet,
         })
     };
     // A side that is not a wall has no speed, not even 0.
@@ -116,7 +119,31 @@ fn raw_sides(sides: &Sides, speeds: [f64; 4]) -> RawSides {
         bottom: side(sides.bottom),
         top: side(sides.top),
         speed: Some(speed),
+        open: open.iter().any(Option::is_some).then(|| {
+            let [left, right, bottom, top] = open.map(|open| open.map(raw_open));
+            RawOpenSides { left, right, bottom, top }
+        }),
     }
+}
+
+fn raw_open(open: Open) -> RawOpenSide {
+    let profile = |profile| {
+        Some(match profile {
+            Profile::Plug => RawProfile::Plug,
+            Profile::Parabolic => RawProfile::Parabolic,
+        })
+    };
+    let given = match open.drive {
+        Drive::Pressure(pressure) => RawOpenSide { pressure: Some(pressure), ..RawOpenSide::default() },
+        Drive::Velocity(mean, shape) => {
+            RawOpenSide { velocity: Some(mean), profile: profile(shape), ..RawOpenSide::default() }
+        }
+        Drive::FlowRate(rate, shape) => {
+            RawOpenSide { flow_rate: Some(rate), profile: profile(shape), ..RawOpenSide::default() }
+        }
+    };
+    let phase = |wetting| if wetting { RawPhase::Wetting } else { RawPhase::NonWetting };
+    RawOpenSide { phase: open.enters_wetting.map(phase), ..given }
 }
 
 fn raw_velocity(velocity: &InitialVelocity) -> RawVelocity {
@@ -167,5 +194,7 @@ fn raw_measures(measure: &MeasureSet) -> RawMeasures {
         jurin: table(measure.jurin),
         moving_drop: table(measure.moving_drop),
         spreading: table(measure.spreading),
+        slit_filling: table(measure.slit_filling),
+        capillary_rise: table(measure.capillary_rise),
     }
 }

@@ -51,9 +51,10 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
     }
     let raw_sides = raw.sides.clone().unwrap_or_default();
     let wall_speeds = wall_speeds(checker, &raw_sides);
+    let open = super::open::open(checker, &raw_sides, two_phases);
     let sides = sides(checker, &raw_sides);
     let patches = match wetting_model {
-        Some(model) => wetting::patches(checker, raw.wetting.as_ref(), model, sides.as_ref(), geometry),
+        Some(model) => wetting::patches(checker, raw.wetting.as_ref(), model, Some(&sides), geometry),
         None => Vec::new(),
     };
     let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
@@ -73,9 +74,10 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         wetting_model,
         wetting_patches: patches,
         gravity: Vec2::from(raw.gravity.unwrap_or_default()),
-        sides: sides?,
+        sides,
         slip_length,
         wall_speeds,
+        open: open?,
         initial: initial?,
         numerics,
         measure: measures(&raw.measure.clone().unwrap_or_default()),
@@ -207,7 +209,7 @@ fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
     }
 }
 
-fn sides(checker: &mut Checker, raw: &RawSides) -> Option<Sides> {
+fn sides(checker: &mut Checker, raw: &RawSides) -> Sides {
     let given = [("left", raw.left), ("right", raw.right), ("bottom", raw.bottom), ("top", raw.top)];
     for pair in given.chunks_exact(2) {
         let [(a, side_a), (b, side_b)] = pair else { continue };
@@ -223,20 +225,15 @@ fn sides(checker: &mut Checker, raw: &RawSides) -> Option<Sides> {
             format!("set {other} = \"periodic\" too"),
         );
     }
-    let mut side = |key: &str, side: Option<RawSide>| match side {
-        None | Some(RawSide::Wall) => Some(Side::Wall),
-        Some(RawSide::Periodic) => Some(Side::Periodic),
-        Some(RawSide::Image) => Some(Side::Image),
-        Some(RawSide::Symmetry) => Some(Side::Symmetry),
-        Some(RawSide::Inlet | RawSide::Outlet) => {
-            let help = "available sides: `periodic`, `wall`, `image`, `symmetry`";
-            checker.refuse(format!("sph.sides.{key}"), "inlets and outlets are not yet available", help);
-            None
-        }
+    let side = |side: Option<RawSide>| match side {
+        None | Some(RawSide::Wall) => Side::Wall,
+        Some(RawSide::Periodic) => Side::Periodic,
+        Some(RawSide::Image) => Side::Image,
+        Some(RawSide::Symmetry) => Side::Symmetry,
+        Some(RawSide::Inlet) => Side::Inlet,
+        Some(RawSide::Outlet) => Side::Outlet,
     };
-    let (left, right) = (side("left", raw.left), side("right", raw.right));
-    let (bottom, top) = (side("bottom", raw.bottom), side("top", raw.top));
-    Some(Sides { left: left?, right: right?, bottom: bottom?, top: top? })
+    Sides { left: side(raw.left), right: side(raw.right), bottom: side(raw.bottom), top: side(raw.top) }
 }
 
 /// Speeds of the left, right, bottom and top wall; only a side that is a wall can have one.
@@ -390,5 +387,7 @@ fn measures(raw: &RawMeasures) -> MeasureSet {
         jurin: raw.jurin.is_some(),
         moving_drop: raw.moving_drop.is_some(),
         spreading: raw.spreading.is_some(),
+        slit_filling: raw.slit_filling.is_some(),
+        capillary_rise: raw.capillary_rise.is_some(),
     }
 }

@@ -159,6 +159,7 @@ pub fn case() -> Case {
         sides: Sides { left: Side::Wall, right: Side::Wall, bottom: Side::Wall, top: Side::Wall },
         slip_length: 0.0,
         wall_speeds: [0.0; 4],
+        open: [None; 4],
         initial: Initial { wetting: Vec::new(), wetting_is_background: true, velocity: InitialVelocity::Rest },
         numerics: Numerics {
             viscous_term: ViscousTerm::Szewc,

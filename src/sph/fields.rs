@@ -54,7 +54,7 @@ pub struct Fields {
     pub surface_force: Vec<Vec2>,
     /// Contact line force in N/m³.
     pub line_force: Vec<Vec2>,
-    /// Distance to the wall in m: of fluid particles with a wall in reach, else infinite.
+    /// Distance to the wall in m: of fluid and buffer particles with a wall in reach, else infinite.
     pub wall_distance: Vec<f64>,
     /// Wall normal into the fluid, zero far away.
     pub wall_normal: Vec<Vec2>,
@@ -76,31 +76,32 @@ impl Fields {
         method: &Method,
         wall: impl Fn(Vec2) -> (f64, Vec2) + Sync,
     ) {
-        let (n, fluids) = (particles.len(), particles.fluids);
+        let (n, fluids, moving) = (particles.len(), particles.fluids, particles.moving());
+        // Buffer particles see no neighbors beyond the far end: they have the volume of the lattice.
         self.volume.resize(n, 0.0);
         density::volume(pairs, &mut self.volume[..fluids]);
         self.volume[fluids..n].fill(method.volume);
         images.extend(&mut self.volume);
         self.fluid_volume.clear();
-        self.fluid_volume.extend((0..n).map(|a| if a < fluids { self.volume[a] } else { 0.0 }));
+        self.fluid_volume.extend((0..n).map(|a| if a < moving { self.volume[a] } else { 0.0 }));
         images.extend(&mut self.fluid_volume);
 
         let mass = |a: usize| method.fluid(particles.phase[a]).density * method.volume;
         self.density.clear();
-        self.density.extend((0..n).map(|a| if a < fluids { mass(a) / self.volume[a] } else { method.mean_density() }));
+        self.density.extend((0..n).map(|a| if a < moving { mass(a) / self.volume[a] } else { method.mean_density() }));
         images.extend(&mut self.density);
-        carry::into_walls(pairs, &self.fluid_volume, fluids, &mut self.density);
+        carry::into_walls(pairs, &self.fluid_volume, moving, &mut self.density);
         images.extend(&mut self.density);
         self.viscosity.clear();
         self.viscosity
-            .extend((0..n).map(|a| if a < fluids { method.fluid(particles.phase[a]).viscosity } else { 0.0 }));
+            .extend((0..n).map(|a| if a < moving { method.fluid(particles.phase[a]).viscosity } else { 0.0 }));
         images.extend(&mut self.viscosity);
 
-        let nearest: Vec<(f64, Vec2)> = (0..fluids)
+        let nearest: Vec<(f64, Vec2)> = (0..moving)
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|a| {
-                let has_wall = pairs.of(a).any(|ab| images.source(ab.b) >= fluids);
+                let has_wall = pairs.of(a).any(|ab| images.source(ab.b) >= moving);
                 if has_wall { wall(particles.position[a]) } else { (f64::INFINITY, Vec2::zeros()) }
             })
             .collect();
@@ -155,12 +156,12 @@ impl Fields {
         place: &Place,
         (lines, dt): (&[Line], f64),
     ) {
-        let fluids = particles.fluids;
-        color::color_gradient(pairs, &self.fluid_volume, &self.color, &mut self.normal[..fluids]);
+        let (fluids, moving) = (particles.fluids, particles.moving());
+        color::color_gradient(pairs, &self.fluid_volume, &self.color, &mut self.normal[..moving]);
         images.extend_reflected(&mut self.normal);
-        curvature::unit_normal(&self.normal[..fluids], method.kernel.h, &mut self.unit_normal[..fluids]);
+        curvature::unit_normal(&self.normal[..moving], method.kernel.h, &mut self.unit_normal[..moving]);
         images.extend_reflected(&mut self.unit_normal);
-        curvature::curvature(pairs, &self.fluid_volume, &self.unit_normal, &mut self.curvature[..fluids]);
+        curvature::curvature(pairs, &self.fluid_volume, &self.unit_normal, &mut self.curvature[..moving]);
         let weight: Vec<f64> = self.density[..fluids].iter().map(|&rho| method.force_weight(rho)).collect();
         surface_tension::surface_force(method.tension, &self.curvature, &self.normal, &weight, &mut self.surface_force);
         if method.wetting.is_none() {
@@ -192,9 +193,10 @@ impl Fields {
         place: &Place,
         (lines, dt): (&[Line], f64),
     ) {
-        let (fluids, position, domain) = (particles.fluids, &particles.position, place.domain);
+        let (fluids, moving) = (particles.fluids, particles.moving());
+        let (position, domain) = (&particles.position, place.domain);
         let r_ab = |a: usize, b: usize| domain.separation(position[a], images.position(b, position));
-        let normal = &mut self.normal[..fluids];
+        let normal = &mut self.normal[..moving];
         color::consistent_gradient(pairs, &self.fluid_volume, &self.color, r_ab, normal);
         images.extend_reflected(&mut self.normal);
         let mut velocity = particles.velocity.clone();
@@ -208,7 +210,7 @@ impl Fields {
             wall_normal: &self.wall_normal,
         };
         let lengths = (method.spacing, method.kernel.h);
-        let points = interface_points((pairs, images), domain, &fields, fluids, lengths);
+        let points = interface_points((pairs, images), domain, &fields, moving, lengths);
         let mut fit = InterfaceFit::new(&points, domain, lengths, place.wall);
         if method.wetting.is_some() {
             let seen = fit.lines(domain);
@@ -227,9 +229,9 @@ impl Fields {
             fit = fit.held_to(&angle_at);
         }
         let mut side = sharp.to_vec();
-        carry::into_walls(pairs, &self.fluid_volume, fluids, &mut side);
+        carry::into_walls(pairs, &self.fluid_volume, moving, &mut side);
         let mut jump = Jump::default();
-        jump.update((pairs, images, fluids), &side, position, &fit);
+        jump.update((pairs, images, moving), &side, position, &fit);
         for (kappa, found) in self.curvature.iter_mut().zip(&jump.curvature) {
             *kappa = if found.is_nan() { 0.0 } else { *found };
         }

@@ -25,8 +25,8 @@ impl Flow {
         mut velocity: Vec<Vec2>,
         until: f64,
     ) -> Result<(), SolverError> {
-        let (fluids, dt) = (self.particles.fluids, predicted.dt);
-        let mut position = Vec::with_capacity(fluids);
+        let (fluids, moving, dt) = (self.particles.fluids, self.particles.moving(), predicted.dt);
+        let mut position = Vec::with_capacity(moving);
         for (a, v) in velocity.iter().enumerate() {
             let by = 0.5 * dt * (self.particles.velocity[a] + v);
             if !(by.norm() <= LARGEST_MOVE * self.method.kernel.h) {
@@ -40,10 +40,15 @@ impl Flow {
             }
             position.push(self.domain.wrapped(self.particles.position[a] + by));
         }
-        self.shift(dt, &mut position, &mut velocity);
-        self.set_back_from_walls(&mut position, &mut velocity);
-        self.particles.position[..fluids].copy_from_slice(&position);
-        self.particles.velocity[..fluids].copy_from_slice(&velocity);
+        self.shift(dt, &mut position[..fluids], &mut velocity);
+        self.set_back_from_walls(&mut position[..fluids], &mut velocity[..fluids]);
+        for through in &self.open.through {
+            let (old, phase) = (&self.particles.position[..fluids], &mut self.particles.phase[..fluids]);
+            let moved = (&mut velocity[..fluids], phase);
+            through.apply(&self.domain, (old, &position[..fluids]), moved, &mut self.open.ledger);
+        }
+        self.particles.position[..moving].copy_from_slice(&position);
+        self.particles.velocity[..moving].copy_from_slice(&velocity);
         self.time = if dt >= until - self.time { until } else { self.time + dt };
         self.steps += 1;
         self.last = StepInfo { dt, limit: predicted.limit };
@@ -54,7 +59,7 @@ impl Flow {
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
         let (fluids, m, f) = (self.particles.fluids, &self.method, &self.fields);
         // Relative to the mean velocity, so that a moving observer sees the same shifts.
-        let mean = velocity.iter().sum::<Vec2>() / fluids as f64;
+        let mean = velocity[..fluids].iter().sum::<Vec2>() / fluids as f64;
         let speed = largest(fluids, |a| (velocity[a] - mean).norm()).map_or(0.0, |l| l.1);
         let diffusion = m.shifting * m.kernel.h * speed * dt;
         let mut by = vec![Vec2::zeros(); fluids];
@@ -78,7 +83,7 @@ impl Flow {
         }
         let mut change = vec![Vec2::zeros(); fluids];
         let mut all = velocity.to_vec();
-        all.extend_from_slice(&self.particles.velocity[fluids..]);
+        all.extend_from_slice(&self.particles.velocity[self.particles.moving()..]);
         self.images.extend_velocity(&mut all);
         shifting::carried_velocity(&self.pairs, &f.volume, &all, &by, &mut change);
         for a in 0..fluids {
@@ -101,6 +106,13 @@ impl Flow {
                     velocity[a] -= velocity[a].dot(&normal).min(0.0) * normal;
                     self.work.set_back += u64::from(pass == 0);
                 }
+            }
+        }
+        // Out of an inlet with a given velocity nothing flows: what shifting brings there is set back.
+        for side in self.open.sides.iter().filter(|side| side.given_pressure().is_none()) {
+            for x in position.iter_mut().filter(|x| side.beyond(**x) > -closest) {
+                *x = side.placed(*x, -closest);
+                self.work.set_back += 1;
             }
         }
         for mirror in &self.domain.mirrors {

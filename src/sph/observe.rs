@@ -39,25 +39,26 @@ impl Observation {
     #[must_use]
     pub fn of(flow: &Flow, wall: &[WallSample]) -> Self {
         let fluids = flow.particles.fluids;
-        let color = sharp_color(flow);
-        let volumes = &flow.fields.volume[..fluids];
-        let areas = PhaseAreas::new(volumes, &color);
+        // Interpolation near open sides needs their buffers; areas do not.
+        let all = sharp_color(flow);
+        let (volumes, color) = (&flow.fields.volume[..fluids], &all[..fluids]);
+        let areas = PhaseAreas::new(volumes, color);
         let wall_point = |x: Vec2| {
             let (distance, normal) = (flow.wall)(x);
             WallPoint { distance, normal }
         };
         let two_phases = flow.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
-        let interface = if two_phases { interface(flow, &color, &wall_point) } else { vec![] };
+        let interface = if two_phases { interface(flow, &all, &wall_point) } else { vec![] };
         let settings = ContactSettings::for_smoothing_length(flow.method.kernel.h);
         let samples = PressureSamples {
             points: &flow.particles.position[..fluids],
             pressures: &flow.particles.pressure[..fluids],
-            colors: &color,
+            colors: color,
             smoothing_length: flow.method.kernel.h,
             period: flow.domain.periods(),
         };
         let points: Vec<Vec2> = wall.iter().map(|s| s.point).collect();
-        let wall_color = Stencils::new(&fluid_samples(flow), &points).scalar(&color);
+        let wall_color = Stencils::new(&fluid_samples(flow), &points).scalar(&all);
         let is_wetting: Vec<bool> = color.iter().map(|c| *c > 0.5).collect();
         let link = LINK * flow.method.spacing;
         Self {
@@ -83,19 +84,19 @@ impl Observation {
     }
 }
 
-/// Color of the fluid particles: 1 in the wetting phase, else 0.
+/// Color of the particles of fluid and buffers: 1 in the wetting phase, else 0.
 #[must_use]
 pub fn sharp_color(flow: &Flow) -> Vec<f64> {
-    flow.particles.phase[..flow.particles.fluids].iter().map(|p: &Phase| p.color()).collect()
+    flow.particles.phase[..flow.particles.moving()].iter().map(|p: &Phase| p.color()).collect()
 }
 
-/// The fluid particles as samples for interpolation.
+/// The particles of fluid and buffers as samples for interpolation.
 #[must_use]
 pub fn fluid_samples(flow: &Flow) -> Samples<'_> {
-    let fluids = flow.particles.fluids;
+    let moving = flow.particles.moving();
     Samples {
-        points: &flow.particles.position[..fluids],
-        volumes: &flow.fields.volume[..fluids],
+        points: &flow.particles.position[..moving],
+        volumes: &flow.fields.volume[..moving],
         smoothing_length: flow.method.kernel.h,
         period: flow.domain.periods(),
     }
@@ -114,9 +115,10 @@ pub fn nodes(flow: &Flow, spacing: f64) -> Lattice {
         if domain.periodic[i] {
             lattice.counts[i] = cells;
         } else {
-            let margin = if mirrored { 0 } else { MARGIN };
-            lattice.counts[i] = cells + 1 + 2 * margin;
-            lattice.origin[i] -= margin as f64 * lattice.spacing[i];
+            let is_open = |number| flow.open.sides.iter().any(|side| side.number == number);
+            let [below, above] = [0, 1].map(|end| if mirrored || is_open(2 * i + end) { 0 } else { MARGIN });
+            lattice.counts[i] = cells + 1 + below + above;
+            lattice.origin[i] -= below as f64 * lattice.spacing[i];
         }
     }
     lattice

@@ -1,6 +1,7 @@
 //! The flow as output sees it: particles, grid and interface with the names of the output contract.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use crate::analysis::contour::Polyline;
 use crate::analysis::resample::Stencils;
@@ -28,14 +29,27 @@ fn integer(name: &'static str, values: Vec<i64>) -> Field<'static> {
 /// The state for output; `grid_spacing` in m.
 #[must_use]
 pub fn snapshot(flow: &Flow, observation: &Observation, grid_spacing: f64) -> Snapshot<'static> {
-    let particles = particles(flow);
+    let mut particles = particles(flow);
     let grid = grid(flow, &particles, grid_spacing);
+    without(&mut particles, flow.particles.buffer());
     Snapshot {
         time: flow.time,
         step: flow.steps,
         particles,
         grid: Some(grid),
         interface: Some(interface(&observation.interface, flow.method.kernel.h)),
+    }
+}
+
+/// Takes the points of `range` out: the buffers of open sides are no part of the flow.
+fn without(cloud: &mut Cloud<'static>, range: Range<usize>) {
+    cloud.points.to_mut().drain(range.clone());
+    for field in &mut cloud.fields {
+        match &mut field.values {
+            Values::Scalar(values) => drop(values.to_mut().drain(range.clone())),
+            Values::Vector(values) => drop(values.to_mut().drain(range.clone())),
+            Values::Integer(values) => drop(values.to_mut().drain(range.clone())),
+        }
     }
 }
 

@@ -91,7 +91,8 @@ impl<Wall: Fn(Vec2) -> (f64, Vec2) + Sync> Packing<'_, Wall> {
         let ones = vec![1.0; volume.len()];
         assemble(&mut solve.matrix, (pairs, images), &volume, &ones);
         let part = parts(pairs, images);
-        let unknowns = Unknowns { position: points, kind: &vec![0; n], part: &part, spacing: self.spacing };
+        let unknowns =
+            Unknowns { position: points, kind: &vec![0; n], part: &part, anchored: &[], spacing: self.spacing };
         let mut potential = vec![0.0; n];
         // What the solve leaves over, the next round takes.
         let _ = solve.solve(&unknowns, &volume[..n], &mut source, &mut potential, TOLERANCE);

@@ -1,6 +1,9 @@
-//! The particles as a structure of arrays: fluid particles first, wall particles after them, images last.
+//! The particles as a structure of arrays: fluid particles first, the buffers of open sides after them, then wall particles, and
+//! images last.
 //!
 //! Images stand behind mirror sides; they are made anew in each step and copy their source.
+
+use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
@@ -35,11 +38,15 @@ impl Phase {
     }
 }
 
-/// All particles that carry state. Arrays are of equal length; index < `fluids` is fluid, the rest is wall.
+/// All particles that carry state. Arrays are of equal length: fluid, then the buffers of open sides, then walls.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Particles {
     /// Number of fluid particles.
     pub fluids: usize,
+    /// Number of particles in the buffers of open sides.
+    pub open: usize,
+    /// Number of wall particles.
+    pub walls: usize,
     /// Name of the particle for its whole life.
     pub id: Vec<u32>,
     /// Phase.
@@ -73,18 +80,53 @@ impl Particles {
         a < self.fluids
     }
 
+    /// Number of particles that move: fluid and buffers. Walls begin there.
+    #[must_use]
+    pub fn moving(&self) -> usize {
+        self.fluids + self.open
+    }
+
+    /// The buffers of open sides.
+    #[must_use]
+    pub fn buffer(&self) -> Range<usize> {
+        self.fluids..self.moving()
+    }
+
     /// Adds a particle at rest; fluid must come before walls.
     pub fn push(&mut self, phase: Phase, position: Vec2) {
         debug_assert!(phase == Phase::Solid || self.fluids == self.len(), "fluid comes before walls");
-        if phase != Phase::Solid {
+        if phase == Phase::Solid {
+            self.walls += 1;
+        } else {
             self.fluids += 1;
         }
+        self.append(phase, position);
+    }
+
+    /// Adds a particle at rest behind all others; [`Particles::arrange`] must give it its place and kind.
+    pub fn append(&mut self, phase: Phase, position: Vec2) {
         self.id.push(u32::try_from(self.len()).unwrap_or(u32::MAX));
         self.phase.push(phase);
         self.position.push(position);
         self.velocity.push(Vec2::zeros());
         self.pressure.push(0.0);
         self.part.push(0);
+    }
+
+    /// Adds a particle like `a` with another phase, place (m) and name behind all others, as [`Particles::append`] does.
+    pub fn append_like(&mut self, a: usize, phase: Phase, position: Vec2, id: u32) {
+        self.id.push(id);
+        self.phase.push(phase);
+        self.position.push(position);
+        self.velocity.push(self.velocity[a]);
+        self.pressure.push(self.pressure[a]);
+        self.part.push(self.part[a]);
+    }
+
+    /// Keeps the particles of `order` in that order: `fluids` fluid ones, `open` in buffers, and walls.
+    pub fn arrange(&mut self, order: &[usize], fluids: usize, open: usize) {
+        self.reorder(order);
+        (self.fluids, self.open, self.walls) = (fluids, open, order.len() - fluids - open);
     }
 
     /// Reorders the particles: the new particle i is the old `order[i]`. Fluid must stay before walls.

@@ -9,9 +9,10 @@ use crate::sph::domain::Domain;
 use crate::sph::fields::{Fields, Place};
 use crate::sph::images::Images;
 use crate::sph::method::{Method, PressureGradient, ViscousTerm};
+use crate::sph::open::{self, Feet, Open, Prescribed};
 use crate::sph::pairs::{Pairs, each, largest};
 use crate::sph::particles::Particles;
-use crate::sph::poisson::{PressureSolve, Unknowns, assemble, parts};
+use crate::sph::poisson::{PressureSolve, Unknowns, assemble, give, parts};
 use crate::sph::terms::divergence::divergence;
 use crate::sph::terms::pressure_gradient;
 use crate::sph::terms::viscosity::Viscous;
@@ -24,6 +25,13 @@ const REORDER_EVERY: u64 = 20;
 
 /// Above this density ratio the multigrid keeps light and heavy particles apart.
 const LARGEST_SMOOTH_RATIO: f64 = 5.0;
+
+/// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
+const GIVEN: u8 = 2;
+
+/// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
+/// fluid answers to that of the buffer by a small share, so that few will do.
+const FIRST_SOLVES: usize = 6;
 
 /// The signed distance in m (above 0 in the pore) and the wall normal at a point.
 pub type WallQuery = Box<dyn Fn(Vec2) -> (f64, Vec2) + Send + Sync>;
@@ -64,6 +72,8 @@ pub struct Flow {
     pub particles: Particles,
     /// Depth of each wall particle in m.
     pub wall_depth: Vec<f64>,
+    /// Open sides and what passed through them.
+    pub open: Open,
     /// Time in s.
     pub time: f64,
     /// Steps since time zero.
@@ -88,12 +98,20 @@ pub(super) struct Predicted {
     pub(super) limit: &'static str,
     /// v_int over particles and images in m/s.
     velocity: Vec<Vec2>,
+    /// Where the buffers of open sides take the velocity from.
+    feet: Feet,
 }
 
 impl Flow {
     /// The flow at time zero. `wall_depth` in m as `fill` returns it.
     #[must_use]
-    pub fn new(method: Method, domain: Domain, wall: WallQuery, particles: Particles, wall_depth: Vec<f64>) -> Self {
+    pub fn new(
+        method: Method,
+        domain: Domain,
+        wall: WallQuery,
+        (particles, wall_depth): (Particles, Vec<f64>),
+        open: Open,
+    ) -> Self {
         let mut flow = Self {
             method,
             domain,
@@ -102,6 +120,7 @@ impl Flow {
             lines: Vec::new(),
             particles,
             wall_depth,
+            open,
             time: 0.0,
             steps: 0,
             last: StepInfo { dt: 0.0, limit: "none" },
@@ -150,11 +169,11 @@ impl Flow {
     }
 
     fn order_walls(&mut self) {
-        let fluids = self.particles.fluids;
-        let walls = &self.particles.position[fluids..];
+        let moving = self.particles.moving();
+        let walls = &self.particles.position[moving..];
         let order = Cells::build(walls, &self.domain, self.method.kernel.support()).order().to_vec();
         self.wall_depth = order.iter().map(|&i| self.wall_depth[i as usize]).collect();
-        self.reorder((0..fluids).chain(order.iter().map(|&i| i as usize + fluids)).collect());
+        self.reorder((0..moving).chain(order.iter().map(|&i| i as usize + moving)).collect());
     }
 
     fn reorder(&mut self, order: Vec<usize>) {
@@ -169,11 +188,19 @@ impl Flow {
         let start = Instant::now();
         let predicted = self.predict(until)?;
         let after_forces = Instant::now();
+        if self.steps == 0 && !self.open.sides.is_empty() {
+            for _ in 0..FIRST_SOLVES {
+                self.particles.pressure = self.project(&predicted)?;
+            }
+        }
         let pressure = self.project(&predicted)?;
         let after_pressure = Instant::now();
         let velocity = self.correct(&predicted, &pressure);
         self.advance(&predicted, velocity, until)?;
         self.particles.pressure = pressure;
+        if !self.open.sides.is_empty() {
+            open::exchange(&mut self.particles, &self.open.sides, &mut self.open.ledger, self.method.spacing);
+        }
         self.work.seconds[1] += (after_forces - start).as_secs_f64();
         self.work.seconds[2] += (after_pressure - after_forces).as_secs_f64();
         self.work.seconds[3] += after_pressure.elapsed().as_secs_f64();
@@ -185,11 +212,11 @@ impl Flow {
 
     /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25].
     fn predict(&self, until: f64) -> Result<Predicted, SolverError> {
-        let (particles, fluids) = (&self.particles, self.particles.fluids);
+        let (particles, fluids, moving) = (&self.particles, self.particles.fluids, self.particles.moving());
         let mut velocity = particles.velocity.clone();
         self.images.extend_velocity(&mut velocity);
         let (viscous, rate) = self.viscous_acceleration(&velocity);
-        let (fastest, speed) = largest(fluids, |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
+        let (fastest, speed) = largest(moving, |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
         let step = self.method.time_step(speed, rate);
         let smallest = self.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
@@ -211,10 +238,12 @@ impl Flow {
             let forces = (f.surface_force[a] + f.line_force[a]) / f.density[a];
             particles.velocity[a] + step.dt * (viscous[a] + self.method.gravity + forces + background[a])
         });
+        let feet = Feet::new(particles, &self.open.sides, &self.domain, &self.method.kernel);
+        self.set_buffer_velocity(&feet, &mut velocity);
         // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
-        velocity[fluids..particles.len()].fill(Vec2::zeros());
+        velocity[moving..particles.len()].fill(Vec2::zeros());
         self.images.extend_velocity(&mut velocity);
-        Ok(Predicted { dt: step.dt, limit: step.limit, velocity })
+        Ok(Predicted { dt: step.dt, limit: step.limit, velocity, feet })
     }
 
     /// The viscous acceleration of the fluid particles in m/s² and the largest viscous rate in 1/s.
@@ -252,7 +281,7 @@ impl Flow {
     /// Depth in m of a wall particle or its image, none for fluid.
     fn depth(&self, b: usize) -> Option<f64> {
         let source = self.images.source(b);
-        source.checked_sub(self.particles.fluids).map(|wall| self.wall_depth[wall])
+        source.checked_sub(self.particles.moving()).map(|wall| self.wall_depth[wall])
     }
 
     /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles and to the wall particles that
@@ -260,12 +289,13 @@ impl Flow {
     #[must_use]
     pub fn friction(&self, is_meant: impl Fn(usize, Vec2) -> bool + Sync) -> Vec2 {
         let (particles, fluids, f) = (&self.particles, self.particles.fluids, &self.fields);
+        let moving = particles.moving();
         let mut velocity = particles.velocity.clone();
         self.images.extend_velocity(&mut velocity);
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let v_ab = |a: usize, b: usize| {
             let source = self.images.source(b);
-            let counts = source >= fluids && is_meant(a, particles.position[source]);
+            let counts = source >= moving && is_meant(a, particles.position[source]);
             if counts { self.velocity_difference(&velocity, a, b) } else { Vec2::zeros() }
         };
         let mut acceleration = vec![Vec2::zeros(); fluids];
@@ -275,6 +305,25 @@ impl Flow {
             ViscousTerm::Szewc => viscous.szewc(&self.pairs, v_ab, &mut acceleration),
         }
         -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
+    }
+
+    /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
+    /// given pressure the normal part of that at the foot, so that it goes on along the normal.
+    fn set_buffer_velocity(&self, feet: &Feet, velocity: &mut [Vec2]) {
+        for (i, b) in self.particles.buffer().enumerate() {
+            let x = self.particles.position[b];
+            let Some(side) = self.open.sides.iter().find(|side| side.beyond(x) >= 0.0) else { continue };
+            velocity[b] = side.given_velocity(x).unwrap_or_else(|| {
+                let at_foot = feet.value(i, velocity).unwrap_or_default();
+                side.velocity(side.inwards() * at_foot[side.axis()])
+            });
+        }
+    }
+
+    /// Whether the divergence at particle `a` counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.
+    fn sees_the_fluid(&self, a: usize) -> bool {
+        let (x, support) = (self.particles.position[a], self.method.kernel.support());
+        self.open.sides.iter().all(|side| side.beyond(x) < support)
     }
 
     /// The background pressure p_0 in Pa for a flow of the given `speed` (m/s).
@@ -293,7 +342,8 @@ impl Flow {
         acceleration
     }
 
-    /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part.
+    /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
+    /// no open side gives it.
     ///
     /// The right side gives a share γ of the density error back per step (the drift source, which the paper lacks).
     fn project(&mut self, predicted: &Predicted) -> Result<Vec<f64>, SolverError> {
@@ -305,6 +355,9 @@ impl Flow {
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
             let crowding = if a < fluids { v_0 / f.volume[a] - 1.0 } else { 0.0 };
+            if !self.sees_the_fluid(a) {
+                return 0.0;
+            }
             -f.volume[a] * (source[a] / dt - drift * crowding)
         });
         let mut matrix = std::mem::take(&mut self.pressure.matrix);
@@ -312,16 +365,25 @@ impl Flow {
         if let Some(jump) = &f.jump {
             jump.subtract_from(&mut b, &matrix, &self.pairs, method.tension);
         }
+        let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
+        let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
+        let given = |a: usize| prescribed.of(a, fluids);
+        let mut kind = self.kinds();
+        let mut anchored = vec![false; self.particles.part.iter().max().map_or(0, |last| *last as usize + 1)];
+        for a in self.particles.buffer().filter(|&a| given(a).is_some()) {
+            anchored[self.particles.part[a] as usize] = true;
+            kind[a] = GIVEN;
+        }
+        give(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
         self.pressure.matrix = matrix;
-        let kind = self.kinds();
-        let unknowns = Unknowns {
-            position: &self.particles.position,
-            kind: &kind,
-            part: &self.particles.part,
-            spacing: method.spacing,
-        };
-        let mut p = self.particles.pressure.clone();
+        let part = &self.particles.part;
+        let position = &self.particles.position;
+        let unknowns = Unknowns { position, kind: &kind, part, anchored: &anchored, spacing: method.spacing };
+        let offset = |a: usize| if anchored[part[a] as usize] { prescribed.reference } else { 0.0 };
+        let relative = |a: usize| if given(a).is_some() { 0.0 } else { self.particles.pressure[a] - offset(a) };
+        let mut p: Vec<f64> = (0..n).map(relative).collect();
         let convergence = self.pressure.solve(&unknowns, &self.fields.volume[..n], &mut b, &mut p, method.tolerance);
+        p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
         self.work.last_iterations = convergence.iterations;
         self.work.iterations += convergence.iterations as u64;
         self.work.residual = convergence.residual;
@@ -346,7 +408,7 @@ impl Flow {
         self.fields.density[..self.particles.len()].iter().map(|&rho| u8::from(rho < between)).collect()
     }
 
-    /// The corrector: the velocity at the end of the step [Huber2013, Eq. 26].
+    /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26].
     fn correct(&self, predicted: &Predicted, pressure: &[f64]) -> Vec<Vec2> {
         let (fluids, f) = (self.particles.fluids, &self.fields);
         let mut p = pressure.to_vec();
@@ -369,7 +431,11 @@ impl Flow {
                 pressure_gradient::difference(pairs, volume, density, &p, jump, &mut acceleration);
             }
         }
-        acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a).collect()
+        let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);
+        let mut velocity: Vec<Vec2> =
+            corrected.chain(std::iter::repeat_n(Vec2::zeros(), self.particles.open)).collect();
+        self.set_buffer_velocity(&predicted.feet, &mut velocity);
+        velocity
     }
 
     /// Wall time by part in s.

@@ -17,6 +17,7 @@ use crate::sph::fill::{self, Lattice, Places};
 use crate::sph::kernel::WendlandC2;
 use crate::sph::measures::DiscOf;
 use crate::sph::method::{Fluid, Method, ViscousTerm};
+use crate::sph::open::{self, Around, Ledger, Open, OpenSide, Opening, Profile, Shape};
 use crate::sph::packing::Packing;
 use crate::sph::particles::Phase;
 use crate::sph::poisson::Tolerance;
@@ -49,6 +50,32 @@ pub enum SetupError {
         width: f64,
         /// Height in m.
         height: f64,
+    },
+    /// An open side that nothing can pass through.
+    #[error("solids block the open side `{0}` all along; open another side, or leave a gap in the solids")]
+    Blocked(&'static str),
+    /// A parabola over several openings.
+    #[error(
+        "the side `{side}` has {openings} openings between its solids, and a parabola needs one; use profile = \"plug\" or a pressure"
+    )]
+    Openings {
+        /// The side.
+        side: &'static str,
+        /// Number of its openings.
+        openings: usize,
+    },
+    /// A solid or a pore that ends at an open side.
+    #[error(
+        "a shape ends at the open side `{side}` near ({:.3e}, {:.3e}) m; walls go on beyond an open side, so let the shape reach \
+         {reach:.1e} m beyond it, or end before it", place.x, place.y
+    )]
+    EndsAtSide {
+        /// The side.
+        side: &'static str,
+        /// Where, in m.
+        place: Vec2,
+        /// How far the shape must reach beyond the side, in m.
+        reach: f64,
     },
     /// No room for a single particle.
     #[error("no fluid particle fits into the pore at a spacing of {0:.3e} m; use a smaller spacing")]
@@ -96,17 +123,37 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         fill::on_lattice(&lattice, support, walls, |x| geometry.signed_distance(x))
     };
     let mut particles = places.particles(phase);
-    let depth = places.depth;
+    let mut depth = places.depth;
     if particles.fluids == 0 {
         return Err(SetupError::NoFluid(sph.spacing));
     }
-    for a in 0..particles.fluids {
-        particles.velocity[a] = velocity(&sph.initial.velocity, particles.position[a], bounds);
+    let open = open(sph, (&geometry, &lattice, method.kernel.h), &phase)?;
+    let inside = inside_of_open_sides(&open.sides);
+    let around = Around {
+        bounds,
+        step: lattice.step,
+        support,
+        walls,
+        signed_distance: &|x| geometry.signed_distance(inside(x)),
+        phase: &phase,
+    };
+    open::fill(&mut particles, &mut depth, &open.sides, &around);
+    for a in 0..particles.moving() {
+        let x = particles.position[a];
+        let given = open.sides.iter().filter(|side| side.beyond(x) > 0.0).find_map(|side| side.given_velocity(x));
+        particles.velocity[a] = given.unwrap_or_else(|| velocity(&sph.initial.velocity, inside(x), bounds));
+    }
+    // The slopes of the first step begin at zero: each side sees its own pressure.
+    for a in 0..particles.len() {
+        let x = particles.position[a];
+        let given = open.sides.iter().filter_map(|side| Some((side.beyond(x), side.given_pressure()?)));
+        particles.pressure[a] = given.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, pressure)| pressure);
     }
     let outline = geometry.outline();
-    for a in particles.fluids..particles.len() {
-        particles.velocity[a] = wall_velocity(sph.wall_speeds, particles.position[a], bounds);
+    for a in particles.moving()..particles.len() {
+        particles.velocity[a] = wall_velocity(sph.wall_speeds, inside(particles.position[a]), bounds);
     }
+    let ledger = Ledger::new(&particles.phase[..particles.fluids], u32::try_from(particles.len()).unwrap_or(u32::MAX));
     let surroundings = Surroundings {
         wall_samples: wall_samples(&polylines(&outline), 0.5 * sph.spacing),
         outline,
@@ -118,10 +165,11 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
     };
     let walls = wall_spots(sph, &geometry);
     let query: WallQuery = Box::new(move |x| {
-        let wall = geometry.wall(x);
+        let wall = geometry.wall(inside(x));
         (wall.distance, wall.normal)
     });
-    let mut flow = Flow::new(method, domain, query, particles, depth);
+    let open = Open { ledger, cell: lattice.step.x * lattice.step.y, ..open };
+    let mut flow = Flow::new(method, domain, query, (particles, depth), open);
     if let Some(walls) = walls {
         flow = flow.with_walls(walls);
     }
@@ -205,6 +253,128 @@ fn fitted_places(
     places
 }
 
+/// Names of the sides in the order of their numbers.
+const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+
+/// The open sides, and the periodic ones with a given flow.
+fn open(
+    sph: &Sph,
+    (geometry, lattice, h): (&Geometry, &Lattice, f64),
+    phase: &dyn Fn(Vec2) -> Phase,
+) -> Result<Open, SetupError> {
+    let bounds = geometry.bounds();
+    let kinds = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let mut open = Open::default();
+    for (number, given) in sph.open.iter().enumerate() {
+        let Some(given) = given else { continue };
+        let (axis, along) = (number / 2, 1 - number / 2);
+        let at = if number.is_multiple_of(2) { bounds.min[axis] } else { bounds.max[axis] };
+        let enters = given.enters_wetting.map(|wetting| if wetting { Phase::Wetting } else { Phase::NonWetting });
+        let layers = (open::DEPTH * h / lattice.step[axis]).ceil();
+        let mut side = OpenSide {
+            number,
+            at,
+            drive: open::Drive::Pressure(0.0),
+            enters,
+            main: Phase::Wetting,
+            depth: layers * lattice.step[axis],
+        };
+        let near_side = |y: f64| {
+            let mut x = Vec2::zeros();
+            x[along] = y;
+            side.placed(x, -INSIDE * sph.spacing)
+        };
+        // Solids narrower than this are no obstacle that particles would see.
+        let step = 0.1 * sph.spacing;
+        let is_pore = |y: f64| geometry.signed_distance(near_side(y)) > 0.0;
+        let openings = open::openings((bounds.min[along], bounds.max[along]), step, is_pore);
+        if openings.is_empty() {
+            return Err(SetupError::Blocked(SIDES[number]));
+        }
+        if kinds[number] != Side::Periodic {
+            goes_on(&side, (geometry, &openings), &near_side, lattice.step)?;
+        }
+        side.main = enters.unwrap_or_else(|| main_phase(&openings, |y| phase(near_side(y)), step));
+        let width: f64 = openings.iter().map(|o| o.to - o.from).sum();
+        let profile = |mean: f64, form| {
+            shape(form, (SIDES[number], &openings), [kinds[2 * along], kinds[2 * along + 1]])
+                .map(|shape| open::Drive::Velocity(Profile { mean, shape, openings: openings.clone() }))
+        };
+        side.drive = match given.drive {
+            checked::Drive::Pressure(pressure) => open::Drive::Pressure(pressure),
+            checked::Drive::Velocity(mean, form) => profile(mean, form)?,
+            checked::Drive::FlowRate(rate, form) => profile(rate / width, form)?,
+        };
+        if kinds[number] == Side::Periodic {
+            side.depth = open::Through::WIDTH * h;
+            open.through.push(open::Through { side });
+        } else {
+            open.sides.push(side);
+        }
+    }
+    Ok(open)
+}
+
+/// How far inside of a side its openings are looked for, over the spacing: on the side itself a solid can end.
+const INSIDE: f64 = 1e-3;
+
+/// Form of a profile over the openings of a side, between the sides of the kinds `ends`.
+fn shape(
+    form: checked::Profile,
+    (side, openings): (&'static str, &[Opening]),
+    ends: [Side; 2],
+) -> Result<Shape, SetupError> {
+    match (form, ends) {
+        (checked::Profile::Plug, _) => Ok(Shape::Plug),
+        _ if openings.len() > 1 => Err(SetupError::Openings { side, openings: openings.len() }),
+        (_, [Side::Symmetry, _]) => Ok(Shape::HalfParabola { mirror_above: false }),
+        (_, [_, Side::Symmetry]) => Ok(Shape::HalfParabola { mirror_above: true }),
+        _ => Ok(Shape::Parabola),
+    }
+}
+
+/// Whether solids at the side reach beyond it, as the walls of its buffer do.
+fn goes_on(
+    side: &OpenSide,
+    (geometry, openings): (&Geometry, &[Opening]),
+    near_side: &dyn Fn(f64) -> Vec2,
+    step: Vec2,
+) -> Result<(), SetupError> {
+    let (bounds, along) = (geometry.bounds(), 1 - side.axis());
+    let reach = 2.0 * step[side.axis()];
+    let count = (bounds.size()[along] / step[along]).round() as usize;
+    for i in 0..count {
+        let y = bounds.min[along] + (i as f64 + 0.5) * step[along];
+        let place = near_side(y);
+        let is_open = openings.iter().any(|o| (o.from..=o.to).contains(&y));
+        // A slanted wall may come or go near its edge.
+        let is_near_edge = openings.iter().any(|o| (y - o.from).abs().min((y - o.to).abs()) < reach);
+        if !is_near_edge && is_open != (geometry.signed_distance(side.placed(place, reach)) > 0.0) {
+            return Err(SetupError::EndsAtSide { side: SIDES[side.number], place, reach });
+        }
+    }
+    Ok(())
+}
+
+/// The phase that fills more of the openings.
+fn main_phase(openings: &[Opening], phase: impl Fn(f64) -> Phase, step: f64) -> Phase {
+    let mut wetting = 0_i64;
+    for opening in openings {
+        let count = ((opening.to - opening.from) / step).ceil() as usize;
+        for i in 0..count {
+            let y = opening.from + (opening.to - opening.from) * (i as f64 + 0.5) / count as f64;
+            wetting += if phase(y) == Phase::Wetting { 1 } else { -1 };
+        }
+    }
+    if wetting >= 0 { Phase::Wetting } else { Phase::NonWetting }
+}
+
+/// The place from which walls are seen: beyond an open side the nearest one on the side, so that walls go on along its normal.
+fn inside_of_open_sides(sides: &[OpenSide]) -> impl Fn(Vec2) -> Vec2 + Send + Sync + use<> {
+    let sides = sides.to_vec();
+    move |x| sides.iter().fold(x, |x, side| if side.beyond(x) > 0.0 { side.placed(x, 0.0) } else { x })
+}
+
 fn method(sph: &Sph, lattice: &Lattice) -> Method {
     let kernel = lattice.consistent(WendlandC2::new(sph.smoothing_ratio * sph.spacing));
     let fluid = |f: &checked::Fluid| Fluid { density: f.density, viscosity: f.viscosity };
@@ -243,7 +413,7 @@ fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
     let mirror = |(side, (axis, at)): (Side, (usize, f64))| match side {
         Side::Image => Some(Mirror { axis, at, image: ImageVelocity::Reversed }),
         Side::Symmetry => Some(Mirror { axis, at, image: ImageVelocity::Mirrored }),
-        Side::Periodic | Side::Wall => None,
+        Side::Periodic | Side::Wall | Side::Inlet | Side::Outlet => None,
     };
     sides.into_iter().zip(places).filter_map(mirror).collect()
 }

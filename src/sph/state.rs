@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::solver::{StateError, StepInfo};
+use crate::sph::open::Ledger;
 use crate::sph::particles::Particles;
 use crate::sph::projection::Flow;
 use crate::sph::wetting::lines::Line;
@@ -15,6 +16,7 @@ struct State {
     particles: Particles,
     wall_depth: Vec<f64>,
     lines: Vec<Line>,
+    ledger: Ledger,
 }
 
 /// The state of the flow as bytes.
@@ -27,6 +29,7 @@ pub fn save(flow: &Flow) -> Vec<u8> {
         particles: flow.particles.clone(),
         wall_depth: flow.wall_depth.clone(),
         lines: flow.lines.clone(),
+        ledger: flow.open.ledger,
     };
     // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
     postcard::to_stdvec(&state).unwrap_or_default()
@@ -39,7 +42,9 @@ pub fn save(flow: &Flow) -> Vec<u8> {
 pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
     let state: State = postcard::from_bytes(bytes).map_err(|e| StateError(format!("{e}")))?;
     let (found, expected) = (state.particles.len(), flow.particles.len());
-    if found != expected || state.particles.fluids != flow.particles.fluids {
+    let is_open = !flow.open.sides.is_empty();
+    let same_fluid = found == expected && state.particles.fluids == flow.particles.fluids;
+    if state.particles.walls != flow.particles.walls || !(is_open || same_fluid) {
         return Err(StateError(format!("it has {found} particles, the case has {expected}")));
     }
     flow.time = state.time;
@@ -48,6 +53,7 @@ pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
     flow.particles = state.particles;
     flow.wall_depth = state.wall_depth;
     flow.lines = state.lines;
+    flow.open.ledger = state.ledger;
     flow.prepare();
     Ok(())
 }

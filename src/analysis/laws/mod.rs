@@ -3,4 +3,5 @@
 pub mod drops;
 pub mod flow;
 pub mod pores;
+pub mod slit;
 pub mod waves;

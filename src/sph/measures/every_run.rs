@@ -1,7 +1,7 @@
 //! What every run reports: angle, pressures, saturation, lengths and the bookkeeping of areas and densities.
 
 use super::{Subject, measure};
-use crate::analysis::phases::density_error;
+use crate::analysis::phases::{PhaseAreas, density_error};
 use crate::solver::Measure;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
@@ -23,12 +23,21 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
 }
 
 fn two_phases(s: &Subject) -> Vec<Measure> {
-    let drift = s.seen.areas.drift_since(&s.start.areas);
-    let drift = drift.iter().map(|d| d.abs()).fold(0.0, f64::max);
+    // What came in and left through open sides is no drift.
+    let (passed, seen) = (super::open::net(s.flow), s.seen.areas);
+    let kept = PhaseAreas { wetting: seen.wetting - passed[0], non_wetting: seen.non_wetting - passed[1] };
+    let drift = kept.drift_since(&s.start.areas);
+    let drift = drift.iter().map(|d| d.abs()).filter(|d| d.is_finite()).fold(0.0, f64::max);
     let pressure = &s.seen.capillary_pressure;
     let mut found = vec![
         measure("saturation", s.seen.areas.saturation(), "", None, "area of the wetting phase over that of both"),
-        measure("area-drift", drift, "", None, "larger relative change of a phase's area since time zero"),
+        measure(
+            "area-drift",
+            drift,
+            "",
+            None,
+            "larger relative change of a phase's area since time zero, without what passed through open sides",
+        ),
         measure(
             "capillary-pressure-Pa",
             pressure.value,

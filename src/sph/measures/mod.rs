@@ -11,9 +11,11 @@ mod jurin;
 mod laplace_drop;
 mod layered;
 mod moving_drop;
+pub(super) mod open;
 mod poiseuille;
 mod sessile_drop;
 mod sliding;
+mod slit;
 mod spreading;
 mod taylor_green;
 mod throat;
@@ -83,7 +85,8 @@ type Group = fn(&Subject) -> Vec<Measure>;
 #[must_use]
 pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
     let mut measures = every_run::measures(subject);
-    let groups: [(bool, Group); 18] = [
+    measures.extend(open::measures(subject));
+    let groups: [(bool, Group); 20] = [
         (set.sessile_drop, sessile_drop::measures),
         (set.laplace_drop, laplace_drop::measures),
         (set.poiseuille, poiseuille::measures),
@@ -102,6 +105,8 @@ pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
         (set.jurin, jurin::measures),
         (set.moving_drop, sliding::measures),
         (set.spreading, spreading::measures),
+        (set.slit_filling, slit::filling),
+        (set.capillary_rise, slit::rise),
     ];
     for (_, group) in groups.iter().filter(|(wanted, _)| *wanted) {
         measures.extend(group(subject));
@@ -112,7 +117,7 @@ pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
 /// Further columns of the series that the groups of `set` need for their measures: name and value.
 #[must_use]
 pub fn columns(flow: &Flow, seen: &Observation, set: &MeasureSet) -> Vec<(&'static str, f64)> {
-    let mut columns = Vec::new();
+    let mut columns = open::columns(flow);
     if set.oscillating_drop || set.shear_drop {
         columns.extend(moving_drop::columns(flow));
     }
@@ -127,6 +132,12 @@ pub fn columns(flow: &Flow, seen: &Observation, set: &MeasureSet) -> Vec<(&'stat
     }
     if set.spreading {
         columns.extend(spreading::columns(seen));
+    }
+    if set.slit_filling {
+        columns.extend(slit::filling_columns(flow, seen));
+    }
+    if set.capillary_rise {
+        columns.extend(slit::rise_columns(flow, seen));
     }
     columns
 }

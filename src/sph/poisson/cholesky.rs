@@ -22,12 +22,18 @@ pub struct SparseCholesky {
 pub struct FactorizationError(String);
 
 impl SparseCholesky {
-    /// Solves M x = b. Each part without a fixed value has its first unknown held at zero.
+    /// Solves M x = b. Each part without a given value, that is, not `anchored`, has its first unknown held at zero.
     ///
     /// # Errors
     /// [`FactorizationError`] where the matrix is not positive definite after that.
-    pub fn solve(&mut self, matrix: &Matrix, part: &[u32], b: &[f64], x: &mut [f64]) -> Result<(), FactorizationError> {
-        let lower = lower_triangle(matrix, part)?;
+    pub fn solve(
+        &mut self,
+        matrix: &Matrix,
+        (part, anchored): (&[u32], &[bool]),
+        b: &[f64],
+        x: &mut [f64],
+    ) -> Result<(), FactorizationError> {
+        let lower = lower_triangle(matrix, part, anchored)?;
         let failed = |e: &dyn std::fmt::Debug| FactorizationError(format!("{e:?}"));
         if self.pattern.0 != matrix.start || self.pattern.1 != matrix.column {
             self.symbolic = None;
@@ -45,12 +51,16 @@ impl SparseCholesky {
     }
 }
 
-fn lower_triangle(matrix: &Matrix, part: &[u32]) -> Result<SparseColMat<usize, f64>, FactorizationError> {
+fn lower_triangle(
+    matrix: &Matrix,
+    part: &[u32],
+    anchored: &[bool],
+) -> Result<SparseColMat<usize, f64>, FactorizationError> {
     let mut seen = Vec::new();
     let mut entries = Vec::with_capacity(matrix.column.len() / 2 + matrix.rows());
     for (a, part) in part.iter().enumerate().take(matrix.rows()) {
         // Doubling one diagonal entry per part holds that unknown near zero without a change of the range's solution.
-        let first = !seen.contains(&part);
+        let first = !seen.contains(&part) && !anchored.get(*part as usize).copied().unwrap_or(false);
         if first {
             seen.push(part);
         }

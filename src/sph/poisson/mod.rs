@@ -7,12 +7,14 @@ mod assemble;
 mod cholesky;
 mod components;
 mod conjugate_gradients;
+mod given;
 mod matrix;
 mod multigrid;
 mod solve;
 
 pub use assemble::{assemble, parts};
 pub use conjugate_gradients::{Convergence, conjugate_gradients};
+pub use given::give;
 pub use matrix::Matrix;
 pub use multigrid::Multigrid;
 pub use solve::{PressureSolve, Tolerance, Unknowns};

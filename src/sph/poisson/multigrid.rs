@@ -25,6 +25,9 @@ const BLOCK: usize = 2048;
 /// The second step of the K-cycle is left out where the first brought the residual below this share.
 const GOOD_ENOUGH: f64 = 0.25;
 
+/// A share of the diagonal below which what the couplings leave of it is rounding: the part has no given value.
+const ROUNDING: f64 = 1e-10;
+
 struct Level {
     matrix: Matrix,
     /// Aggregate of each unknown of the level above.
@@ -178,7 +181,7 @@ fn galerkin(fine: &Matrix, aggregate: &[u32], count: usize) -> Matrix {
     Matrix { start: Arc::new(starts), column: Arc::new(column), coupling, diagonal }
 }
 
-/// The dense factor, with the diagonal entry of the first unknown of each connected part doubled.
+/// The dense factor, with the diagonal entry of the first unknown of each connected part doubled where no value is given in it.
 ///
 /// That makes the matrix positive definite and leaves the solution of a right side that sums to zero over each part as it
 /// is. Something small on the whole diagonal would instead blow the rounding of that sum up to a large constant, whose
@@ -187,11 +190,21 @@ fn factor(matrix: &Matrix) -> Option<Cholesky<f64, Dyn>> {
     let n = matrix.rows();
     let mut dense = DMatrix::from_diagonal(&DVector::from_column_slice(&matrix.diagonal));
     let part = components(n, |a| matrix.row(a).map(|(b, _)| b));
+    let mut excess = vec![(0.0, 0.0); n];
+    for a in 0..n {
+        let coupled: f64 = matrix.row(a).map(|(_, coupling)| coupling).sum();
+        let (sum, size) = &mut excess[part[a] as usize];
+        *sum += matrix.diagonal[a] - coupled;
+        *size += matrix.diagonal[a];
+    }
     let mut held = 0;
     for a in 0..n {
         // Parts are numbered in the order of their first unknowns.
         if part[a] == held {
-            dense[(a, a)] *= 2.0;
+            let (sum, size) = excess[held as usize];
+            if sum <= ROUNDING * size {
+                dense[(a, a)] *= 2.0;
+            }
             held += 1;
         }
         for (b, coupling) in matrix.row(a) {

@@ -26,6 +26,8 @@ pub struct Unknowns<'a> {
     pub kind: &'a [u8],
     /// Part of the pore space, numbered from 0.
     pub part: &'a [u32],
+    /// Whether a pressure is given somewhere in the part; parts beyond the end have none.
+    pub anchored: &'a [bool],
     /// Distance of neighboring points in m.
     pub spacing: f64,
 }
@@ -42,8 +44,8 @@ pub struct PressureSolve {
 impl PressureSolve {
     /// Solves M p = b for the matrix set before, from the first guess `p`.
     ///
-    /// Without a fixed pressure b must sum to zero over each part; what is left over by the discrete divergence is spread by `volume`.
-    /// Then p has mean zero over each part.
+    /// Without a given pressure b must sum to zero over each part; what is left over by the discrete divergence is spread by `volume`.
+    /// Then p has mean zero over each such part.
     pub fn solve(
         &mut self,
         unknowns: &Unknowns,
@@ -52,20 +54,20 @@ impl PressureSolve {
         p: &mut [f64],
         tolerance: Tolerance,
     ) -> Convergence {
-        subtract_mean(unknowns.part, volume, b);
+        subtract_mean(unknowns, volume, b);
         let convergence = if self.matrix.rows() <= SMALL {
             self.solve_directly(unknowns, b, p, tolerance)
         } else {
             self.iterate(unknowns, b, p, tolerance)
         };
         let ones = vec![1.0; p.len()];
-        subtract_mean(unknowns.part, &ones, p);
+        subtract_mean(unknowns, &ones, p);
         self.matrix.release_pattern();
         convergence
     }
 
     fn solve_directly(&mut self, unknowns: &Unknowns, b: &[f64], p: &mut [f64], tolerance: Tolerance) -> Convergence {
-        if self.cholesky.solve(&self.matrix, unknowns.part, b, p).is_err() {
+        if self.cholesky.solve(&self.matrix, (unknowns.part, unknowns.anchored), b, p).is_err() {
             return self.iterate(unknowns, b, p, tolerance);
         }
         let mut r = vec![0.0; b.len()];
@@ -90,13 +92,17 @@ impl PressureSolve {
     }
 }
 
-/// Takes `weight`·(Σ values/Σ weight) off the values of each part, so that they sum to zero over it.
-fn subtract_mean(part: &[u32], weight: &[f64], values: &mut [f64]) {
+/// Takes `weight`·(Σ values/Σ weight) off the values of each part without a given pressure, so that they sum to zero over it.
+fn subtract_mean(unknowns: &Unknowns, weight: &[f64], values: &mut [f64]) {
+    let part = unknowns.part;
     let count = part.iter().max().map_or(0, |m| *m as usize + 1);
     let (mut sum, mut total) = (vec![0.0; count], vec![0.0; count]);
     for ((&part, value), weight) in part.iter().zip(values.iter()).zip(weight) {
         sum[part as usize] += value;
         total[part as usize] += weight;
+    }
+    for (sum, _) in sum.iter_mut().zip(unknowns.anchored).filter(|(_, anchored)| **anchored) {
+        *sum = 0.0;
     }
     for ((&part, value), weight) in part.iter().zip(values.iter_mut()).zip(weight) {
         *value -= weight * sum[part as usize] / total[part as usize];

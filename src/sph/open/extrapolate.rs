@@ -1,0 +1,110 @@
+//! Fields of the fluid carried beyond an open side along its normal: value by moving least squares at a foot within the fluid.
+
+use nalgebra::{Matrix4, Vector4};
+
+use crate::math::Vec2;
+use crate::sph::cells::Cells;
+use crate::sph::domain::Domain;
+use crate::sph::kernel::WendlandC2;
+use crate::sph::open::OpenSide;
+use crate::sph::particles::Particles;
+
+/// How far inside of the side the feet lie, over h: there the window of the fit has fluid on both sides.
+const INSET: f64 = 1.0;
+
+/// Weights whose sizes sum to more than this would blow the noise of single particles up: the fit is not to be trusted.
+const LARGEST_SUM: f64 = 2.5;
+
+/// For each buffer particle of a pressure side the fluid particles around its foot, with weights that sum to one.
+#[derive(Debug, Clone, Default)]
+pub struct Feet {
+    start: Vec<usize>,
+    terms: Vec<(u32, f64)>,
+}
+
+impl Feet {
+    /// The feet of all buffer particles; those of sides with a given velocity have none.
+    #[must_use]
+    pub fn new(particles: &Particles, sides: &[OpenSide], domain: &Domain, kernel: &WendlandC2) -> Self {
+        let mut feet = Self { start: vec![0], terms: Vec::new() };
+        let reach = (2.0 * INSET + 1.0) * kernel.support();
+        let is_near = |x: Vec2| sides.iter().any(|side| side.given_pressure().is_some() && -side.beyond(x) < reach);
+        let fluid: Vec<u32> =
+            (0..particles.fluids).filter(|&a| is_near(particles.position[a])).map(|a| a as u32).collect();
+        let points: Vec<Vec2> = fluid.iter().map(|&a| particles.position[a as usize]).collect();
+        let cells = Cells::build(&points, domain, kernel.support());
+        let mut near = Vec::new();
+        for b in particles.buffer() {
+            let x = particles.position[b];
+            if let Some(side) = sides.iter().find(|side| side.beyond(x) >= 0.0 && side.given_pressure().is_some()) {
+                let foot = side.placed(x, -INSET * kernel.h);
+                near.clear();
+                cells.visit_near(foot, |i, r| {
+                    let w = kernel.w(r.norm());
+                    if w > 0.0 {
+                        near.push((fluid[i as usize], w, -r / kernel.h));
+                    }
+                });
+                feet.terms.extend(weights(&near, 1 - side.axis()));
+            }
+            feet.start.push(feet.terms.len());
+        }
+        feet
+    }
+
+    /// The value of `field` at the foot of the `i`-th buffer particle; none without fluid around it.
+    #[must_use]
+    pub fn value(&self, i: usize, field: &[Vec2]) -> Option<Vec2> {
+        let terms = &self.terms[self.start[i]..self.start[i + 1]];
+        (!terms.is_empty()).then(|| terms.iter().map(|&(a, w)| w * field[a as usize]).sum())
+    }
+}
+
+/// Weights that give fields exactly that are linear along the normal and quadratic along the side: a plain or linear average would
+/// flatten a parabola, and the pressure would have to make up for the lost flow. Where the particles around do not allow that,
+/// linear ones, then those of the plain average. `r` from the foot over h.
+fn weights(near: &[(u32, f64, Vec2)], along: usize) -> Vec<(u32, f64)> {
+    let sum: f64 = near.iter().map(|n| n.1).sum();
+    let quadratic = |r: Vec2| Vector4::new(1.0, r[0], r[1], r[along] * r[along]);
+    let linear = |r: Vec2| Vector4::new(1.0, r[0], r[1], 0.0);
+    fitted(near, sum, quadratic)
+        .or_else(|| fitted(near, sum, linear))
+        .unwrap_or_else(|| near.iter().map(|&(a, w, _)| (a, w / sum)).collect())
+}
+
+/// The weights of the fit of a `basis` whose first function is 1 and whose others vanish at the foot.
+fn fitted(near: &[(u32, f64, Vec2)], sum: f64, basis: impl Fn(Vec2) -> Vector4<f64>) -> Option<Vec<(u32, f64)>> {
+    let mut moments = Matrix4::zeros();
+    for &(_, w, r) in near {
+        let row = basis(r);
+        moments += w / sum * row * row.transpose();
+    }
+    // A function left out has no moments.
+    for i in 1..4 {
+        if moments[(i, i)] == 0.0 {
+            moments[(i, i)] = 1.0;
+        }
+    }
+    let first = moments.cholesky()?.solve(&Vector4::x());
+    let weights: Vec<(u32, f64)> = near.iter().map(|&(a, w, r)| (a, w / sum * first.dot(&basis(r)))).collect();
+    (weights.iter().map(|(_, w)| w.abs()).sum::<f64>() < LARGEST_SUM).then_some(weights)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parabola_along_the_side_keeps_its_value_at_the_foot() {
+        // Scattered points on one side of a wall at r.y = -0.3.
+        let points = (0..40_u32).map(|i| {
+            let t = f64::from(i);
+            Vec2::new((1.7 * t).sin() * 1.8, (0.9 * t).cos().abs() * 1.5 - 0.3)
+        });
+        let near: Vec<(u32, f64, Vec2)> =
+            points.enumerate().map(|(i, r)| (i as u32, 1.0 / (1.0 + r.norm()), r)).collect();
+        let field = |r: Vec2| 2.0 + 0.5 * r.x - 3.0 * r.y + 4.0 * r.y * r.y;
+        let value: f64 = weights(&near, 1).iter().map(|&(i, w)| w * field(near[i as usize].2)).sum();
+        assert!((value - 2.0).abs() < 1e-12, "{value}");
+    }
+}

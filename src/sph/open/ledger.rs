@@ -1,0 +1,64 @@
+//! What passed through the sides, in particles: a particle's mass never changes, so counting them is exact.
+
+use serde::{Deserialize, Serialize};
+
+use crate::sph::particles::Phase;
+
+/// Counts of particles by side (left, right, bottom, top) and phase (wetting, non-wetting).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Ledger {
+    /// Came in.
+    pub came: [[u64; 2]; 4],
+    /// Left.
+    pub left: [[u64; 2]; 4],
+    /// The name of the next particle.
+    pub next_id: u32,
+    /// Fluid particles at time zero, by phase.
+    pub at_start: [u64; 2],
+}
+
+fn index(phase: Phase) -> usize {
+    usize::from(phase != Phase::Wetting)
+}
+
+impl Ledger {
+    /// The ledger at time zero.
+    #[must_use]
+    pub fn new(phases: &[Phase], next_id: u32) -> Self {
+        let mut ledger = Self { next_id, ..Self::default() };
+        ledger.at_start = Self::count(phases);
+        ledger
+    }
+
+    /// Particles of each phase.
+    #[must_use]
+    pub fn count(phases: &[Phase]) -> [u64; 2] {
+        let mut counts = [0; 2];
+        phases.iter().for_each(|&phase| counts[index(phase)] += 1);
+        counts
+    }
+
+    /// Notes a particle that came in through `side`.
+    pub fn comes(&mut self, side: usize, phase: Phase) {
+        self.came[side][index(phase)] += 1;
+    }
+
+    /// Notes a particle that left through `side`.
+    pub fn leaves(&mut self, side: usize, phase: Phase) {
+        self.left[side][index(phase)] += 1;
+    }
+
+    /// Particles of each phase that came in and that left, over all sides.
+    #[must_use]
+    pub fn totals(&self) -> ([u64; 2], [u64; 2]) {
+        let sum = |counts: &[[u64; 2]; 4]| [0, 1].map(|phase| counts.iter().map(|side| side[phase]).sum());
+        (sum(&self.came), sum(&self.left))
+    }
+
+    /// Names a new particle.
+    pub fn name(&mut self) -> u32 {
+        let id = self.next_id;
+        self.next_id = self.next_id.wrapping_add(1);
+        id
+    }
+}

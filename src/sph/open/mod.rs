@@ -1,0 +1,35 @@
+//! Open sides: fluid comes in and leaves, at a given velocity or a given pressure.
+//!
+//! Beyond an open side stands a *buffer*: particles that count as fluid in every sum, and whose velocity (at inlets) or
+//! pressure (elsewhere) is given. A buffer particle that crosses inwards becomes fluid and a new one is made at the far end of
+//! its file; fluid that crosses outwards becomes buffer, and beyond the far end it goes (method: Tafuni et al. 2018; for the
+//! pressure equation Hirschler et al. 2016).
+
+mod buffer;
+mod extrapolate;
+mod ledger;
+mod pressure;
+mod profile;
+mod side;
+mod through;
+
+pub use buffer::{Around, exchange, fill};
+pub use extrapolate::Feet;
+pub use ledger::Ledger;
+pub use pressure::Prescribed;
+pub use profile::{Opening, Profile, Shape, openings};
+pub use side::{DEPTH, Drive, OpenSide};
+pub use through::Through;
+
+/// The open sides of a run with what passed through them.
+#[derive(Debug, Clone, Default)]
+pub struct Open {
+    /// Inlets and outlets.
+    pub sides: Vec<OpenSide>,
+    /// Periodic sides with a given flow.
+    pub through: Vec<Through>,
+    /// What passed through the sides.
+    pub ledger: Ledger,
+    /// Area of a cell of the lattice in m², of which a file of particles brings one per spacing.
+    pub cell: f64,
+}

@@ -1,0 +1,69 @@
+//! The pressures of buffer particles at sides with a given pressure.
+//!
+//! The given value holds at the side. Beyond it the pressure goes on with the slope that it had inside of the side in the
+//! step before, in each phase on its own: with one value for the whole buffer the slope at the side would be lost.
+
+use crate::sph::open::{Drive, OpenSide};
+use crate::sph::particles::{Particles, Phase};
+
+/// Width of the strip inside of a side from which slopes are taken, over h.
+const STRIP: f64 = 2.0;
+
+/// Fewest particles of a phase in the strip for a slope.
+const FEWEST: usize = 5;
+
+/// The given pressures of one step.
+#[derive(Debug, Clone, Default)]
+pub struct Prescribed {
+    /// Pressure in Pa of each buffer particle, NaN where none is given.
+    pub value: Vec<f64>,
+    /// What all pressures are solved relative to in Pa: the mean over the sides.
+    pub reference: f64,
+}
+
+impl Prescribed {
+    /// The pressures for the step to come. `jump` is σκ in Pa at each buffer particle, NaN away from the interface.
+    #[must_use]
+    pub fn new(particles: &Particles, sides: &[OpenSide], jump: impl Fn(usize) -> f64, h: f64) -> Self {
+        let mut value = vec![f64::NAN; particles.open];
+        let (mut sum, mut count) = (0.0, 0.0);
+        for side in sides {
+            let Drive::Pressure(given) = side.drive else { continue };
+            sum += given;
+            count += 1.0;
+            let beyond = |a: usize| side.beyond(particles.position[a]);
+            let buffer: Vec<usize> = particles.buffer().filter(|&b| beyond(b) >= 0.0).collect();
+            let (total, found) = buffer
+                .iter()
+                .map(|&b| jump(b))
+                .filter(|jump| jump.is_finite())
+                .fold((0.0, 0.0), |(total, found), jump| (total + jump, found + 1.0));
+            let jump = if found > 0.0 { total / found } else { 0.0 };
+            let at_side = |phase: Phase| given + jump * (phase.color() - side.main.color());
+            let strip: Vec<usize> = (0..particles.fluids).filter(|&a| (0.0..STRIP * h).contains(&-beyond(a))).collect();
+            let slope = [Phase::Wetting, Phase::NonWetting].map(|phase| {
+                let (mut top, mut bottom, mut count) = (0.0, 0.0, 0);
+                for &a in strip.iter().filter(|&&a| particles.phase[a] == phase) {
+                    top += (particles.pressure[a] - at_side(phase)) * beyond(a);
+                    bottom += beyond(a) * beyond(a);
+                    count += 1;
+                }
+                if count >= FEWEST { top / bottom } else { 0.0 }
+            });
+            for b in buffer {
+                let phase = particles.phase[b];
+                let slope = slope[usize::from(phase != Phase::Wetting)];
+                value[b - particles.fluids] = at_side(phase) + slope * beyond(b);
+            }
+        }
+        Self { value, reference: if count > 0.0 { sum / count } else { 0.0 } }
+    }
+
+    /// The given pressure in Pa of particle `a`, where there is one; `fluids` fluid particles come before the buffer.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, a: usize, fluids: usize) -> Option<f64> {
+        let value = *self.value.get(a.checked_sub(fluids)?)?;
+        (!value.is_nan()).then_some(value)
+    }
+}
