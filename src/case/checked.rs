@@ -96,21 +96,21 @@ pub enum WettingModel {
         /// Static contact angle.
         contact_angle: f64,
     },
-    /// Static angle from two measured ones [Tadmor2004].
+    /// Static angle from two measured ones \[Tadmor2004\].
     Tadmor {
         /// Advancing angle.
         advancing: f64,
         /// Receding angle.
         receding: f64,
     },
-    /// Friction of the line in proportion to its speed [BrochardWyart1992].
+    /// Friction of the line in proportion to its speed \[BrochardWyart1992\].
     LineFriction {
         /// Static contact angle.
         contact_angle: f64,
         /// Friction in Pa s.
         friction: f64,
     },
-    /// Molecular kinetic theory [Blake1969].
+    /// Molecular kinetic theory \[Blake1969\].
     MolecularKinetic {
         /// Static contact angle.
         contact_angle: f64,
@@ -128,12 +128,12 @@ pub enum WettingModel {
         /// Slip length in m.
         slip_length: f64,
     },
-    /// Kistler's fit of Hoffman's data [Kistler1993].
+    /// Kistler's fit of Hoffman's data \[Kistler1993\].
     Kistler {
         /// Static contact angle.
         contact_angle: f64,
     },
-    /// The fit of Jiang, Oh and Slattery of Hoffman's data [Jiang1979].
+    /// The fit of Jiang, Oh and Slattery of Hoffman's data \[Jiang1979\].
     Jiang {
         /// Static contact angle.
         contact_angle: f64,

@@ -24,7 +24,7 @@ impl Hysteresis {
         line.present.max(self.receding).min(self.advancing)
     }
 
-    /// The angle of equilibrium in rad that belongs to both bounds [Tadmor2004].
+    /// The angle of equilibrium in rad that belongs to both bounds \[Tadmor2004\].
     #[must_use]
     pub fn equilibrium(&self) -> f64 {
         tadmor(self.advancing, self.receding)

@@ -19,7 +19,7 @@ pub struct Kistler {
 const LARGEST_ARGUMENT: f64 = 1.0e3;
 
 impl Kistler {
-    /// Dynamic angle θ_d in rad [Kistler1993].
+    /// Dynamic angle θ_d in rad \[Kistler1993\].
     #[must_use]
     pub fn angle(&self, line: &LineState) -> f64 {
         hoffman((line.capillary_number() + shift(self.contact_angle)).max(0.0))

@@ -15,7 +15,7 @@ pub struct LineFriction {
 }
 
 impl LineFriction {
-    /// Dynamic angle θ_d in rad [BrochardWyart1992].
+    /// Dynamic angle θ_d in rad \[BrochardWyart1992\].
     #[must_use]
     pub fn angle(&self, line: &LineState) -> f64 {
         (self.contact_angle.cos() - self.friction * line.speed / line.tension).clamp(-1.0, 1.0).acos()

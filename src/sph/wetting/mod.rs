@@ -54,17 +54,17 @@ impl LineState {
 pub enum Wetting {
     /// The unbalanced Young force [Huber2013, Eq. 7].
     Young(YoungForce),
-    /// A static angle from an advancing and a receding one [Tadmor2004].
+    /// A static angle from an advancing and a receding one \[Tadmor2004\].
     Tadmor(TadmorAngle),
-    /// Friction of the line in proportion to its speed [BrochardWyart1992].
+    /// Friction of the line in proportion to its speed \[BrochardWyart1992\].
     LineFriction(LineFriction),
-    /// Molecular kinetic theory [Blake1969].
+    /// Molecular kinetic theory \[Blake1969\].
     MolecularKinetic(MolecularKinetic),
     /// Viscous bending below the scale of the fit [Voinov1976; Cox1986].
     CoxVoinov(CoxVoinov),
-    /// Kistler's fit of Hoffman's data [Kistler1993].
+    /// Kistler's fit of Hoffman's data \[Kistler1993\].
     Kistler(Kistler),
-    /// The fit of Jiang, Oh and Slattery of Hoffman's data [Jiang1979].
+    /// The fit of Jiang, Oh and Slattery of Hoffman's data \[Jiang1979\].
     Jiang(Jiang),
     /// A line that holds between a receding and an advancing angle.
     Hysteresis(Hysteresis),
@@ -101,7 +101,7 @@ impl Wetting {
         }
     }
 
-    /// The static contact angle in rad; with hysteresis the one of equilibrium between both [Tadmor2004].
+    /// The static contact angle in rad; with hysteresis the one of equilibrium between both \[Tadmor2004\].
     #[must_use]
     pub fn static_angle(&self) -> f64 {
         match self {

@@ -22,7 +22,7 @@ pub struct MolecularKinetic {
 }
 
 impl MolecularKinetic {
-    /// Dynamic angle θ_d in rad [Blake1969].
+    /// Dynamic angle θ_d in rad \[Blake1969\].
     #[must_use]
     pub fn angle(&self, line: &LineState) -> f64 {
         let work = 2.0 * BOLTZMANN * self.temperature / (line.tension * self.jump_length.powi(2));
