@@ -164,7 +164,10 @@ fn an_interrupted_study_leaves_runs_that_can_be_taken_up() {
     assert_code(&output, 130);
     let states: Vec<String> = std::fs::read_dir(&runs)
         .unwrap()
-        .map(|run| report(&run.unwrap().path())["status"].as_str().unwrap().to_owned())
+        .map(|run| run.unwrap().path())
+        // On a busy machine a run may be told to stop before it has begun to step; it has nothing to tell then.
+        .filter(|run| run.join("report.json").exists())
+        .map(|run| report(&run)["status"].as_str().unwrap().to_owned())
         .collect();
     assert!(states.iter().any(|state| state == "interrupted"), "{states:?}");
     let plan = stdout(&meniscus(folder.path(), &["study", "plan", "study.toml", "--out", "out"]));

@@ -20,8 +20,12 @@ const TIE: f64 = 1e-9;
 /// Points whose normal turns away more than this (cosine) belong to another piece of interface.
 const SAME_PIECE: f64 = 0.3;
 
-/// Fewest points of a fit: three unknowns and some redundancy.
-pub(super) const FEWEST: usize = 5;
+/// Fewest points of a free fit: three unknowns and some redundancy.
+const FEWEST: usize = 5;
+
+/// Fewest points of a fit from the wall: two unknowns and some redundancy. A line that moves fast parts the particles at its
+/// tip, and few pairs span the interface there.
+pub(super) const FEWEST_HELD: usize = 3;
 
 /// Largest curvature over 1/h: smaller drops are not resolved.
 const LARGEST_CURVATURE: f64 = 0.75;
@@ -37,9 +41,6 @@ const LARGEST_PULL: f64 = std::f64::consts::FRAC_PI_4;
 
 /// Angles nearer than this to 0 or 180 degrees have no contact point to hold on to, in rad.
 const SMALLEST_ANGLE: f64 = 0.2;
-
-/// The interface touches the wall only where it comes as near as this, in units of dx: a film between them bears no line.
-const TOUCHING: f64 = 1.2;
 
 /// Signed distance in m and normal of the wall at a point.
 pub type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
@@ -168,16 +169,11 @@ impl<'a> InterfaceFit<'a> {
         Some(Foot { contact, normal, outwards, way })
     }
 
-    /// Whether the interface is so near to its wall at `point` that it touches it.
-    pub(super) fn touches(&self, point: &InterfacePoint) -> bool {
-        point.wall_distance < TOUCHING * self.spacing
-    }
-
     /// The curvature held to the contact angle, and its share, where the interface meets a wall near `point`.
     fn held_fit(&self, point: &InterfacePoint, near: &[Near]) -> Option<(f64, f64)> {
         let angle_at = self.angle?;
-        let touches = near.iter().any(|q| self.touches(&self.points[q.index]));
-        if !touches || near.len() < FEWEST {
+        let touches = near.iter().any(|q| self.points[q.index].touches);
+        if !touches || near.len() < FEWEST_HELD {
             return None;
         }
         let Foot { mut contact, mut normal, mut outwards, way } = self.foot(point)?;
@@ -315,6 +311,7 @@ mod tests {
                 velocity: Vec2::zeros(),
                 wall_distance: x.y,
                 wall_normal: Vec2::y(),
+                touches: height < 1.0,
             })
             .collect()
     }
@@ -374,6 +371,7 @@ mod tests {
                     velocity: Vec2::zeros(),
                     wall_distance: wall(x).0,
                     wall_normal: wall(x).1,
+                    touches: true,
                 })
                 .collect();
             let law = |_, _| angle;

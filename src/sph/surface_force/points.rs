@@ -11,6 +11,9 @@ const LINK: f64 = 1.6;
 /// Below this color gradient, in units of 1/h, there is no interface.
 const SMALLEST_GRADIENT: f64 = 0.05;
 
+/// A particle nearer to a wall than this, in units of dx, touches it.
+const TOUCHING: f64 = 1.2;
+
 /// The level of the smoothed color that is the interface.
 const LEVEL: f64 = 0.5;
 
@@ -27,6 +30,8 @@ pub struct InterfacePoint {
     pub wall_distance: f64,
     /// Wall normal into the fluid, zero where none is in reach.
     pub wall_normal: Vec2,
+    /// Whether both phases touch the wall in the neighborhood: a film between interface and wall bears no contact line.
+    pub touches: bool,
 }
 
 /// What the search for points needs; slices over particles and images, those of walls over fluid particles.
@@ -77,12 +82,30 @@ pub fn interface_points(
                 let (wall_distance, wall_normal) = wall_between(fields, a, source, f);
                 let velocity = (1.0 - f) * fields.velocity[a] + f * fields.velocity[ab.b];
                 let (x, normal) = (x_a + f * r_ba, g.normalize());
-                points.push(InterfacePoint { x, normal, velocity, wall_distance, wall_normal });
+                let touches = wall_distance.is_finite() && both_touch(pairs, images, fields, (a, source), spacing);
+                points.push(InterfacePoint { x, normal, velocity, wall_distance, wall_normal, touches });
             }
         }
     }
     reflect(&mut points, domain, 3.0 * h);
     points
+}
+
+/// Whether particles of both phases, by the smoothed color, which is blind to single strays, touch the wall around `a` or `b`.
+fn both_touch(pairs: &Pairs, images: &Images, fields: &PointFields, (a, b): (usize, usize), spacing: f64) -> bool {
+    let phase = |i: usize| {
+        let touches = fields.wall_distance.get(i).is_some_and(|d| *d < TOUCHING * spacing);
+        touches.then(|| fields.color[i] > LEVEL)
+    };
+    [a, b].into_iter().any(|i| {
+        let around = pairs.of(i).filter_map(|ij| phase(images.source(ij.b))).chain(phase(i));
+        let (mut wetting, mut other) = (false, false);
+        for is_wetting in around {
+            wetting |= is_wetting;
+            other |= !is_wetting;
+        }
+        wetting && other
+    })
 }
 
 /// Wall distance and normal at the share `f` of the way from a to b.

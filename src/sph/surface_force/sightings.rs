@@ -1,12 +1,16 @@
 //! The contact lines of a sharp interface: where points of it touch a wall.
 //!
-//! Points nearer to the wall than 1.2 dx that continue to the same place are one line. Around that place, the points within the
+//! Points nearer to the wall than 2 dx, where both phases touch it, that continue to the same place are one line. Around that place, the points within the
 //! window of a fit tell its speed and its angle. Leaves out lines with fewer points than a fit needs.
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::surface_force::fit::{FEWEST, Foot, InterfaceFit, Near, angle_through, fit_from_contact};
+use crate::sph::surface_force::fit::{FEWEST_HELD, Foot, InterfaceFit, Near, angle_through, fit_from_contact};
 use crate::sph::wetting::lines::Sighting;
+
+/// Points nearer to the wall than this, over dx, tell the place of a line: those between its first two layers of particles, or where
+/// a moving line has parted them those above.
+const NEAR_WALL: f64 = 2.0;
 
 /// Points whose continuations meet the wall nearer to each other than this, over h, are of one line.
 const ONE_LINE: f64 = 2.0;
@@ -35,7 +39,8 @@ impl InterfaceFit<'_> {
     pub fn lines<'a>(&'a self, domain: &'a Domain) -> Vec<InterfaceLine<'a>> {
         const NONE: usize = usize::MAX;
         let feet: Vec<(usize, Foot)> = (0..self.points.len())
-            .filter(|&i| self.touches(&self.points[i]) && is_inside(domain, self.points[i].x))
+            .filter(|&i| self.points[i].touches && self.points[i].wall_distance < NEAR_WALL * self.spacing)
+            .filter(|&i| is_inside(domain, self.points[i].x))
             .filter_map(|i| Some((i, self.foot(&self.points[i])?)))
             .collect();
         let mut foot_of = vec![NONE; self.points.len()];
@@ -84,7 +89,7 @@ impl InterfaceFit<'_> {
         let into_wetting = into_wetting.try_normalize(f64::EPSILON)?;
         let outward = -(into_wetting - into_wetting.dot(&normal) * normal).try_normalize(f64::EPSILON)?;
         let near = self.window(into_wetting, place);
-        (near.len() >= FEWEST).then_some(InterfaceLine {
+        (near.len() >= FEWEST_HELD).then_some(InterfaceLine {
             fit: self,
             domain,
             place,
@@ -165,6 +170,7 @@ mod tests {
                 velocity,
                 wall_distance: x.y,
                 wall_normal: Vec2::y(),
+                touches: true,
             })
             .collect()
     }
