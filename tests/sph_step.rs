@@ -366,6 +366,17 @@ fn a_flow_that_is_taken_up_again_remembers_speeds_and_anchors_of_its_lines() {
 }
 
 #[test]
+fn a_drop_over_a_film_has_no_contact_line_and_one_on_the_wall_has_two() {
+    // The film between drop and wall is two layers of particles thick, or there is none.
+    for (film, lines) in [(2.0e-4, 0), (0.0, 2)] {
+        let (bottom, height) = (-5.0e-4 + film, 5.0e-4);
+        let shape = ([0.0, bottom + 0.5 * height], [4.0e-4, height]);
+        let text = liquid_on_a_wall(shape, [0.0, 0.0], 60.0, WALLS_BELOW_AND_ABOVE, ("non-wetting", "pressure-jump"));
+        assert_eq!(flow(&text).fields.contact_lines, lines, "film of {film} m");
+    }
+}
+
+#[test]
 fn a_patch_changes_the_angle_of_its_wall_alone() {
     let sides = "bottom = \"periodic\"\ntop = \"periodic\"\n[[sph.wetting.patches]]\nside = \"right\"\ncontact-angle-deg = 120.0\n";
     // A layer from wall to wall, with two lines at each.

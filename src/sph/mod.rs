@@ -4,6 +4,7 @@
 
 pub mod boundary;
 mod cells;
+mod components;
 pub mod domain;
 pub mod fields;
 pub mod fill;

@@ -5,7 +5,6 @@
 mod aggregation;
 mod assemble;
 mod cholesky;
-mod components;
 mod conjugate_gradients;
 mod given;
 mod matrix;

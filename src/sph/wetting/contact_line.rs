@@ -3,6 +3,7 @@
 //! The particles of a line are found as connected components, so that each line's force sums to f_wns (Eq. 12).
 
 use crate::math::Vec2;
+use crate::sph::components::components;
 use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::kernel::WendlandC2;
@@ -89,10 +90,10 @@ impl LineParticles {
     #[must_use]
     pub fn find((pairs, images): (&Pairs, &Images), fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Self {
         let particles = line_particles(fields, kernel, fluids);
-        let line_of = components(&particles, pairs, images, fluids);
-        let mut lines = vec![Vec::new(); line_of.iter().max().map_or(0, |last| last + 1)];
+        let line_of = line_of(&particles, pairs, images, fluids);
+        let mut lines = vec![Vec::new(); line_of.iter().max().map_or(0, |last| *last as usize + 1)];
         for (p, &line) in particles.iter().zip(&line_of) {
-            lines[line].push(*p);
+            lines[line as usize].push(*p);
         }
         let weights = |line: &Vec<LineParticle>| line.iter().map(|p| fields.volume[p.a] * p.delta).sum();
         let norm = lines.iter().map(weights).collect();
@@ -169,31 +170,13 @@ fn line_particles(fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Ve
 }
 
 /// The number of the contact line of each particle: neighbors whose ν_ns point the same way share a line.
-fn components(particles: &[LineParticle], pairs: &Pairs, images: &Images, fluids: usize) -> Vec<usize> {
-    const NONE: usize = usize::MAX;
-    let mut place = vec![NONE; fluids];
+fn line_of(particles: &[LineParticle], pairs: &Pairs, images: &Images, fluids: usize) -> Vec<u32> {
+    let mut place = vec![None; fluids];
     for (i, p) in particles.iter().enumerate() {
-        place[p.a] = i;
+        place[p.a] = Some(i);
     }
-    let mut line_of = vec![NONE; particles.len()];
-    let mut lines = 0;
-    for first in 0..particles.len() {
-        if line_of[first] != NONE {
-            continue;
-        }
-        line_of[first] = lines;
-        let mut open = vec![first];
-        while let Some(i) = open.pop() {
-            for ab in pairs.of(particles[i].a) {
-                let b = images.source(ab.b);
-                let j = if b < fluids { place[b] } else { NONE };
-                if j != NONE && line_of[j] == NONE && particles[i].tangent.dot(&particles[j].tangent) > 0.0 {
-                    line_of[j] = lines;
-                    open.push(j);
-                }
-            }
-        }
-        lines += 1;
-    }
-    line_of
+    components(particles.len(), |i| {
+        let near = pairs.of(particles[i].a).filter_map(|ab| place.get(images.source(ab.b)).copied().flatten());
+        near.filter(move |&j| particles[i].tangent.dot(&particles[j].tangent) > 0.0)
+    })
 }
