@@ -309,16 +309,17 @@ fn slip_length(checker: &mut Checker, raw: &RawSph) -> f64 {
 }
 
 /// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and drift source,
-/// the others by shifting and drift source (docs/numerics). A wall that a contact line moves along must slip a little, if no slip length is given.
+/// the others by shifting and either drift source or drift correction (docs/numerics). A wall that a contact line moves along must slip a little, if no slip length is given.
 fn default_numerics(surface_force: Option<SurfaceForce>, must_slip: bool) -> Numerics {
-    let (drift_source, background_pressure, shifting) = match surface_force {
-        Some(SurfaceForce::Csf) => (0.02, 0.5, 0.0),
-        Some(SurfaceForce::PressureJump) => (0.2, 0.0, 2.0),
-        None => (0.02, 0.0, 2.0),
+    let (drift_source, drift_correction, background_pressure, shifting) = match surface_force {
+        Some(SurfaceForce::Csf) => (0.02, 0.0, 0.5, 0.0),
+        Some(SurfaceForce::PressureJump) => (0.2, 0.0, 0.0, 2.0),
+        None => (0.0, 0.2, 0.0, 2.0),
     };
     Numerics {
         viscous_term: ViscousTerm::Stress,
         drift_source,
+        drift_correction,
         background_pressure,
         shifting,
         wall_stretch: if must_slip { 1.5 } else { 10.0 },
@@ -340,6 +341,13 @@ fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numerics) -> Nume
             Some(RawViscousTerm::Szewc) => ViscousTerm::Szewc,
         },
         drift_source: within("drift-source", raw.drift_source, (0.0, 1.0), "a share", default.drift_source),
+        drift_correction: within(
+            "drift-correction",
+            raw.drift_correction,
+            (0.0, 1.0),
+            "a share",
+            default.drift_correction,
+        ),
         background_pressure: within(
             "background-pressure",
             raw.background_pressure,

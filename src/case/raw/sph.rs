@@ -106,8 +106,10 @@ tables! {
     pub struct RawNumerics {
         /// Form of the viscous term (default `stress`).
         pub viscous_term: RawViscousTerm,
-        /// Share of the density error taken back per step, 0 to 1 (default 0.02, with `pressure-jump` 0.2).
+        /// Share of the density error taken back per step by the velocities, 0 to 1 (default 0.2, with `csf` 0.02, without tension 0).
         pub drift_source: f64,
+        /// Share of the density error taken back per step by moving particles without their velocities, 0 to 1 (default 0, without tension 0.2).
+        pub drift_correction: f64,
         /// Background pressure in units of tension over smoothing length, or of density times speed squared (default
         /// 0.5, without tension 0).
         pub background_pressure: f64,

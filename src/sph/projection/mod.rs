@@ -187,13 +187,13 @@ impl Flow {
         let after_forces = Instant::now();
         if self.steps == 0 && !self.open.sides.is_empty() {
             for _ in 0..FIRST_SOLVES {
-                self.particles.pressure = self.project(&predicted)?;
+                self.particles.pressure = self.project(&predicted)?.0;
             }
         }
-        let pressure = self.project(&predicted)?;
+        let (pressure, drift) = self.project(&predicted)?;
         let after_pressure = Instant::now();
         let velocity = self.correct(&predicted, &pressure);
-        self.advance(&predicted, velocity, until)?;
+        self.advance(&predicted, (velocity, &drift), until)?;
         self.particles.pressure = pressure;
         if !self.open.sides.is_empty() {
             open::exchange(&mut self.particles, &self.open.sides, &mut self.open.ledger, self.method.spacing);

@@ -1,11 +1,13 @@
 //! The pressure equation of a step [Huber2013, Eqs. 28-31].
 
 use super::{Flow, Predicted};
+use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::open::Prescribed;
 use crate::sph::pairs::each;
-use crate::sph::poisson::{Unknowns, assemble, give};
+use crate::sph::poisson::{System, Tolerance, Unknowns, assemble, give};
 use crate::sph::terms::divergence::divergence;
+use crate::sph::terms::pressure_gradient;
 
 /// Above this density ratio the multigrid keeps light and heavy particles apart.
 const LARGEST_SMOOTH_RATIO: f64 = 5.0;
@@ -13,24 +15,27 @@ const LARGEST_SMOOTH_RATIO: f64 = 5.0;
 /// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
 const GIVEN: u8 = 2;
 
+/// Largest relative residual of the drift correction: what one step leaves, the next ones take.
+const DRIFT_RESIDUAL: f64 = 0.01;
+
 impl Flow {
     /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
     /// no open side gives it.
     ///
-    /// The right side gives a share γ of the density error back per step (the drift source, which the paper lacks).
-    pub(super) fn project(&mut self, predicted: &Predicted) -> Result<Vec<f64>, SolverError> {
+    /// The right side gives a share γ of the density error back per step (the drift source, which the paper lacks). Beside the
+    /// pressure stands the way in m that each fluid particle goes for the drift correction, nothing where there is none.
+    pub(super) fn project(&mut self, predicted: &Predicted) -> Result<(Vec<f64>, Vec<Vec2>), SolverError> {
         let (n, fluids, dt) = (self.particles.len(), self.particles.fluids, predicted.dt);
         let (method, f) = (&self.method, &self.fields);
         let mut source = vec![0.0; n];
         divergence(&self.pairs, &f.volume, &predicted.velocity, &mut source);
-        let (drift, v_0) = (method.drift_source / (dt * dt), method.volume);
+        let drift = method.drift_source / (dt * dt);
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
-            let crowding = if a < fluids { v_0 / f.volume[a] - 1.0 } else { 0.0 };
             if !self.sees_the_fluid(a) {
                 return 0.0;
             }
-            -f.volume[a] * (source[a] / dt - drift * crowding)
+            -f.volume[a] * (source[a] / dt - drift * self.crowding(a))
         });
         let mut matrix = std::mem::take(&mut self.pressure.matrix);
         assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density);
@@ -54,7 +59,24 @@ impl Flow {
         let offset = |a: usize| if anchored[part[a] as usize] { prescribed.reference } else { 0.0 };
         let relative = |a: usize| if given(a).is_some() { 0.0 } else { self.particles.pressure[a] - offset(a) };
         let mut p: Vec<f64> = (0..n).map(relative).collect();
-        let convergence = self.pressure.solve(&unknowns, &self.fields.volume[..n], &mut b, &mut p, method.tolerance);
+        let flow = System { b: &mut b, x: &mut p, tolerance: method.tolerance };
+        let mut potential = vec![0.0; if method.drift_correction > 0.0 { n } else { 0 }];
+        let volume = &self.fields.volume[..n];
+        let convergence = if potential.is_empty() {
+            let [convergence] = self.pressure.solve(&unknowns, volume, [flow]);
+            convergence
+        } else {
+            let mut crowding = vec![0.0; n];
+            each(&mut crowding, |a| {
+                let is_free = self.sees_the_fluid(a) && given(a).is_none();
+                if is_free { method.drift_correction * volume[a] * self.crowding(a) } else { 0.0 }
+            });
+            let tolerance = Tolerance { residual: DRIFT_RESIDUAL, ..method.tolerance };
+            let order = System { b: &mut crowding, x: &mut potential, tolerance };
+            let [convergence, drift] = self.pressure.solve(&unknowns, volume, [flow, order]);
+            self.work.iterations += drift.iterations as u64;
+            convergence
+        };
         p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
         self.work.last_iterations = convergence.iterations;
         self.work.iterations += convergence.iterations as u64;
@@ -69,7 +91,24 @@ impl Flow {
                 step: self.steps,
             });
         }
-        Ok(p)
+        Ok((p, self.drift_correction(potential)))
+    }
+
+    /// V_0/V_a − 1, the density error of a fluid particle; 0 on others.
+    fn crowding(&self, a: usize) -> f64 {
+        if a < self.particles.fluids { self.method.volume / self.fields.volume[a] - 1.0 } else { 0.0 }
+    }
+
+    /// The way −(∇ψ/ρ)_a in m down the gradient of the `potential` ψ (kg/m) of the drift correction, the same on both sides of an interface.
+    fn drift_correction(&self, mut potential: Vec<f64>) -> Vec<Vec2> {
+        if potential.is_empty() {
+            return Vec::new();
+        }
+        let mut by = vec![Vec2::zeros(); self.particles.fluids];
+        self.images.extend(&mut potential);
+        let f = &self.fields;
+        pressure_gradient::difference(&self.pairs, &f.volume, &f.density, &potential, |_, _| 0.0, &mut by);
+        by
     }
 
     /// Whether the divergence at particle `a` counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.

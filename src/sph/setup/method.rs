@@ -40,6 +40,7 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
             checked::ViscousTerm::Stress => ViscousTerm::Stress,
         },
         drift_source: numerics.drift_source,
+        drift_correction: numerics.drift_correction,
         background_pressure: numerics.background_pressure,
         shifting: numerics.shifting,
         tolerance: Tolerance { residual: numerics.pressure_tolerance, iterations: ITERATIONS },
