@@ -114,7 +114,7 @@ impl RunResult {
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         if let Some(value) = self.run.value(name) {
-            return super::names::number_of(value);
+            return super::values::number_of(value);
         }
         let report = self.standing.report()?;
         match name {

@@ -12,7 +12,7 @@ use std::time::Instant;
 use crate::math::Vec2;
 use crate::solver::{PartTime, SolverError, StepInfo};
 use crate::sph::cells::Cells;
-use crate::sph::domain::Domain;
+use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::fields::{Fields, Place};
 use crate::sph::images::Images;
 use crate::sph::method::Method;
@@ -29,9 +29,6 @@ const REORDER_EVERY: u64 = 20;
 /// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
 /// fluid answers to that of the buffer by a small share, so that few will do.
 const FIRST_SOLVES: usize = 6;
-
-/// The signed distance in m (above 0 in the pore) and the wall normal at a point.
-pub type WallQuery = Box<dyn Fn(Vec2) -> (f64, Vec2) + Send + Sync>;
 
 /// Counts of the solver's work.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -19,11 +19,11 @@ use self::walls::{fitted_places, mirrors, wall_spots};
 use crate::case::checked::{Case, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
-use crate::sph::domain::Domain;
+use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::fill::{self, Lattice};
 use crate::sph::open::{self, Around, Ledger, Open};
 use crate::sph::particles::Phase;
-use crate::sph::projection::{Flow, WallQuery};
+use crate::sph::projection::Flow;
 use crate::sph::solver::SphSolver;
 
 /// The solids of a case as its solver sees them: periodic sides joined, wall sides closed.

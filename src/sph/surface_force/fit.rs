@@ -1,4 +1,4 @@
-//! Curvature of the interface from local fits of [circles](super::circles), free in the bulk and held to the contact angle at walls.
+//! Curvature of the interface from local fits of circles (`circles`), free in the bulk and held to the contact angle at walls.
 
 use crate::math::{Vec2, perpendicular};
 use crate::sph::cells::Cells;
