@@ -307,6 +307,17 @@ impl Flow {
         -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
     }
 
+    /// The viscous force in N per m of depth on the fluid particles that `is_meant` takes, by fluid and walls around them.
+    #[must_use]
+    pub fn viscous_force(&self, is_meant: impl Fn(usize) -> bool) -> Vec2 {
+        let mut velocity = self.particles.velocity.clone();
+        self.images.extend_velocity(&mut velocity);
+        let (acceleration, _) = self.viscous_acceleration(&velocity);
+        let f = &self.fields;
+        let meant = acceleration.iter().enumerate().filter(|(a, _)| is_meant(*a));
+        meant.map(|(a, by)| f.density[a] * f.volume[a] * by).sum()
+    }
+
     /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
     /// given pressure the normal part of that at the foot, so that it goes on along the normal.
     fn set_buffer_velocity(&self, feet: &Feet, velocity: &mut [Vec2]) {
