@@ -93,12 +93,12 @@ mod tests {
     #[test]
     fn the_mean_of_a_force_is_the_gain_of_momentum_however_it_swings() {
         // A force 1 + 20 cos(20 t), sampled twenty times a swing, and its momentum.
-        let mut series = Series::default();
-        series.columns = ["time_s", "force", "momentum"].map(str::to_owned).to_vec();
-        for i in 0..=200 {
+        let rows = (0..=200).map(|i| {
             let t = 0.0157 * f64::from(i);
-            series.rows.push(vec![t, 1.0 + 20.0 * (20.0 * t).cos(), t + (20.0 * t).sin()]);
-        }
+            vec![t, 1.0 + 20.0 * (20.0 * t).cos(), t + (20.0 * t).sin()]
+        });
+        let columns = ["time_s", "force", "momentum"].map(str::to_owned).to_vec();
+        let series = Series { columns, rows: rows.collect() };
         let (force, gain) = (average(&series, "force", |f| f), rise(&series, "momentum"));
         // The trapezoidal rule over twenty points a swing.
         assert!((force - gain).abs() < 0.02, "{force} {gain}");
