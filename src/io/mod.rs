@@ -5,8 +5,6 @@
 
 pub mod atomic;
 pub mod checksum;
-mod draw;
-mod film_picture;
 pub mod picture;
 pub mod pvd;
 pub mod restart;

@@ -10,7 +10,7 @@ use super::runs::{PlannedRun, Run};
 use crate::run::report::{REPORT, Reading, Status};
 
 /// What is known of a run besides its measures.
-pub const RUN_NUMBERS: [&str; 3] = ["steps", "unknowns", "wall-time-s"];
+pub const RUN_NUMBERS: [&str; 4] = ["steps", "unknowns", "wall-time-s", "cpu-s"];
 
 /// The report of a run, as far as studies read it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -28,6 +28,8 @@ pub struct RunReport {
     pub resolved_case: String,
     /// Wall time.
     pub wall_time_s: Total,
+    /// Processor time in s of all processes that worked at it; absent where it is not known.
+    pub cpu_s: Option<f64>,
     /// The solver's work.
     pub solver: Unknowns,
 }
@@ -108,17 +110,18 @@ pub struct RunResult {
 }
 
 impl RunResult {
-    /// A parameter that is a number, a measure, or one of `steps`, `unknowns`, `wall-time-s` of a complete run.
+    /// A parameter that is a number, a measure, or one of [`RUN_NUMBERS`] of a complete run.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         if let Some(value) = self.run.value(name) {
-            return super::names::number_of(value);
+            return super::values::number_of(value);
         }
         let report = self.standing.report()?;
         match name {
             "steps" => Some(report.steps as f64),
             "unknowns" => Some(report.solver.unknowns as f64),
             "wall-time-s" => Some(report.wall_time_s.total),
+            "cpu-s" => report.cpu_s,
             measure => report.measures.get(measure)?.value,
         }
     }
