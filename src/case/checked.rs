@@ -82,9 +82,22 @@ pub struct Fluid {
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceForce {
     /// Continuum surface force [Huber2013, Eq. 20].
-    Csf,
+    Csf {
+        /// How the force of a contact line is spread.
+        line_delta: LineDelta,
+    },
     /// Pressure jump across a sharp interface with fitted curvature.
     PressureJump,
+}
+
+/// Forms of the contact line delta [Huber2013, Eq. 21].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineDelta {
+    /// So that each line has its whole force.
+    Normalized,
+    /// By a form of each particle alone.
+    Local,
 }
 
 /// Wetting models; angles through the wetting phase in rad.

@@ -1,13 +1,14 @@
 //! A checked case written out as one case file: no defaults, presets, overrides or other files left.
 
 use super::checked::{
-    Case, Drive, Fluid, InitialVelocity, MeasureSet, Model, Numerics, Open, Output, Profile, Side, Sides, Sph,
-    SurfaceForce, ViscousTerm,
+    Case, Drive, Fluid, InitialVelocity, LineDelta, MeasureSet, Model, Numerics, Open, Output, Profile, Side, Sides,
+    Sph, SurfaceForce, ViscousTerm,
 };
 use super::raw::{
-    Empty, RawCase, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface, RawMeasures,
-    RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawProfile, RawSide, RawSides, RawSph,
-    RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousTerm, RawWallSpeeds, RawWalls,
+    Empty, RawCase, RawCsf, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface,
+    RawLineDelta, RawMeasures, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawProfile,
+    RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousTerm, RawWallSpeeds,
+    RawWalls,
 };
 use super::wetting;
 
@@ -73,7 +74,7 @@ fn raw_sph(sph: &Sph) -> RawSph {
         }),
         interface: two_phases.then_some(RawInterface { tension: Some(sph.tension) }),
         surface_force: sph.surface_force.map(|force| RawSurfaceForce {
-            csf: (force == SurfaceForce::Csf).then_some(Empty {}),
+            csf: csf(force),
             pressure_jump: (force == SurfaceForce::PressureJump).then_some(Empty {}),
         }),
         wetting: sph.wetting_model.map(|model| wetting::raw(&model, &sph.wetting_patches)),
@@ -197,5 +198,14 @@ fn raw_measures(measure: &MeasureSet) -> RawMeasures {
         spreading: table(measure.spreading),
         slit_filling: table(measure.slit_filling),
         capillary_rise: table(measure.capillary_rise),
+    }
+}
+
+/// The table of the continuum surface force, where it is the one chosen.
+fn csf(force: SurfaceForce) -> Option<RawCsf> {
+    match force {
+        SurfaceForce::Csf { line_delta: LineDelta::Normalized } => Some(RawCsf::default()),
+        SurfaceForce::Csf { line_delta: LineDelta::Local } => Some(RawCsf { line_delta: Some(RawLineDelta::Local) }),
+        SurfaceForce::PressureJump => None,
     }
 }

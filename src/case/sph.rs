@@ -2,10 +2,13 @@
 
 use super::check::Checker;
 use super::checked::{
-    Fluid, Initial, InitialVelocity, MeasureSet, Numerics, Side, Sides, Sph, SurfaceForce, ViscousTerm,
+    Fluid, Initial, InitialVelocity, LineDelta, MeasureSet, Numerics, Side, Sides, Sph, SurfaceForce, ViscousTerm,
 };
 use super::preset::{COLD, WARM};
-use super::raw::{RawFluid, RawInitial, RawMeasures, RawNumerics, RawPhase, RawSide, RawSides, RawSph, RawViscousTerm};
+use super::raw::{
+    RawCsf, RawFluid, RawInitial, RawLineDelta, RawMeasures, RawNumerics, RawPhase, RawSide, RawSides, RawSph,
+    RawViscousTerm,
+};
 use super::shapes::shape_problems;
 use super::wetting;
 use crate::geometry::spec::GeometrySpec;
@@ -168,7 +171,7 @@ fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<Surfac
     let force = raw.surface_force.as_ref();
     let chosen = match force.map(|force| (force.csf.is_some(), force.pressure_jump.is_some())) {
         None => DEFAULT_SURFACE_FORCE,
-        Some((true, false)) => SurfaceForce::Csf,
+        Some((true, false)) => SurfaceForce::Csf { line_delta: line_delta(force.and_then(|force| force.csf.as_ref())) },
         Some((false, true)) => SurfaceForce::PressureJump,
         Some((both, _)) => {
             checker.refuse(
@@ -187,6 +190,13 @@ fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<Surfac
         );
     }
     (tension, tension.filter(|tension| *tension > 0.0).map(|_| chosen))
+}
+
+fn line_delta(raw: Option<&RawCsf>) -> LineDelta {
+    match raw.and_then(|raw| raw.line_delta) {
+        Some(RawLineDelta::Local) => LineDelta::Local,
+        Some(RawLineDelta::Normalized) | None => LineDelta::Normalized,
+    }
 }
 
 fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
@@ -309,7 +319,7 @@ fn slip_length(checker: &mut Checker, raw: &RawSph) -> f64 {
 /// the others by shifting and either drift source or drift correction (docs/numerics). A wall that a contact line moves along must slip a little, if no slip length is given.
 fn default_numerics(surface_force: Option<SurfaceForce>, must_slip: bool) -> Numerics {
     let (drift_source, drift_correction, background_pressure, shifting) = match surface_force {
-        Some(SurfaceForce::Csf) => (0.02, 0.0, 0.5, 0.0),
+        Some(SurfaceForce::Csf { .. }) => (0.02, 0.0, 0.5, 0.0),
         Some(SurfaceForce::PressureJump) => (0.2, 0.0, 0.0, 2.0),
         None => (0.0, 0.2, 0.0, 2.0),
     };

@@ -14,7 +14,7 @@ use crate::sph::surface_force::fit::InterfaceFit;
 use crate::sph::surface_force::jump::Jump;
 use crate::sph::surface_force::points::{PointFields, interface_points};
 use crate::sph::terms::{color, curvature, density, surface_tension};
-use crate::sph::wetting::contact_line::{LineFields, LineParticles};
+use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
 use crate::sph::wetting::lines::{Following, LINE_REACH, Line, nearest};
 use crate::sph::wetting::wall::WallSpots;
 
@@ -142,7 +142,7 @@ impl Fields {
         color::smoothed_color(pairs, &self.fluid_volume, &sharp, &mut self.color);
         images.extend(&mut self.color);
         match method.surface_force {
-            SurfaceForce::Csf => self.continuum_forces(neighborhood, method, place, (lines, dt)),
+            SurfaceForce::Csf(delta) => self.continuum_forces(neighborhood, (method, delta), place, (lines, dt)),
             SurfaceForce::PressureJump => self.pressure_jump((neighborhood, &sharp), method, place, (lines, dt)),
         }
     }
@@ -151,7 +151,7 @@ impl Fields {
     fn continuum_forces(
         &mut self,
         (particles, pairs, images): (&Particles, &Pairs, &Images),
-        method: &Method,
+        (method, delta): (&Method, LineDelta),
         place: &Place,
         (lines, dt): (&[Line], f64),
     ) {
@@ -181,7 +181,7 @@ impl Fields {
         self.contact_lines = found.count();
         self.lines = place.following(method, |following| following.follow(lines, &seen, dt));
         let angles: Vec<f64> = self.lines.iter().map(|line| line.angle).collect();
-        found.line_force(&fields, &angles, method.tension, &mut self.line_force);
+        found.line_force(&fields, delta, (&angles, method.tension), &mut self.line_force);
     }
 
     /// Sides and curvatures for the pressure jump; the normal is the consistent gradient of the smoothed color.

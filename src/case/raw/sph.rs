@@ -65,9 +65,16 @@ tables! {
     /// Forms of the surface force.
     pub struct RawSurfaceForce {
         /// Continuum surface force, Huber et al. 2013, Eq. 20.
-        pub csf: Empty,
+        pub csf: RawCsf,
         /// Pressure jump across a sharp interface with fitted curvature.
         pub pressure_jump: Empty,
+    }
+
+    /// The continuum surface force.
+    pub struct RawCsf {
+        /// How the force of a contact line is spread over particles: so that each line has its whole force (`normalized`, the
+        /// default), or by a form of each particle alone (`local`).
+        pub line_delta: RawLineDelta,
     }
 
     /// What all walls are like, those of shapes and those at the sides.
@@ -136,6 +143,16 @@ pub enum RawPhase {
     Wetting,
     /// The other phase.
     NonWetting,
+}
+
+/// Forms of the contact line delta.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RawLineDelta {
+    /// Huber et al. 2013, Eqs. 21 and 22, line by line.
+    Normalized,
+    /// In closed form, particle by particle.
+    Local,
 }
 
 /// Forms of the viscous term.

@@ -1,5 +1,6 @@
 //! Final results: those that every run reports, and groups that a case asks for, one file each.
 
+mod balance;
 mod bridge;
 mod bubble;
 mod cavity;
@@ -17,6 +18,7 @@ mod sessile_drop;
 mod sliding;
 mod slit;
 mod spreading;
+pub mod stream;
 mod taylor_green;
 mod throat;
 mod wave;

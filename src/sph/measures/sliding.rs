@@ -2,9 +2,9 @@
 //!
 //! *Ahead* is the way that the drop is driven: the part of the body force along the wall, less buoyancy, else the motion of the drop relative to its
 //! wall. Lines whose ν_ns points ahead are the advancing ones. The momentum of the drop along a flat wall changes by
-//! d(P)/dt = body force less buoyancy + friction of the wall − σ (cos θ_R − cos θ_A) + drag of the other fluid; the last one is left
-//! out here, so the balance is one for drops in a fluid that is much thinner, or at rest.
+//! d(P)/dt = body force less buoyancy + friction of the wall + drag of the other fluid − σ (cos θ_R − cos θ_A): see `balance`.
 
+use super::stream;
 use super::{Subject, measure};
 use crate::analysis::WallPoint;
 use crate::analysis::contact::ContactSettings;
@@ -33,8 +33,8 @@ const DRIVEN: f64 = 1e-3;
 /// The lines that go ahead and those that follow, as means.
 struct Ends {
     ahead: Vec2,
-    /// Angle in degrees, way in m and speed in m/s of the advancing and of the receding lines.
-    lines: [[f64; 3]; 2],
+    /// Apparent angle in degrees, way in m, speed in m/s and angle at the wall in degrees of the advancing and of the receding lines.
+    lines: [[f64; 4]; 2],
 }
 
 /// Where the drop is driven to along the wall of its lines.
@@ -55,8 +55,8 @@ fn ahead(flow: &Flow, lines: &[Line]) -> Option<Vec2> {
 fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
     let lines = &flow.fields.lines;
     let ahead = ahead(flow, lines)?;
-    let mut sums = [[0.0; 3]; 2];
-    let mut counts = [[0.0; 3]; 2];
+    let mut sums = [[0.0; 4]; 2];
+    let mut counts = [[0.0; 4]; 2];
     let mut add = |end: usize, what: usize, value: f64| {
         if value.is_finite() {
             sums[end][what] += value;
@@ -67,6 +67,7 @@ fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
         let end = usize::from(line.outward.dot(&ahead) < 0.0);
         add(end, 1, line.travel);
         add(end, 2, line.speed);
+        add(end, 3, line.angle.to_degrees());
     }
     let reach = SAME_LINE * flow.method.kernel.h;
     let forward = lines.iter().filter(|line| line.outward.dot(&ahead) > 0.0).count();
@@ -79,7 +80,7 @@ fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
             add(usize::from(line.outward.dot(&ahead) < 0.0), 0, found.angle_deg);
         }
     }
-    let lines = [0, 1].map(|end| [0, 1, 2].map(|what| sums[end][what] / counts[end][what]));
+    let lines = [0, 1].map(|end| [0, 1, 2, 3].map(|what| sums[end][what] / counts[end][what]));
     Some(Ends { ahead, lines })
 }
 
@@ -111,13 +112,14 @@ fn forces(flow: &Flow) -> [Vec2; 2] {
 /// Angles, ways and speeds of both ends, and what drives the drop along the wall.
 pub fn columns(flow: &Flow, seen: &Observation) -> Vec<(&'static str, f64)> {
     let nan = f64::NAN;
-    let ends = ends(flow, seen).unwrap_or(Ends { ahead: Vec2::repeat(nan), lines: [[nan; 3]; 2] });
-    let [[advancing, way, speed], [receding, way_behind, speed_behind]] = ends.lines;
+    let ends = ends(flow, seen).unwrap_or(Ends { ahead: Vec2::repeat(nan), lines: [[nan; 4]; 2] });
+    let [[advancing, way, speed, at_wall], [receding, way_behind, speed_behind, at_wall_behind]] = ends.lines;
     let (p, m) = (&flow.particles, &flow.method);
     let mass = m.wetting_fluid.density * m.volume;
     let drop = (0..p.fluids).filter(|&a| p.phase[a] == Phase::Wetting);
     let momentum = mass * drop.map(|a| p.velocity[a]).sum::<Vec2>();
     let [drive, friction] = forces(flow);
+    let stream = stream::along(flow, seen, ends.ahead);
     vec![
         ("advancing_angle_deg", advancing),
         ("receding_angle_deg", receding),
@@ -125,15 +127,19 @@ pub fn columns(flow: &Flow, seen: &Observation) -> Vec<(&'static str, f64)> {
         ("receding_line_m", way_behind),
         ("advancing_speed_m_per_s", speed),
         ("receding_speed_m_per_s", speed_behind),
+        ("advancing_wall_angle_deg", at_wall),
+        ("receding_wall_angle_deg", at_wall_behind),
         ("drive_N_per_m", drive.dot(&ends.ahead)),
         ("wall_friction_N_per_m", friction.dot(&ends.ahead)),
+        ("stream_pressure_N_per_m", stream.pressure),
+        ("stream_friction_N_per_m", stream.friction),
         ("drop_momentum_kg_per_m_s", momentum.dot(&ends.ahead)),
     ]
 }
 
 /// Mean and standard deviation of a column over the last part of the records, where it has values.
-fn last_mean(series: &Series, column: &str) -> (f64, f64) {
-    let values: Vec<f64> = last(series, column).into_iter().map(|(_, value)| value).collect();
+pub(super) fn last_mean(series: &Series, column: &str) -> (f64, f64) {
+    let values: Vec<f64> = last(series, column, LAST).into_iter().map(|(_, value)| value).collect();
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     (mean, (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt())
@@ -141,7 +147,7 @@ fn last_mean(series: &Series, column: &str) -> (f64, f64) {
 
 /// Slope in time of a column over the last part of the records.
 fn last_slope(series: &Series, column: &str) -> f64 {
-    let points = last(series, column);
+    let points = last(series, column, LAST);
     let count = points.len() as f64;
     let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / count;
     let (t, y) = (mean(|p| p.0), mean(|p| p.1));
@@ -150,11 +156,11 @@ fn last_slope(series: &Series, column: &str) -> f64 {
     up / down
 }
 
-/// Times in s and values of a column over the last part of the records.
-fn last(series: &Series, column: &str) -> Vec<(f64, f64)> {
+/// Times in s and values of a column over the last `part` of the time.
+pub(super) fn last(series: &Series, column: &str, part: f64) -> Vec<(f64, f64)> {
     let end = series.column("time_s").last().unwrap_or(f64::NAN);
     let all = series.column("time_s").zip(series.column(column));
-    all.filter(|(time, value)| *time >= (1.0 - LAST) * end && value.is_finite()).collect()
+    all.filter(|(time, value)| *time >= (1.0 - part) * end && value.is_finite()).collect()
 }
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
@@ -184,20 +190,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
         measure("advancing-capillary-number", capillary(front.0), "", Some(capillary(front.1)), over),
         measure("receding-capillary-number", -capillary(back.0), "", Some(capillary(back.1)), over),
     ]);
-    let retention = m.tension * (receding.to_radians().cos() - advancing.to_radians().cos());
-    let (drive, friction) = (last_mean(s.series, "drive_N_per_m").0, last_mean(s.series, "wall_friction_N_per_m").0);
-    let change = last_slope(s.series, "drop_momentum_kg_per_m_s");
-    let drag = drive + friction - change;
-    let pull = "tension times (cosine of the receding less that of the advancing angle)";
-    found.push(measure("retention-N-per-m", retention, "N/m", None, pull));
-    found.push(measure(
-        "net-drag-N-per-m",
-        drag,
-        "N/m",
-        None,
-        "body force less buoyancy plus friction of the wall less the change of the momentum of the drop, along the wall, over the last quarter of the records",
-    ));
-    found.push(measure("drag-over-retention", drag / retention, "", None, "1 where the momentum of the drop balances"));
+    found.extend(super::balance::measures(s));
     let gone =
         s.series.column("time_s").zip(s.series.column("wetted_length_m")).find(|(_, length)| *length < m.spacing);
     found.push(measure(

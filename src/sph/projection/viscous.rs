@@ -49,6 +49,17 @@ impl Flow {
         -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
     }
 
+    /// The viscous force in N per m of depth on the fluid particles that `is_meant` takes, by fluid and walls around them.
+    #[must_use]
+    pub fn viscous_force(&self, is_meant: impl Fn(usize) -> bool) -> Vec2 {
+        let mut velocity = self.particles.velocity.clone();
+        self.images.extend_velocity(&mut velocity);
+        let (acceleration, _) = self.viscous_acceleration(&velocity);
+        let f = &self.fields;
+        let meant = acceleration.iter().enumerate().filter(|(a, _)| is_meant(*a));
+        meant.map(|(a, by)| f.density[a] * f.volume[a] * by).sum()
+    }
+
     /// v_a − v_b in m/s, at walls as these stretch it.
     fn velocity_difference(&self, velocity: &[Vec2], a: usize, b: usize) -> Vec2 {
         let v_ab = velocity[a] - velocity[b];

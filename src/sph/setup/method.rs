@@ -7,6 +7,7 @@ use crate::sph::kernel::WendlandC2;
 use crate::sph::method::{Fluid, Method, ViscousTerm};
 use crate::sph::poisson::Tolerance;
 use crate::sph::surface_force::SurfaceForce;
+use crate::sph::wetting::contact_line::LineDelta;
 use crate::sph::wetting::{
     CoxVoinov, Hysteresis, Jiang, Kistler, LineFriction, MolecularKinetic, TadmorAngle, Wetting, YoungForce,
 };
@@ -28,7 +29,10 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
         tension: sph.tension,
         surface_force: match sph.surface_force {
             Some(checked::SurfaceForce::PressureJump) => SurfaceForce::PressureJump,
-            Some(checked::SurfaceForce::Csf) | None => SurfaceForce::Csf,
+            Some(checked::SurfaceForce::Csf { line_delta: checked::LineDelta::Local }) => {
+                SurfaceForce::Csf(LineDelta::Local)
+            }
+            Some(checked::SurfaceForce::Csf { .. }) | None => SurfaceForce::Csf(LineDelta::Normalized),
         },
         wetting: sph.wetting_model.map(wetting),
         patches: sph.wetting_patches.iter().map(|patch| wetting(patch.model)).collect(),

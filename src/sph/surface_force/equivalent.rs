@@ -3,7 +3,7 @@
 use crate::math::Vec2;
 use crate::sph::projection::Flow;
 use crate::sph::terms::{curvature, surface_tension};
-use crate::sph::wetting::contact_line::{LineFields, LineParticles};
+use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
 use crate::sph::wetting::lines::{LINE_REACH, Sighting, nearest};
 
 /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³, with the curvature and the normal
@@ -37,7 +37,7 @@ pub fn volume_forces(flow: &Flow) -> (Vec<Vec2>, Vec<Vec2>) {
                 .map_or_else(|| seen.present(None), |line| line.angle)
         };
         let angles: Vec<f64> = found.sightings(&fields, &flow.domain).iter().map(|seen| angle(seen)).collect();
-        found.line_force(&fields, &angles, m.tension, &mut line);
+        found.line_force(&fields, LineDelta::Normalized, (&angles, m.tension), &mut line);
     }
     (surface, line)
 }

@@ -12,11 +12,13 @@ pub mod jump;
 pub mod points;
 pub mod sightings;
 
+use crate::sph::wetting::contact_line::LineDelta;
+
 /// The forms of the surface force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SurfaceForce {
     /// Continuum surface force and contact line force [Huber2013, Eqs. 20 and 23].
-    Csf,
+    Csf(LineDelta),
     /// Pressure jump with fitted curvature.
     PressureJump,
 }

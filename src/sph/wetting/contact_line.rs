@@ -1,6 +1,7 @@
 //! The contact line's force in volume form, one contact line at a time [Huber2013, Eqs. 11, 21-23].
 //!
-//! The particles of a line are found as connected components, so that each line's force sums to f_wns (Eq. 12).
+//! The particles of a line are found as connected components, so that each line's force sums to f_wns (Eq. 12). [`LineDelta::Local`] needs no
+//! sum over a line: it has the integral of Eq. (22) over a straight interface put in, and holds as well as that is one.
 
 use crate::math::Vec2;
 use crate::sph::components::components;
@@ -16,6 +17,16 @@ const SMALLEST_TANGENT: f64 = 0.15;
 
 /// A line whose N stays below this share of ∫W ds is not a line: else one trapped particle took a whole line's force.
 const SMALLEST_LINE: f64 = 0.5;
+
+/// The forms of δ_wns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LineDelta {
+    /// δ_wns,a = |n_a| W(d_s, h)/N, N the sum of V |n| W over the particles of the line [Huber2013, Eqs. 21, 22].
+    Normalized,
+    /// δ_wns,a = |n_a| |n̂_a − (n̂_a·e_s) e_s| W(d_s, h)/∫W ds, of the particle alone: across a straight interface that meets the wall at the angle α,
+    /// the way along it is ds/sin α, so that this sums to 1 at any α.
+    Local,
+}
 
 /// What the line force needs of the particles; slices over fluid particles at least.
 pub struct LineFields<'a> {
@@ -44,6 +55,8 @@ struct LineParticle {
     /// ν_ns: along the wall, towards the non-wetting phase.
     tangent: Vec2,
     cos_alpha: f64,
+    /// |n̂ − (n̂·e_s) e_s| = sin α.
+    sin_alpha: f64,
     /// |n| W(d_s, h): δ_wns before its normalization [Huber2013, Eq. 21].
     delta: f64,
 }
@@ -54,7 +67,8 @@ pub struct LineParticles {
     lines: Vec<Vec<LineParticle>>,
     /// N of each line [Huber2013, Eq. 22].
     norm: Vec<f64>,
-    smallest: f64,
+    /// ∫W ds in 1/m.
+    integral: f64,
 }
 
 /// A contact line as the means over its particles with the weights V δ tell it.
@@ -97,7 +111,7 @@ impl LineParticles {
         }
         let weights = |line: &Vec<LineParticle>| line.iter().map(|p| fields.volume[p.a] * p.delta).sum();
         let norm = lines.iter().map(weights).collect();
-        Self { lines, norm, smallest: SMALLEST_LINE * kernel.line_integral() }
+        Self { lines, norm, integral: kernel.line_integral() }
     }
 
     /// What is seen of each line, small ones included, in their order.
@@ -106,17 +120,27 @@ impl LineParticles {
         self.lines.iter().zip(&self.norm).map(|(line, norm)| mean(line, *norm, fields, domain)).collect()
     }
 
-    /// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eq. 23], δ_wns,a = |n_a| W(d_s, h)/N [Eqs. 21, 22].
+    /// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eq. 23].
     ///
     /// `angles` in rad are those of the wetting law at each line, in the order of the sightings; `tension` is σ_wn in N/m.
-    pub fn line_force(&self, fields: &LineFields, angles: &[f64], tension: f64, force: &mut [Vec2]) {
+    pub fn line_force(
+        &self,
+        fields: &LineFields,
+        delta: LineDelta,
+        (angles, tension): (&[f64], f64),
+        force: &mut [Vec2],
+    ) {
         force.fill(Vec2::zeros());
         for ((particles, norm), angle) in self.lines.iter().zip(&self.norm).zip(angles) {
             let share: f64 = particles.iter().map(|p| fields.volume[p.a] * p.delta * fields.weight[p.a]).sum();
-            let n = share * (self.smallest / norm).max(1.0);
+            let n = share * (SMALLEST_LINE * self.integral / norm).max(1.0);
             for p in particles {
                 let f = driving_force(tension, *angle, p.cos_alpha);
-                force[p.a] = f * p.delta * fields.weight[p.a] / n * p.tangent;
+                let norm = match delta {
+                    LineDelta::Normalized => n,
+                    LineDelta::Local => self.integral / p.sin_alpha,
+                };
+                force[p.a] = f * p.delta * fields.weight[p.a] / norm * p.tangent;
             }
         }
     }
@@ -124,7 +148,7 @@ impl LineParticles {
     /// Number of lines that are long enough to bear their whole force.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.norm.iter().filter(|&&n| n >= self.smallest).count()
+        self.norm.iter().filter(|&&n| n >= SMALLEST_LINE * self.integral).count()
     }
 }
 
@@ -163,6 +187,7 @@ fn line_particles(fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Ve
             a,
             tangent: -along / length,
             cos_alpha: -n_hat.dot(&e_s),
+            sin_alpha: length,
             delta: fields.normal[a].norm() * kernel.w(fields.wall_distance[a].max(0.0)),
         })
     };

@@ -1,0 +1,78 @@
+//! The force of the other fluid on the wetting phase: its pressure along the interface, and its friction.
+//!
+//! F = −∮ (p_n − ρ_n g·x) n dl + F_visc, n out of the wetting phase: without the part of the pressure that is the weight of the fluid
+//! displaced. The pressure p_n on the interface is that of the other fluid alone, continued to the contour c = 0.5 by planes
+//! fitted to its particles, so that the tension has no part in it. The friction is the sum over pairs that the flow itself uses.
+//! Leaves out pressures of the continuum surface force, which are smeared across the interface. The contour lies κ h²/7 inside of the interface.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::analysis::contour::Polyline;
+use crate::math::Vec2;
+use crate::sph::cells::Cells;
+use crate::sph::observe::Observation;
+use crate::sph::particles::Phase;
+use crate::sph::projection::Flow;
+
+/// The constant in the pressure does nothing only where the interface ends as far out across the force as it begins: by so much of its
+/// length it may not.
+const OPEN: f64 = 0.02;
+
+/// The force of the other fluid on the wetting phase along a direction, in N per m of depth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StreamForce {
+    /// By its pressure, less its buoyancy.
+    pub pressure: f64,
+    /// By its friction.
+    pub friction: f64,
+}
+
+/// The force of the other fluid on the wetting phase along the unit vector `ahead`.
+///
+/// That by the pressure is NaN where the interface ends farther out across `ahead` than it begins (a meniscus
+/// between plates), where no particle of the other fluid is in reach of it, and with the continuum surface force.
+#[must_use]
+pub fn along(flow: &Flow, seen: &Observation, ahead: Vec2) -> StreamForce {
+    let is_wetting = |a: usize| a < flow.particles.fluids && flow.particles.phase[a] == Phase::Wetting;
+    let friction = flow.viscous_force(is_wetting) + flow.friction(|a, _| is_wetting(a));
+    let pressure = if flow.fields.jump.is_some() { by_pressure(flow, &seen.interface, ahead) } else { None };
+    StreamForce { pressure: pressure.unwrap_or(f64::NAN), friction: friction.dot(&ahead) }
+}
+
+fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> {
+    let p = &flow.particles;
+    let other: Vec<usize> = (0..p.fluids).filter(|&a| p.phase[a] == Phase::NonWetting).collect();
+    let points: Vec<Vec2> = other.iter().map(|&a| p.position[a]).collect();
+    let cells = Cells::build(&points, &flow.domain, flow.method.kernel.support());
+    let weight = flow.method.other_fluid.density * flow.method.gravity;
+    let (mut force, mut gained, mut length) = (0.0, 0.0, 0.0);
+    for line in interface {
+        let from = line.points.first()?;
+        for (a, b) in line.segments() {
+            // The wetting phase is on the left.
+            let outwards = Vec2::new(b.y - a.y, a.x - b.x);
+            let middle = 0.5 * (a + b);
+            let pressure = pressure_at(flow, (&cells, &other), middle)? - weight.dot(&(middle - from));
+            force -= pressure * outwards.dot(&ahead);
+            gained += outwards.dot(&ahead);
+            length += outwards.norm();
+        }
+    }
+    (gained.abs() <= OPEN * length && length > 0.0).then_some(force)
+}
+
+/// The pressure in Pa of the particles `other`, sorted into `cells`, at `x` (m): a plane through them, or their mean where they do not hold one.
+fn pressure_at(flow: &Flow, (cells, other): (&Cells, &[usize]), x: Vec2) -> Option<f64> {
+    let (kernel, pressure) = (&flow.method.kernel, &flow.particles.pressure);
+    let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    cells.visit_near(flow.domain.wrapped(x), |i, from_particle| {
+        let a = other[i as usize];
+        let r = -from_particle / kernel.h;
+        let row = Vector3::new(1.0, r.x, r.y);
+        let w = kernel.w(from_particle.norm());
+        matrix += w * row * row.transpose();
+        right += w * pressure[a] * row;
+    });
+    let total = matrix[(0, 0)];
+    (total > 0.0).then(|| matrix.cholesky().map_or(right[0] / total, |plane| plane.solve(&right)[0]))
+}
