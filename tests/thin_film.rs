@@ -57,7 +57,7 @@ impl Particles {
 
 fn grid(droplet: Droplet, half: f64, count: usize, wetting: f64, rule: StepRule) -> GridFilm {
     let line = Line { from: -half, count, spacing: 2.0 * half / count as f64, alpha: ALPHA, wetting, bond: 0.0 };
-    let (ring, height) = Ring::new(line, &[droplet], WeightRule::Point);
+    let (ring, height) = Ring::new(line, &[droplet], WeightRule::Point).unwrap();
     GridFilm::new(Equation::Ring(ring), height, rule)
 }
 

@@ -195,6 +195,7 @@ impl Film {
             Self::Grid(grid) => {
                 vec![
                     ("newton-iterations", grid.state.iterations as f64),
+                    ("factorizations", grid.state.factors as f64),
                     ("rejected-steps", grid.state.rejected as f64),
                 ]
             }

@@ -5,7 +5,6 @@
 //! and the output of the solver is dimensionless; [`scales`] stands between.
 
 pub mod backward_euler;
-mod banded;
 pub mod cells;
 #[cfg(feature = "diffsol")]
 pub mod diffsol;
@@ -14,6 +13,7 @@ pub mod equilibrium;
 pub mod film;
 pub mod grid;
 pub mod history;
+mod implicit_particles;
 pub mod kernel;
 mod measures;
 mod model;
@@ -25,4 +25,5 @@ pub mod scales;
 pub mod setup;
 pub mod similarity;
 pub mod solver;
+pub mod sparse;
 pub mod sums;

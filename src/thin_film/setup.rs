@@ -12,6 +12,7 @@ use super::particles::{self, ParticleMethod, Pull};
 use super::ring::{Line, Ring};
 use super::scales::Scales;
 use super::solver::{Surroundings, ThinFilmSolver};
+use super::sparse::TooLarge;
 use crate::case::checked::Case;
 use crate::case::film::checked::{
     FilmEquation, FilmIntegrator, FilmMethod, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
@@ -34,6 +35,9 @@ pub enum SetupError {
         /// A usual one in m.
         usual: f64,
     },
+    /// The film has too many nodes for the memory.
+    #[error("{0}; take a larger spacing")]
+    TooLarge(#[from] TooLarge),
 }
 
 /// The solver of a case at time zero.
@@ -72,7 +76,7 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
         }
         FilmMethod::FiniteDifferences { step_share } => {
             let rule = StepRule { first: FIRST_STEP, share: step_share, ..StepRule::ADAPTIVE };
-            let (equation, height) = grid(film, &scales, &droplets, wall, pull);
+            let (equation, height) = grid(film, &scales, &droplets, wall, pull)?;
             Film::Grid(Box::new(GridFilm::new(equation, height, rule)))
         }
     };
@@ -141,7 +145,13 @@ fn rest(film: &ThinFilm, scales: &Scales, droplets: &[Droplet]) -> Result<(f64, 
 }
 
 /// The equation on its grid, with the heights at time zero.
-fn grid(film: &ThinFilm, scales: &Scales, droplets: &[Droplet], wall: [f64; 2], pull: Pull) -> (Equation, Vec<f64>) {
+fn grid(
+    film: &ThinFilm,
+    scales: &Scales,
+    droplets: &[Droplet],
+    wall: [f64; 2],
+    pull: Pull,
+) -> Result<(Equation, Vec<f64>), TooLarge> {
     let spacing = film.spacing / scales.length;
     let count = ((wall[1] - wall[0]) / film.spacing).round() as usize;
     let model = match (film.equation, film.symmetry) {
@@ -151,8 +161,8 @@ fn grid(film: &ThinFilm, scales: &Scales, droplets: &[Droplet], wall: [f64; 2], 
             let alpha = smoothing_length / scales.length;
             let Pull { wetting, bond } = pull;
             let line = Line { from: -before * spacing, count, spacing, alpha, wetting, bond };
-            let (ring, height) = Ring::new(line, droplets, weights(film));
-            return (Equation::Ring(ring), height);
+            let (ring, height) = Ring::new(line, droplets, weights(film))?;
+            return Ok((Equation::Ring(ring), height));
         }
         (FilmEquation::Geometric { smoothing_length }, FilmSymmetry::Axis) => {
             Model::Geometric { alpha: smoothing_length / scales.length }
@@ -171,6 +181,6 @@ fn grid(film: &ThinFilm, scales: &Scales, droplets: &[Droplet], wall: [f64; 2], 
         FilmSymmetry::Axis => Symmetry::Axis,
     };
     let layout = Layout { from: wall[0] / scales.length, count, spacing, symmetry, model, bond: scales.bond };
-    let (cells, height) = Cells::new(layout, droplets, weights(film));
-    (Equation::Cells(cells), height)
+    let (cells, height) = Cells::new(layout, droplets, weights(film))?;
+    Ok((Equation::Cells(cells), height))
 }

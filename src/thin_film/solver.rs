@@ -144,7 +144,7 @@ impl ThinFilmSolver {
                 system: "the thin film on its grid",
                 residual,
                 tolerance: super::backward_euler::RESIDUAL,
-                iterations: super::backward_euler::ITERATIONS as usize,
+                iterations: super::backward_euler::FACTORS as usize,
                 time,
                 step,
             },
