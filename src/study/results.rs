@@ -10,7 +10,7 @@ use super::runs::{PlannedRun, Run};
 use crate::run::report::{REPORT, Reading, Status};
 
 /// What is known of a run besides its measures.
-pub const RUN_NUMBERS: [&str; 3] = ["steps", "unknowns", "wall-time-s"];
+pub const RUN_NUMBERS: [&str; 4] = ["steps", "unknowns", "wall-time-s", "solver-time-s"];
 
 /// The report of a run, as far as studies read it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -39,11 +39,14 @@ pub struct Total {
     pub total: f64,
 }
 
-/// Number of unknowns.
+/// What the solver did.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Unknowns {
     /// Particles or nodes.
     pub unknowns: usize,
+    /// Wall time in s without output; not told by older reports.
+    #[serde(rename = "wall-time-s", default)]
+    pub wall_time_s: Option<f64>,
 }
 
 /// Where a run stands.
@@ -108,7 +111,7 @@ pub struct RunResult {
 }
 
 impl RunResult {
-    /// A parameter that is a number, a measure, or one of `steps`, `unknowns`, `wall-time-s` of a complete run.
+    /// A parameter that is a number, a measure, or one of [`RUN_NUMBERS`] of a complete run.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         if let Some(value) = self.run.value(name) {
@@ -119,6 +122,7 @@ impl RunResult {
             "steps" => Some(report.steps as f64),
             "unknowns" => Some(report.solver.unknowns as f64),
             "wall-time-s" => Some(report.wall_time_s.total),
+            "solver-time-s" => report.solver.wall_time_s,
             measure => report.measures.get(measure)?.value,
         }
     }

@@ -138,6 +138,39 @@ impl Film {
         }
     }
 
+    /// Heights at ascending places, between nodes of a grid by straight lines; 0 beyond its ends.
+    #[must_use]
+    pub fn heights(&self, places: &[f64]) -> Vec<f64> {
+        match self {
+            Self::Particles { method, state, .. } => method.profile(&state.x, places).height,
+            Self::Grid(film) => {
+                let (x, height) = (film.grid().nodes(), &film.state.height);
+                let at = |&place: &f64| {
+                    let after = x.partition_point(|&x| x < place);
+                    match after {
+                        0 => x.first().filter(|&&x| x == place).map_or(0.0, |_| height[0]),
+                        _ if after == x.len() => 0.0,
+                        _ => {
+                            let share = (place - x[after - 1]) / (x[after] - x[after - 1]);
+                            height[after - 1] + share * (height[after] - height[after - 1])
+                        }
+                    }
+                };
+                places.iter().map(at).collect()
+            }
+        }
+    }
+
+    /// The places of up to `count` particles from the middle one to the last, evenly chosen; none on a grid.
+    #[must_use]
+    pub fn ways(&self, count: usize) -> Vec<f64> {
+        let Self::Particles { state, .. } = self else { return Vec::new() };
+        let right = &state.x[state.x.len() / 2..];
+        let last = right.len().saturating_sub(1);
+        let chosen = |i: usize| right.get((i + 1) * last / count).copied();
+        (0..count.min(last)).filter_map(chosen).collect()
+    }
+
     /// h̄ at x = 0.
     #[must_use]
     pub fn center_height(&self) -> f64 {

@@ -6,6 +6,7 @@
 
 pub mod backward_euler;
 pub mod cells;
+mod diagrams;
 #[cfg(feature = "diffsol")]
 pub mod diffsol;
 pub mod droplet;

@@ -9,7 +9,7 @@ use super::droplet::PointMasses;
 use super::kernel::Kernel;
 use super::ode::Rates;
 use super::sparse::Pattern;
-use super::sums::{FastSums, Smoothed};
+use super::sums::{FastSums, Smoothed, direct_sums};
 
 /// Widest gap over α at which the lattice energy may be taken off.
 pub const WIDEST_GAP: f64 = 0.5;
@@ -41,6 +41,7 @@ pub struct ParticleMethod {
     area: f64,
     correction: Vec<f64>,
     sums: FastSums,
+    sums_directly: bool,
     pub(super) smoothed: Smoothed,
     /// The places of the entries of the matrix of implicit steps, once there was one.
     pub(super) pattern: Option<Pattern>,
@@ -61,10 +62,16 @@ impl ParticleMethod {
             area: weight.iter().sum(),
             correction,
             sums: FastSums::new(kernel),
+            sums_directly: false,
             smoothed: Smoothed::new(weight.len()),
             weight,
             pattern: None,
         }
+    }
+
+    /// Takes the sums of rates over all pairs from now on, to compare with the recursion.
+    pub fn sum_directly(&mut self) {
+        self.sums_directly = true;
     }
 
     /// Leaves the lattice energy alone from now on.
@@ -111,7 +118,11 @@ impl ParticleMethod {
 
     /// h̄ and its derivatives at the particles.
     pub fn smooth(&mut self, x: &[f64]) -> &Smoothed {
-        self.sums.at_particles(x, &self.weight, &mut self.smoothed);
+        if self.sums_directly {
+            self.smoothed = direct_sums(&self.kernel, x, &self.weight);
+        } else {
+            self.sums.at_particles(x, &self.weight, &mut self.smoothed);
+        }
         &self.smoothed
     }
 
@@ -162,7 +173,7 @@ pub fn widest_gap(x: &[f64]) -> f64 {
 
 impl Rates for ParticleMethod {
     fn rates(&mut self, x: &[f64], out: &mut [f64]) {
-        self.sums.at_particles(x, &self.weight, &mut self.smoothed);
+        self.smooth(x);
         let pull = self.xi_squared() - self.pull.bond;
         for (i, rate) in out.iter_mut().enumerate() {
             *rate = self.smoothed.height[i].powi(2) * self.drive(i, pull);

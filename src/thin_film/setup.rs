@@ -15,7 +15,7 @@ use super::solver::{Surroundings, ThinFilmSolver};
 use super::sparse::TooLarge;
 use crate::case::checked::Case;
 use crate::case::film::checked::{
-    FilmEquation, FilmIntegrator, FilmMethod, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
+    FilmEquation, FilmIntegrator, FilmMethod, FilmSums, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
 };
 
 /// Scaled first step: a droplet that starts far from rest changes fast.
@@ -51,7 +51,7 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
     let (wetting, equilibrium) = rest(film, &scales, &droplets)?;
     let pull = Pull { wetting, bond: scales.bond };
     let moving = match film.method {
-        FilmMethod::Particles { integrator, tolerance, lattice_energy } => {
+        FilmMethod::Particles { integrator, tolerance, lattice_energy, sums } => {
             let alpha = smoothing_length(film).unwrap_or(film.spacing) / scales.length;
             let masses = particles(&droplets, film.spacing / scales.length, weights(film));
             let lattice = match lattice_energy {
@@ -65,7 +65,11 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
             let width = droplets.iter().map(|droplet| 2.0 * droplet.half_width).fold(0.0, f64::max);
             let tolerance = Tolerance { absolute: tolerance * width, relative: 0.0 };
             let state = Integrator::new(method, tolerance, masses.x.clone(), FIRST_STEP);
-            let film = Film::particles(ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice), &masses, state);
+            let mut equation = ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice);
+            if sums == FilmSums::Direct {
+                equation.sum_directly();
+            }
+            let film = Film::particles(equation, &masses, state);
             // Programs without the library refuse such a case.
             #[cfg(feature = "diffsol")]
             let film = match integrator {

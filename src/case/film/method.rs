@@ -1,7 +1,7 @@
 //! Checks of how a thin film is solved.
 
-use super::checked::{FilmIntegrator, FilmMethod, LatticeEnergy};
-use super::raw::{RawFilmIntegrator, RawFilmMethod, RawLatticeEnergy};
+use super::checked::{FilmIntegrator, FilmMethod, FilmSums, LatticeEnergy};
+use super::raw::{RawFilmIntegrator, RawFilmMethod, RawFilmSums, RawLatticeEnergy};
 use crate::case::check::Checker;
 
 /// Errors of a step over the initial width.
@@ -53,6 +53,10 @@ pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_b
         lattice_energy: match raw.lattice_energy {
             None | Some(RawLatticeEnergy::Kept) => LatticeEnergy::Kept,
             Some(RawLatticeEnergy::TakenOff) => LatticeEnergy::TakenOff,
+        },
+        sums: match raw.sums {
+            None | Some(RawFilmSums::Recursive) => FilmSums::Recursive,
+            Some(RawFilmSums::Direct) => FilmSums::Direct,
         },
     })
 }
