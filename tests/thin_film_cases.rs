@@ -240,13 +240,3 @@ fn steps_on_a_grid_are_counted_ahead() {
     // Landing at the end splits a step.
     near(solver.steps() as f64, ahead, 2.0);
 }
-
-#[cfg(not(feature = "diffsol"))]
-#[test]
-fn a_program_without_the_library_diffsol_says_how_to_get_one() {
-    for integrator in ["diffsol-stiff", "diffsol-explicit"] {
-        let method = format!("thin-film.method={{ particles = {{ integrator = \"{integrator}\" }} }}");
-        let told = load(&named("complete-wetting"), &Overrides::parse(&[method]).unwrap()).unwrap_err().render();
-        assert!(told.contains("--features diffsol"), "{told}");
-    }
-}

@@ -1,5 +1,4 @@
-//! The integrators of the library diffsol, in programs built with it: `cargo test --features diffsol --test thin_film_diffsol`.
-#![cfg(feature = "diffsol")]
+//! The integrators of the library diffsol: the same films as ours, and the same bits where a run is resumed.
 
 #[path = "support/films.rs"]
 mod films;

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 
 /// Width of a legend beside a drawing in pixels.
-pub const LEGEND: u32 = 220;
+pub const LEGEND: u32 = 270;
 /// Height of a line of the legend in pixels.
 const LEGEND_LINE: i32 = 20;
 /// Share of the range that is left free on either side of the data.

@@ -134,7 +134,8 @@ where
     if let Some(map) = map {
         let highest = map.values.iter().copied().fold(0.0, f64::max);
         for band in [BANDS - 1, BANDS / 2, 0] {
-            let value = short((highest * (band as f64 + 0.5) / BANDS as f64 * 1.0e9).round() / 1.0e9);
+            let middle = highest * (band as f64 + 0.5) / BANDS as f64;
+            let value = short(format!("{middle:.1e}").parse().unwrap_or(middle));
             names.push((format!("{}: {value}", map.label), band_color(band)));
         }
     }

@@ -120,13 +120,16 @@ fn similarity(solver: &ThinFilmSolver) -> Option<Diagram> {
         .map(|frame| {
             let stretch = frame.time.powf(EXPONENT);
             let points = places.iter().zip(&frame.heights).filter(|(x, _)| **x >= 0.0);
-            let name = format!("{:.2e} s", frame.time * solver.surroundings().scales.time);
+            let name = format!("{} s", two_digits(frame.time * solver.surroundings().scales.time));
             trace(name, Stroke::Full, points.map(|(x, h)| [x / stretch, h * stretch]))
         })
         .collect();
     let end = foot.position / time.powf(EXPONENT);
     let eta: Vec<f64> = (0..=PLACES).map(|i| 1.2 * end * f64::from(i) / f64::from(PLACES)).collect();
-    let law = shoot(shape.height, shape.curvature, &eta);
+    let mut law = shoot(shape.height, shape.curvature, &eta);
+    // It never touches down: past its lowest place it rises again, where there is no droplet any more.
+    let lowest = (1..law.len()).find(|&i| law[i] > law[i - 1]).unwrap_or(law.len());
+    law.truncate(lowest);
     traces.push(trace("f''' = eta/(7 f^2)", Stroke::Dashed, eta.iter().zip(law).map(|(eta, f)| [*eta, f])));
     // Beyond, there is nothing but the wall.
     traces.iter_mut().for_each(|trace| trace.points.retain(|point| point[0] < 1.6 * end));
@@ -165,4 +168,10 @@ fn cox_voinov(solver: &ThinFilmSolver) -> Option<Diagram> {
     ];
     let (x, y) = (linear("9 Ca ln(x/d), scaled"), linear("cubed slope over that at rest"));
     Some(Diagram { name: "cox-voinov", title: "The law of Cox and Voinov", x, y, map: None, traces })
+}
+
+/// A number with two digits.
+fn two_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    if (1.0e-3..1.0e5).contains(&rounded) { format!("{rounded}") } else { format!("{rounded:e}") }
 }

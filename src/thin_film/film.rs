@@ -16,7 +16,6 @@ pub enum Film {
         /// The state.
         state: Integrator,
         /// Whether the library diffsol does the steps.
-        #[cfg(feature = "diffsol")]
         by_library: bool,
     },
     /// Nodes of a grid.
@@ -52,16 +51,10 @@ impl Film {
     #[must_use]
     pub fn particles(method: ParticleMethod, masses: &PointMasses, state: Integrator) -> Self {
         debug_assert_eq!(masses.x.len(), state.x.len());
-        Self::Particles {
-            method: Box::new(method),
-            state,
-            #[cfg(feature = "diffsol")]
-            by_library: false,
-        }
+        Self::Particles { method: Box::new(method), state, by_library: false }
     }
 
     /// The same film with its steps done by the library diffsol, where there are particles.
-    #[cfg(feature = "diffsol")]
     #[must_use]
     pub fn by_library(mut self) -> Self {
         if let Self::Particles { by_library, .. } = &mut self {
@@ -85,7 +78,6 @@ impl Film {
     /// [`Stuck`]; the state is kept.
     pub fn step(&mut self, until: f64) -> Result<f64, Stuck> {
         match self {
-            #[cfg(feature = "diffsol")]
             Self::Particles { method, state, by_library: true } => {
                 super::diffsol::step(method, state, until).map_err(|error| Stuck::Inaccurate(error.0))
             }

@@ -70,13 +70,10 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
                 equation.sum_directly();
             }
             let film = Film::particles(equation, &masses, state);
-            // Programs without the library refuse such a case.
-            #[cfg(feature = "diffsol")]
-            let film = match integrator {
+            match integrator {
                 FilmIntegrator::DiffsolStiff | FilmIntegrator::DiffsolExplicit => film.by_library(),
                 FilmIntegrator::Stiff | FilmIntegrator::Explicit => film,
-            };
-            film
+            }
         }
         FilmMethod::FiniteDifferences { step_share } => {
             let rule = StepRule { first: FIRST_STEP, share: step_share, ..StepRule::ADAPTIVE };

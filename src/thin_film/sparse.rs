@@ -10,6 +10,8 @@ use faer::prelude::*;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 
+use crate::math::factor_in_one_thread;
+
 /// The library's count of rows and entries: half the memory of the machine's, and less to move.
 type Count = u32;
 /// Entries that a pattern may have, so that those of its factors can be counted too.
@@ -51,6 +53,7 @@ impl Pattern {
     /// # Errors
     /// [`TooLarge`].
     pub fn new(size: usize, places: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, TooLarge> {
+        factor_in_one_thread();
         let pair = |(row, column): (usize, usize)| Pair { row: row as Count, col: column as Count };
         let pairs: Vec<Pair<Count, Count>> = places.into_iter().map(pair).collect();
         if size > MOST_ENTRIES || pairs.len() > MOST_ENTRIES {

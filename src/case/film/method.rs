@@ -44,8 +44,19 @@ pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_b
         Some(RawFilmIntegrator::DiffsolExplicit) => FilmIntegrator::DiffsolExplicit,
     };
     let is_of_library = matches!(integrator, FilmIntegrator::DiffsolStiff | FilmIntegrator::DiffsolExplicit);
-    if is_of_library {
-        library(checker, raw.lattice_energy);
+    if is_of_library && raw.lattice_energy == Some(RawLatticeEnergy::TakenOff) {
+        checker.refuse(
+            "thin-film.method.particles.lattice-energy",
+            "the integrators of diffsol leave the lattice energy as it is",
+            "take `stiff` or `explicit`",
+        );
+    }
+    if integrator == FilmIntegrator::DiffsolStiff && raw.sums == Some(RawFilmSums::Direct) {
+        checker.refuse(
+            "thin-film.method.particles.sums",
+            "the implicit integrator of diffsol solves for the recursive sums and takes no others",
+            "take another integrator",
+        );
     }
     Some(FilmMethod::Particles {
         integrator,
@@ -59,22 +70,4 @@ pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_b
             Some(RawFilmSums::Direct) => FilmSums::Direct,
         },
     })
-}
-
-/// What the integrators of the library diffsol need.
-fn library(checker: &mut Checker, lattice_energy: Option<RawLatticeEnergy>) {
-    if !cfg!(feature = "diffsol") {
-        checker.refuse(
-            "thin-film.method.particles.integrator",
-            "this program was built without the library diffsol",
-            "build it with `cargo build --release --features diffsol`, or take `stiff` or `explicit`, which are faster",
-        );
-    }
-    if lattice_energy == Some(RawLatticeEnergy::TakenOff) {
-        checker.refuse(
-            "thin-film.method.particles.lattice-energy",
-            "the integrators of diffsol leave the lattice energy as it is",
-            "take `stiff` or `explicit`",
-        );
-    }
 }

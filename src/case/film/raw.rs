@@ -141,9 +141,9 @@ pub enum RawFilmIntegrator {
     Stiff,
     /// Dormand and Prince, order 5: steps as short as stability wants.
     Explicit,
-    /// ESDIRK34 of the library diffsol, in programs built with it.
+    /// ESDIRK34 of the library diffsol.
     DiffsolStiff,
-    /// Tsit45 of the library diffsol, in programs built with it.
+    /// Tsit45 of the library diffsol.
     DiffsolExplicit,
 }
 
