@@ -103,8 +103,9 @@ fn direct_and_recursive_sums_move_particles_alike() {
     };
     let (direct, recursive) = (places("direct"), places("recursive"));
     let off = direct.iter().zip(&recursive).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    // Sums agree to 1e-14; some thousand steps add up, on places of half a millimeter.
-    assert!(direct != recursive && off < 1.0e-12, "{off}");
+    // Sums agree to rounding, but explicit steps at their bound of stability are refused by a hair: the places agree as well as
+    // a step, to 1e-7 of a millimeter.
+    assert!(direct != recursive && off < 1.0e-10, "{off}");
 }
 
 #[test]
@@ -124,7 +125,7 @@ fn a_run_keeps_what_its_diagrams_show() {
     assert_eq!(spreading, ["space-time", "trajectories", "contact-line", "similarity"]);
     let resting = names("partial-wetting", &["thin-film.spacing=1e-5"], 5.0);
     assert_eq!(resting, ["space-time", "contact-line", "rest", "cox-voinov"]);
-    assert_eq!(names("axisymmetric", &["thin-film.spacing=2e-5"], 1.0), ["space-time", "contact-line"]);
+    assert_eq!(names("axisymmetric", &[], 1.0), ["space-time", "contact-line"]);
 }
 
 fn measures_of(case: &meniscus::case::checked::Case, stops: &[f64]) -> impl Fn(&str) -> f64 + use<> {

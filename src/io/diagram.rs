@@ -69,7 +69,8 @@ fn ends(places: &[f64], logarithmic: bool) -> std::ops::Range<f64> {
 
 /// The edges between places, in the middle of each two, and those of the first and the last.
 fn edges(places: &[f64], logarithmic: bool) -> Vec<f64> {
-    let (to, from): (fn(f64) -> f64, fn(f64) -> f64) = if logarithmic { (f64::ln, f64::exp) } else { (|x| x, |x| x) };
+    let to = |x: f64| if logarithmic { x.ln() } else { x };
+    let from = |x: f64| if logarithmic { x.exp() } else { x };
     let n = places.len();
     let at = |i: usize| to(places[i]);
     let edge = |i: usize| match i {

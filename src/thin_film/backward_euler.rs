@@ -2,7 +2,7 @@
 //!
 //! A step solves G(v) = 0 for the heights v at its end. Order 1 in time. Newton's method ends where the residual is small, or where its
 //! next change of the heights is: on fine grids rounding keeps the residual of a fourth derivative from being small. The factors of a
-//! Jacobian serve as long as each change lowers the residual by [`KEPT`]: they cost several times a solution with them. No factors are kept
+//! Jacobian serve as long as each change lowers the residual by a factor: they cost several times a solution with them. No factors are kept
 //! from step to step: a step depends on the heights, the time and the proposed step only, so that a run resumed from them gives the
 //! same bits as an unbroken one.
 

@@ -53,7 +53,7 @@ operator!(Start<'_>, system => system.0);
 /// A matrix of entries; the library's own pattern is made of the same ones.
 fn filled(rows: usize, places: Vec<(usize, usize)>, values: Vec<f64>, into: &mut FaerSparseMat<f64>) {
     // Entries within the matrix, none twice: there is nothing to refuse.
-    if let Ok(matrix) = FaerSparseMat::try_from_triplets(rows, rows, places, values, into.context().clone()) {
+    if let Ok(matrix) = FaerSparseMat::try_from_triplets(rows, rows, places, values, *into.context()) {
         *into = matrix;
     }
 }
@@ -69,7 +69,7 @@ impl NonLinearOp for RightSide<'_> {
     fn call_inplace(&self, x: &FaerVec<f64>, _: f64, y: &mut FaerVec<f64>) {
         let mut out = vec![0.0; self.nstates()];
         self.0.right_side(&x.clone_as_vec(), &mut out);
-        *y = FaerVec::from_vec(out, self.context().clone());
+        *y = FaerVec::from_vec(out, *self.context());
     }
 }
 
@@ -77,7 +77,7 @@ impl NonLinearOpJacobian for RightSide<'_> {
     fn jac_mul_inplace(&self, x: &FaerVec<f64>, _: f64, v: &FaerVec<f64>, y: &mut FaerVec<f64>) {
         let (v, mut out) = (v.clone_as_vec(), vec![0.0; self.nstates()]);
         self.0.jacobian(&x.clone_as_vec(), |row, column, value| out[row] += value * v[column]);
-        *y = FaerVec::from_vec(out, self.context().clone());
+        *y = FaerVec::from_vec(out, *self.context());
     }
 
     fn jacobian_inplace(&self, x: &FaerVec<f64>, _: f64, y: &mut FaerSparseMat<f64>) {
@@ -106,7 +106,7 @@ impl LinearOp for Mass<'_> {
     fn gemv_inplace(&self, x: &FaerVec<f64>, _: f64, beta: f64, y: &mut FaerVec<f64>) {
         let (x, old) = (x.clone_as_vec(), y.clone_as_vec());
         let out = (0..x.len()).map(|row| self.factor(row) * x[row] + beta * old[row]).collect();
-        *y = FaerVec::from_vec(out, self.context().clone());
+        *y = FaerVec::from_vec(out, *self.context());
     }
 
     fn matrix_inplace(&self, _: f64, y: &mut FaerSparseMat<f64>) {
@@ -121,7 +121,7 @@ impl LinearOp for Mass<'_> {
 
 impl ConstantOp for Start<'_> {
     fn call_inplace(&self, _: f64, y: &mut FaerVec<f64>) {
-        *y = FaerVec::from_slice(&self.0.start, self.context().clone());
+        *y = FaerVec::from_slice(&self.0.start, *self.context());
     }
 }
 
