@@ -179,6 +179,19 @@ fn every_example_file_loads() {
     }
 }
 
+#[test]
+fn the_gallery_lists_every_case_and_every_study() {
+    let listed: BTreeSet<String> = page("docs/validation/gallery.md").rows().into_iter().flatten().collect();
+    for folder in ["cases", "studies", "studies/validation"] {
+        for file in std::fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path()) {
+            if file.extension().is_some_and(|extension| extension == "toml") {
+                let name = format!("`{folder}/{}`", file.file_name().unwrap().to_string_lossy());
+                assert!(listed.contains(&name), "{name} is not in the gallery");
+            }
+        }
+    }
+}
+
 /// Whether a function, type or block of methods of this name begins in the source.
 fn defines(source: &str, name: &str) -> bool {
     let ends = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');

@@ -4,7 +4,9 @@
 mod cloud;
 
 use cloud::{Cloud, pressure_matrix, right_side};
-use meniscus::sph::poisson::{Matrix, Multigrid, PressureSolve, Tolerance, Unknowns, conjugate_gradients, parts};
+use meniscus::sph::poisson::{
+    Matrix, Multigrid, PressureSolve, System, Tolerance, Unknowns, conjugate_gradients, parts,
+};
 use nalgebra::{DMatrix, DVector};
 
 /// Density of each particle in kg/m³, light in a stripe, heavy elsewhere: the shape the multigrid must cope with.
@@ -92,7 +94,8 @@ fn small_systems_are_solved_directly() {
         Unknowns { position: &cloud.points, kind: &kind, part: &part, anchored: &[], spacing: cloud.spacing };
     let (mut b, mut p) = (right_side(n), vec![0.0; n]);
     let wanted = direct(&solver.matrix, &b);
-    let found = solver.solve(&unknowns, &cloud.volume, &mut b, &mut p, Tolerance { residual: 1e-6, iterations: 300 });
+    let tolerance = Tolerance { residual: 1e-6, iterations: 300 };
+    let [found] = solver.solve(&unknowns, &cloud.volume, [System { b: &mut b, x: &mut p, tolerance }]);
     assert_eq!(found.iterations, 1);
     assert!(found.residual < 1e-12, "{}", found.residual);
     assert!(difference(&p, &wanted) < 1e-10);

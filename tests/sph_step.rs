@@ -74,6 +74,21 @@ fn a_uniform_flow_of_one_fluid_stays_uniform() {
 }
 
 #[test]
+fn the_drift_correction_evens_the_density_of_a_fluid_at_rest_and_leaves_it_at_rest() {
+    let text = case(&format!("[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n{PERIODIC}"));
+    let mut flow = flow(&text);
+    shake(&mut flow);
+    let uneven = |flow: &Flow| {
+        let errors = flow.fields.volume[..flow.particles.fluids].iter().map(|v| (flow.method.volume / v - 1.0).powi(2));
+        errors.sum::<f64>().sqrt()
+    };
+    let before = uneven(&flow);
+    steps(&mut flow, 20, 1.0e-6);
+    assert!(uneven(&flow) < 0.5 * before, "{:.1e} of {before:.1e} are left", uneven(&flow));
+    assert_eq!(fastest(&flow), 0.0);
+}
+
+#[test]
 fn a_uniform_flow_of_two_fluids_without_tension_stays_uniform() {
     let text = case(&format!(
         "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n[sph.phases.non-wetting]\ndensity = 10.0\nviscosity = 1.0e-5\n\

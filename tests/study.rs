@@ -368,7 +368,8 @@ fn several_studies_run_one_after_the_other_each_into_its_own_folder() {
 
 #[test]
 fn every_shipped_study_can_be_planned() {
-    for study in program::shipped("studies", &["toml"]) {
+    let folders = ["studies", "studies/thin-film", "studies/validation"];
+    for study in folders.into_iter().flat_map(|folder| program::shipped(folder, &["toml"])) {
         let study = meniscus::study::load::load(&study).unwrap_or_else(|error| panic!("{}", error.render()));
         let runs = meniscus::study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
         assert!(runs.len() >= 3, "{}", study.name);

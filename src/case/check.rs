@@ -49,6 +49,12 @@ impl Checker {
         None
     }
 
+    /// The value where it is there and above zero; `what` names it with its unit.
+    pub fn require_positive(&mut self, path: &str, value: Option<f64>, example: &str, what: &str) -> Option<f64> {
+        let value = self.require(path, value, example);
+        self.positive(path, value, what)
+    }
+
     /// The value where it lies in a closed range; `what` names it with its unit.
     pub fn within(&mut self, path: &str, value: Option<f64>, range: (f64, f64), what: &str) -> Option<f64> {
         let value = value?;
@@ -75,8 +81,7 @@ impl Checker {
 /// The end of the simulation in s.
 pub(super) fn end(checker: &mut Checker, raw: &RawCase) -> Option<f64> {
     let end = raw.time.as_ref().and_then(|time| time.end);
-    let end = checker.require("time.end", end, "end = 0.01 # s");
-    let end = checker.positive("time.end", end, "an end time in s");
+    let end = checker.require_positive("time.end", end, "end = 0.01 # s", "an end time in s");
     checker.within("time.end", end, END_RANGE, "an end time in s")
 }
 
@@ -119,8 +124,7 @@ fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation) -> Option<
     let measure = checker.require(&format!("{at}.measure"), raw.measure.clone(), "measure = \"contact-angle-deg\"");
     let value = checker.require(&format!("{at}.value"), raw.value, "value = 40.0");
     let path = format!("{at}.tolerance");
-    let tolerance = checker.require(&path, raw.tolerance, "tolerance = 3.0");
-    let tolerance = checker.positive(&path, tolerance, "a tolerance");
+    let tolerance = checker.require_positive(&path, raw.tolerance, "tolerance = 3.0", "a tolerance");
     if measure.as_deref().is_some_and(|name| name.trim().is_empty()) {
         checker.refuse(format!("{at}.measure"), "expected the name of a measure, found nothing", "");
     }

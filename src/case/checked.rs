@@ -301,6 +301,8 @@ pub struct Numerics {
     pub viscous_term: ViscousTerm,
     /// Share of the density error taken back per step: gamma of the drift source, 0 to 1.
     pub drift_source: f64,
+    /// Share of the density error taken back per step by moving particles, their velocities left as they are.
+    pub drift_correction: f64,
     /// Background pressure in units of sigma/h (or of rho v² without tension), at least 0.
     pub background_pressure: f64,
     /// Particle shifting: A in δr = −A h v_max Δt ∇C, at least 0.

@@ -164,6 +164,7 @@ fn raw_numerics(numerics: &Numerics) -> RawNumerics {
             ViscousTerm::Stress => RawViscousTerm::Stress,
         }),
         drift_source: Some(numerics.drift_source),
+        drift_correction: Some(numerics.drift_correction),
         background_pressure: Some(numerics.background_pressure),
         shifting: Some(numerics.shifting),
         wall_stretch: Some(numerics.wall_stretch),

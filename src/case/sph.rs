@@ -25,8 +25,7 @@ const LARGEST_DENSITY_RATIO: f64 = 1.0e4;
 
 /// Checks `[sph]`; `geometry` is missing where it was wrong.
 pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&GeometrySpec>) -> Option<Sph> {
-    let spacing = checker.require("sph.spacing", raw.spacing, "spacing = 2.0e-5 # m");
-    let spacing = checker.positive("sph.spacing", spacing, "a spacing in m");
+    let spacing = checker.require_positive("sph.spacing", raw.spacing, "spacing = 2.0e-5 # m", "a spacing in m");
     if let (Some(spacing), Some(geometry)) = (spacing, geometry) {
         particle_count(checker, spacing, geometry);
     }
@@ -132,8 +131,7 @@ fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
     let preset = raw.preset.map(|preset| preset.at(celsius.unwrap_or(COLD)));
     let mut property = |key: &str, given: Option<f64>, known: Option<f64>, example: &str, what: &str| {
         let path = format!("{at}.{key}");
-        let value = checker.require(&path, given.or(known), example);
-        checker.positive(&path, value, what)
+        checker.require_positive(&path, given.or(known), example, what)
     };
     let density =
         property("density", raw.density, preset.map(|p| p.density), "density = 998.2 # kg/m3", "a density in kg/m3");
@@ -279,8 +277,7 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
     let Some(raw) = &raw.velocity else { return Some(InitialVelocity::Rest) };
     let speed = raw.taylor_green.as_ref().map(|raw| {
         let path = format!("{PATH}.taylor-green.speed");
-        let speed = checker.require(&path, raw.speed, "speed = 1.0 # m/s");
-        checker.positive(&path, speed, "a speed in m/s")
+        checker.require_positive(&path, raw.speed, "speed = 1.0 # m/s", "a speed in m/s")
     });
     match (raw.rest, raw.uniform, speed) {
         (Some(_), None, None) => Some(InitialVelocity::Rest),
@@ -309,16 +306,17 @@ fn slip_length(checker: &mut Checker, raw: &RawSph) -> f64 {
 }
 
 /// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and drift source,
-/// the others by shifting and drift source (docs/numerics). A wall that a contact line moves along must slip a little, if no slip length is given.
+/// the others by shifting and either drift source or drift correction (docs/numerics). A wall that a contact line moves along must slip a little, if no slip length is given.
 fn default_numerics(surface_force: Option<SurfaceForce>, must_slip: bool) -> Numerics {
-    let (drift_source, background_pressure, shifting) = match surface_force {
-        Some(SurfaceForce::Csf) => (0.02, 0.5, 0.0),
-        Some(SurfaceForce::PressureJump) => (0.2, 0.0, 2.0),
-        None => (0.02, 0.0, 2.0),
+    let (drift_source, drift_correction, background_pressure, shifting) = match surface_force {
+        Some(SurfaceForce::Csf) => (0.02, 0.0, 0.5, 0.0),
+        Some(SurfaceForce::PressureJump) => (0.2, 0.0, 0.0, 2.0),
+        None => (0.0, 0.2, 0.0, 2.0),
     };
     Numerics {
         viscous_term: ViscousTerm::Stress,
         drift_source,
+        drift_correction,
         background_pressure,
         shifting,
         wall_stretch: if must_slip { 1.5 } else { 10.0 },
@@ -340,6 +338,13 @@ fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numerics) -> Nume
             Some(RawViscousTerm::Szewc) => ViscousTerm::Szewc,
         },
         drift_source: within("drift-source", raw.drift_source, (0.0, 1.0), "a share", default.drift_source),
+        drift_correction: within(
+            "drift-correction",
+            raw.drift_correction,
+            (0.0, 1.0),
+            "a share",
+            default.drift_correction,
+        ),
         background_pressure: within(
             "background-pressure",
             raw.background_pressure,

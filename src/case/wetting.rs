@@ -126,23 +126,18 @@ fn angle_window(checker: &mut Checker, at: &str, raw: &RawAngleWindow) -> Option
     Some([receding, advancing])
 }
 
-/// A value above 0.
-fn parameter(checker: &mut Checker, path: &str, value: Option<f64>, example: &str, what: &str) -> Option<f64> {
-    let value = checker.require(path, value, example);
-    checker.positive(path, value, what)
-}
-
 fn line_friction(checker: &mut Checker, at: &str, raw: &RawLineFriction) -> Option<WettingModel> {
     let contact_angle = contact_angle(checker, at, raw.contact_angle_deg);
     let path = format!("{at}.friction");
-    let friction = parameter(checker, &path, raw.friction, "friction = 0.05 # Pa s", "a friction in Pa s");
+    let friction = checker.require_positive(&path, raw.friction, "friction = 0.05 # Pa s", "a friction in Pa s");
     Some(WettingModel::LineFriction { contact_angle: contact_angle?, friction: friction? })
 }
 
 fn cox_voinov(checker: &mut Checker, at: &str, raw: &RawCoxVoinov) -> Option<WettingModel> {
     let contact_angle = contact_angle(checker, at, raw.contact_angle_deg);
     let path = format!("{at}.slip-length");
-    let slip_length = parameter(checker, &path, raw.slip_length, "slip-length = 1.0e-9 # m", "a slip length in m");
+    let slip_length =
+        checker.require_positive(&path, raw.slip_length, "slip-length = 1.0e-9 # m", "a slip length in m");
     Some(WettingModel::CoxVoinov { contact_angle: contact_angle?, slip_length: slip_length? })
 }
 
@@ -150,8 +145,9 @@ fn molecular_kinetic(checker: &mut Checker, at: &str, raw: &RawMolecularKinetic)
     let contact_angle = contact_angle(checker, at, raw.contact_angle_deg);
     let path = |key: &str| format!("{at}.{key}");
     let frequency =
-        parameter(checker, &path("frequency"), raw.frequency, "frequency = 1.0e6 # 1/s", "a frequency in 1/s");
-    let jump = parameter(checker, &path("jump-length"), raw.jump_length, "jump-length = 1.0e-9 # m", "a length in m");
+        checker.require_positive(&path("frequency"), raw.frequency, "frequency = 1.0e6 # 1/s", "a frequency in 1/s");
+    let jump =
+        checker.require_positive(&path("jump-length"), raw.jump_length, "jump-length = 1.0e-9 # m", "a length in m");
     let celsius =
         checker.within(&path("temperature-c"), raw.temperature_c, TEMPERATURES, "a temperature in degrees Celsius");
     Some(WettingModel::MolecularKinetic {
@@ -263,7 +259,7 @@ fn numbered(side: RawSideName) -> (u32, &'static str) {
 
 fn stripes(checker: &mut Checker, at: &str, raw: &RawStripes) -> Option<Stripes> {
     let path = |key: &str| format!("{at}.{key}");
-    let width = parameter(checker, &path("width"), raw.width, "width = 1.0e-4 # m", "a width in m");
+    let width = checker.require_positive(&path("width"), raw.width, "width = 1.0e-4 # m", "a width in m");
     let period = raw.period.map(|period| checker.positive(&path("period"), Some(period), "a period in m"));
     let period = match period {
         Some(period) => Some(period?),

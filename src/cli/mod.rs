@@ -11,6 +11,7 @@ mod geometry;
 mod interrupt;
 mod list;
 mod new;
+mod opened_study;
 mod output;
 mod progress;
 mod run;

@@ -1,6 +1,6 @@
 //! Disc lists: `x y r` in m per line, separated by spaces, tabs, commas or semicolons; one header line is allowed.
 
-use crate::geometry::shape_file::{LineProblem, Notes, around, words};
+use crate::geometry::shape_lines::{LineProblem, Notes, around, words};
 use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec};
 
 const EXPECTED: &str =

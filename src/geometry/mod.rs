@@ -12,6 +12,7 @@ pub(crate) mod intersect;
 pub mod measures;
 pub mod outline;
 pub mod shape_file;
+pub mod shape_lines;
 pub mod shells;
 pub mod solid;
 pub mod spec;

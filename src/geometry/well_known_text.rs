@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use wkt::Wkt;
 
-use crate::geometry::shape_file::{LineProblem, Notes, around};
+use crate::geometry::shape_lines::{LineProblem, Notes, around};
 use crate::geometry::spec::{GeometrySpec, Polygon, ShapeSpec};
 use crate::geometry::validate::ring_area;
 

@@ -7,8 +7,6 @@ pub mod atomic;
 pub mod axes;
 pub mod checksum;
 pub mod diagram;
-mod draw;
-mod film_picture;
 pub mod picture;
 pub mod pvd;
 pub mod restart;

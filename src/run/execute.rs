@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use super::folder::{self, FolderError};
 use super::numbers::{self, Length};
+use super::processor_time::ProcessorTime;
 use super::report::{self, Machine, Report, SolverReport, Status, readings, verdicts, wall_time};
 use super::schedule::Schedule;
 use super::simulation::{Outcome, Records, Simulation, Watcher};
@@ -87,11 +88,14 @@ pub fn execute(
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
 ) -> Result<Finished, RunError> {
-    let clock = Instant::now();
+    let (clock, mut processor_time) = (Instant::now(), ProcessorTime::start());
     let hash = case_hash(job.case)?;
     let start = prepare(job, solver, hash)?;
     let was_at_end = start != Start::New && solver.time() >= job.case.end;
-    let mut records = Records::new(&job.folder, hash, start)?;
+    if start != Start::New {
+        processor_time = processor_time.after_that_in(&job.folder);
+    }
+    let mut records = Records::new(&job.folder, hash, start, processor_time)?;
     let schedule = Schedule::new(&job.case.output, job.case.end);
     let mut simulation = Simulation { solver, schedule, records: &mut records, interrupt, watcher };
     let begun = if start == Start::New { simulation.begin(&job.folder) } else { Ok(()) };
@@ -105,6 +109,7 @@ pub fn execute(
     let mut report = report(job, solver, &records, status);
     report.error = error;
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
+    report.cpu_s = records.processor_time();
     // The report of the run that reached the end tells more: its wall time, its machine.
     let is_told = was_at_end && report::is_of_the_end(&job.folder);
     let written = if is_told { Ok(()) } else { report.write(&job.folder) };
@@ -154,6 +159,7 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
         resolved_case: job.resolved.to_owned(),
         machine: Machine::present(),
         wall_time_s: wall_time(0.0, statistics.parts.iter().copied().chain(records.parts())),
+        cpu_s: None,
         solver: SolverReport::from(&statistics),
     }
 }

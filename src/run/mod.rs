@@ -7,6 +7,7 @@
 pub mod execute;
 pub mod folder;
 pub mod numbers;
+pub mod processor_time;
 pub mod report;
 pub mod schedule;
 pub mod setup;

@@ -117,6 +117,9 @@ pub struct Report {
     pub machine: Machine,
     /// Wall time in s.
     pub wall_time_s: WallTime,
+    /// Processor time in s of all processes that worked at the run, but for steps that a kill undid; absent where it is
+    /// not known.
+    pub cpu_s: Option<f64>,
     /// Unknowns, steps and counts of the solver, of this process.
     pub solver: SolverReport,
 }

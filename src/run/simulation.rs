@@ -1,9 +1,10 @@
 //! The loop of a run: steps the solver to each stop of the schedule and records what is due.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use super::processor_time::ProcessorTime;
 use super::schedule::{Due, Schedule};
 use super::sink::{Frame, RestartSink, SeriesSink, Sink, Start, vtk_sinks};
 use crate::io::{FileError, atomic, vtk};
@@ -53,6 +54,8 @@ pub struct Records {
     series: SeriesSink,
     vtk: Vec<Box<dyn Sink>>,
     restart: RestartSink,
+    processor_time: ProcessorTime,
+    folder: PathBuf,
     seconds: [f64; 3],
 }
 
@@ -61,11 +64,13 @@ impl Records {
     ///
     /// # Errors
     /// [`FileError`] where files of a resumed run cannot be read.
-    pub fn new(folder: &Path, case_hash: u64, start: Start) -> Result<Self, FileError> {
+    pub fn new(folder: &Path, case_hash: u64, start: Start, processor_time: ProcessorTime) -> Result<Self, FileError> {
         Ok(Self {
             series: SeriesSink::new(folder, start)?,
             vtk: vtk_sinks(folder, start)?,
             restart: RestartSink::new(folder, case_hash),
+            processor_time,
+            folder: folder.to_path_buf(),
             seconds: [0.0; 3],
         })
     }
@@ -74,6 +79,12 @@ impl Records {
     #[must_use]
     pub fn series(&self) -> &Series {
         self.series.series()
+    }
+
+    /// Processor time in s of all processes that worked at the run; none where one did not tell.
+    #[must_use]
+    pub fn processor_time(&self) -> Option<f64> {
+        self.processor_time.seconds()
     }
 
     /// Wall time of writing, by part, in s.
@@ -97,6 +108,7 @@ impl Records {
         }
         self.seconds[1] += lap();
         if due.restart {
+            self.processor_time.save(&self.folder)?;
             self.restart.record(&frame)?;
         }
         self.seconds[2] += lap();

@@ -164,6 +164,7 @@ pub fn case() -> Case {
         numerics: Numerics {
             viscous_term: ViscousTerm::Szewc,
             drift_source: 0.02,
+            drift_correction: 0.0,
             background_pressure: 0.0,
             shifting: 0.0,
             wall_stretch: 1.5,

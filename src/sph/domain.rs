@@ -1,6 +1,9 @@
-//! The box of the simulation: periodic directions, mirrors and the separation of two points.
+//! The box of the simulation: periodic directions, mirrors, the separation of two points, and where its walls are.
 
 use crate::math::{Bounds, Vec2};
+
+/// The signed distance in m (above 0 in the pore) and the wall normal at a point.
+pub type WallQuery = Box<dyn Fn(Vec2) -> (f64, Vec2) + Send + Sync>;
 
 /// A mirror side.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,12 +4,11 @@
 
 use crate::math::Vec2;
 use crate::sph::boundary::carry;
-use crate::sph::domain::Domain;
+use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::images::Images;
 use crate::sph::method::Method;
 use crate::sph::pairs::{GRAIN, Pairs};
 use crate::sph::particles::{Particles, Phase};
-use crate::sph::projection::WallQuery;
 use crate::sph::surface_force::SurfaceForce;
 use crate::sph::surface_force::fit::InterfaceFit;
 use crate::sph::surface_force::jump::Jump;

@@ -74,6 +74,8 @@ pub struct Method {
     pub viscous_term: ViscousTerm,
     /// Share γ of the density error that the pressure takes back per step.
     pub drift_source: f64,
+    /// Share of the density error taken back per step by moving particles, their velocities left as they are.
+    pub drift_correction: f64,
     /// Background pressure in units of σ/h, or of ρ v² without tension.
     pub background_pressure: f64,
     /// Particle shifting A in δr = −A h v Δt ∇C, v the largest speed; 0: none.

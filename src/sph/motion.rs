@@ -18,11 +18,12 @@ const CLOSEST_TO_WALL: f64 = 0.05;
 const SET_BACKS: usize = 4;
 
 impl Flow {
-    /// Moves the particles with the mean of old and new velocity [Huber2013, Eq. 27].
+    /// Moves the particles with the mean of old and new velocity [Huber2013, Eq. 27], and by `drift` (m), if there is any, which takes
+    /// density errors back and leaves velocities alone.
     pub(super) fn advance(
         &mut self,
         predicted: &Predicted,
-        mut velocity: Vec<Vec2>,
+        (mut velocity, drift): (Vec<Vec2>, &[Vec2]),
         until: f64,
     ) -> Result<(), SolverError> {
         let (fluids, moving, dt) = (self.particles.fluids, self.particles.moving(), predicted.dt);
@@ -41,6 +42,9 @@ impl Flow {
             position.push(self.domain.wrapped(self.particles.position[a] + by));
         }
         self.shift(dt, &mut position[..fluids], &mut velocity);
+        for (x, by) in position.iter_mut().zip(drift) {
+            *x = self.domain.wrapped(*x + by);
+        }
         self.set_back_from_walls(&mut position[..fluids], &mut velocity[..fluids]);
         for through in &self.open.through {
             let (old, phase) = (&self.particles.position[..fluids], &mut self.particles.phase[..fluids]);

@@ -11,7 +11,7 @@ use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::kernel::WendlandC2;
 use crate::sph::pairs::{Pairs, each};
-use crate::sph::poisson::{PressureSolve, Tolerance, Unknowns, assemble, parts};
+use crate::sph::poisson::{PressureSolve, System, Tolerance, Unknowns, assemble, parts};
 use crate::sph::terms::{density, pressure_gradient};
 
 /// Coefficient of the first displacement in units of h²; an explicit diffusion of the concentration is stable up to about a half.
@@ -95,7 +95,8 @@ impl<Wall: Fn(Vec2) -> (f64, Vec2) + Sync> Packing<'_, Wall> {
             Unknowns { position: points, kind: &vec![0; n], part: &part, anchored: &[], spacing: self.spacing };
         let mut potential = vec![0.0; n];
         // What the solve leaves over, the next round takes.
-        let _ = solve.solve(&unknowns, &volume[..n], &mut source, &mut potential, TOLERANCE);
+        let _ =
+            solve.solve(&unknowns, &volume[..n], [System { b: &mut source, x: &mut potential, tolerance: TOLERANCE }]);
         images.extend(&mut potential);
         let mut down = vec![Vec2::zeros(); fluids];
         pressure_gradient::difference(pairs, &volume, &ones, &potential, |_, _| 0.0, &mut down);

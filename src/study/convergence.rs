@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::definition::{Choice, Study, Target, Trend};
 use super::results::RunResult;
-use super::runs::shown;
+use super::values::shown;
 use crate::analysis::convergence::observed_order;
 
 /// Last part of a key that is a spacing.

@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use super::definition::{Curve, Quantity};
 use super::raw::RawScale;
 use super::results::{RunResult, measures};
-use super::runs::shown;
+use super::values::shown;
 use crate::analysis::convergence::observed_order;
 use crate::io::axes::{DrawingError, LEGEND, color_of, draw_legend, logarithmic_ticks, range, short};
 

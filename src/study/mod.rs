@@ -25,6 +25,7 @@ pub mod slurm;
 pub mod table;
 #[cfg(test)]
 mod toy;
+pub mod values;
 pub mod verdict;
 
 pub use load::schema;

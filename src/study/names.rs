@@ -6,7 +6,7 @@ use toml::Value;
 
 use super::definition::{Axis, Choice, Curve, Expectation, Quantity, ReportPlan, Trend};
 use super::raw::{RawCurve, RawExpectation, RawReport, RawTrend};
-use super::runs::shown;
+use super::values::{number_of, same, shown};
 use crate::case::Checker;
 use crate::input::nearest;
 
@@ -166,19 +166,4 @@ impl Names<'_> {
 
 fn measure(checker: &mut Checker, name: Option<&String>, at: &str) -> Option<String> {
     checker.require(&format!("{at}.measure"), name.cloned(), "measure = \"contact-angle-deg\"")
-}
-
-/// The number that a value is, whole or not.
-#[must_use]
-pub fn number_of(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
-}
-
-/// Whether two values are the same; numbers are, however they were written.
-#[must_use]
-pub fn same(a: &Value, b: &Value) -> bool {
-    match (number_of(a), number_of(b)) {
-        (Some(a), Some(b)) => a == b,
-        _ => a == b,
-    }
 }

@@ -6,8 +6,8 @@ use std::fmt::Write;
 use super::convergence::Convergence;
 use super::definition::Study;
 use super::results::{RunResult, Standing};
-use super::runs::shown;
 use super::table::Table;
+use super::values::shown;
 use super::verdict::{Judgment, Verdict, digits};
 
 /// Look of the page.

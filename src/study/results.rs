@@ -10,7 +10,7 @@ use super::runs::{PlannedRun, Run};
 use crate::run::report::{REPORT, Reading, Status};
 
 /// What is known of a run besides its measures.
-pub const RUN_NUMBERS: [&str; 4] = ["steps", "unknowns", "wall-time-s", "solver-time-s"];
+pub const RUN_NUMBERS: [&str; 5] = ["steps", "unknowns", "wall-time-s", "solver-time-s", "cpu-s"];
 
 /// The report of a run, as far as studies read it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -28,6 +28,8 @@ pub struct RunReport {
     pub resolved_case: String,
     /// Wall time.
     pub wall_time_s: Total,
+    /// Processor time in s of all processes that worked at it; absent where it is not known.
+    pub cpu_s: Option<f64>,
     /// The solver's work.
     pub solver: Unknowns,
 }
@@ -115,7 +117,7 @@ impl RunResult {
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         if let Some(value) = self.run.value(name) {
-            return super::names::number_of(value);
+            return super::values::number_of(value);
         }
         let report = self.standing.report()?;
         match name {
@@ -123,6 +125,7 @@ impl RunResult {
             "unknowns" => Some(report.solver.unknowns as f64),
             "wall-time-s" => Some(report.wall_time_s.total),
             "solver-time-s" => report.solver.wall_time_s,
+            "cpu-s" => report.cpu_s,
             measure => report.measures.get(measure)?.value,
         }
     }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use toml::Value;
 
 use super::definition::{Assignment, Choice, Quantity, Study, Target};
-use super::names::{number_of, same};
+use super::values::{number_of, same, shown};
 use crate::case;
 use crate::case::checked::Case;
 use crate::input::{InputError, Mistake, Overrides, Problem};
@@ -179,19 +179,6 @@ fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
     }
     let name = free_name(if labels.is_empty() { "only".to_owned() } else { labels.join("_") }, names);
     Run { index: number + 1, name, case, case_origin, parameters, assignments }
-}
-
-/// A value as people read it.
-#[must_use]
-pub fn shown(value: &Value) -> String {
-    /// Outside of these an exponent is shorter than zeros.
-    const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e6;
-    match value {
-        Value::String(text) => text.clone(),
-        Value::Float(number) if *number != 0.0 && !FIXED.contains(&number.abs()) => format!("{number:e}"),
-        Value::Float(number) => number.to_string(),
-        other => other.to_string(),
-    }
 }
 
 /// A value as part of the name of a folder: of a path its last part, of an array its numbers.

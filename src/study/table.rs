@@ -2,7 +2,7 @@
 
 use super::definition::Study;
 use super::results::{RunResult, measures};
-use super::runs::shown;
+use super::values::shown;
 use super::verdict::{digits, significant};
 use crate::io::FileError;
 

@@ -3,7 +3,7 @@
 use super::convergence::{Convergence, convergences};
 use super::definition::{Expectation, Study, Trend};
 use super::results::RunResult;
-use super::runs::shown;
+use super::values::shown;
 
 /// What became of an expectation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -16,8 +16,7 @@ pub(in crate::case) fn thin_film(
     geometry: Option<&GeometrySpec>,
 ) -> Option<ThinFilm> {
     let liquid = liquid(checker, raw);
-    let spacing = checker.require("thin-film.spacing", raw.spacing, "spacing = 5.0e-6 # m");
-    let spacing = checker.positive("thin-film.spacing", spacing, "a spacing in m");
+    let spacing = checker.require_positive("thin-film.spacing", raw.spacing, "spacing = 5.0e-6 # m", "a spacing in m");
     let symmetry = match raw.symmetry {
         None | Some(RawFilmSymmetry::Plane) => FilmSymmetry::Plane,
         Some(RawFilmSymmetry::Axis) => FilmSymmetry::Axis,

@@ -38,8 +38,7 @@ pub(super) fn liquid(checker: &mut Checker, raw: &RawThinFilm) -> Option<Liquid>
     );
     let preset = fluid.preset.map(|preset| preset.at(celsius.unwrap_or(COLD)));
     let mut property = |path: &str, given: Option<f64>, known: Option<f64>, example: &str, what: &str| {
-        let value = checker.require(path, given.or(known), example);
-        checker.positive(path, value, what)
+        checker.require_positive(path, given.or(known), example, what)
     };
     let viscosity = property(
         "thin-film.fluid.viscosity",
@@ -73,8 +72,7 @@ pub(super) fn droplets(checker: &mut Checker, raw: &[RawDroplet], symmetry: Film
     let one = |checker: &mut Checker, index: usize, raw: &RawDroplet| {
         let mut positive = |key: &str, value: Option<f64>, example: &str| {
             let path = format!("thin-film.droplets[{index}].{key}");
-            let value = checker.require(&path, value, example);
-            checker.positive(&path, value, "a length in m")
+            checker.require_positive(&path, value, example, "a length in m")
         };
         let half_width = positive("half-width", raw.half_width, "half-width = 5.0e-4 # m");
         let height = positive("height", raw.height, "height = 4.0e-5 # m");

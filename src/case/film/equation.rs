@@ -12,8 +12,7 @@ pub(super) const ANGLES: (f64, f64) = (0.1, 45.0);
 pub(super) fn equation(checker: &mut Checker, raw: &RawFilmEquation) -> Option<FilmEquation> {
     let mut length = |path: &str, value: Option<f64>, example: &str| {
         let path = format!("thin-film.equation.{path}");
-        let value = checker.require(&path, value, example);
-        checker.positive(&path, value, "a length in m")
+        checker.require_positive(&path, value, example, "a length in m")
     };
     match (&raw.geometric, &raw.slip, &raw.precursor) {
         (Some(raw), None, None) => {

@@ -16,4 +16,4 @@ pub use conjugate_gradients::{Convergence, conjugate_gradients};
 pub use given::give;
 pub use matrix::Matrix;
 pub use multigrid::Multigrid;
-pub use solve::{PressureSolve, Tolerance, Unknowns};
+pub use solve::{PressureSolve, System, Tolerance, Unknowns};

@@ -32,6 +32,16 @@ pub struct Unknowns<'a> {
     pub spacing: f64,
 }
 
+/// One right side of the pressure equation and its solution.
+pub struct System<'a> {
+    /// Right side.
+    pub b: &'a mut [f64],
+    /// First guess, then the solution.
+    pub x: &'a mut [f64],
+    /// When its iteration stops.
+    pub tolerance: Tolerance,
+}
+
 /// Solves the pressure Poisson equation step after step.
 #[derive(Default)]
 pub struct PressureSolve {
@@ -42,46 +52,48 @@ pub struct PressureSolve {
 }
 
 impl PressureSolve {
-    /// Solves M p = b for the matrix set before, from the first guess `p`.
+    /// Solves M x = b for the matrix set before, one system after the other, from the first guesses `x`.
     ///
     /// Without a given pressure b must sum to zero over each part; what is left over by the discrete divergence is spread by `volume`.
-    /// Then p has mean zero over each such part.
-    pub fn solve(
+    /// Then x has mean zero over each such part.
+    pub fn solve<const N: usize>(
         &mut self,
         unknowns: &Unknowns,
         volume: &[f64],
-        b: &mut [f64],
-        p: &mut [f64],
-        tolerance: Tolerance,
-    ) -> Convergence {
-        subtract_mean(unknowns, volume, b);
+        mut systems: [System; N],
+    ) -> [Convergence; N] {
+        systems.iter_mut().for_each(|system| subtract_mean(unknowns, volume, system.b));
         let convergence = if self.matrix.rows() <= SMALL {
-            self.solve_directly(unknowns, b, p, tolerance)
+            systems.each_mut().map(|system| self.solve_directly(unknowns, system))
         } else {
-            self.iterate(unknowns, b, p, tolerance)
+            self.iterate(unknowns, &mut systems)
         };
-        let ones = vec![1.0; p.len()];
-        subtract_mean(unknowns, &ones, p);
+        let ones = vec![1.0; volume.len()];
+        systems.iter_mut().for_each(|system| subtract_mean(unknowns, &ones, system.x));
         self.matrix.release_pattern();
         convergence
     }
 
-    fn solve_directly(&mut self, unknowns: &Unknowns, b: &[f64], p: &mut [f64], tolerance: Tolerance) -> Convergence {
-        if self.cholesky.solve(&self.matrix, (unknowns.part, unknowns.anchored), b, p).is_err() {
-            return self.iterate(unknowns, b, p, tolerance);
+    fn solve_directly(&mut self, unknowns: &Unknowns, system: &mut System) -> Convergence {
+        let (b, x) = (&*system.b, &mut *system.x);
+        if self.cholesky.solve(&self.matrix, (unknowns.part, unknowns.anchored), b, x).is_err() {
+            let [convergence] = self.iterate(unknowns, std::array::from_mut(system));
+            return convergence;
         }
         let mut r = vec![0.0; b.len()];
-        self.matrix.residual(b, p, &mut r);
+        self.matrix.residual(b, x, &mut r);
         let norm = |v: &[f64]| total(v.len(), |i| v[i] * v[i]).sqrt();
         let residual = if norm(b) > 0.0 { norm(&r) / norm(b) } else { 0.0 };
         Convergence { iterations: 1, residual }
     }
 
-    fn iterate(&mut self, unknowns: &Unknowns, b: &[f64], p: &mut [f64], tolerance: Tolerance) -> Convergence {
+    fn iterate<const N: usize>(&mut self, unknowns: &Unknowns, systems: &mut [System; N]) -> [Convergence; N] {
         let multigrid = Multigrid::new(&self.matrix, unknowns.position, unknowns.kind, unknowns.spacing);
         self.hierarchy_bytes = multigrid.bytes();
-        conjugate_gradients(&self.matrix, b, p, (tolerance.residual, tolerance.iterations), |r, z| {
-            multigrid.precondition(&self.matrix, r, z);
+        systems.each_mut().map(|System { b, x, tolerance }| {
+            conjugate_gradients(&self.matrix, b, x, (tolerance.residual, tolerance.iterations), |r, z| {
+                multigrid.precondition(&self.matrix, r, z);
+            })
         })
     }
 

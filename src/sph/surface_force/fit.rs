@@ -1,14 +1,9 @@
-//! Curvature of the interface from local circle fits, free in the bulk and held to the contact angle at walls.
-//!
-//! A circle through points (u, v) in the frame of tangent and normal obeys v = a + b u + k (u² + v²)/2 with curvature
-//! k/√(1 + b² − 2ka): linear in a, b and k, and exact for circles. At a wall the circle leaves the contact point with the
-//! angle θ of the wetting law, so that only its curvature and the place of the contact point along the wall are free.
-
-use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+//! Curvature of the interface from local fits of circles (`circles`), free in the bulk and held to the contact angle at walls.
 
 use crate::math::{Vec2, perpendicular};
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
+use crate::sph::surface_force::circles::{Near, fit_from_contact, free_fit};
 use crate::sph::surface_force::points::InterfacePoint;
 
 /// Radius of the window of a fit over h.
@@ -19,9 +14,6 @@ const TIE: f64 = 1e-9;
 
 /// Points whose normal turns away more than this (cosine) belong to another piece of interface.
 const SAME_PIECE: f64 = 0.3;
-
-/// Fewest points of a free fit: three unknowns and some redundancy.
-const FEWEST: usize = 5;
 
 /// Fewest points of a fit from the wall: two unknowns and some redundancy. A line that moves fast parts the particles at its
 /// tip, and few pairs span the interface there.
@@ -39,8 +31,11 @@ const REACH: f64 = 3.0;
 /// Largest difference of the angle used from the present one, so that far starts move and do not tear: 45 degrees.
 const LARGEST_PULL: f64 = std::f64::consts::FRAC_PI_4;
 
-/// Angles nearer than this to 0 or 180 degrees have no contact point to hold on to, in rad.
-const SMALLEST_ANGLE: f64 = 0.2;
+/// The contact point is projected on a curved wall at most so many times; each gains more than a digit.
+const PROJECTIONS: usize = 4;
+
+/// Walls whose normals differ by less than this are the same straight wall, in rad.
+const SAME_NORMAL: f64 = 1e-4;
 
 /// Signed distance in m and normal of the wall at a point.
 pub type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
@@ -57,13 +52,6 @@ pub struct InterfaceFit<'a> {
     /// Angle of the wetting law, where there is one.
     angle: Option<&'a AngleAt<'a>>,
     pub(super) wall: &'a Wall<'a>,
-}
-
-/// A point of the window relative to the nearest one, with its weight.
-pub(super) struct Near {
-    pub(super) index: usize,
-    pub(super) x: Vec2,
-    pub(super) weight: f64,
 }
 
 /// Where the straight continuation of the interface meets the wall.
@@ -208,83 +196,6 @@ fn along(n: Vec2, e: Vec2) -> Vec2 {
 /// ν_ns: the unit vector along the wall towards the non-wetting phase, none where the interface runs along the wall.
 fn outwards_of(normal: Vec2, wall_normal: Vec2) -> Option<Vec2> {
     (-along(normal, wall_normal)).try_normalize(0.5 * SMALLEST_TANGENT)
-}
-
-/// Least squares of v = a + b u + k (u² + v²)/2 in the frame of `normal`; the curvature is k/√(1 + b² − 2ka).
-fn free_fit(near: &[Near], normal: Vec2) -> Option<f64> {
-    if near.len() < FEWEST {
-        return None;
-    }
-    let tangent = -perpendicular(normal);
-    let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
-    for q in near {
-        let (u, v) = (q.x.dot(&tangent), q.x.dot(&normal));
-        let row = Vector3::new(1.0, u, 0.5 * (u * u + v * v));
-        matrix += q.weight * row * row.transpose();
-        right += q.weight * v * row;
-    }
-    let solution = matrix.cholesky()?.solve(&right);
-    let (a, b, k) = (solution[0], solution[1], solution[2]);
-    let square = 1.0 + b * b - 2.0 * k * a;
-    (square > 0.0).then(|| k / square.sqrt())
-}
-
-/// Steps of the fixed-point iteration for the place of the contact point; each gains about a digit at small angles.
-const ITERATIONS: usize = 12;
-
-/// The contact point is projected on a curved wall at most so many times; each gains more than a digit.
-const PROJECTIONS: usize = 4;
-
-/// Walls whose normals differ by less than this are the same straight wall, in rad.
-const SAME_NORMAL: f64 = 1e-4;
-
-/// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.
-///
-/// `contact` in m from the point that `near` is relative to; ν along the wall and its normal.
-pub(super) fn fit_from_contact(
-    near: &[Near],
-    contact: Vec2,
-    (outwards, normal): (Vec2, Vec2),
-    angle: f64,
-) -> Option<(f64, f64)> {
-    let angle = angle.clamp(SMALLEST_ANGLE, std::f64::consts::PI - SMALLEST_ANGLE);
-    let n_e = -angle.sin() * outwards - angle.cos() * normal;
-    let t_e = angle.sin() * normal - angle.cos() * outwards;
-    let (mut delta, mut kappa) = (0.0, None);
-    for _ in 0..ITERATIONS {
-        let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
-        for q in near {
-            let x = q.x - contact;
-            let v_0 = x.dot(&n_e);
-            let (u, v) = (x.dot(&t_e) + delta * angle.cos(), v_0 + delta * angle.sin());
-            let row = Vector2::new(1.0, 0.5 * (u * u + v * v));
-            matrix += q.weight * row * row.transpose();
-            right += q.weight * v_0 * row;
-        }
-        let solution = matrix.cholesky()?.solve(&right);
-        delta = -solution[0] / angle.sin();
-        kappa = Some((solution[1], delta));
-    }
-    kappa
-}
-
-/// Angle in rad at which the circle through `anchor` (m, from the point that `near` is relative to) meets the wall with the
-/// normal `wall`; `normal` is about that of the interface.
-///
-/// Least squares of v = b u + k (u² + v²)/2 about the anchor: the normal there is (−b, 1)/√(1 + b²).
-pub(super) fn angle_through(near: &[Near], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {
-    let tangent = -perpendicular(normal);
-    let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
-    for q in near {
-        let x = q.x - anchor;
-        let (u, v) = (x.dot(&tangent), x.dot(&normal));
-        let row = Vector2::new(u, 0.5 * (u * u + v * v));
-        matrix += q.weight * row * row.transpose();
-        right += q.weight * v * row;
-    }
-    let slope = matrix.cholesky()?.solve(&right)[0];
-    let at_anchor = (normal - slope * tangent).normalize();
-    Some((-at_anchor.dot(&wall)).clamp(-1.0, 1.0).acos())
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::surface_force::fit::{FEWEST_HELD, Foot, InterfaceFit, Near, angle_through, fit_from_contact};
+use crate::sph::surface_force::circles::{Near, angle_through, fit_from_contact};
+use crate::sph::surface_force::fit::{FEWEST_HELD, Foot, InterfaceFit};
 use crate::sph::wetting::lines::Sighting;
 
 /// Points nearer to the wall than this, over dx, tell the place of a line: those between its first two layers of particles, or where

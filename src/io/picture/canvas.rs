@@ -5,7 +5,27 @@ use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, Transform,
 };
 
-use super::picture::PictureError;
+/// A picture that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// Nothing to draw.
+    #[error("there is no particle with a finite position to draw")]
+    Empty,
+    /// A canvas of that size cannot be made.
+    #[error("a picture of {width} x {height} pixels cannot be made")]
+    Size {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+    /// The built-in font is damaged.
+    #[error("the built-in font cannot be read")]
+    Font,
+    /// The PNG encoder failed.
+    #[error("the picture cannot be encoded: {0}")]
+    Encode(String),
+}
 
 /// A color as red, green, blue.
 pub type Rgb = [u8; 3];

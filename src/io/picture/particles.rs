@@ -1,79 +1,25 @@
-//! `picture.png`: the particles by phase, the solids, the interface, a scale bar, title and time.
+//! The particles by phase, the solids, the interface, a scale bar, title and time.
 //!
 //! Gray is solid: the fluids are drawn over it as dots that just touch. Leaves out every field but `phase`; those are for ParaView.
 
-use super::draw::{Canvas, Rgb};
-use super::film_picture::{film_picture, is_film};
+use super::canvas::{Canvas, PictureError, Rgb};
+use super::style::{
+    BAR_SHARE, BLACK, FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, TITLE_SIZE, WIDTH, length_text,
+    round_length, time_text,
+};
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot, Values};
 
-/// Width of the picture in pixels.
-pub(super) const WIDTH: u32 = 1200;
 /// Largest height of the drawing in pixels: a tall pore must still fit on a screen.
 const TALLEST: f32 = 1400.0;
-/// White rim in pixels.
-pub(super) const RIM: f32 = 30.0;
-/// Room above the drawing for title and time, in pixels.
-pub(super) const HEAD: f32 = 100.0;
 /// Room below the drawing for scale bar and legend, in pixels.
 const FOOT: f32 = 90.0;
-/// Heights of the letters in pixels.
-pub(super) const TITLE_SIZE: f32 = 32.0;
-pub(super) const TEXT_SIZE: f32 = 24.0;
 /// Radius of a dot over the particle spacing: half the diagonal of a square, so that dots on a lattice leave no hole.
 const COVER: f32 = 0.71;
 /// Radius of the inner dot, which shows where each particle is.
 const CORE: f32 = 0.38;
 /// Below this radius in pixels an inner dot is only noise.
 const SMALLEST_CORE: f32 = 1.5;
-/// The scale bar takes at most this share of the drawing's width.
-pub(super) const BAR_SHARE: f64 = 0.25;
-
-pub(super) const SOLID: Rgb = [196, 192, 186];
-pub(super) const OUTLINE: Rgb = [84, 80, 76];
-pub(super) const INTERFACE: Rgb = [178, 34, 52];
-pub(super) const BLACK: Rgb = [0, 0, 0];
-
-/// A phase of the drawing: number in the field `phase`, name, color, color of the inner dot.
-pub(super) struct Phase {
-    number: i64,
-    name: &'static str,
-    pub(super) color: Rgb,
-    core: Rgb,
-}
-
-/// Number of the phase of a pore without a fluid, in the picture of a geometry.
-pub const PORE: i64 = 3;
-
-/// What fills the pore; blue and yellow keep apart for color-blind eyes and in print.
-pub(super) const FLUIDS: [Phase; 3] = [
-    Phase { number: 0, name: "wetting", color: [86, 146, 204], core: [58, 116, 176] },
-    Phase { number: 1, name: "non-wetting", color: [248, 232, 176], core: [236, 212, 136] },
-    Phase { number: PORE, name: "pore", color: [228, 238, 246], core: [228, 238, 246] },
-];
-
-/// A picture that cannot be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum PictureError {
-    /// Nothing to draw.
-    #[error("there is no particle with a finite position to draw")]
-    Empty,
-    /// A canvas of that size cannot be made.
-    #[error("a picture of {width} x {height} pixels cannot be made")]
-    Size {
-        /// Width in pixels.
-        width: u32,
-        /// Height in pixels.
-        height: u32,
-    },
-    /// The built-in font is damaged.
-    #[error("the built-in font cannot be read")]
-    Font,
-    /// The PNG encoder failed.
-    #[error("the picture cannot be encoded: {0}")]
-    Encode(String),
-}
-
 /// From meters to pixels.
 struct View {
     bounds: Bounds,
@@ -100,10 +46,11 @@ impl View {
 ///
 /// # Errors
 /// [`PictureError`].
-pub fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
-    if is_film(snapshot) {
-        return film_picture(snapshot, title);
-    }
+pub(super) fn particle_picture(
+    snapshot: &Snapshot<'_>,
+    outline: &Lines<'_>,
+    title: &str,
+) -> Result<Vec<u8>, PictureError> {
     let points = &snapshot.particles.points;
     let finite = |x: &&Vec2| x.iter().all(|c| c.is_finite());
     let tight = hull(points.iter().filter(finite)).ok_or(PictureError::Empty)?;
@@ -214,30 +161,6 @@ fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
     }
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is at most `length`, in m.
-pub(super) fn round_length(length: f64) -> f64 {
-    let power = 10_f64.powf(length.log10().floor());
-    [5.0, 2.0].into_iter().map(|digit| digit * power).find(|&candidate| candidate <= length).unwrap_or(power)
-}
-
-/// A value with at most six digits and the prefix that suits it.
-fn with_prefix(value: f64, unit: &str) -> String {
-    const PREFIXES: [(f64, &str); 4] = [(1.0, ""), (1.0e-3, "m"), (1.0e-6, "µ"), (1.0e-9, "n")];
-    // A tenth of a thousandth of slack, so that a rounded 1 mm does not become 1000 µm.
-    let fits = |factor: f64| value.abs() >= factor * (1.0 - 1.0e-4);
-    let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| fits(*factor)).unwrap_or((1.0, ""));
-    let digits = format!("{:.5}", value / factor);
-    format!("{} {prefix}{unit}", digits.trim_end_matches('0').trim_end_matches('.'))
-}
-
-pub(super) fn length_text(length: f64) -> String {
-    with_prefix(length, "m")
-}
-
-pub(super) fn time_text(time: f64) -> String {
-    format!("t = {}", with_prefix(time, "s"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -266,7 +189,7 @@ mod tests {
             grid: None,
             interface: None,
         };
-        let png = picture(&snapshot, &Lines::default(), "A disc of liquid on a floor").unwrap();
+        let png = particle_picture(&snapshot, &Lines::default(), "A disc of liquid on a floor").unwrap();
         let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
         assert_eq!(pixels.width(), WIDTH);
         for color in [FLUIDS[0].color, FLUIDS[1].color, SOLID] {
@@ -278,16 +201,8 @@ mod tests {
     #[test]
     fn nothing_to_draw_is_an_error_and_one_particle_is_not() {
         let mut snapshot = Snapshot { time: 0.0, step: 0, particles: Cloud::default(), grid: None, interface: None };
-        assert!(matches!(picture(&snapshot, &Lines::default(), ""), Err(PictureError::Empty)));
+        assert!(matches!(particle_picture(&snapshot, &Lines::default(), ""), Err(PictureError::Empty)));
         snapshot.particles.points = vec![Vec2::zeros()].into();
-        picture(&snapshot, &Lines::default(), &"A very long title ".repeat(20)).unwrap();
-    }
-
-    #[test]
-    fn lengths_and_times_read_as_people_write_them() {
-        assert_eq!(length_text(round_length(3.7e-4)), "200 µm");
-        assert_eq!(length_text(round_length(1.0e-3)), "1 mm");
-        assert_eq!(time_text(0.02), "t = 20 ms");
-        assert_eq!(time_text(0.0), "t = 0 s");
+        particle_picture(&snapshot, &Lines::default(), &"A very long title ".repeat(20)).unwrap();
     }
 }

@@ -1,10 +1,10 @@
-//! `picture.png` of a thin film: its profile, filled, over the wall. A film is so flat that heights are drawn larger than lengths;
+//! A thin film: its profile, filled, over the wall. A film is so flat that heights are drawn larger than lengths;
 //! the picture says how much.
 
-use super::draw::Canvas;
-use super::picture::{
-    BAR_SHARE, BLACK, FLUIDS, HEAD, INTERFACE, OUTLINE, PictureError, RIM, SOLID, TEXT_SIZE, TITLE_SIZE, WIDTH,
-    length_text, round_length, time_text,
+use super::canvas::{Canvas, PictureError};
+use super::style::{
+    BAR_SHARE, BLACK, FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, TITLE_SIZE, WIDTH, length_text,
+    round_length, time_text,
 };
 use crate::math::Vec2;
 use crate::snapshot::Snapshot;
@@ -17,7 +17,7 @@ const WALL: f32 = 24.0;
 const FOOT: f32 = 90.0;
 
 /// Whether a snapshot is that of a film.
-pub fn is_film(snapshot: &Snapshot<'_>) -> bool {
+pub(super) fn is_film(snapshot: &Snapshot<'_>) -> bool {
     snapshot.particles.fields.iter().any(|field| field.name == "film-height")
 }
 
@@ -25,7 +25,7 @@ pub fn is_film(snapshot: &Snapshot<'_>) -> bool {
 ///
 /// # Errors
 /// [`PictureError`].
-pub fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
+pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
     let profile: &[Vec2] = snapshot.interface.as_ref().map_or(&[], |lines| &lines.points);
     let (Some(first), Some(last)) = (profile.first(), profile.last()) else { return Err(PictureError::Empty) };
     let highest = profile.iter().map(|point| point.y).fold(0.0, f64::max);

@@ -1,0 +1,62 @@
+//! `[sph.measure]` and `[[expect]]`: what is measured at the end and what must come out.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Empty;
+
+tables! {
+    /// Groups of measures.
+    pub struct RawMeasures {
+        /// Base and height of a drop on a straight wall.
+        pub sessile_drop: Empty,
+        /// Pressure jump and parasitic currents of a free drop.
+        pub laplace_drop: Empty,
+        /// Velocity error against plane Poiseuille flow.
+        pub poiseuille: Empty,
+        /// Decay rate against the Taylor-Green vortex.
+        pub taylor_green: Empty,
+        /// Filling angle, neck and pressure of a bridge between two discs.
+        pub capillary_bridge: Empty,
+        /// Curvature of the menisci between four discs.
+        pub four_discs: Empty,
+        /// Wetted part and height of a drop on a disc.
+        pub drop_on_disc: Empty,
+        /// Period and decay of a free drop that oscillates between two ellipses.
+        pub oscillating_drop: Empty,
+        /// Amplitude of a standing wave on a flat interface.
+        pub capillary_wave: Empty,
+        /// Height, speed and roundness of a bubble (the wetting phase) that rises.
+        pub rising_bubble: Empty,
+        /// Deformation of a drop between two moving walls.
+        pub shear_drop: Empty,
+        /// Velocity and flow rates of two layers between plates.
+        pub layered_poiseuille: Empty,
+        /// Extreme velocities on the center lines of a lid-driven cavity.
+        pub cavity: Empty,
+        /// Drag on the solids of a periodic cell that a body force drives fluid through.
+        pub cylinder_array: Empty,
+        /// Capillary pressure over the entry pressure of the throat between two discs.
+        pub throat_entry: Empty,
+        /// Difference of the mean levels on both sides of a plate.
+        pub jurin: Empty,
+        /// Angles, speeds and forces of a drop that moves or is held on a wall.
+        pub moving_drop: Empty,
+        /// Exponent of the width of a drop that spreads.
+        pub spreading: Empty,
+        /// Filled length of a slit between two open sides.
+        pub slit_filling: Empty,
+        /// Height of the meniscus that rises from an open side.
+        pub capillary_rise: Empty,
+    }
+
+    /// A measure that must come out as said.
+    pub struct RawExpectation {
+        /// Name of a measure, such as `contact-angle-deg`.
+        pub measure: String,
+        /// Expected value in the measure's unit.
+        pub value: f64,
+        /// Largest accepted deviation, same unit.
+        pub tolerance: f64,
+    }
+}

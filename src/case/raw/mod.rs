@@ -1,0 +1,125 @@
+//! The keys of a case file and of a shape file, as written: all optional, nothing checked but names and types.
+
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::film::raw::RawThinFilm;
+use crate::geometry::spec::{ShapeSpec, SolidSide};
+
+/// Derives and attributes of every table of a case file or another input file.
+macro_rules! tables {
+    ($($(#[$outer:meta])* pub struct $name:ident { $($(#[$inner:meta])* pub $field:ident: $kind:ty,)* })*) => {$(
+        $(#[$outer])*
+        #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+        pub struct $name {
+            $($(#[$inner])*
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub $field: Option<$kind>,)*
+        }
+    )*};
+}
+pub(crate) use tables;
+
+mod measures;
+mod sides;
+mod sph;
+mod wetting;
+
+pub use measures::{RawExpectation, RawMeasures};
+pub use sides::{RawOpenSide, RawOpenSides, RawProfile, RawSide, RawSideName, RawSides, RawWallSpeeds};
+pub use sph::{
+    RawFluid, RawInitial, RawInterface, RawNumerics, RawPhase, RawPhases, RawSph, RawSurfaceForce, RawTaylorGreen,
+    RawVelocity, RawViscousTerm, RawWalls,
+};
+pub use wetting::{
+    RawAngleWindow, RawAxis, RawContactAngle, RawCoxVoinov, RawLineFriction, RawMolecularKinetic, RawStripes,
+    RawWetting, RawWettingPatch,
+};
+
+tables! {
+    /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.
+    pub struct RawCase {
+        /// Version of the format: 1.
+        pub format: u32,
+        /// One line that says what the case shows.
+        pub title: String,
+        /// Domain and solids: a shape file, or shapes written here.
+        pub geometry: RawGeometry,
+        /// Direct simulation by incompressible SPH.
+        pub sph: RawSph,
+        /// Droplets on a flat wall, by a thin-film equation.
+        pub thin_film: RawThinFilm,
+        /// How long the simulation runs.
+        pub time: RawTime,
+        /// What is written and when.
+        pub output: RawOutput,
+        /// Measures that must come out as said; otherwise the run ends with exit code 5.
+        pub expect: Vec<RawExpectation>,
+    }
+
+    /// A shape file: domain and solids.
+    pub struct RawShapeFile {
+        /// Version of the format: 1.
+        pub format: u32,
+        /// Lower left corner of the domain in m.
+        pub min: [f64; 2],
+        /// Upper right corner of the domain in m.
+        pub max: [f64; 2],
+        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`).
+        pub solid: SolidSide,
+        /// The shapes; overlaps are united.
+        pub shapes: Vec<ShapeSpec>,
+    }
+
+    /// Domain and solids of a case.
+    pub struct RawGeometry {
+        /// Shape file, relative to the case file.
+        pub file: PathBuf,
+        /// Lower left corner of the domain in m; with `file`, in place of the file's.
+        pub min: [f64; 2],
+        /// Upper right corner of the domain in m; with `file`, in place of the file's.
+        pub max: [f64; 2],
+        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`); not with `file`.
+        pub solid: SolidSide,
+        /// The shapes; overlaps are united; not with `file`.
+        pub shapes: Vec<ShapeSpec>,
+    }
+
+    /// How long the simulation runs.
+    pub struct RawTime {
+        /// End of the simulation in s.
+        pub end: f64,
+    }
+
+    /// What is written and when.
+    pub struct RawOutput {
+        /// Particle, grid and interface files (default: 50 records).
+        pub vtk: RawEvery,
+        /// Rows of series.csv (default: 200 records).
+        pub series: RawEvery,
+        /// The regular grid.
+        pub grid: RawGrid,
+        /// Files to resume from (default: 10 records).
+        pub restart: RawEvery,
+    }
+
+    /// A schedule.
+    pub struct RawEvery {
+        /// Time between records in s.
+        pub every_time: f64,
+    }
+
+    /// The regular grid of the output.
+    pub struct RawGrid {
+        /// Distance of grid nodes over the particle spacing (default 1).
+        pub ratio: f64,
+    }
+}
+
+/// A table without keys: its name says all.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Empty {}

@@ -1,0 +1,130 @@
+//! What all study commands share: a study with its runs, its folder, and how it is told.
+
+use std::path::{Path, PathBuf};
+
+use super::arguments::CoresArguments;
+use super::exit::{BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
+use super::output::say;
+use crate::study::child::Program;
+use crate::study::definition::Study;
+use crate::study::estimate::Cores;
+use crate::study::folder::StudyFolder;
+use crate::study::load::load;
+use crate::study::report::{StudyReport, report};
+use crate::study::results::{RunResult, Standing};
+use crate::study::runs::{PlannedRun, plan};
+use crate::study::verdict::Verdict;
+
+/// A study with its checked runs and its folder.
+pub struct Opened {
+    /// The study.
+    pub study: Study,
+    /// Its runs.
+    pub runs: Vec<PlannedRun>,
+    /// Where the results go.
+    pub folder: StudyFolder,
+    /// This program with the study file.
+    pub program: Program,
+}
+
+/// Loads study files and checks the cases of all their runs, so that nothing starts before all are right.
+pub fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>, Failure> {
+    let mut all: Vec<Opened> = Vec::new();
+    for path in paths {
+        let study = load(path).map_err(Failure::input)?;
+        let runs = plan(&study).map_err(Failure::input)?;
+        let folder = match out {
+            Some(out) if paths.len() > 1 => StudyFolder::new(&out.join(folder_name(&study))),
+            _ => folder(&study, out),
+        };
+        if let Some(other) = all.iter().find(|other| other.folder.root() == folder.root()) {
+            let (name, root) = (&other.study.name, folder.root().display());
+            let message = format!("two studies of the name {name} would both write to {root}; name them one at a time");
+            return Err(Failure::new(USAGE, &message));
+        }
+        all.push(Opened { study, runs, folder, program: program(path)? });
+    }
+    Ok(all)
+}
+
+fn folder_name(study: &Study) -> String {
+    format!("study-{}", study.name)
+}
+
+/// The folder of a study: the one that was named, or `out/study-NAME`.
+pub fn folder(study: &Study, out: Option<&Path>) -> StudyFolder {
+    let named = out.map_or_else(|| Path::new("out").join(folder_name(study)), Path::to_path_buf);
+    StudyFolder::new(&named)
+}
+
+/// Does something with one study after the other. One that failed does not keep the next from its turn, an interruption does; the exit code
+/// is the gravest one.
+pub fn each(all: &[Opened], mut one: impl FnMut(&Opened) -> Result<u8, Failure>) -> Result<u8, Failure> {
+    let mut gravest = DONE;
+    for opened in all {
+        match one(opened)? {
+            INTERRUPTED => return Ok(INTERRUPTED),
+            SOLVER_FAILED => gravest = SOLVER_FAILED,
+            EXPECTATION_FAILED if gravest == DONE => gravest = EXPECTATION_FAILED,
+            _ => {}
+        }
+    }
+    Ok(gravest)
+}
+
+fn program(study: &Path) -> Result<Program, Failure> {
+    let path = std::env::current_exe().map_err(|error| Failure::new(BUG, &error))?;
+    Ok(Program { path, study: study.to_path_buf() })
+}
+
+/// Threads and runs at once, within the cores of this machine where nothing else was asked for.
+pub fn cores(arguments: &CoresArguments) -> Cores {
+    let all = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = usize::from(arguments.threads);
+    Cores { threads, jobs: arguments.jobs.map_or((all / threads).max(1), usize::from) }
+}
+
+/// Writes the report, tells it, and says how the study stands by the exit code.
+pub fn finish(opened: &Opened) -> Result<u8, Failure> {
+    let written = report(&opened.study, &opened.runs, &opened.folder).map_err(|error| Failure::new(USAGE, &error))?;
+    say(&opened.study.title);
+    say(written.table.markdown().trim_end());
+    tell_judgments(&written);
+    for convergence in &written.convergences {
+        let order = convergence.order().map_or("none".to_owned(), |order| format!("{order:.2}"));
+        let (measure, along, of) = (&convergence.measure, &convergence.along, &convergence.of);
+        say(format_args!("  order       {order} of {measure} along {along}, {of}"));
+    }
+    for note in &written.unknown {
+        say(format_args!("  note        {note}"));
+    }
+    say(format_args!("  page        {}", written.page.display()));
+    say(format_args!("  table       {}", opened.folder.root().join("table.csv").display()));
+    let failed: Vec<&RunResult> =
+        written.results.iter().filter(|result| matches!(result.standing, Standing::Failed(_))).collect();
+    for result in &failed {
+        if let Standing::Failed(report) = &result.standing {
+            let why = report.error.as_deref().unwrap_or("the solver failed");
+            say(format_args!("  FAILED      run {} ({}): {why}", result.run.index, result.run.name));
+        }
+    }
+    let missed = written.judgments.iter().any(|judgment| judgment.verdict == Verdict::Missed);
+    Ok(match (failed.is_empty(), missed) {
+        (false, _) => SOLVER_FAILED,
+        (true, true) => EXPECTATION_FAILED,
+        (true, false) => DONE,
+    })
+}
+
+fn tell_judgments(written: &StudyReport) {
+    let count = |verdict| written.judgments.iter().filter(|judgment| judgment.verdict == verdict).count();
+    if written.judgments.is_empty() {
+        return;
+    }
+    for judgment in written.judgments.iter().filter(|judgment| judgment.verdict == Verdict::Missed) {
+        let (of, measure) = (&judgment.of, &judgment.measure);
+        say(format_args!("  MISSED      {of}, {measure}: {}, found {}", judgment.expected, judgment.found));
+    }
+    let (met, missed, open) = (count(Verdict::Met), count(Verdict::Missed), count(Verdict::Open));
+    say(format_args!("  expected    {met} met, {missed} missed, {open} open"));
+}

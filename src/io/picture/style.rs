@@ -1,0 +1,75 @@
+//! What all pictures have in common: sizes, colors, and lengths and times as people write them.
+
+use super::canvas::Rgb;
+
+/// Width of the picture in pixels.
+pub(super) const WIDTH: u32 = 1200;
+/// White rim in pixels.
+pub(super) const RIM: f32 = 30.0;
+/// Room above the drawing for title and time, in pixels.
+pub(super) const HEAD: f32 = 100.0;
+/// Heights of the letters in pixels.
+pub(super) const TITLE_SIZE: f32 = 32.0;
+pub(super) const TEXT_SIZE: f32 = 24.0;
+/// The scale bar takes at most this share of the drawing's width.
+pub(super) const BAR_SHARE: f64 = 0.25;
+
+pub(super) const SOLID: Rgb = [196, 192, 186];
+pub(super) const OUTLINE: Rgb = [84, 80, 76];
+pub(super) const INTERFACE: Rgb = [178, 34, 52];
+pub(super) const BLACK: Rgb = [0, 0, 0];
+
+/// A phase of the drawing: number in the field `phase`, name, color, color of the inner dot.
+pub(super) struct Phase {
+    pub(super) number: i64,
+    pub(super) name: &'static str,
+    pub(super) color: Rgb,
+    pub(super) core: Rgb,
+}
+
+/// Number of the phase of a pore without a fluid, in the picture of a geometry.
+pub const PORE: i64 = 3;
+
+/// What fills the pore; blue and yellow keep apart for color-blind eyes and in print.
+pub(super) const FLUIDS: [Phase; 3] = [
+    Phase { number: 0, name: "wetting", color: [86, 146, 204], core: [58, 116, 176] },
+    Phase { number: 1, name: "non-wetting", color: [248, 232, 176], core: [236, 212, 136] },
+    Phase { number: PORE, name: "pore", color: [228, 238, 246], core: [228, 238, 246] },
+];
+
+/// The largest of 1, 2, 5 times a power of ten that is at most `length`, in m.
+pub(super) fn round_length(length: f64) -> f64 {
+    let power = 10_f64.powf(length.log10().floor());
+    [5.0, 2.0].into_iter().map(|digit| digit * power).find(|&candidate| candidate <= length).unwrap_or(power)
+}
+
+/// A value with at most six digits and the prefix that suits it.
+fn with_prefix(value: f64, unit: &str) -> String {
+    const PREFIXES: [(f64, &str); 4] = [(1.0, ""), (1.0e-3, "m"), (1.0e-6, "µ"), (1.0e-9, "n")];
+    // A tenth of a thousandth of slack, so that a rounded 1 mm does not become 1000 µm.
+    let fits = |factor: f64| value.abs() >= factor * (1.0 - 1.0e-4);
+    let (factor, prefix) = PREFIXES.into_iter().find(|(factor, _)| fits(*factor)).unwrap_or((1.0, ""));
+    let digits = format!("{:.5}", value / factor);
+    format!("{} {prefix}{unit}", digits.trim_end_matches('0').trim_end_matches('.'))
+}
+
+pub(super) fn length_text(length: f64) -> String {
+    with_prefix(length, "m")
+}
+
+pub(super) fn time_text(time: f64) -> String {
+    format!("t = {}", with_prefix(time, "s"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_and_times_read_as_people_write_them() {
+        assert_eq!(length_text(round_length(3.7e-4)), "200 µm");
+        assert_eq!(length_text(round_length(1.0e-3)), "1 mm");
+        assert_eq!(time_text(0.02), "t = 20 ms");
+        assert_eq!(time_text(0.0), "t = 0 s");
+    }
+}

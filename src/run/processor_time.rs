@@ -1,0 +1,90 @@
+//! Processor time of a run, over all the processes that worked at it and all their threads.
+//!
+//! It is kept beside the saved state and taken up with it. What a killed process did after it last saved its state is not
+//! in it: that is done again, and counted then.
+
+use std::path::{Path, PathBuf};
+
+use cpu_time::ProcessTime;
+
+use crate::io::{FileError, atomic};
+
+/// Counts the processor time of this process since it began with a run, and knows that of the processes before.
+#[derive(Debug, Clone, Copy)]
+pub struct ProcessorTime {
+    /// In s; none where an earlier process did not tell.
+    before: Option<f64>,
+    /// None where the system does not tell.
+    begun: Option<ProcessTime>,
+}
+
+/// The file that keeps it, in s as text.
+fn file(folder: &Path) -> PathBuf {
+    folder.join("restart").join("cpu-s")
+}
+
+impl ProcessorTime {
+    /// From now on, for a new run.
+    #[must_use]
+    pub fn start() -> Self {
+        Self { before: Some(0.0), begun: ProcessTime::try_now().ok() }
+    }
+
+    /// With what the processes before this one took until they saved the state in `folder`.
+    #[must_use]
+    pub fn after_that_in(self, folder: &Path) -> Self {
+        let told = std::fs::read_to_string(file(folder)).ok();
+        let before = told.and_then(|text| text.trim().parse().ok()).filter(|seconds: &f64| seconds.is_finite());
+        Self { before, ..self }
+    }
+
+    /// In s until now; none where a process did not tell its part.
+    #[must_use]
+    pub fn seconds(&self) -> Option<f64> {
+        Some(self.before? + self.begun?.try_elapsed().ok()?.as_secs_f64())
+    }
+
+    /// Keeps it for the process that goes on with the run in `folder`.
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn save(&self, folder: &Path) -> Result<(), FileError> {
+        let text = self.seconds().map_or("unknown\n".to_owned(), |seconds| format!("{seconds}\n"));
+        atomic::write(&file(folder), text.as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Keeps the processor busy until at least this many seconds of it are spent.
+    fn work(seconds: f64) {
+        let begun = ProcessTime::now();
+        while begun.elapsed().as_secs_f64() < seconds {
+            std::hint::black_box((0..1000).map(f64::from).sum::<f64>());
+        }
+    }
+
+    #[test]
+    fn processor_time_goes_on_where_the_saved_one_stood() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = ProcessorTime::start();
+        work(0.02);
+        first.save(folder.path()).unwrap();
+        let saved = first.seconds().unwrap();
+        let second = ProcessorTime::start().after_that_in(folder.path());
+        work(0.02);
+        // Other tests of this process may work at the same time: there is no upper bound.
+        assert!(saved >= 0.02 && second.seconds().unwrap() >= 0.04, "{saved} {second:?}");
+    }
+
+    #[test]
+    fn processor_time_is_unknown_where_an_earlier_process_did_not_tell_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let resumed = ProcessorTime::start().after_that_in(folder.path());
+        assert_eq!(resumed.seconds(), None);
+        resumed.save(folder.path()).unwrap();
+        assert_eq!(ProcessorTime::start().after_that_in(folder.path()).seconds(), None);
+    }
+}

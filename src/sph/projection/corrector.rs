@@ -1,0 +1,39 @@
+//! The corrector: the velocity at the end of a step [Huber2013, Eq. 26].
+
+use super::{Flow, Predicted};
+use crate::math::Vec2;
+use crate::sph::method::PressureGradient;
+use crate::sph::pairs::largest;
+use crate::sph::terms::pressure_gradient;
+
+impl Flow {
+    /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26].
+    pub(super) fn correct(&self, predicted: &Predicted, pressure: &[f64]) -> Vec<Vec2> {
+        let (fluids, f) = (self.particles.fluids, &self.fields);
+        let mut p = pressure.to_vec();
+        let mut acceleration = vec![Vec2::zeros(); fluids];
+        let form = self.method.pressure_gradient();
+        if form != PressureGradient::Difference {
+            // The constant matters in these forms: all pressures at or above the background order the particles.
+            let speed = largest(fluids, |a| self.particles.velocity[a].norm()).map_or(0.0, |l| l.1);
+            let lowest = p.iter().fold(f64::INFINITY, |m, p| m.min(*p));
+            let shift = self.background_pressure(speed) - lowest;
+            p.iter_mut().for_each(|p| *p += shift);
+        }
+        self.images.extend(&mut p);
+        let (pairs, volume, density) = (&self.pairs, &f.volume, &f.density);
+        match form {
+            PressureGradient::Symmetric => pressure_gradient::symmetric(pairs, volume, density, &p, &mut acceleration),
+            PressureGradient::Weighted => pressure_gradient::weighted(pairs, volume, density, &p, &mut acceleration),
+            PressureGradient::Difference => {
+                let jump = |a: usize, b: usize| f.jump.as_ref().map_or(0.0, |jump| self.method.tension * jump.of(a, b));
+                pressure_gradient::difference(pairs, volume, density, &p, jump, &mut acceleration);
+            }
+        }
+        let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);
+        let mut velocity: Vec<Vec2> =
+            corrected.chain(std::iter::repeat_n(Vec2::zeros(), self.particles.open)).collect();
+        self.set_buffer_velocity(&predicted.feet, &mut velocity);
+        velocity
+    }
+}

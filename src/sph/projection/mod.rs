@@ -1,0 +1,220 @@
+//! One time step: predictor, pressure, corrector [Huber2013, section 3.3]. The one place where the order of the terms is decided.
+//!
+//! [`Flow::step`] is that order; the files beside this one hold its stages.
+
+mod corrector;
+mod predictor;
+mod pressure;
+mod viscous;
+
+use std::time::Instant;
+
+use crate::math::Vec2;
+use crate::solver::{PartTime, SolverError, StepInfo};
+use crate::sph::cells::Cells;
+use crate::sph::domain::{Domain, WallQuery};
+use crate::sph::fields::{Fields, Place};
+use crate::sph::images::Images;
+use crate::sph::method::Method;
+use crate::sph::open::{self, Feet, Open};
+use crate::sph::pairs::Pairs;
+use crate::sph::particles::Particles;
+use crate::sph::poisson::{PressureSolve, parts};
+use crate::sph::wetting::lines::Line;
+use crate::sph::wetting::wall::WallSpots;
+
+/// The particles are put in the order of their cells every so many steps, so that neighbors are near in memory.
+const REORDER_EVERY: u64 = 20;
+
+/// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
+/// fluid answers to that of the buffer by a small share, so that few will do.
+const FIRST_SOLVES: usize = 6;
+
+/// Counts of the solver's work.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Work {
+    /// Steps done by this process.
+    pub steps: u64,
+    /// Iterations of the last pressure solve.
+    pub last_iterations: usize,
+    /// Iterations of all pressure solves.
+    pub iterations: u64,
+    /// Relative residual of the last pressure solve.
+    pub residual: f64,
+    /// Particles set back from a wall.
+    pub set_back: u64,
+    /// Wall time of neighbors, forces, pressure matrix and solve, move in s.
+    pub seconds: [f64; 4],
+}
+
+/// Names of the parts that `Work::seconds` counts.
+pub const PARTS: [&str; 4] = ["neighbors", "forces", "pressure", "move"];
+
+/// The state of a simulation and all that follows from it.
+pub struct Flow {
+    /// Constants.
+    pub method: Method,
+    /// Box and sides.
+    pub domain: Domain,
+    /// Wall distance and normal.
+    pub wall: WallQuery,
+    /// Wetting models and velocities of the walls.
+    pub spots: WallSpots,
+    /// The contact lines as the last step left them; those of the present positions are among the fields.
+    pub lines: Vec<Line>,
+    /// The particles.
+    pub particles: Particles,
+    /// Depth of each wall particle in m.
+    pub wall_depth: Vec<f64>,
+    /// Open sides and what passed through them.
+    pub open: Open,
+    /// Time in s.
+    pub time: f64,
+    /// Steps since time zero.
+    pub steps: u64,
+    /// Last step.
+    pub last: StepInfo,
+    /// Fields at the present positions.
+    pub fields: Fields,
+    /// Pairs at the present positions.
+    pub pairs: Pairs,
+    /// Images at the present positions.
+    pub images: Images,
+    /// Pressure solver.
+    pub pressure: PressureSolve,
+    /// Counts.
+    pub work: Work,
+}
+
+/// The intermediate state of a step [Huber2013, Eq. 25].
+pub(super) struct Predicted {
+    pub(super) dt: f64,
+    pub(super) limit: &'static str,
+    /// v_int over particles and images in m/s.
+    velocity: Vec<Vec2>,
+    /// Where the buffers of open sides take the velocity from.
+    feet: Feet,
+}
+
+impl Flow {
+    /// The flow at time zero. `wall_depth` in m as `fill` returns it.
+    #[must_use]
+    pub fn new(
+        method: Method,
+        domain: Domain,
+        wall: WallQuery,
+        (particles, wall_depth): (Particles, Vec<f64>),
+        open: Open,
+    ) -> Self {
+        let mut flow = Self {
+            method,
+            domain,
+            wall,
+            spots: WallSpots::default(),
+            lines: Vec::new(),
+            particles,
+            wall_depth,
+            open,
+            time: 0.0,
+            steps: 0,
+            last: StepInfo { dt: 0.0, limit: "none" },
+            fields: Fields::default(),
+            pairs: Pairs::default(),
+            images: Images::default(),
+            pressure: PressureSolve::default(),
+            work: Work::default(),
+        };
+        flow.order_walls();
+        flow.prepare();
+        flow.particles.part = parts(&flow.pairs, &flow.images);
+        flow
+    }
+
+    /// The same flow at time zero with walls that differ or move.
+    #[must_use]
+    pub fn with_walls(mut self, spots: WallSpots) -> Self {
+        self.spots = spots;
+        self.prepare();
+        self
+    }
+
+    /// All that follows from the positions: neighbors, volumes, normals, forces of interface and lines.
+    pub fn prepare(&mut self) {
+        let start = Instant::now();
+        if self.steps.is_multiple_of(REORDER_EVERY) {
+            let fluids = &self.particles.position[..self.particles.fluids];
+            let order = Cells::build(fluids, &self.domain, self.method.kernel.support()).order().to_vec();
+            self.reorder(
+                order.iter().map(|&i| i as usize).chain(self.particles.fluids..self.particles.len()).collect(),
+            );
+        }
+        let mut points = self.particles.position.clone();
+        self.images = Images::append(&mut points, &self.domain, self.method.kernel.support());
+        // The old pairs go first: both at once would be the most memory of the whole step.
+        self.pairs = Pairs::default();
+        self.pairs = Pairs::find(&points, self.particles.len(), &self.domain, &self.method.kernel);
+        let after = Instant::now();
+        let neighborhood = (&self.particles, &self.pairs, &self.images);
+        self.fields.update_bulk(neighborhood, &self.method, &self.wall);
+        let place = Place { domain: &self.domain, wall: &self.wall, spots: &self.spots };
+        self.fields.update_interface(neighborhood, &self.method, &place, (&self.lines, self.last.dt));
+        self.work.seconds[0] += (after - start).as_secs_f64();
+        self.work.seconds[1] += after.elapsed().as_secs_f64();
+    }
+
+    fn order_walls(&mut self) {
+        let moving = self.particles.moving();
+        let walls = &self.particles.position[moving..];
+        let order = Cells::build(walls, &self.domain, self.method.kernel.support()).order().to_vec();
+        self.wall_depth = order.iter().map(|&i| self.wall_depth[i as usize]).collect();
+        self.reorder((0..moving).chain(order.iter().map(|&i| i as usize + moving)).collect());
+    }
+
+    fn reorder(&mut self, order: Vec<usize>) {
+        self.particles.reorder(&order);
+    }
+
+    /// Does one step that ends at `until` (s) or before.
+    ///
+    /// # Errors
+    /// See [`SolverError`]; positions, velocities and time are then those before the step.
+    pub fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
+        let start = Instant::now();
+        let predicted = self.predict(until)?;
+        let after_forces = Instant::now();
+        if self.steps == 0 && !self.open.sides.is_empty() {
+            for _ in 0..FIRST_SOLVES {
+                self.particles.pressure = self.project(&predicted)?.0;
+            }
+        }
+        let (pressure, drift) = self.project(&predicted)?;
+        let after_pressure = Instant::now();
+        let velocity = self.correct(&predicted, &pressure);
+        self.advance(&predicted, (velocity, &drift), until)?;
+        self.particles.pressure = pressure;
+        if !self.open.sides.is_empty() {
+            open::exchange(&mut self.particles, &self.open.sides, &mut self.open.ledger, self.method.spacing);
+        }
+        self.work.seconds[1] += (after_forces - start).as_secs_f64();
+        self.work.seconds[2] += (after_pressure - after_forces).as_secs_f64();
+        self.work.seconds[3] += after_pressure.elapsed().as_secs_f64();
+        self.work.steps += 1;
+        self.lines = std::mem::take(&mut self.fields.lines);
+        self.prepare();
+        Ok(self.last)
+    }
+
+    /// Wall time by part in s.
+    #[must_use]
+    pub fn part_times(&self) -> Vec<PartTime> {
+        PARTS.iter().zip(self.work.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
+    }
+
+    /// Bytes held per particle by pairs, matrix, hierarchy and fields.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        // Sixteen numbers of fields and particles, and ten of work space in step and solve, of 8 bytes or a pair of them.
+        let fields = self.particles.len() * (16 + 10) * 8 * 3 / 2;
+        self.pairs.bytes() + self.pressure.bytes() + fields
+    }
+}

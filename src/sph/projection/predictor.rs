@@ -1,0 +1,77 @@
+//! The predictor: all forces but the pressure [Huber2013, Eq. 25].
+
+use super::{Flow, Predicted};
+use crate::math::Vec2;
+use crate::solver::SolverError;
+use crate::sph::method::PressureGradient;
+use crate::sph::open::Feet;
+use crate::sph::pairs::{each, largest};
+use crate::sph::terms::pressure_gradient;
+use crate::sph::time_step::landing;
+
+impl Flow {
+    /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25].
+    pub(super) fn predict(&self, until: f64) -> Result<Predicted, SolverError> {
+        let (particles, fluids, moving) = (&self.particles, self.particles.fluids, self.particles.moving());
+        let mut velocity = particles.velocity.clone();
+        self.images.extend_velocity(&mut velocity);
+        let (viscous, rate) = self.viscous_acceleration(&velocity);
+        let (fastest, speed) = largest(moving, |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
+        let step = self.method.time_step(speed, rate);
+        let smallest = self.method.smallest_time_step(rate);
+        if !(step.dt >= smallest) {
+            let place = particles.position.get(fastest).copied().unwrap_or_default();
+            let (time, step_number) = (self.time, self.steps);
+            return Err(SolverError::TimeStep {
+                dt: step.dt,
+                smallest,
+                limit: step.limit,
+                time,
+                step: step_number,
+                place,
+            });
+        }
+        let step = landing(step, self.time, until);
+        let background = self.background_acceleration(speed);
+        let f = &self.fields;
+        each(&mut velocity[..fluids], |a| {
+            let forces = (f.surface_force[a] + f.line_force[a]) / f.density[a];
+            particles.velocity[a] + step.dt * (viscous[a] + self.method.gravity + forces + background[a])
+        });
+        let feet = Feet::new(particles, &self.open.sides, &self.domain, &self.method.kernel);
+        self.set_buffer_velocity(&feet, &mut velocity);
+        // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
+        velocity[moving..particles.len()].fill(Vec2::zeros());
+        self.images.extend_velocity(&mut velocity);
+        Ok(Predicted { dt: step.dt, limit: step.limit, velocity, feet })
+    }
+
+    /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
+    /// given pressure the normal part of that at the foot, so that it goes on along the normal.
+    pub(super) fn set_buffer_velocity(&self, feet: &Feet, velocity: &mut [Vec2]) {
+        for (i, b) in self.particles.buffer().enumerate() {
+            let x = self.particles.position[b];
+            let Some(side) = self.open.sides.iter().find(|side| side.beyond(x) >= 0.0) else { continue };
+            velocity[b] = side.given_velocity(x).unwrap_or_else(|| {
+                let at_foot = feet.value(i, velocity).unwrap_or_default();
+                side.velocity(side.inwards() * at_foot[side.axis()])
+            });
+        }
+    }
+
+    /// The background pressure p_0 in Pa for a flow of the given `speed` (m/s).
+    pub(super) fn background_pressure(&self, speed: f64) -> f64 {
+        let m = &self.method;
+        let scale = if m.tension > 0.0 { m.tension / m.kernel.h } else { m.mean_density() * speed * speed };
+        m.background_pressure * scale
+    }
+
+    fn background_acceleration(&self, speed: f64) -> Vec<Vec2> {
+        let mut acceleration = vec![Vec2::zeros(); self.particles.fluids];
+        if self.method.pressure_gradient() == PressureGradient::Difference && self.method.background_pressure > 0.0 {
+            let over_density = self.background_pressure(speed) / self.method.mean_density();
+            pressure_gradient::background(&self.pairs, &self.fields.volume, over_density, &mut acceleration);
+        }
+        acceleration
+    }
+}

@@ -1,0 +1,127 @@
+//! The pressure equation of a step [Huber2013, Eqs. 28-31].
+
+use super::{Flow, Predicted};
+use crate::math::Vec2;
+use crate::solver::SolverError;
+use crate::sph::open::Prescribed;
+use crate::sph::pairs::each;
+use crate::sph::poisson::{System, Tolerance, Unknowns, assemble, give};
+use crate::sph::terms::divergence::divergence;
+use crate::sph::terms::pressure_gradient;
+
+/// Above this density ratio the multigrid keeps light and heavy particles apart.
+const LARGEST_SMOOTH_RATIO: f64 = 5.0;
+
+/// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
+const GIVEN: u8 = 2;
+
+/// Largest relative residual of the drift correction: what one step leaves, the next ones take.
+const DRIFT_RESIDUAL: f64 = 0.01;
+
+impl Flow {
+    /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
+    /// no open side gives it.
+    ///
+    /// The right side gives a share γ of the density error back per step (the drift source, which the paper lacks). Beside the
+    /// pressure stands the way in m that each fluid particle goes for the drift correction, nothing where there is none.
+    pub(super) fn project(&mut self, predicted: &Predicted) -> Result<(Vec<f64>, Vec<Vec2>), SolverError> {
+        let (n, fluids, dt) = (self.particles.len(), self.particles.fluids, predicted.dt);
+        let (method, f) = (&self.method, &self.fields);
+        let mut source = vec![0.0; n];
+        divergence(&self.pairs, &f.volume, &predicted.velocity, &mut source);
+        let drift = method.drift_source / (dt * dt);
+        let mut b = vec![0.0; n];
+        each(&mut b, |a| {
+            if !self.sees_the_fluid(a) {
+                return 0.0;
+            }
+            -f.volume[a] * (source[a] / dt - drift * self.crowding(a))
+        });
+        let mut matrix = std::mem::take(&mut self.pressure.matrix);
+        assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density);
+        if let Some(jump) = &f.jump {
+            jump.subtract_from(&mut b, &matrix, &self.pairs, method.tension);
+        }
+        let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
+        let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
+        let given = |a: usize| prescribed.of(a, fluids);
+        let mut kind = self.kinds();
+        let mut anchored = vec![false; self.particles.part.iter().max().map_or(0, |last| *last as usize + 1)];
+        for a in self.particles.buffer().filter(|&a| given(a).is_some()) {
+            anchored[self.particles.part[a] as usize] = true;
+            kind[a] = GIVEN;
+        }
+        give(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
+        self.pressure.matrix = matrix;
+        let part = &self.particles.part;
+        let position = &self.particles.position;
+        let unknowns = Unknowns { position, kind: &kind, part, anchored: &anchored, spacing: method.spacing };
+        let offset = |a: usize| if anchored[part[a] as usize] { prescribed.reference } else { 0.0 };
+        let relative = |a: usize| if given(a).is_some() { 0.0 } else { self.particles.pressure[a] - offset(a) };
+        let mut p: Vec<f64> = (0..n).map(relative).collect();
+        let flow = System { b: &mut b, x: &mut p, tolerance: method.tolerance };
+        let mut potential = vec![0.0; if method.drift_correction > 0.0 { n } else { 0 }];
+        let volume = &self.fields.volume[..n];
+        let convergence = if potential.is_empty() {
+            let [convergence] = self.pressure.solve(&unknowns, volume, [flow]);
+            convergence
+        } else {
+            let mut crowding = vec![0.0; n];
+            each(&mut crowding, |a| {
+                let is_free = self.sees_the_fluid(a) && given(a).is_none();
+                if is_free { method.drift_correction * volume[a] * self.crowding(a) } else { 0.0 }
+            });
+            let tolerance = Tolerance { residual: DRIFT_RESIDUAL, ..method.tolerance };
+            let order = System { b: &mut crowding, x: &mut potential, tolerance };
+            let [convergence, drift] = self.pressure.solve(&unknowns, volume, [flow, order]);
+            self.work.iterations += drift.iterations as u64;
+            convergence
+        };
+        p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
+        self.work.last_iterations = convergence.iterations;
+        self.work.iterations += convergence.iterations as u64;
+        self.work.residual = convergence.residual;
+        if !(convergence.residual <= method.tolerance.residual) {
+            return Err(SolverError::NotConverged {
+                system: "the pressure equation",
+                residual: convergence.residual,
+                tolerance: method.tolerance.residual,
+                iterations: convergence.iterations,
+                time: self.time,
+                step: self.steps,
+            });
+        }
+        Ok((p, self.drift_correction(potential)))
+    }
+
+    /// V_0/V_a − 1, the density error of a fluid particle; 0 on others.
+    fn crowding(&self, a: usize) -> f64 {
+        if a < self.particles.fluids { self.method.volume / self.fields.volume[a] - 1.0 } else { 0.0 }
+    }
+
+    /// The way −(∇ψ/ρ)_a in m down the gradient of the `potential` ψ (kg/m) of the drift correction, the same on both sides of an interface.
+    fn drift_correction(&self, mut potential: Vec<f64>) -> Vec<Vec2> {
+        if potential.is_empty() {
+            return Vec::new();
+        }
+        let mut by = vec![Vec2::zeros(); self.particles.fluids];
+        self.images.extend(&mut potential);
+        let f = &self.fields;
+        pressure_gradient::difference(&self.pairs, &f.volume, &f.density, &potential, |_, _| 0.0, &mut by);
+        by
+    }
+
+    /// Whether the divergence at particle `a` counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.
+    fn sees_the_fluid(&self, a: usize) -> bool {
+        let (x, support) = (self.particles.position[a], self.method.kernel.support());
+        self.open.sides.iter().all(|side| side.beyond(x) < support)
+    }
+
+    /// 0 in and near the heavy fluid, 1 in and near the light one, so that the multigrid keeps them apart.
+    fn kinds(&self) -> Vec<u8> {
+        let (w, o) = (self.method.wetting_fluid.density, self.method.other_fluid.density);
+        let is_jump = self.method.density_ratio() > LARGEST_SMOOTH_RATIO;
+        let between = if is_jump { (w * o).sqrt() } else { 0.0 };
+        self.fields.density[..self.particles.len()].iter().map(|&rho| u8::from(rho < between)).collect()
+    }
+}

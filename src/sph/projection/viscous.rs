@@ -1,0 +1,69 @@
+//! Viscous forces between the particles of a flow, and on its walls.
+
+use super::Flow;
+use crate::math::Vec2;
+use crate::sph::method::ViscousTerm;
+use crate::sph::terms::viscosity::Viscous;
+
+impl Flow {
+    /// The viscous acceleration of the fluid particles in m/s² and the largest viscous rate in 1/s.
+    pub(super) fn viscous_acceleration(&self, velocity: &[Vec2]) -> (Vec<Vec2>, f64) {
+        let (fluids, f) = (self.particles.fluids, &self.fields);
+        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
+        let stretch = |a: usize, b: usize| self.stretch(a, b);
+        let v_ab = |a: usize, b: usize| self.velocity_difference(velocity, a, b);
+        let mut acceleration = vec![Vec2::zeros(); fluids];
+        match self.method.viscous_term {
+            ViscousTerm::Stress => {
+                viscous.morris(&self.pairs, v_ab, &mut acceleration);
+                viscous.transposed(&self.pairs, v_ab, &mut acceleration);
+            }
+            ViscousTerm::Morris => viscous.morris(&self.pairs, v_ab, &mut acceleration),
+            ViscousTerm::Szewc => viscous.szewc(&self.pairs, v_ab, &mut acceleration),
+        }
+        let mut rate = vec![0.0; fluids];
+        viscous.rate(&self.pairs, stretch, &mut rate);
+        (acceleration, rate.iter().fold(0.0, |m: f64, r| m.max(*r)))
+    }
+
+    /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles and to the wall particles that
+    /// `is_meant` takes by the index and by the place (m).
+    #[must_use]
+    pub fn friction(&self, is_meant: impl Fn(usize, Vec2) -> bool + Sync) -> Vec2 {
+        let (particles, fluids, f) = (&self.particles, self.particles.fluids, &self.fields);
+        let moving = particles.moving();
+        let mut velocity = particles.velocity.clone();
+        self.images.extend_velocity(&mut velocity);
+        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
+        let v_ab = |a: usize, b: usize| {
+            let source = self.images.source(b);
+            let counts = source >= moving && is_meant(a, particles.position[source]);
+            if counts { self.velocity_difference(&velocity, a, b) } else { Vec2::zeros() }
+        };
+        let mut acceleration = vec![Vec2::zeros(); fluids];
+        match self.method.viscous_term {
+            // Walls take the viscosity of the fluid that sees them, so that the transposed part does not act there.
+            ViscousTerm::Morris | ViscousTerm::Stress => viscous.morris(&self.pairs, v_ab, &mut acceleration),
+            ViscousTerm::Szewc => viscous.szewc(&self.pairs, v_ab, &mut acceleration),
+        }
+        -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
+    }
+
+    /// v_a − v_b in m/s, at walls as these stretch it.
+    fn velocity_difference(&self, velocity: &[Vec2], a: usize, b: usize) -> Vec2 {
+        let v_ab = velocity[a] - velocity[b];
+        let (distance, normal) = (self.fields.wall_distance[a], self.fields.wall_normal[a]);
+        self.depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, normal, distance, depth))
+    }
+
+    /// The largest |v_ab| over the velocity difference: β at walls, 1 between fluid particles.
+    fn stretch(&self, a: usize, b: usize) -> f64 {
+        self.depth(b).map_or(1.0, |depth| self.method.no_slip.stretch(self.fields.wall_distance[a], depth))
+    }
+
+    /// Depth in m of a wall particle or its image, none for fluid.
+    fn depth(&self, b: usize) -> Option<f64> {
+        let source = self.images.source(b);
+        source.checked_sub(self.particles.moving()).map(|wall| self.wall_depth[wall])
+    }
+}

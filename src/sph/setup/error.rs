@@ -1,0 +1,54 @@
+//! Why a case cannot become a solver.
+
+use crate::geometry::GeometryError;
+use crate::math::Vec2;
+
+/// A case that cannot be filled with particles.
+#[derive(Debug, thiserror::Error)]
+pub enum SetupError {
+    /// A shape is not usable.
+    #[error("{0}")]
+    Geometry(#[from] GeometryError),
+    /// The box is too small for its periodic sides.
+    #[error(
+        "a periodic domain must be at least {needed:.3e} m long (three kernel supports), found {width:.3e} m by {height:.3e} m; \
+         use a smaller spacing or a longer domain"
+    )]
+    PeriodTooShort {
+        /// Least length in m.
+        needed: f64,
+        /// Width in m.
+        width: f64,
+        /// Height in m.
+        height: f64,
+    },
+    /// An open side that nothing can pass through.
+    #[error("solids block the open side `{0}` all along; open another side, or leave a gap in the solids")]
+    Blocked(&'static str),
+    /// A parabola over several openings.
+    #[error(
+        "the side `{side}` has {openings} openings between its solids, and a parabola needs one; use profile = \"plug\" or a pressure"
+    )]
+    Openings {
+        /// The side.
+        side: &'static str,
+        /// Number of its openings.
+        openings: usize,
+    },
+    /// A solid or a pore that ends at an open side.
+    #[error(
+        "a shape ends at the open side `{side}` near ({:.3e}, {:.3e}) m; walls go on beyond an open side, so let the shape reach \
+         {reach:.1e} m beyond it, or end before it", place.x, place.y
+    )]
+    EndsAtSide {
+        /// The side.
+        side: &'static str,
+        /// Where, in m.
+        place: Vec2,
+        /// How far the shape must reach beyond the side, in m.
+        reach: f64,
+    },
+    /// No room for a single particle.
+    #[error("no fluid particle fits into the pore at a spacing of {0:.3e} m; use a smaller spacing")]
+    NoFluid(f64),
+}

@@ -1,0 +1,52 @@
+//! The state at time zero: which phase is where, velocities and pressures.
+
+use std::f64::consts::TAU;
+
+use super::walls::wall_velocity;
+use crate::case::checked::{Case, InitialVelocity, Sph};
+use crate::geometry::Geometry;
+use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
+use crate::math::{Bounds, Vec2};
+use crate::sph::open::OpenSide;
+use crate::sph::particles::Particles;
+
+/// Shapes of the initial wetting phase as a solid: negative distance inside of them.
+#[must_use]
+pub fn region(case: &Case, shapes: &[ShapeSpec]) -> Geometry {
+    Geometry::unchecked(&GeometrySpec { shapes: shapes.to_vec(), solid: SolidSide::Inside, ..case.geometry.clone() })
+}
+
+/// Sets velocities and pressures. Beyond open sides both are those of the side; `inside` is the place from which walls are seen.
+pub(super) fn set(
+    particles: &mut Particles,
+    sph: &Sph,
+    sides: &[OpenSide],
+    inside: impl Fn(Vec2) -> Vec2,
+    bounds: Bounds,
+) {
+    for a in 0..particles.moving() {
+        let x = particles.position[a];
+        let given = sides.iter().filter(|side| side.beyond(x) > 0.0).find_map(|side| side.given_velocity(x));
+        particles.velocity[a] = given.unwrap_or_else(|| velocity(&sph.initial.velocity, inside(x), bounds));
+    }
+    for a in particles.moving()..particles.len() {
+        particles.velocity[a] = wall_velocity(sph.wall_speeds, inside(particles.position[a]), bounds);
+    }
+    // The slopes of the first step begin at zero: each side sees its own pressure.
+    for a in 0..particles.len() {
+        let x = particles.position[a];
+        let given = sides.iter().filter_map(|side| Some((side.beyond(x), side.given_pressure()?)));
+        particles.pressure[a] = given.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, pressure)| pressure);
+    }
+}
+
+fn velocity(initial: &InitialVelocity, x: Vec2, bounds: Bounds) -> Vec2 {
+    match *initial {
+        InitialVelocity::Rest => Vec2::zeros(),
+        InitialVelocity::Uniform(v) => v,
+        InitialVelocity::TaylorGreen(speed) => {
+            let phase = (x - bounds.min).component_div(&bounds.size()) * TAU;
+            speed * Vec2::new(-phase.x.cos() * phase.y.sin(), phase.x.sin() * phase.y.cos())
+        }
+    }
+}

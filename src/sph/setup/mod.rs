@@ -1,0 +1,99 @@
+//! From a checked case and its geometry to a solver: the only SPH folder that sees both.
+
+mod error;
+mod initial;
+mod method;
+mod open_sides;
+mod surroundings;
+mod walls;
+
+use std::sync::Arc;
+
+pub use error::SetupError;
+pub use initial::region;
+
+use self::method::method;
+use self::open_sides::{inside_of_open_sides, open_sides};
+use self::surroundings::surroundings;
+use self::walls::{fitted_places, mirrors, wall_spots};
+use crate::case::checked::{Case, Side, Sph};
+use crate::geometry::Geometry;
+use crate::math::Vec2;
+use crate::sph::domain::{Domain, WallQuery};
+use crate::sph::fill::{self, Lattice};
+use crate::sph::open::{self, Around, Ledger, Open};
+use crate::sph::particles::Phase;
+use crate::sph::projection::Flow;
+use crate::sph::solver::SphSolver;
+
+/// The solids of a case as its solver sees them: periodic sides joined, wall sides closed.
+///
+/// # Errors
+/// [`SetupError::Geometry`] with what is wrong with the shapes.
+pub fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
+    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
+    let walls = sides.map(|side| side == Side::Wall);
+    Ok(Geometry::new(&case.geometry)?.with_periodic(periodic).with_wall_sides(walls))
+}
+
+/// The solver of a case at time zero.
+///
+/// # Errors
+/// See [`SetupError`].
+pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
+    let geometry = Arc::new(geometry(case, sph)?);
+    let bounds = geometry.bounds();
+    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let lattice = Lattice::fitting(bounds, sph.spacing);
+    let method = method(sph, &lattice);
+    let domain = Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides));
+    let support = method.kernel.support();
+    if !fill::fits(&domain, support) {
+        let size = bounds.size();
+        let needed = fill::PERIODIC_SUPPORTS * support;
+        return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
+    }
+    let region = region(case, &sph.initial.wetting);
+    let phase = |x: Vec2| {
+        let inside = region.signed_distance(x) < 0.0;
+        let wetting = inside != sph.initial.wetting_is_background;
+        if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
+    };
+    let walls = sides.map(|side| side == Side::Wall);
+    let places = if sph.numerics.fitted_walls {
+        fitted_places((&geometry, &domain), &lattice, &method, walls)
+    } else {
+        fill::on_lattice(&lattice, support, walls, |x| geometry.signed_distance(x))
+    };
+    let mut particles = places.particles(phase);
+    let mut depth = places.depth;
+    if particles.fluids == 0 {
+        return Err(SetupError::NoFluid(sph.spacing));
+    }
+    let open = open_sides(sph, (&geometry, &lattice, method.kernel.h), &phase)?;
+    let inside = inside_of_open_sides(&open.sides);
+    let around = Around {
+        bounds,
+        step: lattice.step,
+        support,
+        walls,
+        signed_distance: &|x| geometry.signed_distance(inside(x)),
+        phase: &phase,
+    };
+    open::fill(&mut particles, &mut depth, &open.sides, &around);
+    initial::set(&mut particles, sph, &open.sides, &inside, bounds);
+    let ledger = Ledger::new(&particles.phase[..particles.fluids], u32::try_from(particles.len()).unwrap_or(u32::MAX));
+    let open = Open { ledger, cell: lattice.step.x * lattice.step.y, ..open };
+    let surroundings = surroundings(case, sph, &geometry);
+    let spots = wall_spots(sph, &geometry);
+    let query: WallQuery = Box::new(move |x| {
+        let wall = geometry.wall(inside(x));
+        (wall.distance, wall.normal)
+    });
+    let mut flow = Flow::new(method, domain, query, (particles, depth), open);
+    if let Some(spots) = spots {
+        flow = flow.with_walls(spots);
+    }
+    Ok(SphSolver::new(flow, surroundings))
+}

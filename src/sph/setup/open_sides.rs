@@ -1,0 +1,131 @@
+//! Open sides, and periodic ones with a given flow: their openings, what drives them and what comes in.
+
+use super::SetupError;
+use crate::case::checked::{self, Side, Sph};
+use crate::geometry::Geometry;
+use crate::math::Vec2;
+use crate::sph::fill::Lattice;
+use crate::sph::open::{self, Open, OpenSide, Opening, Profile, Shape};
+use crate::sph::particles::Phase;
+
+/// Names of the sides in the order of their numbers.
+const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+
+/// How far inside of a side its openings are looked for, over the spacing: on the side itself a solid can end.
+const INSIDE: f64 = 1e-3;
+
+/// The open sides, and the periodic ones with a given flow.
+pub(super) fn open_sides(
+    sph: &Sph,
+    (geometry, lattice, h): (&Geometry, &Lattice, f64),
+    phase: &dyn Fn(Vec2) -> Phase,
+) -> Result<Open, SetupError> {
+    let bounds = geometry.bounds();
+    let kinds = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let mut open = Open::default();
+    for (number, given) in sph.open.iter().enumerate() {
+        let Some(given) = given else { continue };
+        let (axis, along) = (number / 2, 1 - number / 2);
+        let at = if number.is_multiple_of(2) { bounds.min[axis] } else { bounds.max[axis] };
+        let enters = given.enters_wetting.map(|wetting| if wetting { Phase::Wetting } else { Phase::NonWetting });
+        let layers = (open::DEPTH * h / lattice.step[axis]).ceil();
+        let mut side = OpenSide {
+            number,
+            at,
+            drive: open::Drive::Pressure(0.0),
+            enters,
+            main: Phase::Wetting,
+            depth: layers * lattice.step[axis],
+        };
+        let near_side = |y: f64| {
+            let mut x = Vec2::zeros();
+            x[along] = y;
+            side.placed(x, -INSIDE * sph.spacing)
+        };
+        // Solids narrower than this are no obstacle that particles would see.
+        let step = 0.1 * sph.spacing;
+        let is_pore = |y: f64| geometry.signed_distance(near_side(y)) > 0.0;
+        let openings = open::openings((bounds.min[along], bounds.max[along]), step, is_pore);
+        if openings.is_empty() {
+            return Err(SetupError::Blocked(SIDES[number]));
+        }
+        if kinds[number] != Side::Periodic {
+            goes_on(&side, (geometry, &openings), &near_side, lattice.step)?;
+        }
+        side.main = enters.unwrap_or_else(|| main_phase(&openings, |y| phase(near_side(y)), step));
+        let width: f64 = openings.iter().map(|o| o.to - o.from).sum();
+        let profile = |mean: f64, form| {
+            shape(form, (SIDES[number], &openings), [kinds[2 * along], kinds[2 * along + 1]])
+                .map(|shape| open::Drive::Velocity(Profile { mean, shape, openings: openings.clone() }))
+        };
+        side.drive = match given.drive {
+            checked::Drive::Pressure(pressure) => open::Drive::Pressure(pressure),
+            checked::Drive::Velocity(mean, form) => profile(mean, form)?,
+            checked::Drive::FlowRate(rate, form) => profile(rate / width, form)?,
+        };
+        if kinds[number] == Side::Periodic {
+            side.depth = open::Through::WIDTH * h;
+            open.through.push(open::Through { side });
+        } else {
+            open.sides.push(side);
+        }
+    }
+    Ok(open)
+}
+
+/// Form of a profile over the openings of a side, between the sides of the kinds `ends`.
+fn shape(
+    form: checked::Profile,
+    (side, openings): (&'static str, &[Opening]),
+    ends: [Side; 2],
+) -> Result<Shape, SetupError> {
+    match (form, ends) {
+        (checked::Profile::Plug, _) => Ok(Shape::Plug),
+        _ if openings.len() > 1 => Err(SetupError::Openings { side, openings: openings.len() }),
+        (_, [Side::Symmetry, _]) => Ok(Shape::HalfParabola { mirror_above: false }),
+        (_, [_, Side::Symmetry]) => Ok(Shape::HalfParabola { mirror_above: true }),
+        _ => Ok(Shape::Parabola),
+    }
+}
+
+/// Whether solids at the side reach beyond it, as the walls of its buffer do.
+fn goes_on(
+    side: &OpenSide,
+    (geometry, openings): (&Geometry, &[Opening]),
+    near_side: &dyn Fn(f64) -> Vec2,
+    step: Vec2,
+) -> Result<(), SetupError> {
+    let (bounds, along) = (geometry.bounds(), 1 - side.axis());
+    let reach = 2.0 * step[side.axis()];
+    let count = (bounds.size()[along] / step[along]).round() as usize;
+    for i in 0..count {
+        let y = bounds.min[along] + (i as f64 + 0.5) * step[along];
+        let place = near_side(y);
+        let is_open = openings.iter().any(|o| (o.from..=o.to).contains(&y));
+        // A slanted wall may come or go near its edge.
+        let is_near_edge = openings.iter().any(|o| (y - o.from).abs().min((y - o.to).abs()) < reach);
+        if !is_near_edge && is_open != (geometry.signed_distance(side.placed(place, reach)) > 0.0) {
+            return Err(SetupError::EndsAtSide { side: SIDES[side.number], place, reach });
+        }
+    }
+    Ok(())
+}
+
+/// The phase that fills more of the openings.
+fn main_phase(openings: &[Opening], phase: impl Fn(f64) -> Phase, step: f64) -> Phase {
+    let mut wetting = 0_i64;
+    for opening in openings {
+        let count = ((opening.to - opening.from) / step).ceil() as usize;
+        for i in 0..count {
+            let y = opening.from + (opening.to - opening.from) * (i as f64 + 0.5) / count as f64;
+            wetting += if phase(y) == Phase::Wetting { 1 } else { -1 };
+        }
+    }
+    if wetting >= 0 { Phase::Wetting } else { Phase::NonWetting }
+}
+
+/// The place from which walls are seen: beyond an open side the nearest one on the side, so that walls go on along its normal.
+pub(super) fn inside_of_open_sides(sides: &[OpenSide]) -> impl Fn(Vec2) -> Vec2 + Send + Sync + use<> {
+    let sides = sides.to_vec();
+    move |x| sides.iter().fold(x, |x, side| if side.beyond(x) > 0.0 { side.placed(x, 0.0) } else { x })
+}

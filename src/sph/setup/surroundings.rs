@@ -1,0 +1,53 @@
+//! What measures and output know of the walls.
+
+use crate::analysis::contour::Polyline;
+use crate::analysis::phases::wall_samples;
+use crate::case::checked::{Case, Sph};
+use crate::geometry::Geometry;
+use crate::geometry::spec::{GeometrySpec, ShapeSpec};
+use crate::math::{Bounds, Vec2};
+use crate::snapshot::Lines;
+use crate::sph::measures::DiscOf;
+use crate::sph::solver::Surroundings;
+
+/// The surroundings of the flow of a case.
+pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surroundings {
+    let outline = geometry.outline();
+    Surroundings {
+        wall_samples: wall_samples(&polylines(&outline), 0.5 * sph.spacing),
+        outline,
+        discs: discs(&case.geometry),
+        plates: plates(&case.geometry),
+        wall_speeds: sph.wall_speeds,
+        measures: sph.measure.clone(),
+        grid_spacing: case.output.grid_ratio * sph.spacing,
+    }
+}
+
+/// The upright rectangles among the solids.
+fn plates(spec: &GeometrySpec) -> Vec<Bounds> {
+    let plate = |shape: &ShapeSpec| match shape {
+        ShapeSpec::Rectangle(r) if r.rotation_deg == 0.0 => {
+            let (center, half) = (Vec2::from(r.center), 0.5 * Vec2::from(r.size));
+            Some(Bounds { min: center - half, max: center + half })
+        }
+        _ => None,
+    };
+    spec.shapes.iter().filter_map(plate).collect()
+}
+
+fn discs(spec: &GeometrySpec) -> Vec<DiscOf> {
+    let disc = |shape: &ShapeSpec| match shape {
+        ShapeSpec::Disc(disc) => Some(DiscOf { center: Vec2::from(disc.center), radius: disc.radius }),
+        _ => None,
+    };
+    spec.shapes.iter().filter_map(disc).collect()
+}
+
+fn polylines(outline: &Lines) -> Vec<Polyline> {
+    let line = |line: &Vec<u32>| Polyline {
+        points: line.iter().map(|&i| outline.points[i as usize]).collect(),
+        closed: false,
+    };
+    outline.lines.iter().map(line).collect()
+}

@@ -1,0 +1,96 @@
+//! Walls: where their particles stand, how they move, where the wetting differs, and mirrors.
+
+use std::sync::Arc;
+
+use crate::case::checked::{PatchedWall, Side, Sph, WettingPatch};
+use crate::geometry::Geometry;
+use crate::geometry::shells::FreeWalls;
+use crate::math::{Bounds, Vec2};
+use crate::sph::domain::{Domain, ImageVelocity, Mirror};
+use crate::sph::fill::{self, Lattice, Places};
+use crate::sph::method::Method;
+use crate::sph::packing::Packing;
+use crate::sph::wetting::wall::{WallSpot, WallSpots};
+
+pub(super) fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
+    let places = [(0, bounds.min.x), (0, bounds.max.x), (1, bounds.min.y), (1, bounds.max.y)];
+    let mirror = |(side, (axis, at)): (Side, (usize, f64))| match side {
+        Side::Image => Some(Mirror { axis, at, image: ImageVelocity::Reversed }),
+        Side::Symmetry => Some(Mirror { axis, at, image: ImageVelocity::Mirrored }),
+        Side::Periodic | Side::Wall | Side::Inlet | Side::Outlet => None,
+    };
+    sides.into_iter().zip(places).filter_map(mirror).collect()
+}
+
+/// Where the particles stand at time zero: along walls that the lattice does not fit, and packed to them.
+pub(super) fn fitted_places(
+    (geometry, domain): (&Geometry, &Domain),
+    lattice: &Lattice,
+    method: &Method,
+    walls: [bool; 4],
+) -> Places {
+    let support = method.kernel.support();
+    let signed_distance = |x| geometry.signed_distance(x);
+    let free = FreeWalls::new(geometry, support, |a, b| lattice.fits(a, b));
+    if free.is_empty() {
+        return fill::on_lattice(lattice, support, walls, signed_distance);
+    }
+    let pore_area = geometry.porosity().value * geometry.bounds().area();
+    let mut places = fill::along_walls((lattice, domain), (support, walls), &free, signed_distance, pore_area);
+    let packing = Packing {
+        walls: &places.walls,
+        domain,
+        kernel: &method.kernel,
+        spacing: method.spacing,
+        volume: method.volume,
+        wall: |x| {
+            let wall = geometry.wall(x);
+            (wall.distance, wall.normal)
+        },
+    };
+    packing.pack(&mut places.fluid);
+    places
+}
+
+/// Patches and velocities of the walls; none where all walls are alike and at rest.
+pub(super) fn wall_spots(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallSpots> {
+    if sph.wetting_patches.is_empty() && sph.wall_speeds == [0.0; 4] {
+        return None;
+    }
+    let (patches, speeds, geometry) = (sph.wetting_patches.clone(), sph.wall_speeds, Arc::clone(geometry));
+    Some(WallSpots::new(Box::new(move |x| {
+        let wall = geometry.wall(x);
+        // Walls at the sides are numbered after the shapes.
+        let side = wall.shape.checked_sub(geometry.shape_count()).filter(|side| *side < 4);
+        let velocity = match side {
+            Some(side @ (0 | 1)) => Vec2::new(0.0, speeds[side as usize]),
+            Some(side) => Vec2::new(speeds[side as usize], 0.0),
+            None => Vec2::zeros(),
+        };
+        let foot = geometry.wrapped(x - wall.distance * wall.normal);
+        let lies_there = |patch: &WettingPatch| {
+            let on = match patch.on {
+                PatchedWall::All => true,
+                PatchedWall::Shape(shape) => wall.shape == shape,
+                PatchedWall::Side(number) => side == Some(number),
+            };
+            on && wall.distance.is_finite() && patch.stripes.is_none_or(|stripes| stripes.contains(foot))
+        };
+        WallSpot { patch: patches.iter().rposition(lies_there), velocity }
+    })))
+}
+
+/// Velocity of a wall particle in m/s: that of the side which it stands behind, none behind a corner.
+pub(super) fn wall_velocity(speeds: [f64; 4], x: Vec2, bounds: Bounds) -> Vec2 {
+    let [left, right, bottom, top] = speeds;
+    let behind = |i: usize, lower: f64, upper: f64| match () {
+        () if x[i] < bounds.min[i] => Some(lower),
+        () if x[i] > bounds.max[i] => Some(upper),
+        () => None,
+    };
+    match (behind(0, left, right), behind(1, bottom, top)) {
+        (Some(along), None) => Vec2::new(0.0, along),
+        (None, Some(along)) => Vec2::new(along, 0.0),
+        _ => Vec2::zeros(),
+    }
+}

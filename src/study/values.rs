@@ -1,0 +1,31 @@
+//! Values of parameters: as numbers, as people read them, and when two are the same.
+
+use toml::Value;
+
+/// A value as people read it.
+#[must_use]
+pub fn shown(value: &Value) -> String {
+    /// Outside of these an exponent is shorter than zeros.
+    const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e6;
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Float(number) if *number != 0.0 && !FIXED.contains(&number.abs()) => format!("{number:e}"),
+        Value::Float(number) => number.to_string(),
+        other => other.to_string(),
+    }
+}
+
+/// The number that a value is, whole or not.
+#[must_use]
+pub fn number_of(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
+/// Whether two values are the same; numbers are, however they were written.
+#[must_use]
+pub fn same(a: &Value, b: &Value) -> bool {
+    match (number_of(a), number_of(b)) {
+        (Some(a), Some(b)) => a == b,
+        _ => a == b,
+    }
+}
