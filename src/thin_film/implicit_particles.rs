@@ -145,14 +145,13 @@ impl Implicit for ParticleMethod {
 #[cfg(test)]
 mod tests {
     use super::super::ode::Rates;
-    use super::super::particles::LatticeEnergy;
-    use super::super::particles::tests::method;
+    use super::super::particles::{LatticeEnergy, disturbed};
     use super::*;
 
     #[test]
     fn implicit_steps_use_the_jacobian_of_the_rates() {
         for (wetting, lattice) in [(0.0, LatticeEnergy::Kept), (1.16, LatticeEnergy::TakenOff)] {
-            let (mut method, x) = method(wetting, lattice);
+            let (mut method, x) = disturbed(wetting, lattice);
             let count = x.len();
             let change: Vec<f64> = (0..count).map(|i| (1.7 * i as f64).cos()).collect();
             let step = 1.0e-7;

@@ -186,24 +186,26 @@ impl Rates for ParticleMethod {
     }
 }
 
+/// A droplet whose particles were moved about a little, for tests.
 #[cfg(test)]
-pub(super) mod tests {
+pub(super) fn disturbed(wetting: f64, lattice: LatticeEnergy) -> (ParticleMethod, Vec<f64>) {
+    let droplet = super::droplet::Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
+    let masses = super::droplet::particles(&[droplet], 0.02, super::droplet::WeightRule::Cell);
+    let wave = |x: &f64| x + 0.004 * (40.0 * x + 0.3).sin();
+    let pull = Pull { wetting, bond: 2.0 * wetting };
+    (ParticleMethod::new(Kernel::new(0.05), &masses, pull, lattice), masses.x.iter().map(wave).collect())
+}
+
+#[cfg(test)]
+mod tests {
     use super::super::droplet::{Droplet, WeightRule, particles};
     use super::*;
 
     const DROPLET: Droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
 
-    /// A droplet whose particles were moved about a little.
-    pub fn method(wetting: f64, lattice: LatticeEnergy) -> (ParticleMethod, Vec<f64>) {
-        let masses = particles(&[DROPLET], 0.02, WeightRule::Cell);
-        let wave = |x: &f64| x + 0.004 * (40.0 * x + 0.3).sin();
-        let pull = Pull { wetting, bond: 2.0 * wetting };
-        (ParticleMethod::new(Kernel::new(0.05), &masses, pull, lattice), masses.x.iter().map(wave).collect())
-    }
-
     #[test]
     fn the_forces_between_particles_cancel() {
-        let (mut method, x) = method(1.16, LatticeEnergy::Kept);
+        let (mut method, x) = disturbed(1.16, LatticeEnergy::Kept);
         let smoothed = method.smooth(&x).clone();
         for field in [&smoothed.third, &smoothed.slope] {
             let size: f64 = field.iter().zip(&method.weight).map(|(f, w)| (f * w).abs()).sum();
@@ -215,7 +217,7 @@ pub(super) mod tests {
     #[test]
     fn energy_falls_at_the_rate_of_dissipation() {
         for wetting in [0.0, 1.16] {
-            let (mut method, x) = method(wetting, LatticeEnergy::Kept);
+            let (mut method, x) = disturbed(wetting, LatticeEnergy::Kept);
             let mut rate = vec![0.0; x.len()];
             method.rates(&x, &mut rate);
             let height = method.smoothed.height.clone();
