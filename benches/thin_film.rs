@@ -62,7 +62,7 @@ fn grid_steps(criterion: &mut Criterion) {
     for count in [1000_usize, 100_000] {
         let alpha = if count > 10_000 { 0.01 } else { ALPHA };
         let line = Line { from: -1.0, count, spacing: 2.0 / count as f64, alpha, wetting: 1.16, bond: 0.0 };
-        let (ring, height) = Ring::new(line, &[DROPLET], WeightRule::Cell);
+        let (ring, height) = Ring::new(line, &[DROPLET], WeightRule::Cell).unwrap();
         let start = GridFilm::new(Equation::Ring(ring), height, StepRule::fixed(1.0e-6));
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::new("ring", count), |bencher| {

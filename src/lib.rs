@@ -2,6 +2,7 @@
 //!
 //! A run goes one way: case -> checked case -> geometry -> solver -> snapshot -> sinks -> report.
 
+pub mod diagram;
 pub mod math;
 pub mod snapshot;
 pub mod solver;

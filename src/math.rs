@@ -63,3 +63,9 @@ impl Bounds {
         Self { min: self.min - by, max: self.max + by }
     }
 }
+
+/// Lets faer work in one thread from now on: what it sums in parts would depend on the number of threads. The library diffsol builds it
+/// with threads.
+pub fn factor_in_one_thread() {
+    faer::set_global_parallelism(faer::Par::Seq);
+}

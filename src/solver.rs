@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::diagram::Diagram;
 use crate::math::Vec2;
 use crate::snapshot::{Lines, Snapshot};
 
@@ -169,6 +170,11 @@ pub trait Solver {
 
     /// The final results; `series` holds all rows recorded so far.
     fn measures(&self, series: &Series) -> Vec<Measure>;
+
+    /// Diagrams of the run so far, where the solver kept what they show.
+    fn diagrams(&self) -> Vec<Diagram> {
+        Vec::new()
+    }
 
     /// All that the future depends on, so that `restore` and more steps give the same bits as an unbroken run.
     fn state(&self) -> Vec<u8>;

@@ -15,8 +15,12 @@ mod reference;
 
 use page::{Page, code, files, page, pages, root, text, words};
 
+/// Whether there is such a path, or a file that its last part stands for where that has a `*`.
 fn exists(path: &Path) -> bool {
-    path.exists()
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let Some((begin, end)) = name.split_once('*') else { return path.exists() };
+    let files = path.parent().and_then(|folder| std::fs::read_dir(folder).ok()).into_iter().flatten().flatten();
+    files.map(|file| file.file_name().to_string_lossy().into_owned()).any(|n| n.starts_with(begin) && n.ends_with(end))
 }
 
 /// The sources and tests as one text.

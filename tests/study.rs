@@ -321,6 +321,52 @@ fn a_plan_tells_what_each_run_takes_and_writes_nothing() {
 }
 
 #[test]
+fn several_studies_run_one_after_the_other_each_into_its_own_folder() {
+    const TWO: &str = "format = 1\ntitle = \"Two\"\ncase = \"drop.toml\"\nset = [\"time.end=1.5e-4\"]\n[[axis]]\n\
+                       key = \"sph.interface.tension\"\nvalues = [0.01, 0.02]\n";
+    let folder = folder_with(TWO);
+    let at = |name: &str| folder.path().join(name);
+    // The second one expects what does not come; the third is done nevertheless.
+    std::fs::write(
+        at("missed.toml"),
+        format!("{TWO}[[expect]]\nmeasure = \"contact-angle-deg\"\nvalue = 1.0\ntolerance = 0.1\n"),
+    )
+    .unwrap();
+    std::fs::write(at("third.toml"), TWO).unwrap();
+    let all = ["study.toml", "missed.toml", "third.toml"];
+    let study = |command: &str, files: &[&str], more: &[&str]| {
+        meniscus(folder.path(), &[&["study", command], files, more].concat())
+    };
+    let planned = study("plan", &all, &[]);
+    assert_code(&planned, 0);
+    assert_eq!(stdout(&planned).matches("2 runs, 2 to do").count(), 3, "{}", stdout(&planned));
+    let run = study("run", &all, &["--out", "all"]);
+    assert_code(&run, 5);
+    for name in ["study", "missed", "third"] {
+        assert_eq!(reports(&at(&format!("all/study-{name}"))), 2, "{name}");
+        assert!(at(&format!("all/study-{name}/report.html")).is_file(), "{name}");
+    }
+    assert_code(&study("report", &all, &["--out", "all"]), 5);
+    assert_code(&study("report", &["study.toml", "third.toml"], &["--out", "all"]), 0);
+    // Without a folder each has its own below `out`.
+    assert_code(&study("run", &["study.toml", "third.toml"], &[]), 0);
+    assert_eq!(reports(&at("out/study-third")), 2);
+
+    std::fs::create_dir(at("other")).unwrap();
+    std::fs::write(at("other/third.toml"), TWO.replace("drop.toml", "../drop.toml")).unwrap();
+    let twice = study("run", &["third.toml", "other/third.toml"], &[]);
+    assert_code(&twice, 2);
+    assert!(stderr(&twice).contains("two studies of the name third"), "{}", stderr(&twice));
+    let indexed = study("run", &all, &["--index", "1"]);
+    assert_code(&indexed, 2);
+    assert!(stderr(&indexed).contains("name that study alone"), "{}", stderr(&indexed));
+    // All files are read before anything starts.
+    std::fs::write(at("wrong.toml"), "format = 1\n").unwrap();
+    assert_code(&study("run", &["study.toml", "wrong.toml"], &["--out", "none"]), 3);
+    assert!(!at("none").exists());
+}
+
+#[test]
 fn every_shipped_study_can_be_planned() {
     let folders = ["studies", "studies/thin-film", "studies/validation"];
     for study in folders.into_iter().flat_map(|folder| program::shipped(folder, &["toml"])) {

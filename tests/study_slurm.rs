@@ -58,6 +58,35 @@ fn the_script_of_a_job_array_names_the_runs_that_are_left() {
     assert!(Command::new("bash").arg("-n").arg(folder.path().join("out/slurm.sh")).status().unwrap().success());
 }
 
+#[test]
+fn several_studies_are_submitted_one_by_one() {
+    let folder = folder();
+    std::fs::write(folder.path().join("other.toml"), STUDY.replace("[50, 60, 70, 80]", "[50, 60]")).unwrap();
+    let bin = folder.path().join("bin");
+    std::fs::create_dir(&bin).unwrap();
+    // It tells what it was given, in place of a cluster.
+    let sbatch = bin.join("sbatch");
+    std::fs::write(&sbatch, "#!/bin/sh\necho 7\n").unwrap();
+    let mut executable = std::fs::metadata(&sbatch).unwrap().permissions();
+    std::os::unix::fs::PermissionsExt::set_mode(&mut executable, 0o755);
+    std::fs::set_permissions(&sbatch, executable).unwrap();
+    let output =
+        command(folder.path(), &["study", "run", "study.toml", "other.toml", "--out", "out", "--engine", "slurm"])
+            .env("PATH", &bin)
+            .output()
+            .unwrap();
+    assert_code(&output, 0);
+    let text = stdout(&output);
+    assert!(
+        text.contains("4 runs submitted as job array 7") && text.contains("2 runs submitted as job array 7"),
+        "{text}"
+    );
+    for (name, array) in [("study", "1-4"), ("other", "1-2")] {
+        let script = std::fs::read_to_string(folder.path().join(format!("out/study-{name}/slurm.sh"))).unwrap();
+        assert!(script.contains(&format!("--array={array}")) && script.contains(&format!("{name}.toml")), "{script}");
+    }
+}
+
 /// A process of the cluster; it ends with the test.
 struct Daemon(Child);
 

@@ -23,7 +23,7 @@ fn half(symmetry: Symmetry, model: Model, length: f64, count: usize, bond: f64) 
 }
 
 fn film(layout: Layout, droplet: Droplet, rule: StepRule) -> GridFilm {
-    let (cells, height) = Cells::new(layout, &[droplet], WeightRule::Cell);
+    let (cells, height) = Cells::new(layout, &[droplet], WeightRule::Cell).unwrap();
     GridFilm::new(Equation::Cells(cells), height, rule)
 }
 
@@ -81,7 +81,7 @@ fn waves_on_a_film_decay_at_their_exact_rate() {
             (Model::Precursor { film: 0.3, slope: 2.0, slip: 0.0 }, 1.0, 4.0 * (2.0 * 0.3 - 3.0 * 0.09)),
         ];
         for (model, mobility, disjoining) in models {
-            let (cells, _) = Cells::new(half(symmetry, model, 1.0, count, bond), &[], WeightRule::Cell);
+            let (cells, _) = Cells::new(half(symmetry, model, 1.0, count, bond), &[], WeightRule::Cell).unwrap();
             let grid = Equation::Cells(cells);
             let nodes: Vec<f64> = (0..count).map(|i| (i as f64 + 0.5) / count as f64).collect();
             let start = nodes.iter().map(|x| 1.0 + small * wave(k * x)).collect();
@@ -140,7 +140,7 @@ fn droplets_in_the_plane_and_about_an_axis_spread_by_tanner_s_law() {
 fn cells_and_the_paper_s_differences_solve_the_same_equation() {
     let mut cells = film(half(Symmetry::Plane, GEOMETRIC, 2.0, 400, 0.0), DROPLET, RULE);
     let line = Line { from: -2.0, count: 800, spacing: 0.005, alpha: 0.05, wetting: 0.0, bond: 0.0 };
-    let (ring, height) = Ring::new(line, &[DROPLET], WeightRule::Cell);
+    let (ring, height) = Ring::new(line, &[DROPLET], WeightRule::Cell).unwrap();
     let mut ring = GridFilm::new(Equation::Ring(ring), height, RULE);
     cells.run(20.0).unwrap();
     ring.run(20.0).unwrap();
@@ -178,7 +178,7 @@ fn a_droplet_under_gravity_rests_in_its_closed_form() {
     assert!(rest.height(0.0) < 0.9 * free.height(0.0), "gravity must flatten the droplet: {}", rest.height(0.0));
 
     let line = Line { from: -2.5, count: 500, spacing: 0.01, alpha, wetting, bond };
-    let (ring, height) = Ring::new(line, &[droplet], WeightRule::Cell);
+    let (ring, height) = Ring::new(line, &[droplet], WeightRule::Cell).unwrap();
     let mut ring = GridFilm::new(Equation::Ring(ring), height, RULE);
     ring.run(300.0).unwrap();
     let off = profile(&ring).distance_to(|x| rest.height(x));

@@ -101,9 +101,10 @@ pub enum StudyCommand {
 /// `study plan`.
 #[derive(Debug, Args)]
 pub struct StudyPlanArguments {
-    /// Study file
-    pub study: PathBuf,
-    /// Study folder, out/study-NAME where there is none; nothing is written
+    /// Study files, one after the other
+    #[arg(required = true, value_name = "STUDY")]
+    pub studies: Vec<PathBuf>,
+    /// Study folder, out/study-NAME where there is none; nothing is written. Of several studies: the folder that holds theirs
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     #[command(flatten)]
@@ -124,9 +125,10 @@ pub struct CoresArguments {
 /// `study run`.
 #[derive(Debug, Args)]
 pub struct StudyRunArguments {
-    /// Study file
-    pub study: PathBuf,
-    /// Study folder, new or of this study; out/study-NAME where there is none
+    /// Study files, one after the other
+    #[arg(required = true, value_name = "STUDY")]
+    pub studies: Vec<PathBuf>,
+    /// Study folder, new or of this study; out/study-NAME where there is none. Of several studies: the folder that holds theirs
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     #[command(flatten)]
@@ -163,9 +165,10 @@ pub enum Engine {
 /// `study report`.
 #[derive(Debug, Args)]
 pub struct StudyReportArguments {
-    /// Study file
-    pub study: PathBuf,
-    /// Study folder, out/study-NAME where there is none
+    /// Study files, one after the other
+    #[arg(required = true, value_name = "STUDY")]
+    pub studies: Vec<PathBuf>,
+    /// Study folder, out/study-NAME where there is none. Of several studies: the folder that holds theirs
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }

@@ -1,13 +1,19 @@
 //! Ctrl-C: the first one asks the run to stop after its step, the second one ends the program at once.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use super::exit::INTERRUPTED;
 use super::output::tell;
 
-/// A flag that Ctrl-C sets. Where no handler can be installed, Ctrl-C ends the program as it always does.
+/// The flag that Ctrl-C sets, the same one for all that a process does. Where no handler can be installed, Ctrl-C ends the program as it
+/// always does.
 pub fn flag() -> Arc<AtomicBool> {
+    static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+    Arc::clone(FLAG.get_or_init(set_by_interrupt))
+}
+
+fn set_by_interrupt() -> Arc<AtomicBool> {
     let flag = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&flag);
     let handler = move || {

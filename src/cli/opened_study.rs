@@ -1,9 +1,9 @@
 //! What all study commands share: a study with its runs, its folder, and how it is told.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::arguments::CoresArguments;
-use super::exit::{BUG, DONE, EXPECTATION_FAILED, Failure, SOLVER_FAILED, USAGE};
+use super::exit::{BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::say;
 use crate::study::child::Program;
 use crate::study::definition::Study;
@@ -27,18 +27,49 @@ pub struct Opened {
     pub program: Program,
 }
 
-/// Loads a study file and checks the cases of all its runs.
-pub fn open(path: &Path, out: Option<&Path>) -> Result<Opened, Failure> {
-    let study = load(path).map_err(Failure::input)?;
-    let runs = plan(&study).map_err(Failure::input)?;
-    let folder = folder(&study, out);
-    Ok(Opened { study, runs, folder, program: program(path)? })
+/// Loads study files and checks the cases of all their runs, so that nothing starts before all are right.
+pub fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>, Failure> {
+    let mut all: Vec<Opened> = Vec::new();
+    for path in paths {
+        let study = load(path).map_err(Failure::input)?;
+        let runs = plan(&study).map_err(Failure::input)?;
+        let folder = match out {
+            Some(out) if paths.len() > 1 => StudyFolder::new(&out.join(folder_name(&study))),
+            _ => folder(&study, out),
+        };
+        if let Some(other) = all.iter().find(|other| other.folder.root() == folder.root()) {
+            let (name, root) = (&other.study.name, folder.root().display());
+            let message = format!("two studies of the name {name} would both write to {root}; name them one at a time");
+            return Err(Failure::new(USAGE, &message));
+        }
+        all.push(Opened { study, runs, folder, program: program(path)? });
+    }
+    Ok(all)
+}
+
+fn folder_name(study: &Study) -> String {
+    format!("study-{}", study.name)
 }
 
 /// The folder of a study: the one that was named, or `out/study-NAME`.
 pub fn folder(study: &Study, out: Option<&Path>) -> StudyFolder {
-    let named = out.map_or_else(|| Path::new("out").join(format!("study-{}", study.name)), Path::to_path_buf);
+    let named = out.map_or_else(|| Path::new("out").join(folder_name(study)), Path::to_path_buf);
     StudyFolder::new(&named)
+}
+
+/// Does something with one study after the other. One that failed does not keep the next from its turn, an interruption does; the exit code
+/// is the gravest one.
+pub fn each(all: &[Opened], mut one: impl FnMut(&Opened) -> Result<u8, Failure>) -> Result<u8, Failure> {
+    let mut gravest = DONE;
+    for opened in all {
+        match one(opened)? {
+            INTERRUPTED => return Ok(INTERRUPTED),
+            SOLVER_FAILED => gravest = SOLVER_FAILED,
+            EXPECTATION_FAILED if gravest == DONE => gravest = EXPECTATION_FAILED,
+            _ => {}
+        }
+    }
+    Ok(gravest)
 }
 
 fn program(study: &Path) -> Result<Program, Failure> {

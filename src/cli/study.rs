@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::arguments::{StudyCommand, StudyPlanArguments, StudyReportArguments};
 use super::exit::{DONE, Failure, USAGE};
-use super::opened_study::{cores, finish, open};
+use super::opened_study::{Opened, cores, each, finish, open};
 use super::output::{duration, readable, say};
 use super::study_run;
 use crate::run::trial::Trial;
@@ -28,8 +28,11 @@ pub fn study(command: &StudyCommand) -> Result<u8, Failure> {
 }
 
 fn tell_plan(arguments: &StudyPlanArguments) -> Result<u8, Failure> {
-    let opened = open(&arguments.study, arguments.out.as_deref())?;
     let cores = cores(&arguments.cores);
+    each(&open(&arguments.studies, arguments.out.as_deref())?, |opened| tell_one_plan(opened, cores))
+}
+
+fn tell_one_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
     let never = AtomicBool::new(false);
     let kept = opened.folder.estimates();
     let found = estimates(&opened.runs, &opened.program, cores, (&kept, false), &never);
@@ -101,11 +104,13 @@ fn totals(results: &[RunResult], estimates: &[Estimate], cores: Cores) -> String
 }
 
 fn write_report(arguments: &StudyReportArguments) -> Result<u8, Failure> {
-    let opened = open(&arguments.study, arguments.out.as_deref())?;
-    if !opened.folder.root().exists() {
-        let folder = opened.folder.root().display();
-        let message = format!("there is no study in {folder}; start it with `meniscus study run`, or name --out DIR");
-        return Err(Failure::new(USAGE, &message));
-    }
-    finish(&opened)
+    each(&open(&arguments.studies, arguments.out.as_deref())?, |opened| {
+        if !opened.folder.root().exists() {
+            let folder = opened.folder.root().display();
+            let message =
+                format!("there is no study in {folder}; start it with `meniscus study run`, or name --out DIR");
+            return Err(Failure::new(USAGE, &message));
+        }
+        finish(opened)
+    })
 }

@@ -1,6 +1,7 @@
 //! `meniscus study run`: all runs on this machine or on a cluster, or one of them in this process.
 
 use std::io::Read;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -8,7 +9,7 @@ use std::time::Duration;
 use super::arguments::{Engine, StudyRunArguments};
 use super::exit::{BAD_INPUT, DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::interrupt;
-use super::opened_study::{Opened, cores, finish, folder, open};
+use super::opened_study::{Opened, cores, each, finish, folder, open};
 use super::output::{duration, say, tell};
 use super::progress::ProgressDisplay;
 use crate::study::engine::{End, Event, Work, free_memory, work};
@@ -22,17 +23,21 @@ use crate::study::slurm::{Array, submit};
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: u64 = 1 << 20;
 
-/// Does the runs; the exit code says how the study stands.
+/// Does the runs; the exit code says how the studies stand.
 pub fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
     if let Some(index) = arguments.index {
-        return one(arguments, index.get());
+        let [study] = arguments.studies.as_slice() else {
+            return Err(Failure::new(USAGE, &"--index is the number of a run of one study; name that study alone"));
+        };
+        return one(arguments, study, index.get());
     }
-    let opened = open(&arguments.study, arguments.out.as_deref())?;
-    let _claim = opened.folder.claim(Share::Alone).map_err(|error| Failure::new(USAGE, &error))?;
-    match arguments.engine {
-        Engine::Local => here(arguments, &opened),
-        Engine::Slurm => cluster(arguments, &opened),
-    }
+    each(&open(&arguments.studies, arguments.out.as_deref())?, |opened| {
+        let _claim = opened.folder.claim(Share::Alone).map_err(|error| Failure::new(USAGE, &error))?;
+        match arguments.engine {
+            Engine::Local => here(arguments, opened),
+            Engine::Slurm => cluster(arguments, opened),
+        }
+    })
 }
 
 /// All runs on this machine.
@@ -126,8 +131,8 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
 }
 
 /// One run in this process.
-fn one(arguments: &StudyRunArguments, index: usize) -> Result<u8, Failure> {
-    let study = load(&arguments.study).map_err(Failure::input)?;
+fn one(arguments: &StudyRunArguments, study: &Path, index: usize) -> Result<u8, Failure> {
+    let study = load(study).map_err(Failure::input)?;
     let all: Vec<Run> = runs(&study);
     let Some(run) = all.get(index - 1) else {
         let message = format!("the study has {} runs, there is no run {index}", all.len());

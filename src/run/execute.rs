@@ -14,7 +14,7 @@ use super::sink::Start;
 use crate::case::checked::Case;
 use crate::io::checksum::fnv1a;
 use crate::io::picture::{PictureError, picture};
-use crate::io::{FileError, atomic};
+use crate::io::{FileError, atomic, diagram};
 use crate::solver::{Solver, StateError};
 
 /// Whether a run is new or goes on with one that stopped.
@@ -117,6 +117,7 @@ pub fn execute(
     ended?;
     written?;
     let picture = draw(job, solver)?;
+    draw_diagrams(job, solver)?;
     Ok(Finished { report, folder: job.folder.clone(), picture, was_at_end })
 }
 
@@ -170,6 +171,16 @@ fn draw(job: &Job<'_>, solver: &dyn Solver) -> Result<Result<PathBuf, PictureErr
         Ok(png) => atomic::write(path, &png).map(|()| Ok(path.to_path_buf())),
         Err(error) => Ok(Err(error)),
     }
+}
+
+/// Draws the diagrams of the run; one that cannot be drawn is left out.
+fn draw_diagrams(job: &Job<'_>, solver: &dyn Solver) -> Result<(), FileError> {
+    for diagram in solver.diagrams() {
+        if let Ok(Some(svg)) = diagram::svg(&diagram) {
+            atomic::write(&job.folder.join(format!("diagram-{}.svg", diagram.name)), svg.as_bytes())?;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -131,6 +131,9 @@ pub struct SolverReport {
     pub unknowns: usize,
     /// Steps done by this process.
     pub steps: u64,
+    /// Wall time of the solver's own parts in s, without output.
+    #[serde(rename = "wall-time-s")]
+    pub wall_time_s: f64,
     /// Further counts by name.
     pub counts: BTreeMap<&'static str, f64>,
 }
@@ -140,6 +143,7 @@ impl From<&Statistics> for SolverReport {
         Self {
             unknowns: statistics.unknowns,
             steps: statistics.steps,
+            wall_time_s: statistics.parts.iter().map(|part| part.seconds).sum(),
             counts: statistics.counts.iter().copied().collect(),
         }
     }

@@ -9,29 +9,10 @@ use super::raw::RawScale;
 use super::results::{RunResult, measures};
 use super::values::shown;
 use crate::analysis::convergence::observed_order;
+use crate::io::axes::{DrawingError, LEGEND, color_of, draw_legend, logarithmic_ticks, range, short};
 
 /// Width and height of the drawing in pixels.
 const SIZE: (u32, u32) = (720, 480);
-/// Width of the legend beside it in pixels.
-const LEGEND: u32 = 220;
-/// Height of a line of the legend in pixels.
-const LEGEND_LINE: i32 = 20;
-/// Share of the range that is left free on either side of the data.
-const RIM: f64 = 0.06;
-/// Colors that color-blind eyes and gray prints keep apart (Okabe and Ito 2008).
-const COLORS: [RGBColor; 10] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(90, 90, 90),
-    RGBColor(150, 75, 0),
-    RGBColor(128, 128, 0),
-    RGBColor(0, 0, 0),
-];
-
 /// A curve that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
@@ -99,8 +80,8 @@ pub fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, Curve
     let all_y = lines
         .iter()
         .flat_map(|line| line.points.iter().flat_map(whiskers).chain(line.reference.iter().map(|point| point.1)));
-    let x = range(all_x, curve.x_scale);
-    let y = range(all_y, curve.y_scale);
+    let x = range(all_x, curve.x_scale == RawScale::Logarithmic);
+    let y = range(all_y, curve.y_scale == RawScale::Logarithmic);
     let labels = (curve.x.clone(), y_label(curve, results));
     let mut text = String::new();
     let x_ticks = distinct(&lines).filter(|_| curve.x_scale == RawScale::Logarithmic);
@@ -120,21 +101,6 @@ pub fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, Curve
     Ok(Some(text))
 }
 
-/// The range of some values with a rim.
-fn range(values: impl Iterator<Item = f64> + Clone, scale: RawScale) -> std::ops::Range<f64> {
-    /// Half the range around a single value, as a share of it.
-    const AROUND_ONE: f64 = 0.5;
-    let logarithmic = scale == RawScale::Logarithmic;
-    let to = |value: f64| if logarithmic { value.ln() } else { value };
-    let from = |value: f64| if logarithmic { value.exp() } else { value };
-    let values = values.filter(|value| !logarithmic || *value > 0.0);
-    let low = to(values.clone().fold(f64::INFINITY, f64::min));
-    let high = to(values.fold(f64::NEG_INFINITY, f64::max));
-    let size = high - low;
-    let rim = if size > 0.0 { RIM * size } else { (AROUND_ONE * low.abs()).max(AROUND_ONE) };
-    from(low - rim)..from(high + rim)
-}
-
 /// The values of x where they are few enough to stand at the axis.
 fn distinct(lines: &[Line]) -> Option<Vec<f64>> {
     /// More labels than this would meet.
@@ -143,22 +109,6 @@ fn distinct(lines: &[Line]) -> Option<Vec<f64>> {
     values.sort_by(f64::total_cmp);
     values.dedup();
     Some(values).filter(|values| values.len() <= MOST)
-}
-
-/// Round numbers in a range of a logarithmic axis: powers of ten where there are enough of them, else more.
-fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
-    /// Fewest numbers that tell a scale.
-    const FEWEST: usize = 3;
-    const STEPS: [&[f64]; 3] = [&[1.0], &[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
-    let exponents = range.start.log10().floor() as i32..=range.end.log10().floor() as i32;
-    let ticks = |steps: &[f64]| -> Vec<f64> {
-        // A product with a power of ten would leave digits behind the last one.
-        let tick = |step: &f64, exponent: i32| format!("{step}e{exponent}").parse().unwrap_or(f64::NAN);
-        let all = exponents.clone().flat_map(|e| steps.iter().map(move |step| tick(step, e)));
-        all.filter(|tick| range.contains(tick)).collect()
-    };
-    let mut candidates = STEPS.iter().map(|steps| ticks(steps));
-    candidates.find(|ticks| ticks.len() >= FEWEST).unwrap_or_else(|| ticks(STEPS[2]))
 }
 
 fn y_label(curve: &Curve, results: &[RunResult]) -> String {
@@ -174,20 +124,19 @@ fn y_label(curve: &Curve, results: &[RunResult]) -> String {
     }
 }
 
-/// The name of a line in the legend, with the observed order where the scales show a power law as a straight line.
+/// The name of a line in the legend, with the observed order or slope where the scales show a power law as a straight line.
 fn legend(curve: &Curve, line: &Line) -> String {
     let logarithmic = curve.x_scale == RawScale::Logarithmic && curve.y_scale == RawScale::Logarithmic;
     let (x, y): (Vec<f64>, Vec<f64>) = line.points.iter().map(|point| (point.0, point.1)).unzip();
     let order = observed_order(&x, &y);
-    let order = (curve.error && logarithmic && order.is_finite()).then(|| format!("order {order:.2}"));
+    let word = if curve.error { "order" } else { "slope" };
+    let order = (logarithmic && order.is_finite()).then(|| format!("{word} {order:.2}"));
     [Some(line.name.clone()).filter(|name| !name.is_empty()), order]
         .into_iter()
         .flatten()
         .collect::<Vec<_>>()
         .join(", ")
 }
-
-type DrawingError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
 fn draw<'a, X, Y>(
     text: &'a mut String,
@@ -203,8 +152,9 @@ where
     X::CoordDescType: ValueFormatter<f64>,
     Y::CoordDescType: ValueFormatter<f64>,
 {
-    let names: Vec<String> = lines.iter().map(|line| legend(curve, line)).collect();
-    let named = names.iter().any(|name| !name.is_empty());
+    let name = |(number, line)| (legend(curve, line), color_of(number));
+    let names: Vec<(String, RGBColor)> = lines.iter().enumerate().map(name).collect();
+    let named = names.iter().any(|(name, _)| !name.is_empty());
     let width = SIZE.0 + if named { LEGEND } else { 0 };
     let whole = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
     whole.fill(&WHITE)?;
@@ -241,33 +191,6 @@ where
     whole.present()
 }
 
-fn color_of(number: usize) -> RGBColor {
-    COLORS[number % COLORS.len()]
-}
-
-/// Draws the names of the lines beside the drawing, where they hide nothing.
-fn draw_legend<'a>(
-    area: &DrawingArea<SVGBackend<'a>, plotters::coord::Shift>,
-    names: &[String],
-) -> Result<(), DrawingError<'a>> {
-    for (number, name) in names.iter().enumerate() {
-        let y = 60 + LEGEND_LINE * number as i32;
-        area.draw(&PathElement::new([(0, y), (18, y)], color_of(number).stroke_width(2)))?;
-        area.draw(&Text::new(name.as_str(), (26, y - 6), ("sans-serif", 14)))?;
-    }
-    Ok(())
-}
-
-/// A number at an axis: no more digits than it has.
-fn short(value: f64) -> String {
-    /// Outside of these an exponent is shorter than zeros.
-    const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
-    /// Rounds off what computing with ticks leaves.
-    const DIGITS: usize = 6;
-    let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
-    if rounded == 0.0 || FIXED.contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::toy::{complete, study};
@@ -294,19 +217,5 @@ mod tests {
         assert!(text.starts_with("<svg") && text.matches("order 2.00").count() == 2, "{text}");
         assert!(text.contains("|m − angle| in deg") && !text.contains("NaN"));
         assert_eq!(svg(&study.report.curves[0], &[]).unwrap(), None);
-    }
-
-    #[test]
-    fn logarithmic_axes_have_round_numbers() {
-        assert_eq!(logarithmic_ticks(&(0.5e-3..2.0)), [1.0e-3, 1.0e-2, 0.1, 1.0]);
-        assert_eq!(logarithmic_ticks(&(0.3..1.4)), [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]);
-    }
-
-    #[test]
-    fn a_single_point_has_room_around_it() {
-        for scale in [RawScale::Linear, RawScale::Logarithmic] {
-            let range = range([2.0].into_iter(), scale);
-            assert!(range.start < 1.5 && range.end > 2.5, "{range:?}");
-        }
     }
 }

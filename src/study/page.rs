@@ -17,6 +17,7 @@ th,td{border:1px solid #ccc;padding:.3em .6em;text-align:left;vertical-align:top
 .met{color:#00674a}.missed,.failed{color:#b3261e;font-weight:600}.wide{overflow-x:auto}\
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(17em,1fr));gap:1em}\
 figure{margin:0}figure img{width:100%;border:1px solid #ddd}figcaption{font-size:.85em;color:#444}\
+.diagrams{display:grid;grid-template-columns:repeat(auto-fill,minmax(30em,1fr));gap:1em}\
 .curves svg{max-width:100%;height:auto}";
 
 /// What stands on the page.
@@ -34,6 +35,8 @@ pub struct Content<'a> {
     pub judgments: &'a [Judgment],
     /// Errors along spacings.
     pub convergences: &'a [Convergence],
+    /// Names of the files of diagrams, a list per run.
+    pub diagrams: &'a [Vec<String>],
 }
 
 /// The page as HTML.
@@ -61,6 +64,7 @@ pub fn page(content: &Content<'_>) -> String {
     html += "</div>\n";
     if content.study.report.pictures {
         push_pictures(&mut html, content.results);
+        push_diagrams(&mut html, content.results, content.diagrams);
     }
     html += "</body>\n</html>\n";
     html
@@ -154,6 +158,21 @@ fn push_pictures(html: &mut String, results: &[RunResult]) {
         );
     }
     html.push_str("</div>\n");
+}
+
+fn push_diagrams(html: &mut String, results: &[RunResult], diagrams: &[Vec<String>]) {
+    for (result, files) in results.iter().zip(diagrams).filter(|(_, files)| !files.is_empty()) {
+        let name = escaped(&result.run.name);
+        let _ = writeln!(html, "<h2>{name}</h2>\n<div class=\"diagrams\">");
+        for file in files.iter().map(|file| escaped(file)) {
+            let place = format!("runs/{name}/{file}");
+            let _ = writeln!(
+                html,
+                "<figure><a href=\"{place}\"><img loading=\"lazy\" src=\"{place}\" alt=\"{file}\"></a></figure>"
+            );
+        }
+        html.push_str("</div>\n");
+    }
 }
 
 /// The text with the signs of HTML written out.

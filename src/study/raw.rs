@@ -111,7 +111,7 @@ tables! {
 
     /// What the report shows.
     pub struct RawReport {
-        /// The measures in the table, and `steps`, `unknowns`, `wall-time-s`, `cpu-s` (default all measures of the runs).
+        /// The measures in the table, and `steps`, `unknowns`, `wall-time-s`, `solver-time-s`, `cpu-s` (default all measures of the runs).
         pub measures: Vec<String>,
         /// The curves.
         pub curve: Vec<RawCurve>,

@@ -1,14 +1,14 @@
 //! The report of a study: tables, curves and the page, from what stands in its folder.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::convergence::{self, Convergence};
 use super::curve::{CurveError, svg};
 use super::definition::Study;
 use super::folder::StudyFolder;
 use super::page::{Content, page};
-use super::results::{RUN_NUMBERS, RunResult, measures, results};
+use super::results::{RUN_NUMBERS, RunResult, Standing, measures, results};
 use super::runs::PlannedRun;
 use super::table::{self, Table};
 use super::verdict::{Judgment, judgments};
@@ -43,6 +43,16 @@ pub struct StudyReport {
     pub page: PathBuf,
 }
 
+/// The diagrams that a complete run left in its folder, by name.
+fn diagrams_of(folder: &Path, standing: &Standing) -> Vec<String> {
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let names = files.filter_map(|file| file.file_name().into_string().ok());
+    let mut found: Vec<String> = names.filter(|name| name.starts_with("diagram-") && name.ends_with(".svg")).collect();
+    found.retain(|_| standing.report().is_some());
+    found.sort();
+    found
+}
+
 /// Writes `table.csv`, `table.md`, `curve-1.svg` and so on, and `report.html`.
 ///
 /// # Errors
@@ -62,7 +72,10 @@ pub fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Resul
             curves.push(text);
         }
     }
+    let diagrams: Vec<Vec<String>> =
+        results.iter().map(|result| diagrams_of(&folder.run(&result.run.name), &result.standing)).collect();
     let content = Content {
+        diagrams: &diagrams,
         study,
         results: &results,
         table: &table,

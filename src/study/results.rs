@@ -10,7 +10,7 @@ use super::runs::{PlannedRun, Run};
 use crate::run::report::{REPORT, Reading, Status};
 
 /// What is known of a run besides its measures.
-pub const RUN_NUMBERS: [&str; 4] = ["steps", "unknowns", "wall-time-s", "cpu-s"];
+pub const RUN_NUMBERS: [&str; 5] = ["steps", "unknowns", "wall-time-s", "solver-time-s", "cpu-s"];
 
 /// The report of a run, as far as studies read it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -41,11 +41,14 @@ pub struct Total {
     pub total: f64,
 }
 
-/// Number of unknowns.
+/// What the solver did.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Unknowns {
     /// Particles or nodes.
     pub unknowns: usize,
+    /// Wall time in s without output; not told by older reports.
+    #[serde(rename = "wall-time-s", default)]
+    pub wall_time_s: Option<f64>,
 }
 
 /// Where a run stands.
@@ -121,6 +124,7 @@ impl RunResult {
             "steps" => Some(report.steps as f64),
             "unknowns" => Some(report.solver.unknowns as f64),
             "wall-time-s" => Some(report.wall_time_s.total),
+            "solver-time-s" => report.solver.wall_time_s,
             "cpu-s" => report.cpu_s,
             measure => report.measures.get(measure)?.value,
         }

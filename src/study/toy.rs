@@ -27,7 +27,7 @@ pub fn complete(study: &Study, value: impl Fn(&Run) -> f64) -> Vec<RunResult> {
             resolved_case: String::new(),
             wall_time_s: Total { total: 1.5 },
             cpu_s: None,
-            solver: Unknowns { unknowns: 100 },
+            solver: Unknowns { unknowns: 100, wall_time_s: Some(1.25) },
         };
         RunResult { run, standing: Standing::Complete(Box::new(report)) }
     };

@@ -1,13 +1,20 @@
 //! Implicit steps of a film on a grid: backward Euler, Newton's method with a line search, and the choice of the step.
 //!
 //! A step solves G(v) = 0 for the heights v at its end. Order 1 in time. Newton's method ends where the residual is small, or where its
-//! next change of the heights is: on fine grids rounding keeps the residual of a fourth derivative from being small. A step depends on the heights, the time and the proposed
-//! step only, so that a run resumed from them gives the same bits as an unbroken one.
+//! next change of the heights is: on fine grids rounding keeps the residual of a fourth derivative from being small. The factors of a
+//! Jacobian serve as long as each change lowers the residual by a factor: they cost several times a solution with them. No factors are kept
+//! from step to step: a step depends on the heights, the time and the proposed step only, so that a run resumed from them gives the
+//! same bits as an unbroken one.
 
-/// Newton's method stops below this 2-norm of the residual or of a change, in scaled heights [Pang2022, Sect. 6].
+use super::sparse::Factors;
+
+/// Newton's method stops below this norm of the residual or of a change: √∫ r² over the wall, in scaled heights. The paper takes 1e-9
+/// of the plain 2-norm over the nodes, which rounding keeps a fine grid from [Pang2022, Sect. 6].
 pub const RESIDUAL: f64 = 1.0e-9;
-/// More iterations than this mean a step that is too large; a healthy one takes 2 to 4.
-pub const ITERATIONS: u32 = 12;
+/// More factorizations than this mean a step that is too large; a healthy one takes 1 or 2.
+pub const FACTORS: u32 = 12;
+/// The factors of a Jacobian are used again after a change that left at most this share of the residual.
+const KEPT: f64 = 0.2;
 /// Shortest share of a Newton step that is tried.
 const SHORTEST: f64 = 1.0 / 64.0;
 /// By how much a step is cut that was not solved.
@@ -23,11 +30,14 @@ pub trait Balance {
     /// G(v), for a step of length `dt` that begins at the heights `old`.
     fn residual(&self, v: &[f64], old: &[f64], dt: f64) -> Vec<f64>;
 
-    /// 2-norm of the residual in heights.
+    /// √∫ v² over the wall.
+    fn norm(&self, v: &[f64]) -> f64;
+
+    /// The norm of the residual in heights.
     fn size(&self, residual: &[f64]) -> f64;
 
-    /// J⁻¹ `residual` with the Jacobian J of G at `v`; none where J is singular.
-    fn newton(&self, v: &[f64], residual: &[f64], dt: f64) -> Option<Vec<f64>>;
+    /// The factors of the Jacobian J of G at `v`; none where J is singular.
+    fn jacobian(&self, v: &[f64], dt: f64) -> Option<Factors>;
 
     /// Whether a solution can be a film.
     fn acceptable(&self, v: &[f64]) -> bool;
@@ -62,7 +72,7 @@ impl StepRule {
 pub struct NotSolved {
     /// The step.
     pub dt: f64,
-    /// 2-norm of the residual reached.
+    /// Norm of the residual reached.
     pub residual: f64,
 }
 
@@ -78,6 +88,8 @@ pub struct BackwardEuler {
     rule: StepRule,
     /// Newton iterations so far.
     pub iterations: u64,
+    /// Factorizations so far.
+    pub factors: u64,
     /// Steps tried again with less.
     pub rejected: u64,
 }
@@ -86,7 +98,7 @@ impl BackwardEuler {
     /// Heights at time zero.
     #[must_use]
     pub fn new(height: Vec<f64>, rule: StepRule) -> Self {
-        Self { height, time: 0.0, next: rule.first, rule, iterations: 0, rejected: 0 }
+        Self { height, time: 0.0, next: rule.first, rule, iterations: 0, factors: 0, rejected: 0 }
     }
 
     /// How many steps lead to `end` where none is rejected.
@@ -149,37 +161,50 @@ impl BackwardEuler {
         let mut v = self.height.clone();
         let mut residual = balance.residual(&v, &self.height, dt);
         let mut size = balance.size(&residual);
-        for _ in 0..ITERATIONS {
-            if size < RESIDUAL {
-                return if balance.acceptable(&v) { Ok(v) } else { Err(size) };
-            }
+        let mut kept: Option<Factors> = None;
+        let mut factored = 0;
+        while size >= RESIDUAL {
+            let is_new = kept.is_none();
+            let factors = match kept.take() {
+                Some(factors) => factors,
+                None if factored == FACTORS => return Err(size),
+                None => balance.jacobian(&v, dt).ok_or(size)?,
+            };
+            factored += u32::from(is_new);
+            self.factors += u64::from(is_new);
             self.iterations += 1;
-            let change = balance.newton(&v, &residual, dt).ok_or(size)?;
+            let mut change = residual.clone();
+            factors.solve(&mut change);
             let moved = |share: f64| -> Vec<f64> { v.iter().zip(&change).map(|(v, c)| v - share * c).collect() };
-            let mut share = 1.0;
-            if norm(&change) < RESIDUAL {
-                v = moved(share);
-                return if balance.acceptable(&v) { Ok(v) } else { Err(size) };
+            if balance.norm(&change) < RESIDUAL {
+                v = moved(1.0);
+                break;
             }
-            loop {
+            // Factors of other heights are worth no search: new ones are.
+            let shortest = if is_new { SHORTEST } else { 1.0 };
+            let mut share = 1.0;
+            let found = loop {
                 let trial = moved(share);
-                let residual_there = balance.residual(&trial, &self.height, dt);
-                let size_there = balance.size(&residual_there);
+                let residual = balance.residual(&trial, &self.height, dt);
+                let size_there = balance.size(&residual);
                 if size_there < size {
-                    (v, residual, size) = (trial, residual_there, size_there);
-                    break;
+                    break Some((trial, residual, size_there));
                 }
                 share *= 0.5;
-                if share < SHORTEST {
-                    return Err(size);
+                if share < shortest {
+                    break None;
                 }
+            };
+            match found {
+                Some((trial, residual_there, size_there)) => {
+                    kept = (size_there < KEPT * size).then_some(factors);
+                    (v, residual, size) = (trial, residual_there, size_there);
+                }
+                None if is_new => return Err(size),
+                None => {}
             }
         }
-        Err(size)
+        // A NaN is no film either.
+        if size.is_finite() && balance.acceptable(&v) { Ok(v) } else { Err(size) }
     }
-}
-
-/// 2-norm.
-pub(super) fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|v| v * v).sum::<f64>().sqrt()
 }

@@ -10,11 +10,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::backward_euler::{Balance, norm};
-use super::banded::Banded;
+use super::backward_euler::Balance;
 use super::droplet::{Droplet, WeightRule};
 use super::grid::Grid;
 pub use super::model::Model;
+use super::sparse::{Factors, Pattern, TooLarge};
 
 /// The shape of the film across the plane of the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,11 +42,11 @@ pub struct Layout {
     pub bond: f64,
 }
 
-/// Widths of the band of the Jacobian: the geometric equation reaches one cell farther.
-const BAND: usize = 2;
-const GEOMETRIC_BAND: usize = 3;
-/// Diagonals of the smoothing matrix on each side.
-const SMOOTHING_BAND: usize = 2;
+/// How many cells away the heights of other cells enter a balance; the geometric equation reaches one cell farther.
+const REACH: usize = 2;
+const GEOMETRIC_REACH: usize = 3;
+/// How many cells away heights are smoothed.
+const SMOOTHING_REACH: usize = 2;
 /// A geometric film may dip below zero by this share of its largest height: rounding and truncation, no spurious root.
 const NEGATIVE: f64 = -1.0e-4;
 /// Below this share of the largest height nothing is seen to move.
@@ -61,14 +61,18 @@ pub struct Cells {
     /// Size of each face over the cell width; the first and last one, at the walls, are 0.
     face: Vec<f64>,
     /// The factors of (1 − α²∇²)² in the geometric equation.
-    smoothing: Option<Banded>,
+    smoothing: Option<Factors>,
+    /// The places of the entries of Jacobians.
+    pattern: Pattern,
 }
 
 impl Cells {
     /// Droplets in cells, with the heights that the equation is solved for; `weights` says whether cells hold their share of
     /// the droplets or the height in their middle.
-    #[must_use]
-    pub fn new(layout: Layout, droplets: &[Droplet], weights: WeightRule) -> (Self, Vec<f64>) {
+    ///
+    /// # Errors
+    /// [`TooLarge`].
+    pub fn new(layout: Layout, droplets: &[Droplet], weights: WeightRule) -> Result<(Self, Vec<f64>), TooLarge> {
         let Layout { from, count, spacing, symmetry, model, .. } = layout;
         let edge = |i: usize| from + i as f64 * spacing;
         let (size, face) = match symmetry {
@@ -78,7 +82,10 @@ impl Cells {
                 (0..=count).map(|i| TAU * edge(i) / spacing).collect(),
             ),
         };
-        let mut cells = Self { layout, size, face, smoothing: None };
+        let reach = if matches!(model, Model::Geometric { .. }) { GEOMETRIC_REACH } else { REACH };
+        let pattern =
+            Pattern::new(count, (0..count).flat_map(|row| columns(row, reach, count).map(move |j| (row, j))))?;
+        let mut cells = Self { layout, size, face, smoothing: None, pattern };
         cells.face[0] = 0.0;
         cells.face[count] = 0.0;
         let held = |i: usize| -> f64 {
@@ -96,12 +103,12 @@ impl Cells {
         let mut height: Vec<f64> = (0..count).map(held).collect();
         match model {
             Model::Geometric { .. } => {
-                cells.smoothing = Some(cells.smoothing_matrix());
+                cells.smoothing = Some(cells.smoothing_factors()?);
                 cells.smooth(&mut height);
             }
             Model::Slip { film, .. } | Model::Precursor { film, .. } => height.iter_mut().for_each(|h| *h += film),
         }
-        (cells, height)
+        Ok((cells, height))
     }
 
     fn count(&self) -> usize {
@@ -138,23 +145,19 @@ impl Cells {
         row
     }
 
-    fn smoothing_matrix(&self) -> Banded {
-        let mut matrix = Banded::new(self.count(), SMOOTHING_BAND, SMOOTHING_BAND);
-        for i in 0..self.count() {
-            for (offset, value) in self.smoothing_row(i).into_iter().enumerate() {
-                if let Some(j) = (i + offset).checked_sub(2).filter(|&j| j < self.count()) {
-                    matrix.add(i, j, value);
-                }
-            }
-        }
+    fn smoothing_factors(&self) -> Result<Factors, TooLarge> {
+        let count = self.count();
+        let entries = (0..count).flat_map(|row| columns(row, SMOOTHING_REACH, count).map(move |j| (row, j)));
+        let rows = (0..count).map(|row| self.smoothing_row(row));
+        let values: Vec<f64> =
+            rows.enumerate().flat_map(|(row, values)| within(row, SMOOTHING_REACH, count, values)).collect();
         // The matrix is a product of two that are diagonally dominant, so its factors exist.
-        matrix.factor();
-        matrix
+        Pattern::new(count, entries)?.factor(&values).ok_or(TooLarge(count))
     }
 
     fn smooth(&self, v: &mut [f64]) {
-        if let Some(matrix) = &self.smoothing {
-            matrix.solve(v);
+        if let Some(factors) = &self.smoothing {
+            factors.solve(v);
         }
     }
 
@@ -182,6 +185,21 @@ impl Cells {
     }
 }
 
+/// The columns of the entries of a row, from `reach` cells before it to as many after, walls permitting.
+fn columns(row: usize, reach: usize, count: usize) -> std::ops::Range<usize> {
+    row.saturating_sub(reach)..(row + reach + 1).min(count)
+}
+
+/// The values of a row from `reach` cells before it to as many after, without those behind a wall.
+fn within<const WIDTH: usize>(
+    row: usize,
+    reach: usize,
+    count: usize,
+    values: [f64; WIDTH],
+) -> impl Iterator<Item = f64> {
+    columns(row, reach, count).map(move |column| values[column + reach - row])
+}
+
 impl Balance for Cells {
     /// The rate of each cell's height: H(v − vⁿ) + Δt/V Σ fluxes.
     fn residual(&self, v: &[f64], old: &[f64], dt: f64) -> Vec<f64> {
@@ -197,58 +215,56 @@ impl Balance for Cells {
         residual
     }
 
+    fn norm(&self, v: &[f64]) -> f64 {
+        self.size.iter().zip(v).map(|(size, v)| size * v * v).sum::<f64>().sqrt()
+    }
+
     fn size(&self, residual: &[f64]) -> f64 {
         let mut smoothed = residual.to_vec();
         self.smooth(&mut smoothed);
-        norm(&smoothed)
+        self.norm(&smoothed)
     }
 
-    fn newton(&self, v: &[f64], residual: &[f64], dt: f64) -> Option<Vec<f64>> {
+    fn jacobian(&self, v: &[f64], dt: f64) -> Option<Factors> {
         let n = self.count();
-        let band = if self.smoothing.is_some() { GEOMETRIC_BAND } else { BAND };
-        let mut matrix = Banded::new(n, band, band);
-        for i in 0..n {
-            for (offset, value) in self.smoothing_row(i).into_iter().enumerate() {
-                if let Some(j) = (i + offset).checked_sub(2).filter(|&j| j < n && value != 0.0) {
-                    matrix.add(i, j, value);
-                }
-            }
+        // From three cells before to three after.
+        let mut rows = vec![[0.0; 2 * GEOMETRIC_REACH + 1]; n];
+        for (i, row) in rows.iter_mut().enumerate() {
+            row[1..6].copy_from_slice(&self.smoothing_row(i));
         }
         let (pressure, sharp) = (self.pressure(v), self.sharp(v));
         for face in 1..n {
             let (mobility, by_height, by_sharp) = self.face_mobility(face, v, &sharp);
             let drive = pressure[face] - pressure[face - 1];
             // Derivatives of the flow through this face by the heights from three cells before it to three after.
-            let mut row = [0.0; 6];
-            let first = face as isize - 3;
+            let mut flow = [0.0; 2 * GEOMETRIC_REACH];
             for (side, cell) in [face - 1, face].into_iter().enumerate() {
                 let sign = if side == 0 { -1.0 } else { 1.0 };
-                row[2 + side] += by_height[side] * drive;
-                row[2 + side] += sign * mobility * (self.layout.model.disjoining(v[cell]).1 - self.layout.bond);
+                flow[2 + side] += by_height[side] * drive;
+                flow[2 + side] += sign * mobility * (self.layout.model.disjoining(v[cell]).1 - self.layout.bond);
                 for (offset, value) in self.laplace_row(cell).into_iter().enumerate() {
-                    row[1 + side + offset] += sign * mobility * value;
+                    flow[1 + side + offset] += sign * mobility * value;
                 }
                 if by_sharp[side] != 0.0 {
                     for (offset, value) in self.smoothing_row(cell).into_iter().enumerate() {
-                        row[side + offset] += by_sharp[side] * drive * value;
+                        flow[side + offset] += by_sharp[side] * drive * value;
                     }
                 }
             }
             let scale = dt * self.face[face];
-            for (offset, value) in row.into_iter().enumerate() {
-                let column = first + offset as isize;
-                if value != 0.0 && (0..n as isize).contains(&column) {
-                    matrix.add(face - 1, column as usize, scale * value / self.size[face - 1]);
-                    matrix.add(face, column as usize, -scale * value / self.size[face]);
-                }
+            for (offset, value) in flow.into_iter().enumerate() {
+                rows[face - 1][offset + 1] += scale * value / self.size[face - 1];
+                rows[face][offset] -= scale * value / self.size[face];
             }
         }
-        if !matrix.factor() {
-            return None;
-        }
-        let mut change = residual.to_vec();
-        matrix.solve(&mut change);
-        change.iter().all(|c| c.is_finite()).then_some(change)
+        let values: Vec<f64> = match self.smoothing {
+            Some(_) => rows.into_iter().enumerate().flat_map(|(i, row)| within(i, GEOMETRIC_REACH, n, row)).collect(),
+            None => {
+                let inner = |row: [f64; 7]| [row[1], row[2], row[3], row[4], row[5]];
+                rows.into_iter().enumerate().flat_map(|(i, row)| within(i, REACH, n, inner(row))).collect()
+            }
+        };
+        self.pattern.factor(&values)
     }
 
     /// Films of slip and precursor models are above zero; the geometric one nearly so.
@@ -325,7 +341,7 @@ mod tests {
         let droplet = Droplet { area: 0.5, half_width: 0.5, center: 0.0 };
         for symmetry in [Symmetry::Plane, Symmetry::Axis] {
             for model in MODELS {
-                let (cells, old) = Cells::new(layout(symmetry, model, 60, 3.0), &[droplet], WeightRule::Cell);
+                let (cells, old) = Cells::new(layout(symmetry, model, 60, 3.0), &[droplet], WeightRule::Cell).unwrap();
                 let v: Vec<f64> = cells.nodes().iter().map(|x| 0.4 + 0.3 * (3.0 * x).cos()).collect();
                 let change: Vec<f64> = (0..60).map(|i| (1.3 * f64::from(i)).sin()).collect();
                 let (dt, tiny) = (1.0e-3, 1.0e-6);
@@ -335,7 +351,8 @@ mod tests {
                 };
                 let (up, down) = (at(1.0), at(-1.0));
                 let product: Vec<f64> = up.iter().zip(&down).map(|(up, down)| (up - down) / (2.0 * tiny)).collect();
-                let found = cells.newton(&v, &product, dt).unwrap();
+                let mut found = product;
+                cells.jacobian(&v, dt).unwrap().solve(&mut found);
                 let error = found.iter().zip(&change).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 // The central difference is good to rounding over its step.
                 assert!(error < 1.0e-6, "{symmetry:?} {model:?}: {error}");
@@ -348,7 +365,8 @@ mod tests {
         let droplet = Droplet { area: 0.5, half_width: 0.5, center: 0.0 };
         for symmetry in [Symmetry::Plane, Symmetry::Axis] {
             for model in MODELS {
-                let (cells, height) = Cells::new(layout(symmetry, model, 200, 3.0), &[droplet], WeightRule::Cell);
+                let (cells, height) =
+                    Cells::new(layout(symmetry, model, 200, 3.0), &[droplet], WeightRule::Cell).unwrap();
                 let mut film = GridFilm::new(Equation::Cells(cells), height, StepRule::ADAPTIVE);
                 let mass = film.mass();
                 let mut energy = film.energy();

@@ -16,7 +16,6 @@ pub enum Film {
         /// The state.
         state: Integrator,
         /// Whether the library diffsol does the steps.
-        #[cfg(feature = "diffsol")]
         by_library: bool,
     },
     /// Nodes of a grid.
@@ -52,16 +51,10 @@ impl Film {
     #[must_use]
     pub fn particles(method: ParticleMethod, masses: &PointMasses, state: Integrator) -> Self {
         debug_assert_eq!(masses.x.len(), state.x.len());
-        Self::Particles {
-            method: Box::new(method),
-            state,
-            #[cfg(feature = "diffsol")]
-            by_library: false,
-        }
+        Self::Particles { method: Box::new(method), state, by_library: false }
     }
 
     /// The same film with its steps done by the library diffsol, where there are particles.
-    #[cfg(feature = "diffsol")]
     #[must_use]
     pub fn by_library(mut self) -> Self {
         if let Self::Particles { by_library, .. } = &mut self {
@@ -85,7 +78,6 @@ impl Film {
     /// [`Stuck`]; the state is kept.
     pub fn step(&mut self, until: f64) -> Result<f64, Stuck> {
         match self {
-            #[cfg(feature = "diffsol")]
             Self::Particles { method, state, by_library: true } => {
                 super::diffsol::step(method, state, until).map_err(|error| Stuck::Inaccurate(error.0))
             }
@@ -136,6 +128,39 @@ impl Film {
                 Profile { x: grid.nodes(), height, slope, curvature }
             }
         }
+    }
+
+    /// Heights at ascending places, between nodes of a grid by straight lines; 0 beyond its ends.
+    #[must_use]
+    pub fn heights(&self, places: &[f64]) -> Vec<f64> {
+        match self {
+            Self::Particles { method, state, .. } => method.profile(&state.x, places).height,
+            Self::Grid(film) => {
+                let (x, height) = (film.grid().nodes(), &film.state.height);
+                let at = |&place: &f64| {
+                    let after = x.partition_point(|&x| x < place);
+                    match after {
+                        0 => x.first().filter(|&&x| x == place).map_or(0.0, |_| height[0]),
+                        _ if after == x.len() => 0.0,
+                        _ => {
+                            let share = (place - x[after - 1]) / (x[after] - x[after - 1]);
+                            height[after - 1] + share * (height[after] - height[after - 1])
+                        }
+                    }
+                };
+                places.iter().map(at).collect()
+            }
+        }
+    }
+
+    /// The places of up to `count` particles from the middle one to the last, evenly chosen; none on a grid.
+    #[must_use]
+    pub fn ways(&self, count: usize) -> Vec<f64> {
+        let Self::Particles { state, .. } = self else { return Vec::new() };
+        let right = &state.x[state.x.len() / 2..];
+        let last = right.len().saturating_sub(1);
+        let chosen = |i: usize| right.get((i + 1) * last / count).copied();
+        (0..count.min(last)).filter_map(chosen).collect()
     }
 
     /// h̄ at x = 0.
@@ -195,6 +220,7 @@ impl Film {
             Self::Grid(grid) => {
                 vec![
                     ("newton-iterations", grid.state.iterations as f64),
+                    ("factorizations", grid.state.factors as f64),
                     ("rejected-steps", grid.state.rejected as f64),
                 ]
             }

@@ -9,6 +9,8 @@ use super::profile::exponent;
 
 /// Records per tenfold of time.
 const PER_DECADE: f64 = 40.0;
+/// Frames per tenfold of time.
+const FRAMES_PER_DECADE: f64 = 10.0;
 /// The first record.
 const FIRST: f64 = 1.0e-4;
 /// The law of Cox and Voinov is fitted to records in this window of scaled time. Its two constants depend on the window, which
@@ -32,11 +34,24 @@ pub struct Record {
     pub last: Option<f64>,
 }
 
-/// Records so far.
+/// The film at one time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Frame {
+    /// Time.
+    pub time: f64,
+    /// Heights at places that stay the same.
+    pub heights: Vec<f64>,
+    /// Places of some particles on the right, the last one last; none where there are no particles.
+    pub ways: Vec<f64>,
+}
+
+/// Records and frames so far.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// In the order of time.
     pub records: Vec<Record>,
+    /// In the order of time.
+    pub frames: Vec<Frame>,
 }
 
 /// A law of Cox and Voinov: θ³ = θₑ³ + c v ln(x/d).
@@ -54,8 +69,13 @@ impl History {
     /// Whether a record is due at `time`.
     #[must_use]
     pub fn is_due(&self, time: f64) -> bool {
-        let place = |time: f64| (PER_DECADE * (time / FIRST).log10()).floor();
-        time >= FIRST && self.records.last().is_none_or(|last| place(time) > place(last.time))
+        is_next(PER_DECADE, time, self.records.last().map(|last| last.time))
+    }
+
+    /// Whether a frame is due at `time`.
+    #[must_use]
+    pub fn is_frame_due(&self, time: f64) -> bool {
+        is_next(FRAMES_PER_DECADE, time, self.frames.last().map(|last| last.time))
     }
 
     /// Exponent of a length in time from `start` on.
@@ -68,17 +88,24 @@ impl History {
     /// The law of Cox and Voinov for the slope of rest `rest`, by linear least squares in c and c ln d over the window.
     #[must_use]
     pub fn cox_voinov(&self, rest: f64) -> Option<CoxVoinov> {
-        let points: Vec<[f64; 3]> = self
+        self.cox_voinov_points(rest).map(|(law, _)| law)
+    }
+
+    /// The law, and what it was fitted to: speed, place and cubed slope of the contact line.
+    #[must_use]
+    pub fn cox_voinov_points(&self, rest: f64) -> Option<(CoxVoinov, Vec<[f64; 3]>)> {
+        let found: Vec<[f64; 3]> = self
             .records
             .windows(3)
             .filter(|w| (WINDOW.0..=WINDOW.1).contains(&w[1].time))
             .map(|w| {
                 let (before, after) = (w[1].time - w[0].time, w[2].time - w[1].time);
                 let (rise, next) = ((w[1].position - w[0].position) / before, (w[2].position - w[1].position) / after);
-                let speed = (rise * after + next * before) / (before + after);
-                [speed * w[1].position.ln(), -speed, w[1].slope.powi(3) - rest.powi(3)]
+                [(rise * after + next * before) / (before + after), w[1].position, w[1].slope.powi(3)]
             })
             .collect();
+        let term = |&[speed, position, cube]: &[f64; 3]| [speed * position.ln(), -speed, cube - rest.powi(3)];
+        let points: Vec<[f64; 3]> = found.iter().map(term).collect();
         if points.len() < FEWEST {
             return None;
         }
@@ -87,8 +114,14 @@ impl History {
         let solution = matrix.try_inverse()? * Vector2::new(sum(0, 2), sum(1, 2));
         let off = |p: &[f64; 3]| (p[0] * solution.x + p[1] * solution.y - p[2]).powi(2);
         let error = (points.iter().map(off).sum::<f64>() / points.len() as f64).sqrt();
-        Some(CoxVoinov { factor: solution.x, length: (solution.y / solution.x).exp(), error })
+        Some((CoxVoinov { factor: solution.x, length: (solution.y / solution.x).exp(), error }, found))
     }
+}
+
+/// Whether a time is the first in its share of a decade.
+fn is_next(per_decade: f64, time: f64, last: Option<f64>) -> bool {
+    let place = |time: f64| (per_decade * (time / FIRST).log10()).floor();
+    time >= FIRST && last.is_none_or(|last| place(time) > place(last))
 }
 
 #[cfg(test)]
@@ -120,7 +153,7 @@ mod tests {
             let cube = 1.0 + factor * 0.1 * position / time * (position / length).ln();
             Record { time, position, slope: cube.cbrt(), last: None }
         };
-        let found = History { records: (0..1400).map(record).collect() }.cox_voinov(1.0).unwrap();
+        let found = History { records: (0..1400).map(record).collect(), frames: Vec::new() }.cox_voinov(1.0).unwrap();
         // Speeds by differences over 1/400 of a decade.
         assert!((found.factor / factor - 1.0).abs() < 1.0e-3 && (found.length / length - 1.0).abs() < 1.0e-3);
         assert!(found.error < 1.0e-3);

@@ -5,15 +5,15 @@
 //! and the output of the solver is dimensionless; [`scales`] stands between.
 
 pub mod backward_euler;
-mod banded;
 pub mod cells;
-#[cfg(feature = "diffsol")]
+mod diagrams;
 pub mod diffsol;
 pub mod droplet;
 pub mod equilibrium;
 pub mod film;
 pub mod grid;
 pub mod history;
+mod implicit_particles;
 pub mod kernel;
 mod measures;
 mod model;
@@ -25,4 +25,5 @@ pub mod scales;
 pub mod setup;
 pub mod similarity;
 pub mod solver;
+pub mod sparse;
 pub mod sums;

@@ -5,11 +5,11 @@
 //! square of the spacing. [`LatticeEnergy::TakenOff`] adds its opposite, cₖ = (wₖ₋₁² − wₖ₊₁²)/(48 α⁴ wₖ), to the bracket. That
 //! is no part of the paper, and holds only while gaps are below α/2: beyond, the term throws the last particles away.
 
-use super::banded::Banded;
 use super::droplet::PointMasses;
-use super::kernel::{Kernel, Order};
-use super::ode::{Implicit, Rates};
-use super::sums::{FastSums, OneSided, Smoothed};
+use super::kernel::Kernel;
+use super::ode::Rates;
+use super::sparse::Pattern;
+use super::sums::{FastSums, Smoothed, direct_sums};
 
 /// Widest gap over α at which the lattice energy may be taken off.
 pub const WIDEST_GAP: f64 = 0.5;
@@ -41,7 +41,10 @@ pub struct ParticleMethod {
     area: f64,
     correction: Vec<f64>,
     sums: FastSums,
-    smoothed: Smoothed,
+    sums_directly: bool,
+    pub(super) smoothed: Smoothed,
+    /// The places of the entries of the matrix of implicit steps, once there was one.
+    pub(super) pattern: Option<Pattern>,
 }
 
 impl ParticleMethod {
@@ -59,9 +62,16 @@ impl ParticleMethod {
             area: weight.iter().sum(),
             correction,
             sums: FastSums::new(kernel),
+            sums_directly: false,
             smoothed: Smoothed::new(weight.len()),
             weight,
+            pattern: None,
         }
+    }
+
+    /// Takes the sums of rates over all pairs from now on, to compare with the recursion.
+    pub fn sum_directly(&mut self) {
+        self.sums_directly = true;
     }
 
     /// Leaves the lattice energy alone from now on.
@@ -108,7 +118,11 @@ impl ParticleMethod {
 
     /// h̄ and its derivatives at the particles.
     pub fn smooth(&mut self, x: &[f64]) -> &Smoothed {
-        self.sums.at_particles(x, &self.weight, &mut self.smoothed);
+        if self.sums_directly {
+            self.smoothed = direct_sums(&self.kernel, x, &self.weight);
+        } else {
+            self.sums.at_particles(x, &self.weight, &mut self.smoothed);
+        }
         &self.smoothed
     }
 
@@ -119,12 +133,12 @@ impl ParticleMethod {
     }
 
     /// ⟨h, h̄⟩ = Σ wᵢ h̄ᵢ of the last sums.
-    fn overlap(&self) -> f64 {
+    pub(super) fn overlap(&self) -> f64 {
         self.weight.iter().zip(&self.smoothed.height).map(|(w, h)| w * h).sum()
     }
 
     /// ξ² of the last sums.
-    fn xi_squared(&self) -> f64 {
+    pub(super) fn xi_squared(&self) -> f64 {
         if self.pull.wetting == 0.0 { 0.0 } else { 2.0 * self.pull.wetting * (self.area / self.overlap()).powi(2) }
     }
 
@@ -138,7 +152,7 @@ impl ParticleMethod {
     }
 
     /// The bracket h̄ₓₓₓ + (ξ² − Bo) h̄ₓ + c of particle i; `pull` is the factor of h̄ₓ.
-    fn drive(&self, i: usize, pull: f64) -> f64 {
+    pub(super) fn drive(&self, i: usize, pull: f64) -> f64 {
         self.smoothed.third[i] + pull * self.smoothed.slope[i] + self.correction[i]
     }
 }
@@ -159,7 +173,7 @@ pub fn widest_gap(x: &[f64]) -> f64 {
 
 impl Rates for ParticleMethod {
     fn rates(&mut self, x: &[f64], out: &mut [f64]) {
-        self.sums.at_particles(x, &self.weight, &mut self.smoothed);
+        self.smooth(x);
         let pull = self.xi_squared() - self.pull.bond;
         for (i, rate) in out.iter_mut().enumerate() {
             *rate = self.smoothed.height[i].powi(2) * self.drive(i, pull);
@@ -172,157 +186,14 @@ impl Rates for ParticleMethod {
     }
 }
 
-/// Unknowns per particle of the extended system: δx and the changes of the left and right sums.
-const BLOCK: usize = 5;
-/// Diagonals of the extended system below and above the main one.
-const BELOW: usize = 7;
-const ABOVE: usize = 5;
-
-/// The factored matrix s − J of the particle rates.
-///
-/// J is full, but with yⱼ = wⱼ δxⱼ it acts through the same recursive sums as the rates do. Taking their values as further
-/// unknowns makes it a banded matrix of five rows a particle, so that an implicit step costs O(N). The change of ξ² is a
-/// matrix of rank one and is added by the Sherman-Morrison formula.
-#[derive(Debug, Clone)]
-pub struct ParticleSystem {
-    matrix: Banded,
-    extended: Vec<f64>,
-    /// u and v of J = J₀ + u vᵀ; empty for complete wetting.
-    row: Vec<f64>,
-    solved: Vec<f64>,
-    denominator: f64,
-}
-
-impl ParticleSystem {
-    fn solve_banded(&mut self, rhs: &mut [f64]) {
-        self.extended.fill(0.0);
-        for (i, value) in rhs.iter().enumerate() {
-            self.extended[BLOCK * i] = *value;
-        }
-        self.matrix.solve(&mut self.extended);
-        for (i, value) in rhs.iter_mut().enumerate() {
-            *value = self.extended[BLOCK * i];
-        }
-    }
-}
-
-impl Implicit for ParticleMethod {
-    type System = ParticleSystem;
-
-    fn factor(&mut self, x: &[f64], shift: f64) -> Option<ParticleSystem> {
-        let count = x.len();
-        self.smooth(x);
-        let xi_squared = self.xi_squared();
-        let pull = xi_squared - self.pull.bond;
-        let alpha = self.kernel.alpha();
-        let mut matrix = Banded::new(BLOCK * count, BELOW, ABOVE);
-        // (constant, linear) of each derivative's (c₀ + c₁ d) e^(−d/α).
-        let form = |order: Order| {
-            let at = |d: f64| self.kernel.at(order, d) * (d / alpha).exp();
-            // Two places give the two numbers; 0 itself is special for the odd ones.
-            let (near, far) = (at(alpha), at(2.0 * alpha));
-            (2.0 * near - far, (far - near) / alpha)
-        };
-        let (first, second, fourth) = (form(Order::First), form(Order::Second), form(Order::Fourth));
-        let fourth_at_zero = self.kernel.at(Order::Fourth, 0.0);
-        let second_at_zero = self.kernel.at(Order::Second, 0.0);
-        let mut row = Vec::new();
-        let mut column = Vec::new();
-        let overlap = self.overlap();
-        let fourths = self.fourths(x);
-        for i in 0..count {
-            let s = &self.smoothed;
-            let (height, slope, weight) = (s.height[i], s.slope[i], self.weight[i]);
-            let square = height * height;
-            let drive = self.drive(i, pull);
-            // A particle's own term moves with it: the diagonal leaves it out.
-            let curvature_of_others = s.curvature[i] - weight * second_at_zero;
-            let fourth_of_others = fourths[i] - weight * fourth_at_zero;
-            let own = 2.0 * height * slope * drive + square * (fourth_of_others + pull * curvature_of_others);
-            let row_of = BLOCK * i;
-            matrix.add(row_of, row_of, shift - own);
-            // δvᵢ of the others is −Σ yⱼ [2 h̄ g Φ' + h̄² (Φ'''' + (ξ² − Bo) Φ'')], with Φ' odd; here its negative.
-            for (part, side) in [(1, 1.0), (3, -1.0)] {
-                let term = |first: f64, second: f64, fourth: f64| {
-                    2.0 * height * drive * side * first + square * (fourth + pull * second)
-                };
-                matrix.add(row_of, row_of + part, term(first.0, second.0, fourth.0));
-                matrix.add(row_of, row_of + part + 1, term(first.1, second.1, fourth.1));
-            }
-            for part in 1..BLOCK {
-                matrix.add(row_of + part, row_of + part, 1.0);
-            }
-            let mut neighbor = |part: usize, j: usize, gap: f64| {
-                let decay = (-gap / alpha).exp();
-                let other = BLOCK * j;
-                matrix.add(row_of + part, other, -decay * self.weight[j]);
-                matrix.add(row_of + part, other + part, -decay);
-                matrix.add(row_of + part + 1, other, -decay * gap * self.weight[j]);
-                matrix.add(row_of + part + 1, other + part, -decay * gap);
-                matrix.add(row_of + part + 1, other + part + 1, -decay);
-            };
-            if i > 0 {
-                neighbor(1, i - 1, x[i] - x[i - 1]);
-            }
-            if i + 1 < count {
-                neighbor(3, i + 1, x[i + 1] - x[i]);
-            }
-            if xi_squared > 0.0 {
-                column.push(square * slope);
-                row.push(-4.0 * xi_squared * weight * slope / overlap);
-            }
-        }
-        if !matrix.factor() {
-            return None;
-        }
-        let mut system =
-            ParticleSystem { matrix, extended: vec![0.0; BLOCK * count], row, solved: Vec::new(), denominator: 1.0 };
-        if !column.is_empty() {
-            system.solve_banded(&mut column);
-            system.denominator = 1.0 - dot(&system.row, &column);
-            system.solved = column;
-        }
-        (system.denominator.abs() > f64::EPSILON).then_some(system)
-    }
-
-    fn solve(system: &mut ParticleSystem, rhs: &mut [f64]) {
-        system.solve_banded(rhs);
-        if !system.solved.is_empty() {
-            let share = dot(&system.row, rhs) / system.denominator;
-            rhs.iter_mut().zip(&system.solved).for_each(|(value, solved)| *value += share * solved);
-        }
-    }
-}
-
-impl ParticleMethod {
-    /// Σⱼ wⱼ Φ''''(xᵢ − xⱼ), each particle's own term included.
-    fn fourths(&self, x: &[f64]) -> Vec<f64> {
-        let alpha = self.kernel.alpha();
-        let decay = |gap: f64| (-gap / alpha).exp();
-        let mut total = vec![0.0; x.len()];
-        let scale = 0.25 / alpha.powi(6);
-        let mut side = OneSided::default();
-        for i in 0..x.len() {
-            if i > 0 {
-                let gap = x[i] - x[i - 1];
-                side = side.with(self.weight[i - 1]).moved(gap, decay(gap));
-            }
-            total[i] = scale * (side.weighted - 3.0 * alpha * (side.plain + self.weight[i]));
-        }
-        let mut side = OneSided::default();
-        for i in (0..x.len()).rev() {
-            if i + 1 < x.len() {
-                let gap = x[i + 1] - x[i];
-                side = side.with(self.weight[i + 1]).moved(gap, decay(gap));
-            }
-            total[i] += scale * (side.weighted - 3.0 * alpha * side.plain);
-        }
-        total
-    }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+/// A droplet whose particles were moved about a little, for tests.
+#[cfg(test)]
+pub(super) fn disturbed(wetting: f64, lattice: LatticeEnergy) -> (ParticleMethod, Vec<f64>) {
+    let droplet = super::droplet::Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
+    let masses = super::droplet::particles(&[droplet], 0.02, super::droplet::WeightRule::Cell);
+    let wave = |x: &f64| x + 0.004 * (40.0 * x + 0.3).sin();
+    let pull = Pull { wetting, bond: 2.0 * wetting };
+    (ParticleMethod::new(Kernel::new(0.05), &masses, pull, lattice), masses.x.iter().map(wave).collect())
 }
 
 #[cfg(test)]
@@ -332,28 +203,21 @@ mod tests {
 
     const DROPLET: Droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
 
-    /// A droplet whose particles were moved about a little.
-    fn method(wetting: f64, lattice: LatticeEnergy) -> (ParticleMethod, Vec<f64>) {
-        let masses = particles(&[DROPLET], 0.02, WeightRule::Cell);
-        let wave = |x: &f64| x + 0.004 * (40.0 * x + 0.3).sin();
-        let pull = Pull { wetting, bond: 2.0 * wetting };
-        (ParticleMethod::new(Kernel::new(0.05), &masses, pull, lattice), masses.x.iter().map(wave).collect())
-    }
-
     #[test]
     fn the_forces_between_particles_cancel() {
-        let (mut method, x) = method(1.16, LatticeEnergy::Kept);
+        let (mut method, x) = disturbed(1.16, LatticeEnergy::Kept);
         let smoothed = method.smooth(&x).clone();
         for field in [&smoothed.third, &smoothed.slope] {
             let size: f64 = field.iter().zip(&method.weight).map(|(f, w)| (f * w).abs()).sum();
-            assert!(dot(field, &method.weight).abs() < 1.0e-12 * size);
+            let sum: f64 = field.iter().zip(&method.weight).map(|(f, w)| f * w).sum();
+            assert!(sum.abs() < 1.0e-12 * size);
         }
     }
 
     #[test]
     fn energy_falls_at_the_rate_of_dissipation() {
         for wetting in [0.0, 1.16] {
-            let (mut method, x) = method(wetting, LatticeEnergy::Kept);
+            let (mut method, x) = disturbed(wetting, LatticeEnergy::Kept);
             let mut rate = vec![0.0; x.len()];
             method.rates(&x, &mut rate);
             let height = method.smoothed.height.clone();
@@ -363,28 +227,6 @@ mod tests {
             let change = (method.energy(&moved(1.0)) - method.energy(&moved(-1.0))) / (2.0 * step);
             // Rounding of E over its change in a step of 1e-7.
             assert!((change / dissipation + 1.0).abs() < 1.0e-6, "{change} {dissipation}");
-        }
-    }
-
-    #[test]
-    fn implicit_steps_use_the_jacobian_of_the_rates() {
-        for (wetting, lattice) in [(0.0, LatticeEnergy::Kept), (1.16, LatticeEnergy::TakenOff)] {
-            let (mut method, x) = method(wetting, lattice);
-            let count = x.len();
-            let change: Vec<f64> = (0..count).map(|i| (1.7 * i as f64).cos()).collect();
-            let step = 1.0e-7;
-            let moved = |sign: f64| -> Vec<f64> { x.iter().zip(&change).map(|(x, d)| x + sign * step * d).collect() };
-            let (mut up, mut down) = (vec![0.0; count], vec![0.0; count]);
-            method.rates(&moved(1.0), &mut up);
-            method.rates(&moved(-1.0), &mut down);
-            let shift = 1.0e4;
-            let mut found: Vec<f64> =
-                (0..count).map(|i| shift * change[i] - (up[i] - down[i]) / (2.0 * step)).collect();
-            let mut system = method.factor(&x, shift).unwrap();
-            ParticleMethod::solve(&mut system, &mut found);
-            let error = found.iter().zip(&change).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            // The central difference is good to step² and to rounding over step.
-            assert!(error < 1.0e-6, "{error}");
         }
     }
 

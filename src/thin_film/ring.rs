@@ -2,21 +2,19 @@
 //!
 //! Backward Euler: with H = (1 − α²D₂)², h = Hv, k = D₃v + ξ²D₁v, a step solves H(v − h̄ⁿ) + Δt D₁(h v² k) = 0 for v. This is the
 //! paper's equation times H, which commutes with the differences; it makes the Jacobian sparse. ξ² is taken at the new time:
-//! its derivative is a matrix of rank one, added by the Sherman-Morrison formula. Order 2 in space, 1 in time. The ring of
-//! nodes is folded (0, n−1, 1, n−2, ...), so that the periodic matrix is banded.
+//! its derivative is a matrix of rank one, added by the Sherman-Morrison formula. Order 2 in space, 1 in time.
 
-use super::backward_euler::{Balance, norm};
-use super::banded::Banded;
+use super::backward_euler::Balance;
 use super::droplet::{Droplet, WeightRule, particles};
 use super::grid::Grid;
+use super::sparse::{Factors, Pattern, TooLarge};
 
 /// A height below this share of the largest is a spurious root, not rounding.
 const NEGATIVE: f64 = -1.0e-6;
+/// How many nodes away the heights of other nodes enter a balance.
+const REACH: usize = 3;
 /// Below this share of the largest h there is no film to speak of.
 const BARE: f64 = 1.0e-3;
-/// Diagonals on each side of the folded matrices.
-const FOLDED_PLAIN: usize = 4;
-const FOLDED_WIDE: usize = 6;
 
 /// A droplet on a ring of nodes, its equation, and how it is smoothed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,14 +40,18 @@ pub struct Ring {
     /// Mass Σ h Δx.
     area: f64,
     /// The factors of H.
-    smoothing: Banded,
+    smoothing: Factors,
+    /// The places of the entries of Jacobians.
+    pattern: Pattern,
 }
 
 impl Ring {
     /// Droplets on a ring with their smoothed heights; `weights` says whether nodes hold the mean of their cell or the value
     /// at the node.
-    #[must_use]
-    pub fn new(line: Line, droplets: &[Droplet], weights: WeightRule) -> (Self, Vec<f64>) {
+    ///
+    /// # Errors
+    /// [`TooLarge`].
+    pub fn new(line: Line, droplets: &[Droplet], weights: WeightRule) -> Result<(Self, Vec<f64>), TooLarge> {
         let Line { from, count, spacing, alpha, .. } = line;
         let mut sharp = vec![0.0; count];
         let masses = particles(droplets, spacing, weights);
@@ -59,18 +61,15 @@ impl Ring {
                 sharp[node as usize] += weight / spacing;
             }
         }
-        let mut smoothing = Banded::new(count, FOLDED_PLAIN, FOLDED_PLAIN);
         let stencil = smoothing_stencil(alpha, spacing);
-        for row in 0..count {
-            for (offset, value) in (-2..=2).zip(stencil) {
-                smoothing.add(folded(row as i64, count), folded(row as i64 + offset, count), value);
-            }
-        }
-        // H is positive definite, so its factors exist.
-        smoothing.factor();
-        let ring = Self { line, area: spacing * sharp.iter().sum::<f64>(), smoothing };
-        let height = ring.smoothed(&sharp);
-        (ring, height)
+        let smoothing = Pattern::new(count, (0..count).flat_map(|row| around(row, 2, count)))?
+            .factor(&stencil.repeat(count))
+            // H is positive definite, so its factors exist.
+            .ok_or(TooLarge(count))?;
+        let pattern = Pattern::new(count, (0..count).flat_map(|row| around(row, REACH, count)))?;
+        let mut height = sharp.clone();
+        smoothing.solve(&mut height);
+        Ok((Self { line, area: spacing * sharp.iter().sum::<f64>(), smoothing, pattern }, height))
     }
 
     fn smoothing(&self) -> [f64; 5] {
@@ -114,11 +113,6 @@ impl Ring {
         let drive = third.iter().zip(&slope).map(|(t, s)| t + pull * s).collect();
         State { sharp, slope, drive, overlap, xi_squared }
     }
-
-    /// H⁻¹ v.
-    fn smoothed(&self, v: &[f64]) -> Vec<f64> {
-        solve_folded(&self.smoothing, v)
-    }
 }
 
 impl Balance for Ring {
@@ -133,47 +127,54 @@ impl Balance for Ring {
         residual
     }
 
-    /// 2-norm of the paper's residual F = H⁻¹ G.
-    fn size(&self, residual: &[f64]) -> f64 {
-        norm(&self.smoothed(residual))
+    fn norm(&self, v: &[f64]) -> f64 {
+        (self.line.spacing * v.iter().map(|v| v * v).sum::<f64>()).sqrt()
     }
 
-    fn newton(&self, v: &[f64], residual: &[f64], dt: f64) -> Option<Vec<f64>> {
+    /// Norm of the paper's residual F = H⁻¹ G.
+    fn size(&self, residual: &[f64]) -> f64 {
+        let mut smoothed = residual.to_vec();
+        self.smoothing.solve(&mut smoothed);
+        self.norm(&smoothed)
+    }
+
+    fn jacobian(&self, v: &[f64], dt: f64) -> Option<Factors> {
         let n = v.len();
-        let state = &self.state(v);
+        let state = self.state(v);
         let smoothing = self.smoothing();
         let pull = state.xi_squared - self.line.bond;
         let (first, third) = (self.first(), self.third());
-        let mut matrix = Banded::new(n, FOLDED_WIDE, FOLDED_WIDE);
-        for (row, &height) in v.iter().enumerate() {
-            for (offset, value) in (-2..=2).zip(smoothing) {
-                matrix.add(folded(row as i64, n), folded(row as i64 + offset, n), value);
+        // Derivatives of the flux of a node by the heights from two nodes before to two after.
+        let flux = |node: usize| -> [f64; 5] {
+            let (h, k, height) = (state.sharp[node], state.drive[node], v[node]);
+            let square = height * height;
+            let mut row = [0.0; 5];
+            for (offset, value) in row.iter_mut().enumerate() {
+                *value = square * k * smoothing[offset] + h * square * (third[offset] + pull * first[offset]);
             }
-            // The flux of this node enters the balances of its two neighbors.
-            let (h, k, square) = (state.sharp[row], state.drive[row], height * height);
+            row[2] += 2.0 * h * height * k;
+            row
+        };
+        let fluxes: Vec<[f64; 5]> = (0..n).map(flux).collect();
+        let share = 0.5 * dt / self.line.spacing;
+        let mut values = Vec::with_capacity(n * (2 * REACH + 1));
+        for node in 0..n {
+            let mut row = [0.0; 2 * REACH + 1];
             for offset in 0..5 {
-                let local = if offset == 2 { 2.0 * h * height * k } else { 0.0 };
-                let flux = square * k * smoothing[offset] + h * square * (third[offset] + pull * first[offset]) + local;
-                let column = folded(row as i64 + offset as i64 - 2, n);
-                let share = 0.5 * dt / self.line.spacing * flux;
-                matrix.add(folded(row as i64 - 1, n), column, share);
-                matrix.add(folded(row as i64 + 1, n), column, -share);
+                row[offset + 1] += smoothing[offset];
+                row[offset + 2] += share * fluxes[(node + 1) % n][offset];
+                row[offset] -= share * fluxes[(node + n - 1) % n][offset];
             }
+            values.extend(row);
         }
-        if !matrix.factor() {
-            return None;
+        let factors = self.pattern.factor(&values)?;
+        if state.xi_squared == 0.0 {
+            return Some(factors);
         }
-        let mut change = solve_folded(&matrix, residual);
-        if state.xi_squared > 0.0 {
-            let flux: Vec<f64> = (0..n).map(|i| state.sharp[i] * v[i] * v[i] * state.slope[i]).collect();
-            let column: Vec<f64> = self.apply(&flux, &first).iter().map(|value| dt * value).collect();
-            let solved = solve_folded(&matrix, &column);
-            let scale = -4.0 * state.xi_squared * self.line.spacing / state.overlap;
-            let row = |x: &[f64]| scale * state.sharp.iter().zip(x).map(|(h, x)| h * x).sum::<f64>();
-            let share = row(&change) / (1.0 + row(&solved));
-            change.iter_mut().zip(&solved).for_each(|(change, solved)| *change -= share * solved);
-        }
-        change.iter().all(|c| c.is_finite()).then_some(change)
+        let flux: Vec<f64> = (0..n).map(|i| state.sharp[i] * v[i] * v[i] * state.slope[i]).collect();
+        let column = self.apply(&flux, &first).iter().map(|value| dt * value).collect();
+        let scale = -4.0 * state.xi_squared * self.line.spacing / state.overlap;
+        factors.with_rank_one(column, state.sharp.iter().map(|h| scale * h).collect())
     }
 
     fn acceptable(&self, v: &[f64]) -> bool {
@@ -229,20 +230,9 @@ fn smoothing_stencil(alpha: f64, spacing: f64) -> [f64; 5] {
     [far, near, 1.0 + 4.0 * c + 6.0 * c * c, near, far]
 }
 
-/// Place of a node in the folded ring: neighbors are at most two apart.
-fn folded(node: i64, count: usize) -> usize {
-    let node = node.rem_euclid(count as i64) as usize;
-    if 2 * node < count { 2 * node } else { 2 * (count - 1 - node) + 1 }
-}
-
-fn solve_folded(matrix: &Banded, v: &[f64]) -> Vec<f64> {
-    let n = v.len();
-    let mut b = vec![0.0; n];
-    for (node, value) in v.iter().enumerate() {
-        b[folded(node as i64, n)] = *value;
-    }
-    matrix.solve(&mut b);
-    (0..n).map(|node| b[folded(node as i64, n)]).collect()
+/// Places of the entries of a row, from `reach` nodes before it to as many after.
+fn around(row: usize, reach: usize, count: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..=2 * reach).map(move |offset| (row, (row + count + offset - reach) % count))
 }
 
 #[cfg(test)]
@@ -250,25 +240,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn folding_a_ring_keeps_neighbors_within_two_places() {
-        for count in [8, 9, 20, 21] {
-            let mut seen: Vec<usize> = (0..count as i64).map(|node| folded(node, count)).collect();
-            for offset in 1..=3 {
-                for node in 0..count as i64 {
-                    let apart = folded(node, count).abs_diff(folded(node + offset, count));
-                    assert!(apart <= 2 * offset as usize, "{count} {node} {offset}: {apart}");
-                }
-            }
-            seen.sort_unstable();
-            assert!(seen.into_iter().eq(0..count));
-        }
-    }
-
-    #[test]
     fn newton_steps_use_the_jacobian_of_the_residual() {
         let line = Line { from: -1.0, count: 80, spacing: 0.025, alpha: 0.05, wetting: 1.16, bond: 3.0 };
         let droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
-        let (ring, old) = Ring::new(line, &[droplet], WeightRule::Cell);
+        let (ring, old) = Ring::new(line, &[droplet], WeightRule::Cell).unwrap();
         let v: Vec<f64> = ring.nodes().iter().map(|x| 0.4 + 0.3 * (3.0 * x).cos()).collect();
         let change: Vec<f64> = (0..80).map(|i| (1.3 * f64::from(i)).sin()).collect();
         let (dt, tiny) = (1.0e-3, 1.0e-6);
@@ -278,7 +253,8 @@ mod tests {
         };
         let (up, down) = (at(1.0), at(-1.0));
         let product: Vec<f64> = up.iter().zip(&down).map(|(up, down)| (up - down) / (2.0 * tiny)).collect();
-        let found = ring.newton(&v, &product, dt).unwrap();
+        let mut found = product;
+        ring.jacobian(&v, dt).unwrap().solve(&mut found);
         let error = found.iter().zip(&change).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         // The central difference is good to rounding over its step.
         assert!(error < 1.0e-6, "{error}");

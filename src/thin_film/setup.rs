@@ -12,9 +12,10 @@ use super::particles::{self, ParticleMethod, Pull};
 use super::ring::{Line, Ring};
 use super::scales::Scales;
 use super::solver::{Surroundings, ThinFilmSolver};
+use super::sparse::TooLarge;
 use crate::case::checked::Case;
 use crate::case::film::checked::{
-    FilmEquation, FilmIntegrator, FilmMethod, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
+    FilmEquation, FilmIntegrator, FilmMethod, FilmSums, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
 };
 
 /// Scaled first step: a droplet that starts far from rest changes fast.
@@ -34,6 +35,9 @@ pub enum SetupError {
         /// A usual one in m.
         usual: f64,
     },
+    /// The film has too many nodes for the memory.
+    #[error("{0}; take a larger spacing")]
+    TooLarge(#[from] TooLarge),
 }
 
 /// The solver of a case at time zero.
@@ -47,7 +51,7 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
     let (wetting, equilibrium) = rest(film, &scales, &droplets)?;
     let pull = Pull { wetting, bond: scales.bond };
     let moving = match film.method {
-        FilmMethod::Particles { integrator, tolerance, lattice_energy } => {
+        FilmMethod::Particles { integrator, tolerance, lattice_energy, sums } => {
             let alpha = smoothing_length(film).unwrap_or(film.spacing) / scales.length;
             let masses = particles(&droplets, film.spacing / scales.length, weights(film));
             let lattice = match lattice_energy {
@@ -61,18 +65,19 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
             let width = droplets.iter().map(|droplet| 2.0 * droplet.half_width).fold(0.0, f64::max);
             let tolerance = Tolerance { absolute: tolerance * width, relative: 0.0 };
             let state = Integrator::new(method, tolerance, masses.x.clone(), FIRST_STEP);
-            let film = Film::particles(ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice), &masses, state);
-            // Programs without the library refuse such a case.
-            #[cfg(feature = "diffsol")]
-            let film = match integrator {
+            let mut equation = ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice);
+            if sums == FilmSums::Direct {
+                equation.sum_directly();
+            }
+            let film = Film::particles(equation, &masses, state);
+            match integrator {
                 FilmIntegrator::DiffsolStiff | FilmIntegrator::DiffsolExplicit => film.by_library(),
                 FilmIntegrator::Stiff | FilmIntegrator::Explicit => film,
-            };
-            film
+            }
         }
         FilmMethod::FiniteDifferences { step_share } => {
             let rule = StepRule { first: FIRST_STEP, share: step_share, ..StepRule::ADAPTIVE };
-            let (equation, height) = grid(film, &scales, &droplets, wall, pull);
+            let (equation, height) = grid(film, &scales, &droplets, wall, pull)?;
             Film::Grid(Box::new(GridFilm::new(equation, height, rule)))
         }
     };
@@ -141,7 +146,13 @@ fn rest(film: &ThinFilm, scales: &Scales, droplets: &[Droplet]) -> Result<(f64, 
 }
 
 /// The equation on its grid, with the heights at time zero.
-fn grid(film: &ThinFilm, scales: &Scales, droplets: &[Droplet], wall: [f64; 2], pull: Pull) -> (Equation, Vec<f64>) {
+fn grid(
+    film: &ThinFilm,
+    scales: &Scales,
+    droplets: &[Droplet],
+    wall: [f64; 2],
+    pull: Pull,
+) -> Result<(Equation, Vec<f64>), TooLarge> {
     let spacing = film.spacing / scales.length;
     let count = ((wall[1] - wall[0]) / film.spacing).round() as usize;
     let model = match (film.equation, film.symmetry) {
@@ -151,8 +162,8 @@ fn grid(film: &ThinFilm, scales: &Scales, droplets: &[Droplet], wall: [f64; 2], 
             let alpha = smoothing_length / scales.length;
             let Pull { wetting, bond } = pull;
             let line = Line { from: -before * spacing, count, spacing, alpha, wetting, bond };
-            let (ring, height) = Ring::new(line, droplets, weights(film));
-            return (Equation::Ring(ring), height);
+            let (ring, height) = Ring::new(line, droplets, weights(film))?;
+            return Ok((Equation::Ring(ring), height));
         }
         (FilmEquation::Geometric { smoothing_length }, FilmSymmetry::Axis) => {
             Model::Geometric { alpha: smoothing_length / scales.length }
@@ -171,6 +182,6 @@ fn grid(film: &ThinFilm, scales: &Scales, droplets: &[Droplet], wall: [f64; 2], 
         FilmSymmetry::Axis => Symmetry::Axis,
     };
     let layout = Layout { from: wall[0] / scales.length, count, spacing, symmetry, model, bond: scales.bond };
-    let (cells, height) = Cells::new(layout, droplets, weights(film));
-    (Equation::Cells(cells), height)
+    let (cells, height) = Cells::new(layout, droplets, weights(film))?;
+    Ok((Equation::Cells(cells), height))
 }

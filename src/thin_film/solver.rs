@@ -5,12 +5,14 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use super::diagrams;
 use super::equilibrium::Equilibrium;
 use super::film::{Film, Stuck};
-use super::history::{History, Record};
+use super::history::{Frame, History, Record};
 use super::measures;
 use super::profile::{Foot, Profile};
 use super::scales::Scales;
+use crate::diagram::Diagram;
 use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Lines, Snapshot, Values};
 use crate::solver::{Measure, PartTime, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo};
@@ -19,6 +21,11 @@ use crate::solver::{Measure, PartTime, Sample, Series, Solver, SolverError, Stat
 const POINTS_PER_FILTER: f64 = 20.0;
 /// Most points of that profile.
 const MOST_POINTS: f64 = 2.0e4;
+
+/// Steps between the places of a frame.
+const FRAME_PLACES: u32 = 240;
+/// Particles whose ways are kept.
+const WAYS: usize = 12;
 
 /// What stands still around the film.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,6 +127,19 @@ impl ThinFilmSolver {
         self.profile().foot(self.surroundings.right)
     }
 
+    /// The scaled places of the heights in frames: equal steps along the wall.
+    #[must_use]
+    pub fn frame_places(&self) -> Vec<f64> {
+        let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
+        (0..=FRAME_PLACES).map(|i| left + (right - left) * f64::from(i) / f64::from(FRAME_PLACES)).collect()
+    }
+
+    fn frame(&self) -> Frame {
+        let time = self.film.time();
+        let heights = self.film.heights(&self.frame_places());
+        Frame { time, heights, ways: self.film.ways(WAYS) }
+    }
+
     /// Column of the film's size, and its unit of scaled mass: an area in the plane, a volume about an axis.
     fn mass_unit(&self) -> (&'static str, f64) {
         let s = &self.surroundings.scales;
@@ -144,7 +164,7 @@ impl ThinFilmSolver {
                 system: "the thin film on its grid",
                 residual,
                 tolerance: super::backward_euler::RESIDUAL,
-                iterations: super::backward_euler::ITERATIONS as usize,
+                iterations: super::backward_euler::FACTORS as usize,
                 time,
                 step,
             },
@@ -178,6 +198,9 @@ impl Solver for ThinFilmSolver {
         {
             let (position, slope, last) = (foot.position, foot.slope, self.film.last_particle());
             self.history.records.push(Record { time, position, slope, last });
+        }
+        if self.history.is_frame_due(time) {
+            self.history.frames.push(self.frame());
         }
         let landed = self.film.time() >= end;
         self.time = if landed { until } else { (self.film.time() * scale).min(until.next_down()) };
@@ -254,6 +277,10 @@ impl Solver for ThinFilmSolver {
 
     fn measures(&self, _series: &Series) -> Vec<Measure> {
         measures::all(self)
+    }
+
+    fn diagrams(&self) -> Vec<Diagram> {
+        diagrams::all(self)
     }
 
     fn state(&self) -> Vec<u8> {

@@ -85,6 +85,8 @@ pub enum FilmMethod {
         tolerance: f64,
         /// What is done about the energy of the particle lattice.
         lattice_energy: LatticeEnergy,
+        /// How the sums over particles are taken.
+        sums: FilmSums,
     },
     /// Implicit finite differences: over a periodic domain for the geometric equation in the plane, else between walls.
     FiniteDifferences {
@@ -115,6 +117,16 @@ pub enum LatticeEnergy {
     Kept,
     /// Its gradient is taken off the rates.
     TakenOff,
+}
+
+/// How the sums over particles are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmSums {
+    /// From neighbor to neighbor.
+    Recursive,
+    /// Over all pairs.
+    Direct,
 }
 
 /// What particles and nodes stand for at time zero.

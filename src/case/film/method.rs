@@ -1,7 +1,7 @@
 //! Checks of how a thin film is solved.
 
-use super::checked::{FilmIntegrator, FilmMethod, LatticeEnergy};
-use super::raw::{RawFilmIntegrator, RawFilmMethod, RawLatticeEnergy};
+use super::checked::{FilmIntegrator, FilmMethod, FilmSums, LatticeEnergy};
+use super::raw::{RawFilmIntegrator, RawFilmMethod, RawFilmSums, RawLatticeEnergy};
 use crate::case::check::Checker;
 
 /// Errors of a step over the initial width.
@@ -44,8 +44,19 @@ pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_b
         Some(RawFilmIntegrator::DiffsolExplicit) => FilmIntegrator::DiffsolExplicit,
     };
     let is_of_library = matches!(integrator, FilmIntegrator::DiffsolStiff | FilmIntegrator::DiffsolExplicit);
-    if is_of_library {
-        library(checker, raw.lattice_energy);
+    if is_of_library && raw.lattice_energy == Some(RawLatticeEnergy::TakenOff) {
+        checker.refuse(
+            "thin-film.method.particles.lattice-energy",
+            "the integrators of diffsol leave the lattice energy as it is",
+            "take `stiff` or `explicit`",
+        );
+    }
+    if integrator == FilmIntegrator::DiffsolStiff && raw.sums == Some(RawFilmSums::Direct) {
+        checker.refuse(
+            "thin-film.method.particles.sums",
+            "the implicit integrator of diffsol solves for the recursive sums and takes no others",
+            "take another integrator",
+        );
     }
     Some(FilmMethod::Particles {
         integrator,
@@ -54,23 +65,9 @@ pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_b
             None | Some(RawLatticeEnergy::Kept) => LatticeEnergy::Kept,
             Some(RawLatticeEnergy::TakenOff) => LatticeEnergy::TakenOff,
         },
+        sums: match raw.sums {
+            None | Some(RawFilmSums::Recursive) => FilmSums::Recursive,
+            Some(RawFilmSums::Direct) => FilmSums::Direct,
+        },
     })
-}
-
-/// What the integrators of the library diffsol need.
-fn library(checker: &mut Checker, lattice_energy: Option<RawLatticeEnergy>) {
-    if !cfg!(feature = "diffsol") {
-        checker.refuse(
-            "thin-film.method.particles.integrator",
-            "this program was built without the library diffsol",
-            "build it with `cargo build --release --features diffsol`, or take `stiff` or `explicit`, which are faster",
-        );
-    }
-    if lattice_energy == Some(RawLatticeEnergy::TakenOff) {
-        checker.refuse(
-            "thin-film.method.particles.lattice-energy",
-            "the integrators of diffsol leave the lattice energy as it is",
-            "take `stiff` or `explicit`",
-        );
-    }
 }

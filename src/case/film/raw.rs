@@ -102,6 +102,8 @@ tables! {
         pub tolerance: f64,
         /// The energy of the particle lattice: `kept` as in the paper (default), or `taken-off`.
         pub lattice_energy: RawLatticeEnergy,
+        /// How the sums over particles are taken (default `recursive`).
+        pub sums: RawFilmSums,
     }
 
     /// The finite-difference method.
@@ -139,9 +141,9 @@ pub enum RawFilmIntegrator {
     Stiff,
     /// Dormand and Prince, order 5: steps as short as stability wants.
     Explicit,
-    /// ESDIRK34 of the library diffsol, in programs built with it.
+    /// ESDIRK34 of the library diffsol.
     DiffsolStiff,
-    /// Tsit45 of the library diffsol, in programs built with it.
+    /// Tsit45 of the library diffsol.
     DiffsolExplicit,
 }
 
@@ -153,4 +155,14 @@ pub enum RawLatticeEnergy {
     Kept,
     /// Its gradient is taken off: not in the paper, order 4 where gaps stay below half a filter length.
     TakenOff,
+}
+
+/// How the sums over the particles of a thin film are taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RawFilmSums {
+    /// From neighbor to neighbor, in a time in proportion to their number.
+    Recursive,
+    /// Over all pairs, to compare with: the time goes as the square of the number.
+    Direct,
 }

@@ -1,11 +1,13 @@
 //! A checked film as a table that loads to the same film.
 
-use super::checked::{FilmEquation, FilmIntegrator, FilmMethod, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm};
+use super::checked::{
+    FilmEquation, FilmIntegrator, FilmMethod, FilmSums, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
+};
 use super::equation::ANGLES;
 use super::raw::{
-    RawDroplet, RawFilmEquation, RawFilmGrid, RawFilmIntegrator, RawFilmMethod, RawFilmParticles, RawFilmSymmetry,
-    RawFilmWeights, RawFilmWetting, RawGeometric, RawLatticeEnergy, RawPartialWetting, RawPrecursor, RawSlip,
-    RawThinFilm,
+    RawDroplet, RawFilmEquation, RawFilmGrid, RawFilmIntegrator, RawFilmMethod, RawFilmParticles, RawFilmSums,
+    RawFilmSymmetry, RawFilmWeights, RawFilmWetting, RawGeometric, RawLatticeEnergy, RawPartialWetting, RawPrecursor,
+    RawSlip, RawThinFilm,
 };
 use crate::case::raw::{Empty, RawFluid};
 
@@ -75,7 +77,7 @@ fn method(method: FilmMethod) -> RawFilmMethod {
         FilmMethod::FiniteDifferences { step_share } => {
             RawFilmMethod { particles: None, finite_differences: Some(RawFilmGrid { step_share: Some(step_share) }) }
         }
-        FilmMethod::Particles { integrator, tolerance, lattice_energy } => RawFilmMethod {
+        FilmMethod::Particles { integrator, tolerance, lattice_energy, sums } => RawFilmMethod {
             particles: Some(RawFilmParticles {
                 integrator: Some(match integrator {
                     FilmIntegrator::Stiff => RawFilmIntegrator::Stiff,
@@ -87,6 +89,10 @@ fn method(method: FilmMethod) -> RawFilmMethod {
                 lattice_energy: Some(match lattice_energy {
                     LatticeEnergy::Kept => RawLatticeEnergy::Kept,
                     LatticeEnergy::TakenOff => RawLatticeEnergy::TakenOff,
+                }),
+                sums: Some(match sums {
+                    FilmSums::Recursive => RawFilmSums::Recursive,
+                    FilmSums::Direct => RawFilmSums::Direct,
                 }),
             }),
             finite_differences: None,

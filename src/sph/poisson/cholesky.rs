@@ -7,6 +7,7 @@ use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 
+use crate::math::factor_in_one_thread;
 use crate::sph::poisson::Matrix;
 
 /// A direct solver that remembers the elimination order of the last pattern it saw.
@@ -33,6 +34,7 @@ impl SparseCholesky {
         b: &[f64],
         x: &mut [f64],
     ) -> Result<(), FactorizationError> {
+        factor_in_one_thread();
         let lower = lower_triangle(matrix, part, anchored)?;
         let failed = |e: &dyn std::fmt::Debug| FactorizationError(format!("{e:?}"));
         if self.pattern.0 != matrix.start || self.pattern.1 != matrix.column {

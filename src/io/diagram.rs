@@ -1,0 +1,226 @@
+//! Draws a [`Diagram`] as SVG: a map in bands of colors, lines over it, the legend beside it (`plotters`).
+
+use plotters::coord::combinators::BindKeyPoints;
+use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
+use plotters::prelude::*;
+
+use super::axes::{DrawingError, LEGEND, color_of, draw_legend, logarithmic_ticks, range, short};
+use crate::diagram::{Axis, Diagram, Map, Stroke, Trace};
+
+/// Width and height of the drawing in pixels.
+const SIZE: (u32, u32) = (620, 440);
+/// Bands of color of a map; few enough to be seen, and to keep files small.
+const BANDS: usize = 16;
+/// Lightest and darkest band.
+const LIGHT: [f64; 3] = [235.0, 243.0, 250.0];
+const DARK: [f64; 3] = [8.0, 48.0, 107.0];
+const GRAY: RGBColor = RGBColor(150, 150, 150);
+
+/// A diagram that cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+#[error("the diagram {name} cannot be drawn: {why}")]
+pub struct DiagramError {
+    /// Its name.
+    pub name: &'static str,
+    /// What the drawing library says.
+    pub why: String,
+}
+
+/// The diagram as SVG; none where nothing can be shown.
+///
+/// # Errors
+/// [`DiagramError`].
+pub fn svg(diagram: &Diagram) -> Result<Option<String>, DiagramError> {
+    let shown = |axis: &Axis, value: f64| value.is_finite() && (!axis.logarithmic || value > 0.0);
+    let fits = |point: &[f64; 2]| shown(&diagram.x, point[0]) && shown(&diagram.y, point[1]);
+    let mut traces: Vec<Trace> = diagram.traces.clone();
+    traces.iter_mut().for_each(|trace| trace.points.retain(fits));
+    traces.retain(|trace| !trace.points.is_empty());
+    let map = diagram.map.as_ref().filter(|map| map.x.len() > 1 && map.y.len() > 1);
+    if traces.is_empty() && map.is_none() {
+        return Ok(None);
+    }
+    let of = |side: usize| traces.iter().flat_map(move |trace| trace.points.iter().map(move |point| point[side]));
+    let (x, y) = match map {
+        // A map fills its diagram.
+        Some(map) => (ends(&map.x, diagram.x.logarithmic), ends(&map.y, diagram.y.logarithmic)),
+        None => (range(of(0), diagram.x.logarithmic), range(of(1), diagram.y.logarithmic)),
+    };
+    let mut text = String::new();
+    let log = |range: std::ops::Range<f64>| {
+        let ticks = logarithmic_ticks(&range);
+        range.log_scale().with_key_points(ticks)
+    };
+    let content = (map, traces.as_slice());
+    let drawn = match (diagram.x.logarithmic, diagram.y.logarithmic) {
+        (false, false) => draw(&mut text, diagram, content, x, y),
+        (true, false) => draw(&mut text, diagram, content, log(x), y),
+        (false, true) => draw(&mut text, diagram, content, x, log(y)),
+        (true, true) => draw(&mut text, diagram, content, log(x), log(y)),
+    };
+    drawn.map_err(|error| DiagramError { name: diagram.name, why: error.to_string() })?;
+    Ok(Some(text))
+}
+
+fn ends(places: &[f64], logarithmic: bool) -> std::ops::Range<f64> {
+    let edges = edges(places, logarithmic);
+    edges.first().copied().unwrap_or(0.0)..edges.last().copied().unwrap_or(1.0)
+}
+
+/// The edges between places, in the middle of each two, and those of the first and the last.
+fn edges(places: &[f64], logarithmic: bool) -> Vec<f64> {
+    let to = |x: f64| if logarithmic { x.ln() } else { x };
+    let from = |x: f64| if logarithmic { x.exp() } else { x };
+    let n = places.len();
+    let at = |i: usize| to(places[i]);
+    let edge = |i: usize| match i {
+        0 => 1.5 * at(0) - 0.5 * at(1),
+        _ if i == n => 1.5 * at(n - 1) - 0.5 * at(n - 2),
+        _ => 0.5 * (at(i - 1) + at(i)),
+    };
+    (0..=n).map(|i| from(edge(i))).collect()
+}
+
+fn band_color(band: usize) -> RGBColor {
+    let share = band as f64 / (BANDS - 1) as f64;
+    let [red, green, blue] = [0, 1, 2].map(|i| (LIGHT[i] + share * (DARK[i] - LIGHT[i])).round() as u8);
+    RGBColor(red, green, blue)
+}
+
+/// Rectangles of one band each: from and to corner.
+fn bands(map: &Map, x: &[f64], y: &[f64]) -> Vec<([(f64, f64); 2], usize)> {
+    let highest = map.values.iter().copied().fold(0.0, f64::max);
+    let band = |value: f64| ((value / highest * BANDS as f64).max(0.0) as usize).min(BANDS - 1);
+    let columns = map.x.len();
+    let mut found = Vec::new();
+    for (row, values) in map.values.chunks_exact(columns).enumerate().take(map.y.len()) {
+        let mut first = 0;
+        for column in 1..=columns {
+            if column == columns || band(values[column]) != band(values[first]) {
+                found.push(([(x[first], y[row]), (x[column], y[row + 1])], band(values[first])));
+                first = column;
+            }
+        }
+    }
+    found
+}
+
+fn draw<'a, X, Y>(
+    text: &'a mut String,
+    diagram: &Diagram,
+    (map, traces): (Option<&Map>, &[Trace]),
+    x: X,
+    y: Y,
+) -> Result<(), DrawingError<'a>>
+where
+    X: AsRangedCoord<Value = f64>,
+    Y: AsRangedCoord<Value = f64>,
+    X::CoordDescType: ValueFormatter<f64>,
+    Y::CoordDescType: ValueFormatter<f64>,
+{
+    let mut colors = 0..;
+    let colored: Vec<(&Trace, RGBColor)> = traces
+        .iter()
+        .map(|trace| match trace.stroke {
+            Stroke::Thin => (trace, GRAY),
+            Stroke::Dashed => (trace, BLACK),
+            Stroke::Full | Stroke::Dots => (trace, color_of(colors.next().unwrap_or(0))),
+        })
+        .collect();
+    let mut names: Vec<(String, RGBColor)> = colored
+        .iter()
+        .filter(|(trace, _)| !trace.name.is_empty())
+        .map(|(trace, color)| (trace.name.clone(), *color))
+        .collect();
+    if let Some(map) = map {
+        let highest = map.values.iter().copied().fold(0.0, f64::max);
+        for band in [BANDS - 1, BANDS / 2, 0] {
+            let middle = highest * (band as f64 + 0.5) / BANDS as f64;
+            let value = short(format!("{middle:.1e}").parse().unwrap_or(middle));
+            names.push((format!("{}: {value}", map.label), band_color(band)));
+        }
+    }
+    let width = SIZE.0 + if names.is_empty() { 0 } else { LEGEND };
+    let whole = SVGBackend::with_string(text, (width, SIZE.1)).into_drawing_area();
+    whole.fill(&WHITE)?;
+    let (area, beside) = whole.split_horizontally(SIZE.0);
+    draw_legend(&beside, &names)?;
+    let mut chart = ChartBuilder::on(&area)
+        .caption(diagram.title, ("sans-serif", 18))
+        .margin(12)
+        .x_label_area_size(48)
+        .y_label_area_size(84)
+        .build_cartesian_2d(x, y)?;
+    if let Some(map) = map {
+        let (x, y) = (edges(&map.x, diagram.x.logarithmic), edges(&map.y, diagram.y.logarithmic));
+        let rectangle = |(corners, band)| Rectangle::new(corners, band_color(band).filled());
+        chart.draw_series(bands(map, &x, &y).into_iter().map(rectangle))?;
+    }
+    let number = |value: &f64| short(*value);
+    let mut mesh = chart.configure_mesh();
+    if map.is_some() {
+        mesh.disable_mesh();
+    }
+    mesh.x_desc(diagram.x.label)
+        .y_desc(diagram.y.label)
+        .x_labels(6)
+        .label_style(("sans-serif", 14))
+        .axis_desc_style(("sans-serif", 15))
+        .light_line_style(RGBColor(240, 240, 240))
+        .x_label_formatter(&number)
+        .y_label_formatter(&number)
+        .draw()?;
+    for (trace, color) in colored {
+        let points = || trace.points.iter().map(|point| (point[0], point[1]));
+        match trace.stroke {
+            Stroke::Full => chart.draw_series(LineSeries::new(points(), color.stroke_width(2))).map(drop)?,
+            Stroke::Thin => chart.draw_series(LineSeries::new(points(), color.stroke_width(1))).map(drop)?,
+            Stroke::Dashed => {
+                chart.draw_series(DashedLineSeries::new(points(), 6, 4, color.stroke_width(2))).map(drop)?;
+            }
+            Stroke::Dots => {
+                chart.draw_series(points().map(|point| Circle::new(point, 3, color.filled()))).map(drop)?;
+            }
+        }
+    }
+    whole.present()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn diagram(map: Option<Map>, traces: Vec<Trace>) -> Diagram {
+        let axis = |label| Axis { label, logarithmic: true };
+        Diagram { name: "test", title: "A test", x: axis("x in m"), y: axis("t in s"), map, traces }
+    }
+
+    #[test]
+    fn lines_and_their_names_are_drawn_and_what_a_scale_cannot_show_is_left_out() {
+        let strokes = [Stroke::Full, Stroke::Thin, Stroke::Dashed, Stroke::Dots];
+        let trace = |stroke| Trace {
+            name: format!("{stroke:?}"),
+            stroke,
+            points: vec![[0.0, 1.0], [1.0, 2.0], [10.0, f64::NAN], [10.0, 3.0]],
+        };
+        let text = svg(&diagram(None, strokes.map(trace).to_vec())).unwrap().unwrap();
+        assert!(text.starts_with("<svg") && !text.contains("NaN"));
+        assert!(strokes.iter().all(|stroke| text.contains(&format!("{stroke:?}"))));
+        let nothing = Trace { name: String::new(), stroke: Stroke::Full, points: vec![[-1.0, 1.0]] };
+        assert_eq!(svg(&diagram(None, vec![nothing])).unwrap(), None);
+    }
+
+    #[test]
+    fn a_map_is_covered_by_bands_without_a_gap() {
+        let values = vec![0.0, 0.1, 0.1, 1.0, 0.5, 0.5, 0.5, 0.5];
+        let map = Map { label: "h in m", x: vec![1.0, 2.0, 3.0, 4.0], y: vec![1.0, 10.0], values };
+        let (x, y) = (edges(&map.x, false), edges(&map.y, true));
+        assert_eq!(x, [0.5, 1.5, 2.5, 3.5, 4.5]);
+        let found = bands(&map, &x, &y);
+        let widths = |row: f64| -> f64 {
+            found.iter().filter(|(corners, _)| corners[0].1 == row).map(|([a, b], _)| b.0 - a.0).sum()
+        };
+        assert_eq!((found.len(), widths(y[0]), widths(y[1])), (4, 4.0, 4.0));
+        assert!(svg(&diagram(Some(map), Vec::new())).unwrap().unwrap().contains("h in m: "));
+    }
+}

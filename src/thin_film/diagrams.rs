@@ -1,0 +1,177 @@
+//! The diagrams of a film: its height over place and time, the ways of particles, the contact line, the self-similar shape, the shape at
+//! rest and the law of Cox and Voinov: Figs. 3 to 6 and 9 to 12 of Pang and Ó Náraigh 2022, for any film. SI units, except where both
+//! axes are powers or ratios.
+
+use super::history::{COX_VOINOV, CoxVoinov};
+use super::similarity::{EXPONENT, fit, shoot};
+use super::solver::ThinFilmSolver;
+use crate::diagram::{Axis, Diagram, Map, Stroke, Trace};
+
+/// Profiles that are laid over one another.
+const SHAPES: usize = 6;
+/// Profiles older than this share of the run have had time to forget their beginning.
+const FORGETTING: f64 = 1.0e-3;
+/// Places of the self-similar shape.
+const PLACES: i32 = 200;
+
+const PLACE: &str = "x in m";
+const TIME: &str = "time in s";
+
+/// All diagrams that there is something to show in.
+#[must_use]
+pub fn all(solver: &ThinFilmSolver) -> Vec<Diagram> {
+    let found = [
+        Some(space_time(solver)),
+        trajectories(solver),
+        Some(contact_line(solver)),
+        similarity(solver),
+        rest(solver),
+        cox_voinov(solver),
+    ];
+    found.into_iter().flatten().collect()
+}
+
+fn linear(label: &'static str) -> Axis {
+    Axis { label, logarithmic: false }
+}
+
+fn logarithmic(label: &'static str) -> Axis {
+    Axis { label, logarithmic: true }
+}
+
+fn trace(name: impl Into<String>, stroke: Stroke, points: impl IntoIterator<Item = [f64; 2]>) -> Trace {
+    Trace { name: name.into(), stroke, points: points.into_iter().collect() }
+}
+
+/// Height over place and time, with the contact line.
+fn space_time(solver: &ThinFilmSolver) -> Diagram {
+    let (scales, history) = (solver.surroundings().scales, solver.history());
+    let map = Map {
+        label: "height in m",
+        x: solver.frame_places().iter().map(|x| x * scales.length).collect(),
+        y: history.frames.iter().map(|frame| frame.time * scales.time).collect(),
+        values: history.frames.iter().flat_map(|frame| frame.heights.iter().map(|h| h * scales.height)).collect(),
+    };
+    let line = history.records.iter().map(|record| [record.position * scales.length, record.time * scales.time]);
+    let traces = vec![trace("contact line", Stroke::Full, line)];
+    let title = "Height over place and time";
+    Diagram { name: "space-time", title, x: linear(PLACE), y: logarithmic(TIME), map: Some(map), traces }
+}
+
+/// Tanner's law through the last of some points.
+fn tanner(points: &[[f64; 2]], exponent: f64, name: &str) -> Option<Trace> {
+    let last = points.last()?;
+    let law = points.iter().map(|point| [point[0], last[1] * (point[0] / last[0]).powf(exponent)]);
+    Some(trace(name, Stroke::Dashed, law))
+}
+
+fn trajectories(solver: &ThinFilmSolver) -> Option<Diagram> {
+    let (scales, frames) = (solver.surroundings().scales, &solver.history().frames);
+    let count = frames.first()?.ways.len();
+    let way = |i: usize| {
+        frames.iter().filter_map(move |frame| Some([frame.time * scales.time, frame.ways.get(i)? * scales.length]))
+    };
+    let last: Vec<[f64; 2]> = way(count.checked_sub(1)?).collect();
+    let mut traces: Vec<Trace> = (0..count - 1).map(|i| trace("", Stroke::Thin, way(i))).collect();
+    if solver.surroundings().rest.is_none() {
+        traces.extend(tanner(&last, EXPONENT, "Tanner's law, 1/7"));
+    }
+    traces.push(trace("last particle", Stroke::Full, last));
+    let title = "Ways of particles right of the middle";
+    Some(Diagram { name: "trajectories", title, x: logarithmic(TIME), y: logarithmic(PLACE), map: None, traces })
+}
+
+fn contact_line(solver: &ThinFilmSolver) -> Diagram {
+    let surroundings = solver.surroundings();
+    let scales = surroundings.scales;
+    let line: Vec<[f64; 2]> =
+        solver.history().records.iter().map(|r| [r.time * scales.time, r.position * scales.length]).collect();
+    let mut traces = Vec::new();
+    if surroundings.rest.is_none() {
+        let (exponent, name) = match surroundings.about_axis {
+            true => (0.1, "Tanner's law, 1/10"),
+            false => (EXPONENT, "Tanner's law, 1/7"),
+        };
+        traces.extend(tanner(&line, exponent, name));
+    }
+    if let Some(droplet) = surroundings.equilibrium {
+        let foot = (surroundings.right + droplet.foot()) * scales.length;
+        traces.push(trace("at rest", Stroke::Dashed, line.iter().map(|point| [point[0], foot])));
+    }
+    traces.push(trace("contact line", Stroke::Full, line));
+    let title = "The contact line over time";
+    Diagram { name: "contact-line", title, x: logarithmic(TIME), y: logarithmic(PLACE), map: None, traces }
+}
+
+/// Profiles in the variables that make one of them, and the solution of the equation without regularization.
+fn similarity(solver: &ThinFilmSolver) -> Option<Diagram> {
+    if !solver.surroundings().is_self_similar {
+        return None;
+    }
+    let (profile, time, foot) = (solver.profile(), solver.film().time(), solver.foot()?);
+    let shape = fit(&profile, time, foot.position)?;
+    let frames: Vec<_> = solver.history().frames.iter().filter(|frame| frame.time > FORGETTING * time).collect();
+    let step = frames.len().div_ceil(SHAPES).max(1);
+    let places = solver.frame_places();
+    let mut traces: Vec<Trace> = frames
+        .iter()
+        .rev()
+        .step_by(step)
+        .map(|frame| {
+            let stretch = frame.time.powf(EXPONENT);
+            let points = places.iter().zip(&frame.heights).filter(|(x, _)| **x >= 0.0);
+            let name = format!("{} s", two_digits(frame.time * solver.surroundings().scales.time));
+            trace(name, Stroke::Full, points.map(|(x, h)| [x / stretch, h * stretch]))
+        })
+        .collect();
+    let end = foot.position / time.powf(EXPONENT);
+    let eta: Vec<f64> = (0..=PLACES).map(|i| 1.2 * end * f64::from(i) / f64::from(PLACES)).collect();
+    let mut law = shoot(shape.height, shape.curvature, &eta);
+    // It never touches down: past its lowest place it rises again, where there is no droplet any more.
+    let lowest = (1..law.len()).find(|&i| law[i] > law[i - 1]).unwrap_or(law.len());
+    law.truncate(lowest);
+    traces.push(trace("f''' = eta/(7 f^2)", Stroke::Dashed, eta.iter().zip(law).map(|(eta, f)| [*eta, f])));
+    // Beyond, there is nothing but the wall.
+    traces.iter_mut().for_each(|trace| trace.points.retain(|point| point[0] < 1.6 * end));
+    let (x, y) = (linear("eta = x t^(-1/7), scaled"), linear("t^(1/7) h, scaled"));
+    Some(Diagram { name: "similarity", title: "Profiles in similarity variables", x, y, map: None, traces })
+}
+
+fn rest(solver: &ThinFilmSolver) -> Option<Diagram> {
+    let surroundings = solver.surroundings();
+    let (droplet, scales) = (surroundings.equilibrium?, surroundings.scales);
+    let profile = solver.profile();
+    let found = profile.x.iter().zip(&profile.height).map(|(x, h)| [x * scales.length, h * scales.height]);
+    let known = profile.x.iter().map(|x| [x * scales.length, droplet.height(x - surroundings.right) * scales.height]);
+    // Lines of some hundred points; a million would make a file that no browser opens.
+    let every = profile.x.len().div_ceil(800).max(1);
+    let traces = vec![
+        trace("at the end", Stroke::Full, found.step_by(every)),
+        trace("closed form", Stroke::Dashed, known.step_by(every)),
+    ];
+    let (x, y) = (linear(PLACE), linear("height in m"));
+    Some(Diagram { name: "rest", title: "The droplet at rest", x, y, map: None, traces })
+}
+
+fn cox_voinov(solver: &ThinFilmSolver) -> Option<Diagram> {
+    let surroundings = solver.surroundings();
+    let rest = surroundings.rest.filter(|_| surroundings.cap_sides.is_none())?;
+    let (CoxVoinov { factor, length, .. }, points) = solver.history().cox_voinov_points(rest)?;
+    let across = |[speed, position, _]: &[f64; 3]| COX_VOINOV * speed * (position / length).ln();
+    let mut law: Vec<f64> = points.iter().map(across).collect();
+    law.sort_by(f64::total_cmp);
+    let measured = points.iter().map(|point| [across(point), point[2] / rest.powi(3)]);
+    let fitted = law.iter().map(|x| [*x, 1.0 + factor / COX_VOINOV * x / rest.powi(3)]);
+    let traces = vec![
+        trace("found", Stroke::Dots, measured),
+        trace(format!("{:.3} of the theory", factor / COX_VOINOV), Stroke::Dashed, fitted),
+    ];
+    let (x, y) = (linear("9 Ca ln(x/d), scaled"), linear("cubed slope over that at rest"));
+    Some(Diagram { name: "cox-voinov", title: "The law of Cox and Voinov", x, y, map: None, traces })
+}
+
+/// A number with two digits.
+fn two_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    if (1.0e-3..1.0e5).contains(&rounded) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
