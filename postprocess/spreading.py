@@ -44,7 +44,9 @@ def measure(path: str | Path, above: float) -> dict:
     is_film = results.is_film(directory)
     times, bases, angles = [], [], []
     for frame in results.frames(directory / "interface.pvd"):
-        points = np.asarray(results.read(frame.file).points)[:, :2]
+        # A particle that strayed has a line of its own around it.
+        drop = results.read(frame.file).connectivity("largest")
+        points = np.asarray(drop.points)[:, :2]
         points = points[points[:, 1] > above]
         base, angle = cap(points, is_film) if len(points) >= FEWEST else (math.nan, math.nan)
         times.append(frame.time)
