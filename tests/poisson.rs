@@ -95,7 +95,7 @@ fn small_systems_are_solved_directly() {
     let (mut b, mut p) = (right_side(n), vec![0.0; n]);
     let wanted = direct(&solver.matrix, &b);
     let tolerance = Tolerance { residual: 1e-6, iterations: 300 };
-    let [found] = solver.solve(&unknowns, &cloud.volume, [System { b: &mut b, x: &mut p, tolerance }]);
+    let found = solver.solve(&unknowns, &cloud.volume, &mut [System { b: &mut b, x: &mut p, tolerance }])[0];
     assert_eq!(found.iterations, 1);
     assert!(found.residual < 1e-12, "{}", found.residual);
     assert!(difference(&p, &wanted) < 1e-10);

@@ -95,11 +95,10 @@ impl<Wall: Fn(Vec2) -> (f64, Vec2) + Sync> Packing<'_, Wall> {
             Unknowns { position: points, kind: &vec![0; n], part: &part, anchored: &[], spacing: self.spacing };
         let mut potential = vec![0.0; n];
         // What the solve leaves over, the next round takes.
-        let _ =
-            solve.solve(&unknowns, &volume[..n], [System { b: &mut source, x: &mut potential, tolerance: TOLERANCE }]);
+        let system = System { b: &mut source, x: &mut potential, tolerance: TOLERANCE };
+        solve.solve(&unknowns, &volume[..n], &mut [system]);
         images.extend(&mut potential);
-        let mut down = vec![Vec2::zeros(); fluids];
-        pressure_gradient::difference(pairs, &volume, &ones, &potential, |_, _| 0.0, &mut down);
+        let down = pressure_gradient::down(pairs, &volume, &ones, &potential, fluids);
         by.iter_mut().zip(&down).for_each(|(by, down)| *by += down);
     }
 

@@ -56,17 +56,12 @@ impl PressureSolve {
     ///
     /// Without a given pressure b must sum to zero over each part; what is left over by the discrete divergence is spread by `volume`.
     /// Then x has mean zero over each such part.
-    pub fn solve<const N: usize>(
-        &mut self,
-        unknowns: &Unknowns,
-        volume: &[f64],
-        mut systems: [System; N],
-    ) -> [Convergence; N] {
+    pub fn solve(&mut self, unknowns: &Unknowns, volume: &[f64], systems: &mut [System]) -> Vec<Convergence> {
         systems.iter_mut().for_each(|system| subtract_mean(unknowns, volume, system.b));
         let convergence = if self.matrix.rows() <= SMALL {
-            systems.each_mut().map(|system| self.solve_directly(unknowns, system))
+            systems.iter_mut().map(|system| self.solve_directly(unknowns, system)).collect()
         } else {
-            self.iterate(unknowns, &mut systems)
+            self.iterate(unknowns, systems)
         };
         let ones = vec![1.0; volume.len()];
         systems.iter_mut().for_each(|system| subtract_mean(unknowns, &ones, system.x));
@@ -77,8 +72,7 @@ impl PressureSolve {
     fn solve_directly(&mut self, unknowns: &Unknowns, system: &mut System) -> Convergence {
         let (b, x) = (&*system.b, &mut *system.x);
         if self.cholesky.solve(&self.matrix, (unknowns.part, unknowns.anchored), b, x).is_err() {
-            let [convergence] = self.iterate(unknowns, std::array::from_mut(system));
-            return convergence;
+            return self.iterate(unknowns, std::slice::from_mut(system))[0];
         }
         let mut r = vec![0.0; b.len()];
         self.matrix.residual(b, x, &mut r);
@@ -87,14 +81,15 @@ impl PressureSolve {
         Convergence { iterations: 1, residual }
     }
 
-    fn iterate<const N: usize>(&mut self, unknowns: &Unknowns, systems: &mut [System; N]) -> [Convergence; N] {
+    fn iterate(&mut self, unknowns: &Unknowns, systems: &mut [System]) -> Vec<Convergence> {
         let multigrid = Multigrid::new(&self.matrix, unknowns.position, unknowns.kind, unknowns.spacing);
         self.hierarchy_bytes = multigrid.bytes();
-        systems.each_mut().map(|System { b, x, tolerance }| {
+        let solve = |System { b, x, tolerance }: &mut System| {
             conjugate_gradients(&self.matrix, b, x, (tolerance.residual, tolerance.iterations), |r, z| {
                 multigrid.precondition(&self.matrix, r, z);
             })
-        })
+        };
+        systems.iter_mut().map(solve).collect()
     }
 
     /// Bytes held between solves and by the hierarchy during them.

@@ -59,27 +59,23 @@ impl Flow {
         let offset = |a: usize| if anchored[part[a] as usize] { prescribed.reference } else { 0.0 };
         let relative = |a: usize| if given(a).is_some() { 0.0 } else { self.particles.pressure[a] - offset(a) };
         let mut p: Vec<f64> = (0..n).map(relative).collect();
-        let flow = System { b: &mut b, x: &mut p, tolerance: method.tolerance };
-        let mut potential = vec![0.0; if method.drift_correction > 0.0 { n } else { 0 }];
         let volume = &self.fields.volume[..n];
-        let convergence = if potential.is_empty() {
-            let [convergence] = self.pressure.solve(&unknowns, volume, [flow]);
-            convergence
-        } else {
-            let mut crowding = vec![0.0; n];
-            each(&mut crowding, |a| {
-                let is_free = self.sees_the_fluid(a) && given(a).is_none();
-                if is_free { method.drift_correction * volume[a] * self.crowding(a) } else { 0.0 }
-            });
+        let mut crowding = vec![0.0; if method.drift_correction > 0.0 { n } else { 0 }];
+        each(&mut crowding, |a| {
+            let is_free = self.sees_the_fluid(a) && given(a).is_none();
+            if is_free { method.drift_correction * volume[a] * self.crowding(a) } else { 0.0 }
+        });
+        let mut potential = vec![0.0; crowding.len()];
+        let mut systems = vec![System { b: &mut b, x: &mut p, tolerance: method.tolerance }];
+        if !crowding.is_empty() {
             let tolerance = Tolerance { residual: DRIFT_RESIDUAL, ..method.tolerance };
-            let order = System { b: &mut crowding, x: &mut potential, tolerance };
-            let [convergence, drift] = self.pressure.solve(&unknowns, volume, [flow, order]);
-            self.work.iterations += drift.iterations as u64;
-            convergence
-        };
+            systems.push(System { b: &mut crowding, x: &mut potential, tolerance });
+        }
+        let solved = self.pressure.solve(&unknowns, volume, &mut systems);
+        let convergence = solved[0];
         p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
         self.work.last_iterations = convergence.iterations;
-        self.work.iterations += convergence.iterations as u64;
+        self.work.iterations += solved.iter().map(|solved| solved.iterations as u64).sum::<u64>();
         self.work.residual = convergence.residual;
         if !(convergence.residual <= method.tolerance.residual) {
             return Err(SolverError::NotConverged {
@@ -104,11 +100,9 @@ impl Flow {
         if potential.is_empty() {
             return Vec::new();
         }
-        let mut by = vec![Vec2::zeros(); self.particles.fluids];
         self.images.extend(&mut potential);
         let f = &self.fields;
-        pressure_gradient::difference(&self.pairs, &f.volume, &f.density, &potential, |_, _| 0.0, &mut by);
-        by
+        pressure_gradient::down(&self.pairs, &f.volume, &f.density, &potential, self.particles.fluids)
     }
 
     /// Whether the divergence at particle `a` counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.

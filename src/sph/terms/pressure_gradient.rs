@@ -43,6 +43,14 @@ pub fn difference(
     });
 }
 
+/// −∇φ/ρ of a potential φ without jumps, by [`difference`]: the way in m down the gradient for φ in kg/m.
+#[must_use]
+pub fn down(pairs: &Pairs, volume: &[f64], density: &[f64], potential: &[f64], particles: usize) -> Vec<Vec2> {
+    let mut by = vec![Vec2::zeros(); particles];
+    difference(pairs, volume, density, potential, |_, _| 0.0, &mut by);
+    by
+}
+
 /// −2 (p_0/ρ_0) Σ_b V_b ∇_a W_ab in m/s²: what a background pressure p_0 does in [`symmetric`], as an acceleration
 /// that is the same for light and heavy particles. `pressure_over_density` = p_0/ρ_0 in m²/s².
 pub fn background(pairs: &Pairs, volume: &[f64], pressure_over_density: f64, acceleration: &mut [Vec2]) {
