@@ -1,6 +1,7 @@
 //! A checked case: every value present, in SI units and in range. Made by `case::load`, read by set-up code only.
 
 use super::film::checked::ThinFilm;
+pub use super::measures::MeasureSet;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::math::Vec2;
 
@@ -54,8 +55,8 @@ pub struct Sph {
     pub gravity: Vec2,
     /// What stands at the four sides of the domain.
     pub sides: Sides,
-    /// Navier's slip length of all walls in m.
-    pub slip_length: f64,
+    /// What all walls are like.
+    pub walls: Walls,
     /// Speeds in m/s of the walls at the left, right, bottom and top side, along x or y.
     pub wall_speeds: [f64; 4],
     /// What drives the flow through the left, right, bottom and top side, where it is open or periodic with a given flow.
@@ -307,12 +308,21 @@ pub enum InitialVelocity {
     TaylorGreen(f64),
 }
 
+/// What all walls are like, those of shapes and those at the sides.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Walls {
+    /// Navier's slip length in m.
+    pub slip_length: f64,
+    /// The same near contact lines.
+    pub line_slip_length: f64,
+}
+
 /// Discretization choices and solver tolerances.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Numerics {
     /// Form of the viscous term.
     pub viscous_term: ViscousTerm,
-    /// Share of the density error taken back per step: gamma of the drift source, 0 to 1.
+    /// Largest share of the density error taken back per step: gamma of the drift source, 0 to 1.
     pub drift_source: f64,
     /// Share of the density error taken back per step by moving particles, their velocities left as they are.
     pub drift_correction: f64,
@@ -320,7 +330,7 @@ pub struct Numerics {
     pub background_pressure: f64,
     /// Particle shifting: A in δr = −A h v_max Δt ∇C, at least 0.
     pub shifting: f64,
-    /// Largest stretch β of velocity differences at walls, at least 1: 10 is no slip, 1.5 slips by a quarter of dx.
+    /// Largest stretch β of velocity differences at walls, at least 1: 10 is no slip, 1.5 slips by a quarter of dx everywhere.
     pub wall_stretch: f64,
     /// Whether wall particles follow walls that the lattice does not fit.
     pub fitted_walls: bool,
@@ -340,51 +350,6 @@ pub enum ViscousTerm {
     Morris,
     /// The same with the transposed velocity gradient where the viscosity changes.
     Stress,
-}
-
-/// Named groups of measures a case can ask for; each is a table `[sph.measure.NAME]`.
-#[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
-pub struct MeasureSet {
-    /// `base-m`, `height-m` of a drop on a straight wall.
-    pub sessile_drop: bool,
-    /// `laplace-jump-ratio`, `parasitic-capillary-number` of a free drop.
-    pub laplace_drop: bool,
-    /// `velocity-l2-error` against plane Poiseuille flow driven by gravity.
-    pub poiseuille: bool,
-    /// `decay-rate-error` against the Taylor-Green vortex.
-    pub taylor_green: bool,
-    /// `filling-angle-deg`, `neck-half-width-m`, `capillary-pressure-ratio` of a bridge between two discs.
-    pub capillary_bridge: bool,
-    /// `interface-curvature-per-m` of the menisci between four discs.
-    pub four_discs: bool,
-    /// Wetted part and height of a drop on a disc.
-    pub drop_on_disc: bool,
-    /// Period and decay of a free drop that oscillates between two ellipses.
-    pub oscillating_drop: bool,
-    /// Amplitude of a standing wave on a flat interface.
-    pub capillary_wave: bool,
-    /// Height, speed and roundness of a bubble (the wetting phase) that rises.
-    pub rising_bubble: bool,
-    /// Deformation of a drop between two moving walls.
-    pub shear_drop: bool,
-    /// Velocity and flow rates of two layers between plates.
-    pub layered_poiseuille: bool,
-    /// Extreme velocities on the center lines of a lid-driven cavity.
-    pub cavity: bool,
-    /// Drag on the solids of a periodic cell that a body force drives fluid through.
-    pub cylinder_array: bool,
-    /// Capillary pressure over the entry pressure of the throat between two discs.
-    pub throat_entry: bool,
-    /// Difference of the mean levels on both sides of a plate.
-    pub jurin: bool,
-    /// Angles, speeds and forces of a drop that moves or is held on a wall.
-    pub moving_drop: bool,
-    /// Exponent of a drop that spreads.
-    pub spreading: bool,
-    /// Filled length of a slit between two open sides.
-    pub slit_filling: bool,
-    /// Height of the meniscus that rises from an open side.
-    pub capillary_rise: bool,
 }
 
 /// What is written and when.

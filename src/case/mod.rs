@@ -8,12 +8,15 @@ pub mod checked;
 mod facts;
 pub mod film;
 mod load;
+mod measures;
+mod numerics;
 mod open;
 pub mod preset;
 pub mod raw;
 mod resolve;
 mod schema;
 mod shapes;
+mod sides;
 mod sph;
 mod wetting;
 

@@ -1,14 +1,13 @@
 //! A checked case written out as one case file: no defaults, presets, overrides or other files left.
 
 use super::checked::{
-    Case, Drive, Fluid, InitialVelocity, LineDelta, MeasureSet, Model, Numerics, Open, Output, Profile, Side, Sides,
-    Sph, SurfaceForce, ViscousTerm,
+    Case, Drive, Fluid, InitialVelocity, LineDelta, Model, Numerics, Open, Output, Profile, Side, Sides, Sph,
+    SurfaceForce, ViscousTerm,
 };
 use super::raw::{
     Empty, RawCase, RawCsf, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface,
-    RawLineDelta, RawMeasures, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawProfile,
-    RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousTerm, RawWallSpeeds,
-    RawWalls,
+    RawLineDelta, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawProfile, RawSide,
+    RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousTerm, RawWallSpeeds, RawWalls,
 };
 use super::wetting;
 
@@ -79,14 +78,17 @@ fn raw_sph(sph: &Sph) -> RawSph {
         }),
         wetting: sph.wetting_model.map(|model| wetting::raw(&model, &sph.wetting_patches)),
         sides: Some(raw_sides(&sph.sides, sph.wall_speeds, sph.open)),
-        walls: Some(RawWalls { slip_length: Some(sph.slip_length) }),
+        walls: Some(RawWalls {
+            slip_length: Some(sph.walls.slip_length),
+            line_slip_length: sph.wetting_model.map(|_| sph.walls.line_slip_length),
+        }),
         initial: Some(RawInitial {
             background: two_phases.then_some(background),
             wetting: two_phases.then(|| sph.initial.wetting.clone()),
             velocity: Some(raw_velocity(&sph.initial.velocity)),
         }),
         numerics: Some(raw_numerics(&sph.numerics)),
-        measure: Some(raw_measures(&sph.measure)),
+        measure: Some(sph.measure.to_raw()),
     }
 }
 
@@ -172,32 +174,6 @@ fn raw_numerics(numerics: &Numerics) -> RawNumerics {
         fitted_walls: Some(numerics.fitted_walls),
         pressure_tolerance: Some(numerics.pressure_tolerance),
         time_step_factor: Some(numerics.time_step_factor),
-    }
-}
-
-fn raw_measures(measure: &MeasureSet) -> RawMeasures {
-    let table = |asked: bool| asked.then_some(Empty {});
-    RawMeasures {
-        sessile_drop: table(measure.sessile_drop),
-        laplace_drop: table(measure.laplace_drop),
-        poiseuille: table(measure.poiseuille),
-        taylor_green: table(measure.taylor_green),
-        capillary_bridge: table(measure.capillary_bridge),
-        four_discs: table(measure.four_discs),
-        drop_on_disc: table(measure.drop_on_disc),
-        oscillating_drop: table(measure.oscillating_drop),
-        capillary_wave: table(measure.capillary_wave),
-        rising_bubble: table(measure.rising_bubble),
-        shear_drop: table(measure.shear_drop),
-        layered_poiseuille: table(measure.layered_poiseuille),
-        cavity: table(measure.cavity),
-        cylinder_array: table(measure.cylinder_array),
-        throat_entry: table(measure.throat_entry),
-        jurin: table(measure.jurin),
-        moving_drop: table(measure.moving_drop),
-        spreading: table(measure.spreading),
-        slit_filling: table(measure.slit_filling),
-        capillary_rise: table(measure.capillary_rise),
     }
 }
 

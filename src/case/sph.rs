@@ -1,16 +1,12 @@
 //! Checks of `[sph]`: ranges of every value, and which values go together.
 
 use super::check::Checker;
-use super::checked::{
-    Fluid, Initial, InitialVelocity, LineDelta, MeasureSet, Numerics, Side, Sides, Sph, SurfaceForce, ViscousTerm,
-};
+use super::checked::{Fluid, Initial, InitialVelocity, LineDelta, MeasureSet, Sph, SurfaceForce};
 use super::preset::{COLD, WARM};
-use super::raw::{
-    RawCsf, RawFluid, RawInitial, RawLineDelta, RawMeasures, RawNumerics, RawPhase, RawSide, RawSides, RawSph,
-    RawViscousTerm,
-};
+use super::raw::{RawCsf, RawFluid, RawInitial, RawLineDelta, RawPhase, RawSph};
 use super::shapes::shape_problems;
-use super::wetting;
+use super::sides::{sides, wall_speeds, walls};
+use super::{numerics, wetting};
 use crate::geometry::spec::GeometrySpec;
 use crate::math::Vec2;
 
@@ -60,9 +56,9 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         None => Vec::new(),
     };
     let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
-    let slip_length = slip_length(checker, raw);
-    let default = default_numerics(surface_force, wetting_model.is_some() && slip_length == 0.0);
-    let numerics = numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
+    let walls = walls(checker, &raw.walls.clone().unwrap_or_default(), wetting_model.is_some(), spacing);
+    let default = numerics::default(surface_force);
+    let numerics = numerics::numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
     Some(Sph {
         spacing: spacing?,
         smoothing_ratio: ratio.unwrap_or(DEFAULT_SMOOTHING_RATIO),
@@ -77,12 +73,12 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         wetting_patches: patches,
         gravity: Vec2::from(raw.gravity.unwrap_or_default()),
         sides,
-        slip_length,
+        walls,
         wall_speeds,
         open: open?,
         initial: initial?,
         numerics,
-        measure: measures(&raw.measure.clone().unwrap_or_default()),
+        measure: MeasureSet::from_raw(&raw.measure.clone().unwrap_or_default()),
     })
 }
 
@@ -217,54 +213,6 @@ fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
     }
 }
 
-fn sides(checker: &mut Checker, raw: &RawSides) -> Sides {
-    let given = [("left", raw.left), ("right", raw.right), ("bottom", raw.bottom), ("top", raw.top)];
-    for pair in given.chunks_exact(2) {
-        let [(a, side_a), (b, side_b)] = pair else { continue };
-        let (one, other, missing) = match (side_a, side_b) {
-            (Some(RawSide::Periodic), side) if *side != Some(RawSide::Periodic) => (a, b, side),
-            (side, Some(RawSide::Periodic)) if *side != Some(RawSide::Periodic) => (b, a, side),
-            _ => continue,
-        };
-        let found = if missing.is_none() { "is a wall by default" } else { "is not" };
-        checker.refuse(
-            format!("sph.sides.{one}"),
-            format!("the side `{one}` is periodic and the opposite side `{other}` {found}"),
-            format!("set {other} = \"periodic\" too"),
-        );
-    }
-    let side = |side: Option<RawSide>| match side {
-        None | Some(RawSide::Wall) => Side::Wall,
-        Some(RawSide::Periodic) => Side::Periodic,
-        Some(RawSide::Image) => Side::Image,
-        Some(RawSide::Symmetry) => Side::Symmetry,
-        Some(RawSide::Inlet) => Side::Inlet,
-        Some(RawSide::Outlet) => Side::Outlet,
-    };
-    Sides { left: side(raw.left), right: side(raw.right), bottom: side(raw.bottom), top: side(raw.top) }
-}
-
-/// Speeds of the left, right, bottom and top wall; only a side that is a wall can have one.
-fn wall_speeds(checker: &mut Checker, raw: &RawSides) -> [f64; 4] {
-    let speed = raw.speed.clone().unwrap_or_default();
-    let sides = [
-        ("left", raw.left, speed.left),
-        ("right", raw.right, speed.right),
-        ("bottom", raw.bottom, speed.bottom),
-        ("top", raw.top, speed.top),
-    ];
-    sides.map(|(key, side, speed)| {
-        if speed.is_some() && side.is_some_and(|side| side != RawSide::Wall) {
-            checker.refuse(
-                format!("sph.sides.speed.{key}"),
-                format!("the side `{key}` is not a wall and cannot move"),
-                format!("set sides.{key} = \"wall\", or leave the speed out"),
-            );
-        }
-        speed.unwrap_or_default()
-    })
-}
-
 fn initial(checker: &mut Checker, raw: &RawInitial, two_phases: bool) -> Option<Initial> {
     let wetting = raw.wetting.clone().unwrap_or_default();
     for (index, shape) in wetting.iter().enumerate() {
@@ -302,107 +250,5 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
             );
             None
         }
-    }
-}
-
-fn slip_length(checker: &mut Checker, raw: &RawSph) -> f64 {
-    const PATH: &str = "sph.walls.slip-length";
-    let given = raw.walls.as_ref().and_then(|walls| walls.slip_length).unwrap_or_default();
-    if !(given >= 0.0 && given.is_finite()) {
-        checker.refuse(PATH, format!("expected a slip length in m of at least 0, found {given:?}"), "");
-        return 0.0;
-    }
-    given
-}
-
-/// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and drift source,
-/// the others by shifting and either drift source or drift correction (docs/numerics). A wall that a contact line moves along must slip a little, if no slip length is given.
-fn default_numerics(surface_force: Option<SurfaceForce>, must_slip: bool) -> Numerics {
-    let (drift_source, drift_correction, background_pressure, shifting) = match surface_force {
-        Some(SurfaceForce::Csf { .. }) => (0.02, 0.0, 0.5, 0.0),
-        Some(SurfaceForce::PressureJump) => (0.2, 0.0, 0.0, 2.0),
-        None => (0.0, 0.2, 0.0, 2.0),
-    };
-    Numerics {
-        viscous_term: ViscousTerm::Stress,
-        drift_source,
-        drift_correction,
-        background_pressure,
-        shifting,
-        wall_stretch: if must_slip { 1.5 } else { 10.0 },
-        fitted_walls: true,
-        pressure_tolerance: 1.0e-6,
-        time_step_factor: 1.0,
-    }
-}
-
-fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numerics) -> Numerics {
-    let mut within = |key: &str, given: Option<f64>, range: (f64, f64), what: &str, default: f64| {
-        checker.within(&format!("sph.numerics.{key}"), given, range, what).unwrap_or(default)
-    };
-    Numerics {
-        viscous_term: match raw.viscous_term {
-            None => default.viscous_term,
-            Some(RawViscousTerm::Stress) => ViscousTerm::Stress,
-            Some(RawViscousTerm::Morris) => ViscousTerm::Morris,
-            Some(RawViscousTerm::Szewc) => ViscousTerm::Szewc,
-        },
-        drift_source: within("drift-source", raw.drift_source, (0.0, 1.0), "a share", default.drift_source),
-        drift_correction: within(
-            "drift-correction",
-            raw.drift_correction,
-            (0.0, 1.0),
-            "a share",
-            default.drift_correction,
-        ),
-        background_pressure: within(
-            "background-pressure",
-            raw.background_pressure,
-            (0.0, 1.0e3),
-            "a factor",
-            default.background_pressure,
-        ),
-        shifting: within("shifting", raw.shifting, (0.0, 100.0), "a factor", default.shifting),
-        wall_stretch: within("wall-stretch", raw.wall_stretch, (1.0, 1.0e3), "a factor", default.wall_stretch),
-        fitted_walls: raw.fitted_walls.unwrap_or(default.fitted_walls),
-        pressure_tolerance: within(
-            "pressure-tolerance",
-            raw.pressure_tolerance,
-            (1.0e-13, 0.1),
-            "a relative residual",
-            default.pressure_tolerance,
-        ),
-        time_step_factor: within(
-            "time-step-factor",
-            raw.time_step_factor,
-            (1.0e-3, 1.0),
-            "a factor",
-            default.time_step_factor,
-        ),
-    }
-}
-
-fn measures(raw: &RawMeasures) -> MeasureSet {
-    MeasureSet {
-        sessile_drop: raw.sessile_drop.is_some(),
-        laplace_drop: raw.laplace_drop.is_some(),
-        poiseuille: raw.poiseuille.is_some(),
-        taylor_green: raw.taylor_green.is_some(),
-        capillary_bridge: raw.capillary_bridge.is_some(),
-        four_discs: raw.four_discs.is_some(),
-        drop_on_disc: raw.drop_on_disc.is_some(),
-        oscillating_drop: raw.oscillating_drop.is_some(),
-        capillary_wave: raw.capillary_wave.is_some(),
-        rising_bubble: raw.rising_bubble.is_some(),
-        shear_drop: raw.shear_drop.is_some(),
-        layered_poiseuille: raw.layered_poiseuille.is_some(),
-        cavity: raw.cavity.is_some(),
-        cylinder_array: raw.cylinder_array.is_some(),
-        throat_entry: raw.throat_entry.is_some(),
-        jurin: raw.jurin.is_some(),
-        moving_drop: raw.moving_drop.is_some(),
-        spreading: raw.spreading.is_some(),
-        slit_filling: raw.slit_filling.is_some(),
-        capillary_rise: raw.capillary_rise.is_some(),
     }
 }

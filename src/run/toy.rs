@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::simulation::{Progress, Watcher};
 use crate::case::checked::{
     Case, Expectation, Fluid, Initial, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides, Sph,
-    ViscousTerm,
+    ViscousTerm, Walls,
 };
 use crate::geometry::spec::{GeometrySpec, SolidSide};
 use crate::math::{Vec2, perpendicular};
@@ -157,7 +157,7 @@ pub fn case() -> Case {
         wetting_patches: Vec::new(),
         gravity: Vec2::zeros(),
         sides: Sides { left: Side::Wall, right: Side::Wall, bottom: Side::Wall, top: Side::Wall },
-        slip_length: 0.0,
+        walls: Walls { slip_length: 0.0, line_slip_length: 0.0 },
         wall_speeds: [0.0; 4],
         open: [None; 4],
         initial: Initial { wetting: Vec::new(), wetting_is_background: true, velocity: InitialVelocity::Rest },

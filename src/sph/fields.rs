@@ -7,7 +7,7 @@ use crate::sph::boundary::carry;
 use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::images::Images;
 use crate::sph::method::Method;
-use crate::sph::pairs::{GRAIN, Pairs};
+use crate::sph::pairs::{GRAIN, Pairs, each};
 use crate::sph::particles::{Particles, Phase};
 use crate::sph::surface_force::SurfaceForce;
 use crate::sph::surface_force::fit::InterfaceFit;
@@ -59,6 +59,8 @@ pub struct Fields {
     pub wall_normal: Vec<Vec2>,
     /// Sides and curvatures for the pressure jump, in that form of the surface force.
     pub jump: Option<Jump>,
+    /// Slip length in m of the wall next to each fluid particle.
+    pub slip_length: Vec<f64>,
     /// Number of contact lines that a line force acts on.
     pub contact_lines: usize,
     /// The contact lines now: the state of the next step.
@@ -136,6 +138,8 @@ impl Fields {
         self.jump = None;
         self.contact_lines = 0;
         self.lines.clear();
+        self.slip_length.clear();
+        self.slip_length.resize(fluids, method.no_slip.slip_length);
         if method.tension == 0.0 {
             return;
         }
@@ -145,6 +149,18 @@ impl Fields {
             SurfaceForce::Csf(delta) => self.continuum_forces(neighborhood, (method, delta), place, (lines, dt)),
             SurfaceForce::PressureJump => self.pressure_jump((neighborhood, &sharp), method, place, (lines, dt)),
         }
+        self.slip_near_lines(particles, method, place.domain);
+    }
+
+    /// Gives walls near contact lines the slip length of lines.
+    fn slip_near_lines(&mut self, particles: &Particles, method: &Method, domain: &Domain) {
+        let (lines, wall_distance) = (&self.lines, &self.wall_distance);
+        each(&mut self.slip_length, |a| {
+            let distance = |line: &Line| domain.separation(particles.position[a], line.position).norm();
+            let has_wall = wall_distance[a].is_finite();
+            let nearest = lines.iter().filter(|_| has_wall).map(distance).fold(f64::INFINITY, f64::min);
+            method.no_slip.slip_length_at(nearest)
+        });
     }
 
     /// The paper's forces: normals and curvature in a band, surface force and line force [Huber2013, Eqs. 18-23].

@@ -14,6 +14,9 @@ const LARGEST_SYMMETRIC_RATIO: f64 = 5.0;
 /// Above this ratio the light particles of the unweighted continuum force are too fast.
 const LARGEST_WEIGHTED_RATIO: f64 = 20.0;
 
+/// The drift source has its full share where the fastest particle goes this far in a step, over dx.
+const FULL_DRIFT_WAY: f64 = 0.005;
+
 /// Forms of the pressure gradient, see `terms::pressure_gradient`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PressureGradient {
@@ -68,11 +71,11 @@ pub struct Method {
     pub patches: Vec<Wetting>,
     /// Body force per mass in m/s².
     pub gravity: Vec2,
-    /// Wall velocities.
+    /// How walls hold the fluid next to them.
     pub no_slip: NoSlip,
     /// Viscous term.
     pub viscous_term: ViscousTerm,
-    /// Share γ of the density error that the pressure takes back per step.
+    /// Largest share γ of the density error that the pressure takes back per step.
     pub drift_source: f64,
     /// Share of the density error taken back per step by moving particles, their velocities left as they are.
     pub drift_correction: f64,
@@ -135,6 +138,15 @@ impl Method {
     #[must_use]
     pub fn force_weight(&self, rho: f64) -> f64 {
         if self.pressure_gradient() == PressureGradient::Difference { rho / self.mean_density() } else { 1.0 }
+    }
+
+    /// The share of the density error that the pressure takes back in a step in which no particle goes farther than `way` (m):
+    /// γ min(1, way/(.005 dx)). The way is relative to the mean of all.
+    ///
+    /// Density errors come with motion. Where hardly anything moves, to push for errors that are there would be what moves the particles.
+    #[must_use]
+    pub fn drift_share(&self, way: f64) -> f64 {
+        self.drift_source * (way / (FULL_DRIFT_WAY * self.spacing)).min(1.0)
     }
 
     /// The speed of capillary waves of the length h, sqrt(σ/(ρ̄ h)), in m/s.

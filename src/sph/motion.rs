@@ -17,6 +17,12 @@ const CLOSEST_TO_WALL: f64 = 0.05;
 /// In a corner a particle is set back from one wall after the other, so many times; in a sharp wedge the next step does the rest.
 const SET_BACKS: usize = 4;
 
+/// The largest speed in m/s relative to the mean velocity: a moving observer sees the same.
+pub(super) fn relative_speed(velocity: &[Vec2]) -> f64 {
+    let mean = velocity.iter().sum::<Vec2>() / velocity.len() as f64;
+    largest(velocity.len(), |a| (velocity[a] - mean).norm()).map_or(0.0, |l| l.1)
+}
+
 impl Flow {
     /// Moves the particles with the mean of old and new velocity [Huber2013, Eq. 27], and by `drift` (m), if there is any, which takes
     /// density errors back and leaves velocities alone.
@@ -62,10 +68,7 @@ impl Flow {
     /// Shifts crowded particles apart, along the interface near it, and strays back across it; they carry their velocity along.
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
         let (fluids, m, f) = (self.particles.fluids, &self.method, &self.fields);
-        // Relative to the mean velocity, so that a moving observer sees the same shifts.
-        let mean = velocity[..fluids].iter().sum::<Vec2>() / fluids as f64;
-        let speed = largest(fluids, |a| (velocity[a] - mean).norm()).map_or(0.0, |l| l.1);
-        let diffusion = m.shifting * m.kernel.h * speed * dt;
+        let diffusion = m.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
         let mut by = vec![Vec2::zeros(); fluids];
         if diffusion > 0.0 {
             shifting::shift(&self.pairs, &f.volume, diffusion, m.kernel.h, &mut by);

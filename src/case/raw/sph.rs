@@ -81,6 +81,8 @@ tables! {
     pub struct RawWalls {
         /// Navier's slip length in m: on the wall, the velocity along it is this length times its slope (default 0).
         pub slip_length: f64,
+        /// The same near contact lines, in m (default `slip-length`; where that is not given, one spacing).
+        pub line_slip_length: f64,
     }
 
     /// The state at time zero.
@@ -113,7 +115,7 @@ tables! {
     pub struct RawNumerics {
         /// Form of the viscous term (default `stress`).
         pub viscous_term: RawViscousTerm,
-        /// Share of the density error taken back per step by the velocities, 0 to 1 (default 0.2, with `csf` 0.02, without tension 0).
+        /// Largest share of the density error taken back per step by the velocities, 0 to 1 (default 0.2, with `csf` 0.02, without tension 0).
         pub drift_source: f64,
         /// Share of the density error taken back per step by moving particles without their velocities, 0 to 1 (default 0, without tension 0.2).
         pub drift_correction: f64,
@@ -122,8 +124,8 @@ tables! {
         pub background_pressure: f64,
         /// Particle shifting against crowding, over h times the largest speed times the step (default 0, without tension 2).
         pub shifting: f64,
-        /// Largest stretch of velocity differences at walls: 10 for no slip, less lets contact lines slip (default 10,
-        /// with a wetting model and no slip length 1.5: a slip length of a quarter of the spacing).
+        /// Largest stretch of velocity differences at walls: 10 for no slip, less lets the fluid slip (default 10; 1.5 is a slip
+        /// length of a quarter of the spacing).
         pub wall_stretch: f64,
         /// Whether wall particles stand in layers along curved and oblique walls, and the fluid is packed to them, or all
         /// on the lattice (default true).

@@ -1,10 +1,15 @@
 //! The velocity of walls in the viscous term, extrapolated by the distance to the wall (Morris et al. 1997, section 3.4), as the
-//! paper uses it; with a slip length, to the plane behind the wall where the velocity of the fluid would vanish (Navier 1823).
+//! paper uses it; with a slip length, to the plane behind the wall where the velocity of the fluid would vanish (Navier 1823). Near contact
+//! lines walls have a slip length of their own: a line on a wall without slip cannot move (Huh & Scriven 1971), and what the particles
+//! slip by themselves is too little for a line that is driven hard, which then runs over those next to the wall.
 
 use crate::math::Vec2;
 
 /// Closest distance of a fluid particle to a wall that is used, in units of dx: nearer ones would meet an endless shear.
 const CLOSEST: f64 = 0.25;
+
+/// Distances from a contact line over dx: up to the first the wall has the slip length of lines, beyond the second that of walls.
+const NEAR_LINE: [f64; 2] = [3.0, 6.0];
 
 /// Velocity differences between fluid and wall particles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +20,8 @@ pub struct NoSlip {
     pub largest_stretch: f64,
     /// Navier's slip length b in m: along the wall, u = b ∂u/∂n on its surface. 0: no slip.
     pub slip_length: f64,
+    /// The same near contact lines.
+    pub line_slip_length: f64,
 }
 
 impl NoSlip {
@@ -26,16 +33,24 @@ impl NoSlip {
         (1.0 + depth.max(0.0) / d_a).min(self.largest_stretch)
     }
 
-    /// The stretched difference of the velocity `v_ab` = v_a − v_wall: with slip, the part along the wall is stretched by
+    /// The slip length b in m of a wall at the distance `line_distance` (m) from the nearest contact line, which may be infinite.
+    #[must_use]
+    pub fn slip_length_at(&self, line_distance: f64) -> f64 {
+        let [near, far] = NEAR_LINE.map(|n| n * self.spacing);
+        let share = ((far - line_distance) / (far - near)).clamp(0.0, 1.0);
+        self.slip_length + share * (self.line_slip_length - self.slip_length)
+    }
+
+    /// The stretched difference of the velocity `v_ab` = v_a − v_wall: with a slip length b (m), the part along the wall is stretched by
     /// min(β_max, (d_a + d_b)/(d_a + b)), so that it vanishes at the depth b. `normal` is that of the wall.
     #[must_use]
-    pub fn difference(&self, v_ab: Vec2, normal: Vec2, distance: f64, depth: f64) -> Vec2 {
+    pub fn difference(&self, v_ab: Vec2, (distance, normal): (f64, Vec2), depth: f64, b: f64) -> Vec2 {
         let beta = self.stretch(distance, depth);
-        if self.slip_length == 0.0 {
+        if b == 0.0 {
             return beta * v_ab;
         }
         let d_a = distance.max(CLOSEST * self.spacing);
-        let along = ((d_a + depth.max(0.0)) / (d_a + self.slip_length)).min(self.largest_stretch);
+        let along = ((d_a + depth.max(0.0)) / (d_a + b)).min(self.largest_stretch);
         let across = v_ab.dot(&normal) * normal;
         beta * across + along * (v_ab - across)
     }
@@ -47,17 +62,26 @@ mod tests {
 
     #[test]
     fn a_velocity_that_vanishes_behind_the_wall_is_extrapolated_to_its_particles() {
-        let wall = NoSlip { spacing: 1.0, largest_stretch: 10.0, slip_length: 2.0 };
+        let wall = NoSlip { spacing: 1.0, largest_stretch: 10.0, slip_length: 2.0, line_slip_length: 2.0 };
         // u = y + b over the wall y = 0, which rises at 3: at the depth d it is b − d, and v_y = 3 (1 + d/y) less 3.
         for (y, depth) in [(0.5, 0.5), (1.5, 2.5), (0.7, 1.5)] {
-            let v_ab = wall.difference(Vec2::new(y + 2.0, 3.0), Vec2::y(), y, depth);
+            let v_ab = wall.difference(Vec2::new(y + 2.0, 3.0), (y, Vec2::y()), depth, 2.0);
             assert!((v_ab - Vec2::new(y + depth, 3.0 * (1.0 + depth / y))).norm() < 1e-14, "{v_ab:?}");
         }
     }
 
     #[test]
     fn without_slip_length_the_whole_difference_is_stretched() {
-        let wall = NoSlip { spacing: 1.0, largest_stretch: 1.5, slip_length: 0.0 };
-        assert_eq!(wall.difference(Vec2::new(2.0, 4.0), Vec2::y(), 0.5, 0.5), Vec2::new(3.0, 6.0));
+        let wall = NoSlip { spacing: 1.0, largest_stretch: 1.5, slip_length: 0.0, line_slip_length: 0.0 };
+        assert_eq!(wall.difference(Vec2::new(2.0, 4.0), (0.5, Vec2::y()), 0.5, 0.0), Vec2::new(3.0, 6.0));
+    }
+
+    #[test]
+    fn the_slip_length_of_lines_fades_into_that_of_walls() {
+        let wall = NoSlip { spacing: 0.1, largest_stretch: 10.0, slip_length: 0.02, line_slip_length: 0.1 };
+        let near = [0.0, 0.3, 0.45, 0.6, f64::INFINITY].map(|r| wall.slip_length_at(r));
+        for (found, exact) in near.into_iter().zip([0.1, 0.1, 0.06, 0.02, 0.02]) {
+            assert!((found - exact).abs() < 1e-15, "{near:?}");
+        }
     }
 }

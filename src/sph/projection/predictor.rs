@@ -4,6 +4,7 @@ use super::{Flow, Predicted};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::method::PressureGradient;
+use crate::sph::motion::relative_speed;
 use crate::sph::open::Feet;
 use crate::sph::pairs::{each, largest};
 use crate::sph::terms::pressure_gradient;
@@ -32,6 +33,7 @@ impl Flow {
             });
         }
         let step = landing(step, self.time, until);
+        let longest_way = relative_speed(&particles.velocity[..fluids]) * step.dt;
         let background = self.background_acceleration(speed);
         let f = &self.fields;
         each(&mut velocity[..fluids], |a| {
@@ -43,7 +45,7 @@ impl Flow {
         // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
         velocity[moving..particles.len()].fill(Vec2::zeros());
         self.images.extend_velocity(&mut velocity);
-        Ok(Predicted { dt: step.dt, limit: step.limit, velocity, feet })
+        Ok(Predicted { dt: step.dt, limit: step.limit, longest_way, velocity, feet })
     }
 
     /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a

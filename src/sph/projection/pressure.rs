@@ -22,14 +22,14 @@ impl Flow {
     /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
     /// no open side gives it.
     ///
-    /// The right side gives a share γ of the density error back per step (the drift source, which the paper lacks). Beside the
+    /// The right side gives a share of the density error back per step (the drift source, which the paper lacks). Beside the
     /// pressure stands the way in m that each fluid particle goes for the drift correction, nothing where there is none.
     pub(super) fn project(&mut self, predicted: &Predicted) -> Result<(Vec<f64>, Vec<Vec2>), SolverError> {
         let (n, fluids, dt) = (self.particles.len(), self.particles.fluids, predicted.dt);
         let (method, f) = (&self.method, &self.fields);
         let mut source = vec![0.0; n];
         divergence(&self.pairs, &f.volume, &predicted.velocity, &mut source);
-        let drift = method.drift_source / (dt * dt);
+        let drift = method.drift_share(predicted.longest_way) / (dt * dt);
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
             if !self.sees_the_fluid(a) {

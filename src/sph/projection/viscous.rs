@@ -63,8 +63,9 @@ impl Flow {
     /// v_a − v_b in m/s, at walls as these stretch it.
     fn velocity_difference(&self, velocity: &[Vec2], a: usize, b: usize) -> Vec2 {
         let v_ab = velocity[a] - velocity[b];
-        let (distance, normal) = (self.fields.wall_distance[a], self.fields.wall_normal[a]);
-        self.depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, normal, distance, depth))
+        let f = &self.fields;
+        let wall = (f.wall_distance[a], f.wall_normal[a]);
+        self.depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, wall, depth, f.slip_length[a]))
     }
 
     /// The largest |v_ab| over the velocity difference: β at walls, 1 between fluid particles.

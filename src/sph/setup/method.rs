@@ -37,7 +37,12 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
         wetting: sph.wetting_model.map(wetting),
         patches: sph.wetting_patches.iter().map(|patch| wetting(patch.model)).collect(),
         gravity: sph.gravity,
-        no_slip: NoSlip { spacing: sph.spacing, largest_stretch: numerics.wall_stretch, slip_length: sph.slip_length },
+        no_slip: NoSlip {
+            spacing: sph.spacing,
+            largest_stretch: numerics.wall_stretch,
+            slip_length: sph.walls.slip_length,
+            line_slip_length: sph.walls.line_slip_length,
+        },
         viscous_term: match numerics.viscous_term {
             checked::ViscousTerm::Szewc => ViscousTerm::Szewc,
             checked::ViscousTerm::Morris => ViscousTerm::Morris,
