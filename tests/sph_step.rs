@@ -168,3 +168,11 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
         assert!((below.x / all.x - 0.5).abs() < 1e-6 && all.y.abs() < 1e-6 * weight, "{below:?} of {all:?}");
     }
 }
+
+#[test]
+fn the_drift_source_rests_where_the_fluid_does() {
+    let method = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump")).method;
+    let share = |ways: f64| method.drift_share(ways * method.spacing);
+    assert_eq!((share(0.0), share(0.005), share(1.0)), (0.0, method.drift_source, method.drift_source));
+    assert!((share(0.0025) - 0.5 * method.drift_source).abs() < 1e-15, "{}", share(0.0025));
+}

@@ -1,6 +1,6 @@
 //! The velocity of walls in the viscous term, extrapolated by the distance to the wall (Morris et al. 1997, section 3.4), as the
-//! paper uses it; with a slip length, to the plane behind the wall where the velocity of the fluid would vanish (Navier 1823). Near contact
-//! lines walls have a slip length of their own: a line on a wall without slip cannot move (Huh & Scriven 1971), and what the particles
+//! paper uses it; with a slip length, to the plane behind the wall where the velocity of the fluid would vanish \[Navier1823\]. Near contact
+//! lines walls have a slip length of their own: a line on a wall without slip cannot move \[Huh1971\], and what the particles
 //! slip by themselves is too little for a line that is driven hard, which then runs over those next to the wall.
 
 use crate::math::Vec2;
