@@ -245,7 +245,8 @@ fn walls_slip_by_a_spacing_near_contact_lines_and_not_elsewhere() {
         flow(&liquid_on_a_wall(place, [0.0, 0.0], 60.0, WALLS_BELOW_AND_ABOVE, ("non-wetting", "pressure-jump")));
     let (fields, spacing) = (&flow.fields, flow.method.spacing);
     assert_eq!(fields.lines.len(), 2, "{:?}", fields.lines);
-    for a in 0..flow.particles.fluids {
+    let at_walls = (0..flow.particles.fluids).filter(|a| fields.wall_distance[*a].is_finite());
+    for a in at_walls {
         let x = flow.particles.position[a];
         let nearest =
             fields.lines.iter().map(|line| flow.domain.separation(x, line.position).norm()).fold(f64::MAX, f64::min);
