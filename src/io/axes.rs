@@ -1,5 +1,6 @@
 //! What diagrams and the curves of studies share: colors, ranges, round numbers at the axes, the legend (`plotters`).
 
+use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
 /// Width of a legend beside a drawing in pixels.
@@ -21,6 +22,11 @@ const COLORS: [RGBColor; 10] = [
     RGBColor(128, 128, 0),
     RGBColor(0, 0, 0),
 ];
+
+/// An axis of numbers, linear or logarithmic.
+pub trait NumberAxis: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>> {}
+
+impl<A: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>> NumberAxis for A {}
 
 /// The color of a line by its number.
 pub fn color_of(number: usize) -> RGBColor {

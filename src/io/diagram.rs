@@ -1,10 +1,9 @@
 //! Draws a [`Diagram`] as SVG: a map in bands of colors, lines over it, the legend beside it (`plotters`).
 
 use plotters::coord::combinators::BindKeyPoints;
-use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
-use super::axes::{DrawingError, LEGEND, color_of, draw_legend, logarithmic_ticks, range, short};
+use super::axes::{DrawingError, LEGEND, NumberAxis, color_of, draw_legend, logarithmic_ticks, range, short};
 use crate::diagram::{Axis, Diagram, Map, Stroke, Trace};
 
 /// Width and height of the drawing in pixels.
@@ -105,19 +104,13 @@ fn bands(map: &Map, x: &[f64], y: &[f64]) -> Vec<([(f64, f64); 2], usize)> {
     found
 }
 
-fn draw<'a, X, Y>(
+fn draw<'a>(
     text: &'a mut String,
     diagram: &Diagram,
     (map, traces): (Option<&Map>, &[Trace]),
-    x: X,
-    y: Y,
-) -> Result<(), DrawingError<'a>>
-where
-    X: AsRangedCoord<Value = f64>,
-    Y: AsRangedCoord<Value = f64>,
-    X::CoordDescType: ValueFormatter<f64>,
-    Y::CoordDescType: ValueFormatter<f64>,
-{
+    x: impl NumberAxis,
+    y: impl NumberAxis,
+) -> Result<(), DrawingError<'a>> {
     let mut colors = 0..;
     let colored: Vec<(&Trace, RGBColor)> = traces
         .iter()

@@ -1,7 +1,6 @@
 //! The curves of a study as SVG: measures or errors over a parameter, a line per value of another one.
 
 use plotters::coord::combinators::BindKeyPoints;
-use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
 use super::definition::{Curve, Quantity};
@@ -9,7 +8,7 @@ use super::raw::RawScale;
 use super::results::{RunResult, measures};
 use super::values::shown;
 use crate::analysis::convergence::observed_order;
-use crate::io::axes::{DrawingError, LEGEND, color_of, draw_legend, logarithmic_ticks, range, short};
+use crate::io::axes::{DrawingError, LEGEND, NumberAxis, color_of, draw_legend, logarithmic_ticks, range, short};
 
 /// Width and height of the drawing in pixels.
 const SIZE: (u32, u32) = (720, 480);
@@ -138,20 +137,14 @@ fn legend(curve: &Curve, line: &Line) -> String {
         .join(", ")
 }
 
-fn draw<'a, X, Y>(
+fn draw<'a>(
     text: &'a mut String,
     curve: &Curve,
     lines: &[Line],
     (x_label, y_label): (String, String),
-    x: X,
-    y: Y,
-) -> Result<(), DrawingError<'a>>
-where
-    X: AsRangedCoord<Value = f64>,
-    Y: AsRangedCoord<Value = f64>,
-    X::CoordDescType: ValueFormatter<f64>,
-    Y::CoordDescType: ValueFormatter<f64>,
-{
+    x: impl NumberAxis,
+    y: impl NumberAxis,
+) -> Result<(), DrawingError<'a>> {
     let name = |(number, line)| (legend(curve, line), color_of(number));
     let names: Vec<(String, RGBColor)> = lines.iter().enumerate().map(name).collect();
     let named = names.iter().any(|(name, _)| !name.is_empty());
