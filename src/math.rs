@@ -12,6 +12,12 @@ pub fn perpendicular(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 
+/// Half the second moment of [`wendland_c2`] along a line through its center, over that of zeroth order, in h².
+///
+/// The share k²h² times this is what smoothing takes from a wave of an interface; of a disc of the curvature κ it draws the level 1/2
+/// towards the center by this times h²κ.
+pub const LINE_MOMENT: f64 = 1.0 / 7.0;
+
 /// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is
 /// 4π/7 [Huber2013, Eq. 14].
 #[inline]

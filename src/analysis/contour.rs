@@ -9,7 +9,7 @@
 use super::cells::nearest_image;
 use super::circle;
 use super::lattice::Lattice;
-use crate::math::Vec2;
+use crate::math::{LINE_MOMENT, Vec2, perpendicular};
 
 /// An ordered line of points, the high side on its left.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +53,28 @@ impl Polyline {
                 if window.len() < 5 { f64::NAN } else { circle::fit(&window).map_or(f64::NAN, |fit| fit.curvature) }
             })
             .collect()
+    }
+
+    /// The interface whose color, smoothed with `smoothing_length` (m), has this line as its level 1/2.
+    ///
+    /// Smoothing draws the level towards the center of curvature, see [`LINE_MOMENT`]. The curvature is that within 2.5 smoothing lengths.
+    #[must_use]
+    pub fn on_interface(&self, smoothing_length: f64) -> Self {
+        let count = self.points.len();
+        let limit = 1.0 / smoothing_length;
+        let moved = |(i, kappa): (usize, f64)| {
+            // A line that ends, or goes on through a periodic side, has no neighbor there.
+            let near = |j: usize| {
+                let way = self.points[j] - self.points[i];
+                if way.norm() < smoothing_length { way } else { Vec2::zeros() }
+            };
+            let (before, after) = (near((i + count - 1) % count), near((i + 1) % count));
+            let into_high = perpendicular(after - before).try_normalize(f64::EPSILON * smoothing_length);
+            let drawn = LINE_MOMENT * smoothing_length.powi(2) * kappa.clamp(-limit, limit);
+            self.points[i] - into_high.filter(|_| kappa.is_finite()).map_or(Vec2::zeros(), |n| drawn * n)
+        };
+        let points = self.curvature(2.5 * smoothing_length).into_iter().enumerate().map(moved).collect();
+        Self { points, closed: self.closed }
     }
 
     /// The vertices within `reach` (m) along the line on both sides of vertex `i`, in order.
@@ -278,6 +300,27 @@ mod tests {
         let mean = lines[0].points.iter().map(|p| p.norm()).sum::<f64>() / lines[0].points.len() as f64;
         // The cut lattice scatters by a fraction of dx; the mean shift is h²/(7 R).
         assert!((mean - (0.5 - h * h / 3.5)).abs() < 0.05 * dx, "mean radius off by {} dx", (mean - 0.5) / dx);
+    }
+
+    #[test]
+    fn the_interface_of_a_level_is_the_disc_and_a_hole_that_was_smoothed() {
+        const H: f64 = 0.15;
+        let level = f64::midpoint(1.0, (1.0 - 4.0 * LINE_MOMENT * H * H).sqrt());
+        let arc = |from: usize, to: usize| (from..to).map(|i| std::f64::consts::TAU * i as f64 / 200.0);
+        let points = |from, to| arc(from, to).map(|t| level * Vec2::new(t.cos(), t.sin())).collect::<Vec<_>>();
+        let mut hole = points(0, 200);
+        hole.reverse();
+        let lines = [
+            Polyline { points: points(0, 200), closed: true },
+            Polyline { points: hole, closed: true },
+            Polyline { points: points(0, 100), closed: false },
+        ];
+        for line in lines {
+            let radii: Vec<f64> = line.on_interface(H).points.iter().map(|x| x.norm()).collect();
+            assert!(radii.iter().all(|r| (r - 1.0).abs() < 1e-5), "{radii:?}");
+        }
+        let single = Polyline { points: vec![Vec2::x()], closed: false };
+        assert_eq!(single.on_interface(H), single);
     }
 
     #[test]

@@ -26,7 +26,7 @@ macro_rules! groups {
 }
 
 groups! {
-    /// `base-m`, `height-m` of a drop on a straight wall.
+    /// `base-m`, `height-m` and their ratios to the exact ones of a drop on a straight wall.
     sessile_drop,
     /// `laplace-jump-ratio`, `parasitic-capillary-number` of a free drop.
     laplace_drop,

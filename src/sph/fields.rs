@@ -226,7 +226,7 @@ impl Fields {
         };
         let lengths = (method.spacing, method.kernel.h);
         let points = interface_points((pairs, images), domain, &fields, moving, lengths);
-        let mut fit = InterfaceFit::new(&points, domain, lengths, place.wall);
+        let mut fit = InterfaceFit::new(&points, domain, lengths, place.wall).under(method.curvature_gradient());
         if method.wetting.is_some() {
             let seen = fit.lines(domain);
             self.contact_lines = seen.len();
@@ -246,7 +246,7 @@ impl Fields {
         let mut side = sharp.to_vec();
         carry::into_walls(pairs, &self.fluid_volume, moving, &mut side);
         let mut jump = Jump::default();
-        jump.update((pairs, images, moving), &side, position, &fit);
+        jump.update((pairs, images, moving), &side, (position, r_ab), &fit);
         for (kappa, found) in self.curvature.iter_mut().zip(&jump.curvature) {
             *kappa = if found.is_nan() { 0.0 } else { *found };
         }

@@ -26,17 +26,20 @@ impl Lattice {
         Self { bounds, counts, step }
     }
 
-    /// V_0 = 1/Σ W over the perfect lattice, in m²: what Eq. (17) gives inside it.
+    /// V_0 = dx² in m²: the cell of a particle.
     #[must_use]
-    pub fn volume(&self, kernel: &WendlandC2) -> f64 {
-        1.0 / self.neighbors(kernel.support()).map(|r| kernel.w(r.norm())).sum::<f64>()
+    pub fn volume(&self) -> f64 {
+        self.step.x * self.step.y
     }
 
-    /// The kernel with its gradient made consistent on this lattice, see [`WendlandC2::with_gradient_moment`].
+    /// The kernel made consistent on this lattice, see [`WendlandC2::divided_by`].
     #[must_use]
     pub fn consistent(&self, kernel: WendlandC2) -> WendlandC2 {
-        let sum: f64 = self.neighbors(kernel.support()).map(|r| r.dot(&kernel.grad_w(r))).sum();
-        kernel.with_gradient_moment(-0.5 * self.volume(&kernel) * sum)
+        let (unity, twice) = self.neighbors(kernel.support()).fold((0.0, 0.0), |(unity, twice), r| {
+            let (w, grad_w) = kernel.w_and_grad(r);
+            (unity + w, twice - r.dot(&grad_w))
+        });
+        kernel.divided_by(self.volume() * unity, 0.5 * self.volume() * twice)
     }
 
     /// The lattice points around one of them, itself included.
@@ -216,4 +219,29 @@ pub const PERIODIC_SUPPORTS: f64 = 3.0;
 #[must_use]
 pub fn fits(domain: &Domain, support: f64) -> bool {
     domain.periods().iter().flatten().all(|period| *period >= PERIODIC_SUPPORTS * support)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sums_of_the_kernel_over_its_lattice_are_their_integrals() {
+        // Cells of 1 by 1.05: a lattice that fits its box.
+        let bounds = Bounds { min: Vec2::zeros(), max: Vec2::new(20.0, 21.0) };
+        let lattice = Lattice { bounds, counts: [20, 20], step: Vec2::new(1.0, 1.05) };
+        let plain = WendlandC2::new(1.5);
+        let kernel = lattice.consistent(plain);
+        let sum = |kernel: &WendlandC2, of: &dyn Fn(Vec2, f64, Vec2) -> f64| {
+            let terms = lattice.neighbors(kernel.support()).map(|r| {
+                let (w, grad_w) = kernel.w_and_grad(r);
+                lattice.volume() * of(r, w, grad_w)
+            });
+            terms.sum::<f64>()
+        };
+        let unity = |kernel: &WendlandC2| sum(kernel, &|_, w, _| w);
+        let moment = |kernel: &WendlandC2| sum(kernel, &|r, _, grad_w| -0.5 * r.dot(&grad_w));
+        assert!((unity(&plain) - 1.0).abs() > 1e-3 && (moment(&plain) - 1.0).abs() > 1e-3);
+        assert!((unity(&kernel) - 1.0).abs() < 1e-14 && (moment(&kernel) - 1.0).abs() < 1e-14);
+    }
 }

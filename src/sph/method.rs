@@ -149,6 +149,12 @@ impl Method {
         self.drift_source * (way / (FULL_DRIFT_WAY * self.spacing)).min(1.0)
     }
 
+    /// ∇κ = (ρ_w − ρ_n) g/σ in 1/m² of an interface at rest, κ positive where the wetting phase is convex (Young and Laplace).
+    #[must_use]
+    pub fn curvature_gradient(&self) -> Vec2 {
+        (self.wetting_fluid.density - self.other_fluid.density) / self.tension * self.gravity
+    }
+
     /// The speed of capillary waves of the length h, sqrt(σ/(ρ̄ h)), in m/s.
     #[must_use]
     pub fn capillary_speed(&self) -> f64 {

@@ -127,5 +127,6 @@ pub fn nodes(flow: &Flow, spacing: f64) -> Lattice {
 fn interface(flow: &Flow, color: &[f64], wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
     let lattice = nodes(flow, flow.method.spacing);
     let values = Stencils::new(&fluid_samples(flow), &lattice.nodes()).scalar(color);
-    clip(&contour(&lattice, &values, 0.5), wall)
+    let level = clip(&contour(&lattice, &values, 0.5), wall);
+    level.iter().map(|line| line.on_interface(flow.method.kernel.h)).collect()
 }

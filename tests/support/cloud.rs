@@ -66,7 +66,7 @@ impl Cloud {
         let pairs = Pairs::find(&all, points.len(), &domain, &kernel);
         let mut volume = vec![0.0; points.len()];
         density::volume(&pairs, &mut volume);
-        Self { domain, kernel, points, pairs, images, volume, spacing, lattice_volume: lattice.volume(&kernel) }
+        Self { domain, kernel, points, pairs, images, volume, spacing, lattice_volume: lattice.volume() }
     }
 
     /// x_a − x_b in m.

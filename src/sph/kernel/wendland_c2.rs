@@ -21,14 +21,15 @@ impl WendlandC2 {
         Self { h, norm, gradient_norm: 5.0 * norm / (h * h) }
     }
 
-    /// The same kernel with its gradient divided by `moment` = −½ Σ_b V_0 r_ab·∇W over the perfect lattice.
+    /// The same kernel with its value divided by `unity` = Σ_b dx² W and its gradient by `moment` = −½ Σ_b dx² r_ab·∇W, sums over
+    /// the perfect lattice.
     ///
-    /// The sum stands for an integral that is 1; at h = 1.5 dx it is .9923. Divided by it, gradient, divergence and
-    /// Laplacian of Eqs. (15) to (31) are exact for linear (quadratic) fields on the lattice. Without this, viscosity
-    /// and pressure carry an error of .8 % that no refinement removes.
+    /// Both stand for integrals that are 1; at h = 1.5 dx they are 1.0051 and .9974. Divided by them, the volume of Eq. (17) is dx²
+    /// on the lattice, and gradient, divergence and Laplacian of Eqs. (15) to (31) are exact there for linear (quadratic) fields.
+    /// Without this, areas, viscosity and pressure carry errors of half a percent that no refinement removes.
     #[must_use]
-    pub fn with_gradient_moment(self, moment: f64) -> Self {
-        Self { gradient_norm: self.gradient_norm / moment, ..self }
+    pub fn divided_by(self, unity: f64, moment: f64) -> Self {
+        Self { norm: self.norm / unity, gradient_norm: self.gradient_norm / moment, ..self }
     }
 
     /// Radius 2h of the support, in m.

@@ -1,6 +1,7 @@
 //! Base, height and, under gravity, the angle of a drop on a wall (C1 and C2 of the benchmarks).
 
 use super::{Subject, measure};
+use crate::analysis::laws::drops::cap;
 use crate::analysis::young_laplace::{SessileFit, fit_sessile_drop, sessile_drop};
 use crate::math::Vec2;
 use crate::solver::Measure;
@@ -9,17 +10,7 @@ use crate::solver::Measure;
 const LEVEL: f64 = 1.0 - 1e-6;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
-    let lines: Vec<_> = s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite()).collect();
-    // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
-    let (base, height) = match lines[..] {
-        [a, b] => {
-            let (from, along) = (a.position, b.position - a.position);
-            let distance = |x: &Vec2| along.perp(&(x - from)).abs() / along.norm();
-            let points = s.seen.interface.iter().flat_map(|line| &line.points);
-            (along.norm(), points.map(distance).fold(f64::NAN, f64::max))
-        }
-        _ => (f64::NAN, f64::NAN),
-    };
+    let (base, height) = extent(s);
     let mut found = vec![
         measure("base-m", base, "m", None, "distance of the two contact points of the fitted circle"),
         measure(
@@ -30,10 +21,41 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
             "largest distance of the c = 0.5 contour from the line through both contact points",
         ),
     ];
-    if s.flow.method.gravity != Vec2::zeros() {
-        found.extend(under_gravity(s));
-    }
+    let more = if s.flow.method.gravity == Vec2::zeros() { as_a_cap(s, (base, height)) } else { under_gravity(s) };
+    found.extend(more);
     found
+}
+
+/// Base and height in m, NaN where there are not two contact lines with an angle.
+fn extent(s: &Subject) -> (f64, f64) {
+    let lines: Vec<_> = s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite()).collect();
+    // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
+    match lines[..] {
+        [a, b] => {
+            let (from, along) = (a.position, b.position - a.position);
+            let distance = |x: &Vec2| along.perp(&(x - from)).abs() / along.norm();
+            let points = s.seen.interface.iter().flat_map(|line| &line.points);
+            (along.norm(), points.map(distance).fold(f64::NAN, f64::max))
+        }
+        _ => (f64::NAN, f64::NAN),
+    }
+}
+
+/// Base and height (m) of a drop of either phase over those of the circular segment.
+fn as_a_cap(s: &Subject, (base, height): (f64, f64)) -> Vec<Measure> {
+    let through_wetting = s.flow.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
+    let is_wetting = s.seen.contact_lines.iter().map(|line| line.curvature).sum::<f64>() > 0.0;
+    let areas = &s.seen.areas;
+    let exact = if is_wetting {
+        cap(areas.wetting, through_wetting)
+    } else {
+        cap(areas.non_wetting, std::f64::consts::PI - through_wetting)
+    };
+    let over = "over that of the circular segment with the same area and the requested angle";
+    vec![
+        measure("base-ratio", base / exact.base, "", None, &format!("base {over}")),
+        measure("height-ratio", height / exact.height, "", None, &format!("height {over}")),
+    ]
 }
 
 /// A drop on a level floor, fitted by the Young-Laplace equation and compared with the exact one.

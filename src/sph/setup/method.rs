@@ -23,7 +23,7 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
     Method {
         kernel,
         spacing: sph.spacing,
-        volume: lattice.volume(&kernel),
+        volume: lattice.volume(),
         wetting_fluid,
         other_fluid: sph.non_wetting.as_ref().map_or(wetting_fluid, fluid),
         tension: sph.tension,

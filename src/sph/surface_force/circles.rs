@@ -18,6 +18,7 @@ const SMALLEST_ANGLE: f64 = 0.2;
 const ITERATIONS: usize = 12;
 
 /// A point of the window relative to the nearest one, with its weight.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Near {
     pub(super) index: usize,
     pub(super) x: Vec2,

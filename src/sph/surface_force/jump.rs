@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::math::{LINE_MOMENT, Vec2};
 use crate::sph::images::Images;
 use crate::sph::pairs::{GRAIN, Pairs, each};
 use crate::sph::poisson::Matrix;
@@ -16,11 +17,8 @@ const LOSS_OF_A_PASS: f64 = 5.0 / 36.0;
 /// What a circle fit takes, over k²h²: k² r_f²/22 for its window r_f and weight (1 − d²/r_f²)².
 const LOSS_OF_THE_FIT: f64 = WINDOW * WINDOW / 22.0;
 
-/// What the smoothing of the color takes, over k²h²: half the second moment of W along the line through its center.
-const LOSS_OF_THE_COLOR: f64 = 1.0 / 7.0;
-
 /// How often the loss of all passes is given back, so that it makes up for those of color and fit too.
-const GIVEN_BACK: f64 = 1.0 + (LOSS_OF_THE_FIT + LOSS_OF_THE_COLOR) / (PASSES as f64 * LOSS_OF_A_PASS);
+const GIVEN_BACK: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 * LOSS_OF_A_PASS);
 
 /// What decides the jump of each pair; slices over particles and images.
 #[derive(Debug, Clone, Default)]
@@ -32,12 +30,12 @@ pub struct Jump {
 }
 
 impl Jump {
-    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls.
+    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls, `r_ab(a, b)` in m.
     pub fn update(
         &mut self,
         (pairs, images, fluids): (&Pairs, &Images, usize),
         color: &[f64],
-        position: &[crate::math::Vec2],
+        (position, r_ab): (&[Vec2], impl Fn(usize, usize) -> Vec2 + Sync),
         fit: &InterfaceFit,
     ) {
         let n = pairs.rows();
@@ -52,7 +50,8 @@ impl Jump {
             .map(|a| if unlike(a) { fit.curvature(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
             .collect();
         self.curvature.clear();
-        self.curvature.extend(smoothed(on_fluid, pairs, images));
+        let rest = |a: usize, b: usize| fit.gradient.dot(&r_ab(a, b));
+        self.curvature.extend(smoothed(on_fluid, (pairs, images), &rest));
         self.curvature.resize(n, f64::NAN);
         // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
         images.extend(&mut self.curvature);
@@ -60,7 +59,7 @@ impl Jump {
             let known = self.curvature.clone();
             each(&mut self.curvature[fluids..n], |i| {
                 let a = fluids + i;
-                if known[a].is_nan() { mean(pairs, &known, a) } else { known[a] }
+                if known[a].is_nan() { average_at(a, pairs, (0.0, 0.0), |b| known[b] + rest(a, b)) } else { known[a] }
             });
             images.extend(&mut self.curvature);
         }
@@ -101,21 +100,22 @@ impl Jump {
 /// The curvature without the noise of single fits: S κ + g (S κ − S² κ), S the average over fluid particles that have one.
 ///
 /// The second term gives back what averages take from resolved waves (van Cittert 1931): to fourth order in kh those of S, of the
-/// fits and of the smoothed color. A constant curvature stays as it is, up to a wall too.
-fn smoothed(curvature: Vec<f64>, pairs: &Pairs, images: &Images) -> Vec<f64> {
+/// fits and of the smoothed color. A curvature of an interface at rest stays as it is, up to a wall too: `rest(a, b)` in 1/m is what
+/// it is greater by at a than at b.
+fn smoothed(
+    curvature: Vec<f64>,
+    (pairs, images): (&Pairs, &Images),
+    rest: &(impl Fn(usize, usize) -> f64 + Sync),
+) -> Vec<f64> {
     let average = |mut field: Vec<f64>| {
         for _ in 0..PASSES {
             let known = field.clone();
+            let at = |a: usize, b: usize| known.get(images.source(b)).map_or(f64::NAN, |kappa| kappa + rest(a, b));
             each(&mut field, |a| {
                 if known[a].is_nan() {
                     return f64::NAN;
                 }
-                let own = (pairs.w_self * known[a], pairs.w_self);
-                let (sum, norm) = pairs.of(a).fold(own, |(sum, norm), ab| {
-                    let kappa = known.get(images.source(ab.b)).copied().unwrap_or(f64::NAN);
-                    if kappa.is_nan() { (sum, norm) } else { (sum + ab.w * kappa, norm + ab.w) }
-                });
-                sum / norm
+                average_at(a, pairs, (pairs.w_self * known[a], pairs.w_self), |b| at(a, b))
             });
         }
         field
@@ -125,10 +125,11 @@ fn smoothed(curvature: Vec<f64>, pairs: &Pairs, images: &Images) -> Vec<f64> {
     once.iter().zip(&twice).map(|(once, twice)| once + GIVEN_BACK * (once - twice)).collect()
 }
 
-fn mean(pairs: &Pairs, curvature: &[f64], a: usize) -> f64 {
-    let (sum, norm) = pairs
-        .of(a)
-        .filter(|ab| curvature[ab.b].is_finite())
-        .fold((0.0, 0.0), |(sum, norm), ab| (sum + ab.w * curvature[ab.b], norm + ab.w));
+/// Σ_b W κ_b/Σ_b W over the neighbors of a that have a curvature, and what a has `own`: its κ W and W. NaN where there is none.
+fn average_at(a: usize, pairs: &Pairs, own: (f64, f64), curvature: impl Fn(usize) -> f64) -> f64 {
+    let (sum, norm) = pairs.of(a).fold(own, |(sum, norm), ab| {
+        let kappa = curvature(ab.b);
+        if kappa.is_nan() { (sum, norm) } else { (sum + ab.w * kappa, norm + ab.w) }
+    });
     if norm > 0.0 { sum / norm } else { f64::NAN }
 }

@@ -5,8 +5,8 @@ use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::pairs::Pairs;
 
-/// Pairs nearer than this, in units of dx, are looked at: nearest and diagonal neighbors of the lattice.
-const LINK: f64 = 1.6;
+/// Pairs nearer than this, in units of dx, are looked at: nearest and diagonal neighbors of the lattice. Their weight falls to zero there.
+const LINK: f64 = 1.8;
 
 /// Below this color gradient, in units of 1/h, there is no interface.
 const SMALLEST_GRADIENT: f64 = 0.05;
@@ -32,6 +32,8 @@ pub struct InterfacePoint {
     pub wall_normal: Vec2,
     /// Whether both phases touch the wall in the neighborhood: a film between interface and wall bears no contact line.
     pub touches: bool,
+    /// Weight in means and fits: it vanishes before the two particles are so far apart that the point does.
+    pub weight: f64,
 }
 
 /// What the search for points needs; slices over particles and images, those of walls over fluid particles.
@@ -78,12 +80,14 @@ pub fn interface_points(
             let r_ba = -domain.separation(x_a, images.position(ab.b, fields.position));
             let f = c_a / (c_a - c_b);
             let g = (1.0 - f) * fields.gradient[a] + f * fields.gradient[ab.b];
-            if r_ba.norm_squared() < link2 && g.norm() > SMALLEST_GRADIENT / h {
+            let closeness = 1.0 - r_ba.norm_squared() / link2;
+            if closeness > 0.0 && g.norm() > SMALLEST_GRADIENT / h {
                 let (wall_distance, wall_normal) = wall_between(fields, a, source, f);
                 let velocity = (1.0 - f) * fields.velocity[a] + f * fields.velocity[ab.b];
                 let (x, normal) = (x_a + f * r_ba, g.normalize());
                 let touches = wall_distance.is_finite() && both_touch(pairs, images, fields, (a, source), spacing);
-                points.push(InterfacePoint { x, normal, velocity, wall_distance, wall_normal, touches });
+                let weight = closeness.powi(2);
+                points.push(InterfacePoint { x, normal, velocity, wall_distance, wall_normal, touches, weight });
             }
         }
     }
