@@ -6,7 +6,8 @@ use crate::math::{LINE_MOMENT, Vec2};
 use crate::sph::images::Images;
 use crate::sph::pairs::{GRAIN, Pairs, each};
 use crate::sph::poisson::Matrix;
-use crate::sph::surface_force::fit::{InterfaceFit, WINDOW};
+use crate::sph::surface_force::fit::InterfaceFit;
+use crate::sph::surface_force::windows::WINDOW;
 
 /// Passes of the smoothing of the curvature along the interface: two bring the parasitic currents down by an order of magnitude.
 const PASSES: usize = 2;

@@ -1,0 +1,74 @@
+//! Windows: the points of the interface around one of them, and where they would lie for a fit of one circle.
+//!
+//! The level 1/2 of the smoothed color is drawn towards the center of curvature by h²κ/7 (`LINE_MOMENT`). A gradient of the curvature
+//! bends the interface away from its circle by the deflection w with w'' = ∇κ·x along it, w = ∇κ·d |d|²/6 at the distance d.
+
+use crate::math::{LINE_MOMENT, Vec2};
+use crate::sph::surface_force::circles::Near;
+use crate::sph::surface_force::fit::InterfaceFit;
+
+/// Radius of the window of a fit over h.
+pub const WINDOW: f64 = 2.5;
+
+/// Squared distances that differ by less than this share are equal.
+const TIE: f64 = 1e-9;
+
+/// Points whose normal turns away more than this (cosine) belong to another piece of interface.
+const SAME_PIECE: f64 = 0.3;
+
+/// Largest curvature over 1/h: smaller drops are not resolved.
+const LARGEST_CURVATURE: f64 = 0.75;
+
+impl InterfaceFit<'_> {
+    /// Index of the nearest point and x − x_p; all of those that are equally near, so that a mirrored flow stays mirrored.
+    pub(super) fn nearest(&self, x: Vec2) -> Vec<(usize, Vec2)> {
+        let mut least = (WINDOW * self.h).powi(2);
+        let mut nearest = Vec::new();
+        self.cells.visit_near(x, |i, r| {
+            if r.norm_squared() <= least * (1.0 + TIE) {
+                least = least.min(r.norm_squared());
+                nearest.push((i as usize, r));
+            }
+        });
+        nearest.retain(|(_, r)| r.norm_squared() <= least * (1.0 + TIE));
+        nearest
+    }
+
+    /// The points of the piece with about the unit `normal` within the window around `x_p` (m).
+    pub(super) fn window(&self, normal: Vec2, x_p: Vec2) -> Vec<Near> {
+        let reach2 = (WINDOW * self.h).powi(2);
+        let mut near = Vec::new();
+        self.cells.visit_near(x_p, |i, r| {
+            let index = i as usize;
+            let d2 = r.norm_squared();
+            if d2 < reach2 && self.points[index].normal.dot(&normal) > SAME_PIECE {
+                near.push(Near { index, x: -r, weight: self.points[index].weight * (1.0 - d2 / reach2).powi(2) });
+            }
+        });
+        near
+    }
+
+    /// The points of a window moved from the level 1/2 of the smoothed color to the interface, which has the curvature `kappa` (1/m)
+    /// in the middle of the window.
+    pub(super) fn on_interface(&self, near: &[Near], kappa: f64) -> Vec<Near> {
+        let limit = self.limit();
+        let drawn = |x: Vec2| LINE_MOMENT * self.h * self.h * (kappa + self.gradient.dot(&x)).clamp(-limit, limit);
+        near.iter().map(|q| Near { x: q.x - drawn(q.x) * self.points[q.index].normal, ..*q }).collect()
+    }
+
+    /// The points of a window as they would lie if the interface had everywhere the curvature that it has at `origin`.
+    pub(super) fn of_one_curvature(&self, near: &[Near], origin: Vec2) -> Vec<Near> {
+        near.iter()
+            .map(|q| {
+                let d = q.x - origin;
+                let deflection = self.gradient.dot(&d) * d.norm_squared() / 6.0;
+                Near { x: q.x - deflection * self.points[q.index].normal, ..*q }
+            })
+            .collect()
+    }
+
+    /// Largest curvature in 1/m.
+    pub(super) fn limit(&self) -> f64 {
+        LARGEST_CURVATURE / self.h
+    }
+}
