@@ -140,13 +140,15 @@ impl Method {
         if self.pressure_gradient() == PressureGradient::Difference { rho / self.mean_density() } else { 1.0 }
     }
 
-    /// The share of the density error that the pressure takes back in a step in which no particle goes farther than `way` (m):
-    /// γ min(1, way/(.005 dx)). The way is relative to the mean of all.
+    /// The rate in 1/s at which the pressure takes back the density error: γ/Δt min(1, v Δt/(.005 dx)) with the step Δt that is stable
+    /// without viscosity. `fastest` is the largest velocity in m/s relative to the mean of all.
     ///
     /// Density errors come with motion. Where hardly anything moves, to push for errors that are there would be what moves the particles.
+    /// And they come in time, not in steps: a light gas, whose viscosity asks for short steps, must not be pushed in every one as hard.
     #[must_use]
-    pub fn drift_share(&self, way: f64) -> f64 {
-        self.drift_source * (way / (FULL_DRIFT_WAY * self.spacing)).min(1.0)
+    pub fn drift_rate(&self, fastest: f64) -> f64 {
+        let dt = self.inviscid_time_step(fastest).dt / self.time_step_factor;
+        self.drift_source / dt * (fastest * dt / (FULL_DRIFT_WAY * self.spacing)).min(1.0)
     }
 
     /// ∇κ = (ρ_w − ρ_n) g/σ in 1/m² of an interface at rest, κ positive where the wetting phase is convex (Young and Laplace).

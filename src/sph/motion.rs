@@ -92,7 +92,7 @@ impl Flow {
         let mut all = velocity.to_vec();
         all.extend_from_slice(&self.particles.velocity[self.particles.moving()..]);
         self.images.extend_velocity(&mut all);
-        shifting::carried_velocity(&self.pairs, &f.volume, &all, &by, &mut change);
+        shifting::carried_velocity(&self.pairs, (&f.volume, &f.density), &all, &by, &mut change);
         for a in 0..fluids {
             position[a] = self.domain.wrapped(position[a] + by[a]);
             velocity[a] += change[a];

@@ -35,28 +35,27 @@ impl Method {
     /// The largest stable Δt for the fastest particle `speed` (m/s) and the largest viscous rate (1/s, see `Viscous::rate`).
     #[must_use]
     pub fn time_step(&self, speed: f64, viscous_rate: f64) -> TimeStep {
-        let step = self.static_time_step(viscous_rate);
-        step.tighter(self.time_step_factor * COURANT * self.kernel.h / speed, "velocity")
+        let over_rate = if self.viscous_term == ViscousTerm::Szewc { 1.0 / SZEWC_OVER_MORRIS } else { 1.0 };
+        self.inviscid_time_step(speed).tighter(self.time_step_factor * over_rate / viscous_rate, "viscosity")
     }
 
-    /// The same without the limit by velocity.
+    /// The same without the limit by viscosity.
     #[must_use]
-    pub fn static_time_step(&self, viscous_rate: f64) -> TimeStep {
+    pub fn inviscid_time_step(&self, speed: f64) -> TimeStep {
         let (h, f) = (self.kernel.h, self.time_step_factor);
-        let over_rate = if self.viscous_term == ViscousTerm::Szewc { 1.0 / SZEWC_OVER_MORRIS } else { 1.0 };
         TimeStep { dt: f64::INFINITY, limit: "none" }
-            .tighter(f * over_rate / viscous_rate, "viscosity")
             .tighter(
                 f * CAPILLARY * (self.mean_density() * h.powi(3) / (2.0 * PI * self.tension)).sqrt(),
                 "surface tension",
             )
             .tighter(f * COURANT * (h / self.gravity.norm()).sqrt(), "gravity")
+            .tighter(f * COURANT * h / speed, "velocity")
     }
 
     /// The smallest Δt that is accepted, in s.
     #[must_use]
     pub fn smallest_time_step(&self, viscous_rate: f64) -> f64 {
-        let step = self.static_time_step(viscous_rate).dt;
+        let step = self.time_step(0.0, viscous_rate).dt;
         if step.is_finite() { COLLAPSE * step } else { 0.0 }
     }
 }

@@ -90,8 +90,8 @@ pub struct Flow {
 pub(super) struct Predicted {
     pub(super) dt: f64,
     pub(super) limit: &'static str,
-    /// The longest way in m that a particle goes in the step, relative to the mean of all.
-    longest_way: f64,
+    /// The largest velocity of a particle in m/s, relative to the mean of all.
+    fastest: f64,
     /// v_int over particles and images in m/s.
     velocity: Vec<Vec2>,
     /// Where the buffers of open sides take the velocity from.

@@ -17,11 +17,11 @@ impl Flow {
         let mut velocity = particles.velocity.clone();
         self.images.extend_velocity(&mut velocity);
         let (viscous, rate) = self.viscous_acceleration(&velocity);
-        let (fastest, speed) = largest(moving, |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
+        let (place, speed) = largest(moving, |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
         let step = self.method.time_step(speed, rate);
         let smallest = self.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
-            let place = particles.position.get(fastest).copied().unwrap_or_default();
+            let place = particles.position.get(place).copied().unwrap_or_default();
             let (time, step_number) = (self.time, self.steps);
             return Err(SolverError::TimeStep {
                 dt: step.dt,
@@ -33,7 +33,7 @@ impl Flow {
             });
         }
         let step = landing(step, self.time, until);
-        let longest_way = relative_speed(&particles.velocity[..fluids]) * step.dt;
+        let fastest = relative_speed(&particles.velocity[..fluids]);
         let background = self.background_acceleration(speed);
         let f = &self.fields;
         each(&mut velocity[..fluids], |a| {
@@ -45,7 +45,7 @@ impl Flow {
         // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
         velocity[moving..particles.len()].fill(Vec2::zeros());
         self.images.extend_velocity(&mut velocity);
-        Ok(Predicted { dt: step.dt, limit: step.limit, longest_way, velocity, feet })
+        Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, feet })
     }
 
     /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a

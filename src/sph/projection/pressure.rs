@@ -29,7 +29,7 @@ impl Flow {
         let (method, f) = (&self.method, &self.fields);
         let mut source = vec![0.0; n];
         divergence(&self.pairs, &f.volume, &predicted.velocity, &mut source);
-        let drift = method.drift_share(predicted.longest_way) / (dt * dt);
+        let drift = method.drift_rate(predicted.fastest) / dt;
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
             if !self.sees_the_fluid(a) {

@@ -20,9 +20,21 @@ pub fn shift(pairs: &Pairs, volume: &[f64], diffusion: f64, h: f64, shift: &mut 
     });
 }
 
-/// δv_a = δr_a·∇v_a = Σ_b V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: the velocity at the shifted place [Lind2012, Eq. 26].
-pub fn carried_velocity(pairs: &Pairs, volume: &[f64], velocity: &[Vec2], shift: &[Vec2], change: &mut [Vec2]) {
-    pairs.sum_into(change, |a, ab| volume[ab.b] * ab.grad_w.dot(&shift[a]) * (velocity[ab.b] - velocity[a]));
+/// δv_a = δr_a·∇v_a = Σ_b 2ρ_b/(ρ_a + ρ_b) V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: the velocity at the shifted place [Lind2012, Eq. 26].
+///
+/// Beside a light fluid a heavy one takes hardly any of its velocity, as it takes no momentum from it; in one fluid the weight is 1.
+pub fn carried_velocity(
+    pairs: &Pairs,
+    (volume, density): (&[f64], &[f64]),
+    velocity: &[Vec2],
+    shift: &[Vec2],
+    change: &mut [Vec2],
+) {
+    pairs.sum_into(change, |a, ab| {
+        let b = ab.b;
+        let weight = 2.0 * density[b] / (density[a] + density[b]);
+        weight * volume[b] * ab.grad_w.dot(&shift[a]) * (velocity[b] - velocity[a])
+    });
 }
 
 /// Takes the part across the interface out of `shift` (m), so that the interface keeps its place and shape; `normal` is
