@@ -16,6 +16,9 @@ import matplotlib.pyplot as plt
 # Columns of `table.csv` before and after the parameters.
 FIRST, LAST = "run", "status"
 
+# Width of a picture and height of its title in inches.
+WIDTH, TITLE = 4.0, 0.4
+
 
 def measure(path: str | Path) -> dict:
     """The complete runs of a study folder in their order: name, parameters as text, path of the picture."""
@@ -37,11 +40,14 @@ def draw(found: dict, picture: Path, columns: int) -> None:
     runs = found["runs"]
     columns = min(columns, len(runs))
     rows = math.ceil(len(runs) / columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(4.0 * columns, 3.4 * rows), squeeze=False, layout="constrained")
+    pictures = [plt.imread(run["picture"]) for run in runs]
+    tallest = max(pixels.shape[0] / pixels.shape[1] for pixels in pictures)
+    size = (WIDTH * columns, (WIDTH * tallest + TITLE) * rows)
+    figure, axes = plt.subplots(rows, columns, figsize=size, squeeze=False, layout="constrained")
     for axis in axes.flat:
         axis.axis("off")
-    for axis, run in zip(axes.flat, runs, strict=False):
-        axis.imshow(plt.imread(run["picture"]))
+    for axis, run, pixels in zip(axes.flat, runs, pictures, strict=False):
+        axis.imshow(pixels)
         axis.set_title(", ".join(f"{name} = {value}" for name, value in run["parameters"].items()), fontsize=9)
     figure.savefig(picture, dpi=150)
     plt.close(figure)
