@@ -113,6 +113,15 @@ class Scripts(unittest.TestCase):
         self.assertAlmostEqual(angle, 45.0)
         self.draws("spreading.py", "--picture", "spreading.png", "--above", "0.0")
 
+    def test_levels_are_passed_between_records(self):
+        """A base that grows, an angle that falls, and a level that is never met."""
+        times = np.array([0.0, 1.0, 3.0])
+        self.assertAlmostEqual(spreading.passing(times, np.array([1.0, 2.0, 4.0]), 3.0), 2.0)
+        self.assertAlmostEqual(spreading.passing(times, np.array([4.0, 2.0, 3.0]), 3.0), 0.5)
+        self.assertTrue(np.isnan(spreading.passing(times, np.array([1.0, 2.0, 2.5]), 3.0)))
+        asked = ["--through-base", "1.0", "--through-angle", "30", "--at", "0.001"]
+        self.draws("spreading.py", "--picture", "spreading.png", "--above", "0.0", *asked)
+
     def test_movies_are_made(self):
         """One range for all frames, all formats."""
         found = movie.measure(self.directory)

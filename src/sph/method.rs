@@ -14,7 +14,7 @@ const LARGEST_SYMMETRIC_RATIO: f64 = 5.0;
 /// Above this ratio the light particles of the unweighted continuum force are too fast.
 const LARGEST_WEIGHTED_RATIO: f64 = 20.0;
 
-/// The drift source has its full share where the fastest particle goes this far in a step, over dx.
+/// The drift source has its full rate where the fastest particle goes this far, over dx, in a step that is stable without viscosity.
 const FULL_DRIFT_WAY: f64 = 0.005;
 
 /// Forms of the pressure gradient, see `terms::pressure_gradient`.
