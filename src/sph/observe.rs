@@ -35,6 +35,11 @@ pub struct Observation {
 }
 
 impl Observation {
+    /// The contact lines with an angle: those of pockets of a few particles at the wall have none.
+    pub fn lines_with_angle(&self) -> impl Iterator<Item = &ContactLine> {
+        self.contact_lines.iter().filter(|line| line.angle_deg.is_finite())
+    }
+
     /// Looks at the flow; `wall` samples as `analysis::phases::wall_samples` makes them.
     #[must_use]
     pub fn of(flow: &Flow, wall: &[WallSample]) -> Self {

@@ -8,7 +8,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     let [a, b, ..] = s.discs else { return vec![] };
     let axis = (b.center - a.center).normalize();
     let middle = 0.5 * (a.center + b.center);
-    let good = || s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite());
+    let good = || s.seen.lines_with_angle();
     let filling = |disc: super::DiscOf, axis: Vec2| {
         let near = move |x: Vec2| ((x - disc.center).norm() - disc.radius).abs() < 0.1 * disc.radius;
         good().filter(move |l| near(l.position)).map(move |l| (l.position - disc.center).angle(&axis).to_degrees())

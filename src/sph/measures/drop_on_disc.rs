@@ -6,7 +6,7 @@ use crate::solver::Measure;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
     let (Some(disc), Some(wetting)) = (s.discs.first(), s.flow.method.wetting) else { return vec![] };
-    let ends: Vec<_> = s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite()).collect();
+    let ends: Vec<_> = s.seen.lines_with_angle().collect();
     let half = match ends[..] {
         [a, b] => 0.5 * (a.position - disc.center).angle(&(b.position - disc.center)),
         _ => f64::NAN,

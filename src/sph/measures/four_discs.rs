@@ -4,8 +4,7 @@ use super::{Subject, measure};
 use crate::solver::Measure;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
-    let found: Vec<f64> =
-        s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite()).map(|line| line.curvature).collect();
+    let found: Vec<f64> = s.seen.lines_with_angle().map(|line| line.curvature).collect();
     let mean = found.iter().sum::<f64>() / found.len() as f64;
     let spread = (found.iter().map(|k| (k - mean).powi(2)).sum::<f64>() / found.len() as f64).sqrt();
     let exact = s.disc_pair().and_then(|pair| pair.liquid_between_four(s.seen.areas.wetting));

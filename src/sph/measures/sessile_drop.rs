@@ -1,7 +1,6 @@
 //! Base, height and, under gravity, the angle of a drop on a wall (C1 and C2 of the benchmarks).
 
 use super::{Subject, measure};
-use crate::analysis::contact::ContactLine;
 use crate::analysis::laws::drops::cap;
 use crate::analysis::young_laplace::{SessileFit, fit_sessile_drop, sessile_drop};
 use crate::math::Vec2;
@@ -27,14 +26,9 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     found
 }
 
-/// The contact lines with an angle: those of pockets of a few particles at the wall have none.
-fn lines_with_angle<'a>(s: &'a Subject) -> Vec<&'a ContactLine> {
-    s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite()).collect()
-}
-
 /// Base and height in m, NaN where there are not two contact lines with an angle.
 fn extent(s: &Subject) -> (f64, f64) {
-    let lines = lines_with_angle(s);
+    let lines: Vec<_> = s.seen.lines_with_angle().collect();
     // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
     match lines[..] {
         [a, b] => {
@@ -50,7 +44,7 @@ fn extent(s: &Subject) -> (f64, f64) {
 /// Base and height (m) of a drop of either phase over those of the circular segment.
 fn as_a_cap(s: &Subject, (base, height): (f64, f64)) -> Vec<Measure> {
     let through_wetting = s.flow.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
-    let is_wetting = lines_with_angle(s).iter().map(|line| line.curvature).sum::<f64>() > 0.0;
+    let is_wetting = s.seen.lines_with_angle().map(|line| line.curvature).sum::<f64>() > 0.0;
     let areas = &s.seen.areas;
     let exact = if is_wetting {
         cap(areas.wetting, through_wetting)

@@ -6,7 +6,7 @@ use crate::sph::observe::Observation;
 
 /// Distance in m of the two contact points.
 pub fn columns(seen: &Observation) -> [(&'static str, f64); 1] {
-    let lines: Vec<_> = seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite()).collect();
+    let lines: Vec<_> = seen.lines_with_angle().collect();
     // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
     let base = if let [a, b] = lines[..] { (b.position - a.position).norm() } else { f64::NAN };
     [("base_m", base)]

@@ -10,8 +10,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     let exact = entry_curvature([a.radius, b.radius], distance, wetting.static_angle());
     let found = &s.seen.capillary_pressure;
     let ratio = |pressure: f64| exact.map_or(f64::NAN, |exact| pressure / (s.flow.method.tension * exact));
-    let fitted: Vec<f64> =
-        s.seen.contact_lines.iter().filter(|line| line.angle_deg.is_finite()).map(|line| -line.curvature).collect();
+    let fitted: Vec<f64> = s.seen.lines_with_angle().map(|line| -line.curvature).collect();
     let curvature = fitted.iter().sum::<f64>() / fitted.len() as f64;
     vec![
         measure(
