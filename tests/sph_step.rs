@@ -12,7 +12,7 @@ use flow::flow;
 use meniscus::math::Vec2;
 use meniscus::sph::particles::Phase;
 use meniscus::sph::projection::Flow;
-use meniscus::sph::terms::shifting::carried_velocity;
+use meniscus::sph::terms::shifting::{carried_velocity, short_range, take_out_mean};
 
 const PERIODIC: &str =
     "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
@@ -123,6 +123,45 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
         let (drop, around) = (largest(false), largest(true));
         assert!(around > 0.02 && drop < largest_share * around, "ratio {density}: {drop:.1e}, {around:.1e} m/s");
     }
+}
+
+#[test]
+fn pushes_at_short_range_part_a_pair_and_move_no_crowds() {
+    let mut flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
+    let (dx, fluids) = (flow.method.spacing, flow.particles.fluids);
+    let push = |flow: &Flow| {
+        let mut push = vec![Vec2::zeros(); fluids];
+        let strength = (0.2, flow.method.kernel.w(dx));
+        short_range(&flow.pairs, &flow.fields.fluid_volume, strength, &mut push);
+        push
+    };
+    let largest = |push: &[Vec2]| push.iter().map(|s| s.norm()).fold(0.0, f64::max);
+    assert!(largest(&push(&flow)) < 1e-9 / dx, "nothing is pushed on the lattice");
+
+    // What is the same everywhere would move all, and is taken out.
+    let mut all_alike = vec![Vec2::new(1.0, -2.0) / dx; fluids];
+    take_out_mean((&flow.pairs, &flow.images), &flow.fields.fluid_volume, &mut all_alike);
+    assert!(largest(&all_alike) < 1e-9 / dx, "{:.1e} of 2.2/dx", largest(&all_alike) * dx);
+
+    // Two neighbors come to half of the spacing: the sum points to the other, shifting goes down it.
+    let a = (0..fluids)
+        .min_by(|&a, &b| flow.particles.position[a].norm().total_cmp(&flow.particles.position[b].norm()))
+        .unwrap();
+    let near = flow.particles.position[a] + Vec2::new(dx, 0.0);
+    let b = (0..fluids).find(|&b| (flow.particles.position[b] - near).norm() < 0.1 * dx).unwrap();
+    let moved = flow.particles.position[a] + Vec2::new(0.5 * dx, 0.0);
+    flow.particles.position[b] = moved;
+    flow.prepare();
+    let of = |flow: &Flow, x: Vec2| (0..fluids).find(|&c| (flow.particles.position[c] - x).norm() < 0.1 * dx).unwrap();
+    let (left, right) = (of(&flow, moved - Vec2::new(0.5 * dx, 0.0)), of(&flow, moved));
+    let mut push = push(&flow);
+    take_out_mean((&flow.pairs, &flow.images), &flow.fields.fluid_volume, &mut push);
+    assert!(
+        push[left].x * dx > 0.1 && push[right].x * dx < -0.1,
+        "{} and {} over 1/dx",
+        push[left] * dx,
+        push[right] * dx
+    );
 }
 
 #[test]

@@ -330,6 +330,8 @@ pub struct Numerics {
     pub background_pressure: f64,
     /// Particle shifting: A in δr = −A h v_max Δt ∇C, at least 0.
     pub shifting: f64,
+    /// Strength R of the push at short range in the shifting, 0 to 1.
+    pub short_range_push: f64,
     /// Largest stretch β of velocity differences at walls, at least 1: 10 is no slip, 1.5 slips by a quarter of dx everywhere.
     pub wall_stretch: f64,
     /// Whether wall particles follow walls that the lattice does not fit.

@@ -7,10 +7,10 @@ use super::raw::{RawNumerics, RawViscousTerm};
 /// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and drift source,
 /// the others by shifting and either drift source or drift correction (docs/numerics).
 pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
-    let (drift_source, drift_correction, background_pressure, shifting) = match surface_force {
-        Some(SurfaceForce::Csf { .. }) => (0.02, 0.0, 0.5, 0.0),
-        Some(SurfaceForce::PressureJump) => (0.2, 0.0, 0.0, 2.0),
-        None => (0.0, 0.2, 0.0, 2.0),
+    let (drift_source, drift_correction, background_pressure, shifting, short_range_push) = match surface_force {
+        Some(SurfaceForce::Csf { .. }) => (0.02, 0.0, 0.5, 0.0, 0.0),
+        Some(SurfaceForce::PressureJump) => (0.2, 0.0, 0.0, 2.0, 0.2),
+        None => (0.0, 0.2, 0.0, 2.0, 0.0),
     };
     Numerics {
         viscous_term: ViscousTerm::Stress,
@@ -18,6 +18,7 @@ pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
         drift_correction,
         background_pressure,
         shifting,
+        short_range_push,
         wall_stretch: 10.0,
         fitted_walls: true,
         pressure_tolerance: 1.0e-6,
@@ -52,6 +53,13 @@ pub(super) fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numeri
             default.background_pressure,
         ),
         shifting: within("shifting", raw.shifting, (0.0, 100.0), "a factor", default.shifting),
+        short_range_push: within(
+            "short-range-push",
+            raw.short_range_push,
+            (0.0, 1.0),
+            "a factor",
+            default.short_range_push,
+        ),
         wall_stretch: within("wall-stretch", raw.wall_stretch, (1.0, 1.0e3), "a factor", default.wall_stretch),
         fitted_walls: raw.fitted_walls.unwrap_or(default.fitted_walls),
         pressure_tolerance: within(

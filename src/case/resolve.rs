@@ -170,6 +170,7 @@ fn raw_numerics(numerics: &Numerics) -> RawNumerics {
         drift_correction: Some(numerics.drift_correction),
         background_pressure: Some(numerics.background_pressure),
         shifting: Some(numerics.shifting),
+        short_range_push: Some(numerics.short_range_push),
         wall_stretch: Some(numerics.wall_stretch),
         fitted_walls: Some(numerics.fitted_walls),
         pressure_tolerance: Some(numerics.pressure_tolerance),

@@ -167,6 +167,7 @@ pub fn case() -> Case {
             drift_correction: 0.0,
             background_pressure: 0.0,
             shifting: 0.0,
+            short_range_push: 0.0,
             wall_stretch: 1.5,
             fitted_walls: true,
             pressure_tolerance: 1.0e-6,

@@ -83,6 +83,8 @@ pub struct Method {
     pub background_pressure: f64,
     /// Particle shifting A in δr = −A h v Δt ∇C, v the largest speed; 0: none.
     pub shifting: f64,
+    /// Strength R of the push at short range in the shifting; 0: none.
+    pub short_range_push: f64,
     /// Pressure solve.
     pub tolerance: Tolerance,
     /// Factor on the limits of the time step.

@@ -71,7 +71,7 @@ impl Flow {
         let diffusion = m.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
         let mut by = vec![Vec2::zeros(); fluids];
         if diffusion > 0.0 {
-            shifting::shift(&self.pairs, &f.volume, diffusion, m.kernel.h, &mut by);
+            shifting::shift(&self.uneven(), diffusion, m.kernel.h, &mut by);
         }
         if let Some(jump) = &f.jump {
             shifting::keep_along(&f.normal, m.kernel.h, &mut by);
@@ -97,6 +97,20 @@ impl Flow {
             position[a] = self.domain.wrapped(position[a] + by[a]);
             velocity[a] += change[a];
         }
+    }
+
+    /// ∇C of the fluid particles and the pushes at short range, less their mean, in 1/m: what shifting goes down.
+    fn uneven(&self) -> Vec<Vec2> {
+        let (m, f) = (&self.method, &self.fields);
+        let mut uneven = vec![Vec2::zeros(); self.particles.fluids];
+        shifting::concentration_gradient(&self.pairs, &f.volume, &mut uneven);
+        if m.short_range_push > 0.0 {
+            let mut push = vec![Vec2::zeros(); self.particles.fluids];
+            shifting::short_range(&self.pairs, &f.volume, (m.short_range_push, m.kernel.w(m.spacing)), &mut push);
+            shifting::take_out_mean((&self.pairs, &self.images), &f.fluid_volume, &mut push);
+            uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
+        }
+        uneven
     }
 
     fn set_back_from_walls(&mut self, position: &mut [Vec2], velocity: &mut [Vec2]) {

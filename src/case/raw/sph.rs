@@ -124,6 +124,8 @@ tables! {
         pub background_pressure: f64,
         /// Particle shifting against crowding, over h times the largest speed times the step (default 0, without tension 2).
         pub shifting: f64,
+        /// Strength of the push at short range in the shifting, from 0 (none) to 1 (default 0.2 with the pressure jump, else 0).
+        pub short_range_push: f64,
         /// Largest stretch of velocity differences at walls: 10 for no slip, less lets the fluid slip (default 10; 1.5 is a slip
         /// length of a quarter of the spacing).
         pub wall_stretch: f64,

@@ -52,6 +52,7 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
         drift_correction: numerics.drift_correction,
         background_pressure: numerics.background_pressure,
         shifting: numerics.shifting,
+        short_range_push: numerics.short_range_push,
         tolerance: Tolerance { residual: numerics.pressure_tolerance, iterations: ITERATIONS },
         time_step_factor: numerics.time_step_factor,
     }

@@ -1,8 +1,9 @@
-//! Particle shifting: particles drift from crowded to empty places, their velocity is carried along.
+//! Particle shifting: particles drift from crowded to empty places and apart from near ones, their velocity is carried along.
 //!
 //! After Xu et al. 2009 and Lind et al. 2012, with the coefficient of Skillen et al. 2013, which is independent of Δt.
 
 use crate::math::Vec2;
+use crate::sph::images::Images;
 use crate::sph::pairs::{Pairs, each};
 
 /// Where the color gradient exceeds this, in units of 1/h, particles are shifted along the interface only.
@@ -11,11 +12,41 @@ const INTERFACE: f64 = 0.05;
 /// A particle is shifted by at most this share of h per step.
 const LARGEST_SHIFT: f64 = 0.1;
 
-/// δr_a = −`diffusion` ∇C_a, ∇C_a = Σ_b V_b ∇_a W_ab, at most 0.1 h. `diffusion` in m², `h` and the result in m.
-pub fn shift(pairs: &Pairs, volume: &[f64], diffusion: f64, h: f64, shift: &mut [Vec2]) {
+/// ∇C_a = Σ_b V_b ∇_a W_ab in 1/m: points to where particles crowd.
+pub fn concentration_gradient(pairs: &Pairs, volume: &[f64], gradient: &mut [Vec2]) {
+    pairs.sum_into(gradient, |_, ab| volume[ab.b] * ab.grad_w);
+}
+
+/// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m: grows steeply where two are nearer than dx (after Monaghan 2000, Lind et al. 2012).
+///
+/// Sums of ∇C can be even over particles that touch in pairs or rows; this one is not. `w_of_spacing` = W(dx) in 1/m².
+pub fn short_range(pairs: &Pairs, volume: &[f64], (strength, w_of_spacing): (f64, f64), push: &mut [Vec2]) {
+    pairs.sum_into(push, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w);
+}
+
+/// s_a − Σ_b V_b W_ab s_b/Σ_b V_b W_ab over fluid particles, a itself among them: what is left parts neighbors and moves no crowds.
+///
+/// The mean of short pushes drives particles from strained to calm places. The pressure must then bring fluid back, by a flow that is no flow
+/// of the liquid and goes through interfaces. `volume` in m², 0 on walls, over particles and images.
+pub fn take_out_mean((pairs, images): (&Pairs, &Images), volume: &[f64], push: &mut [Vec2]) {
+    let particles = volume.len() - images.len();
+    let mut all = push.to_vec();
+    all.resize(particles, Vec2::zeros());
+    images.extend_reflected(&mut all);
+    each(push, |a| {
+        let own = pairs.w_self * volume[a];
+        let (sum, weight) = pairs.of(a).fold((own * all[a], own), |(sum, weight), ab| {
+            let share = volume[ab.b] * ab.w;
+            (sum + share * all[ab.b], weight + share)
+        });
+        all[a] - sum / weight
+    });
+}
+
+/// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `uneven` is ∇C with the pushes at short range, in 1/m, `diffusion` in m², `h` and the result in m.
+pub fn shift(uneven: &[Vec2], diffusion: f64, h: f64, shift: &mut [Vec2]) {
     each(shift, |a| {
-        let concentration: Vec2 = pairs.of(a).map(|ab| volume[ab.b] * ab.grad_w).sum();
-        let by = -diffusion * concentration;
+        let by = -diffusion * uneven[a];
         by * (LARGEST_SHIFT * h / by.norm()).min(1.0)
     });
 }
