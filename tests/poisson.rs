@@ -88,7 +88,7 @@ fn small_systems_are_solved_directly() {
     let mut solver = PressureSolve::default();
     solver.matrix = pressure_matrix(&cloud, &density);
     let n = cloud.points.len();
-    let (kind, part) = (vec![0; n], parts(&cloud.pairs, &cloud.images));
+    let (kind, part) = (vec![0; n], parts(&cloud.pairs, &cloud.images, |_, _| true));
     assert!(part.iter().all(|part| *part == 0), "one pore, one part");
     let unknowns =
         Unknowns { position: &cloud.points, kind: &kind, part: &part, anchored: &[], spacing: cloud.spacing };

@@ -255,3 +255,24 @@ fn walls_slip_by_a_spacing_near_contact_lines_and_not_elsewhere() {
         assert!(nearest < 6.0 * spacing || b == 0.0, "at {x:?}: {b:.1e} m");
     }
 }
+
+#[test]
+fn the_pressure_of_one_side_of_a_thin_plate_does_not_reach_the_other() {
+    // A plate of six spacings: the wall particles of both of its sides are neighbors.
+    let mut flow = flow(
+        "format = 1\ntitle = \"Two chambers\"\n[geometry]\nmin = [-1.5e-3, -5.0e-4]\nmax = [1.5e-3, 5.0e-4]\n\
+         shapes = [{ rectangle = { center = [0.0, 0.0], size = [6.0e-4, 2.0e-3] } }]\n[time]\nend = 1.0\n\
+         [sph]\nspacing = 1.0e-4\ngravity = [-9.81, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n\
+         [sph.sides]\nbottom = \"symmetry\"\ntop = \"symmetry\"\n",
+    );
+    let near = |flow: &Flow, x: f64| nearest(flow, Vec2::new(x, 0.0), 1.0e-4);
+    let part = |x| flow.particles.part[near(&flow, x)];
+    assert_ne!(part(-4.0e-4), part(4.0e-4), "each chamber has a pressure of its own");
+    steps(&mut flow, 5, 1.0e-4);
+    // Low on the left of the plate, high on its right, and as far from the mean as at the walls that have nothing behind them.
+    for (at_plate, at_wall, sign) in [(-3.5e-4, -1.45e-3, -1.0), (3.5e-4, 1.45e-3, 1.0)] {
+        let (plate, wall) =
+            (flow.particles.pressure[near(&flow, at_plate)], flow.particles.pressure[near(&flow, at_wall)]);
+        assert!(sign * plate > 4.0 && (plate + wall).abs() < 0.01 * plate.abs(), "{plate} Pa, {wall} Pa at the wall");
+    }
+}

@@ -89,8 +89,8 @@ impl<Wall: Fn(Vec2) -> (f64, Vec2) + Sync> Packing<'_, Wall> {
         let mut source: Vec<f64> = (0..n).map(|a| SHARE * volume[a] * crowding(a)).collect();
         images.extend(&mut volume);
         let ones = vec![1.0; volume.len()];
-        assemble(&mut solve.matrix, (pairs, images), &volume, &ones);
-        let part = parts(pairs, images);
+        assemble(&mut solve.matrix, (pairs, images), &volume, &ones, |_, _| true);
+        let part = parts(pairs, images, |_, _| true);
         let unknowns =
             Unknowns { position: points, kind: &vec![0; n], part: &part, anchored: &[], spacing: self.spacing };
         let mut potential = vec![0.0; n];

@@ -52,6 +52,7 @@ pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
     flow.last = StepInfo { dt: state.dt, limit: "restart" };
     flow.particles = state.particles;
     flow.wall_depth = state.wall_depth;
+    flow.face_walls();
     flow.lines = state.lines;
     flow.open.ledger = state.ledger;
     flow.prepare();

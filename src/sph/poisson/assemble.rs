@@ -12,8 +12,14 @@ use crate::sph::terms::poisson::coefficient;
 
 /// Fills `matrix` with the coefficients of Eq. (30) times −V_a; images count for their sources [Eq. 34: p' = p].
 ///
-/// `volume` in m² and `density` in kg/m³ over particles and images.
-pub fn assemble(matrix: &mut Matrix, (pairs, images): (&Pairs, &Images), volume: &[f64], density: &[f64]) {
+/// `volume` in m² and `density` in kg/m³ over particles and images. Pairs that are not `joined` have no coupling.
+pub fn assemble(
+    matrix: &mut Matrix,
+    (pairs, images): (&Pairs, &Images),
+    volume: &[f64],
+    density: &[f64],
+    joined: impl Fn(usize, usize) -> bool + Sync,
+) {
     let rows = pairs.rows();
     matrix.start = Arc::clone(pairs.starts());
     matrix.column = if images.is_empty() {
@@ -26,7 +32,8 @@ pub fn assemble(matrix: &mut Matrix, (pairs, images): (&Pairs, &Images), volume:
     tasks.into_par_iter().for_each(|(range, coupling)| {
         let all = range.flat_map(|a| pairs.of(a).map(move |ab| (a, ab)));
         for (out, (a, ab)) in coupling.iter_mut().zip(all) {
-            *out = coefficient(volume[a] * volume[ab.b], density[a] + density[ab.b], &ab);
+            let coefficient = || coefficient(volume[a] * volume[ab.b], density[a] + density[ab.b], &ab);
+            *out = if joined(a, ab.b) { coefficient() } else { 0.0 };
         }
     });
     matrix.diagonal.resize(rows, 0.0);
@@ -38,8 +45,9 @@ pub fn assemble(matrix: &mut Matrix, (pairs, images): (&Pairs, &Images), volume:
     });
 }
 
-/// Numbers the parts of the pore space that share no neighbors; each has a pressure constant of its own.
+/// Numbers the parts of the pore space that share no neighbors that are `joined`; each has a pressure constant of its own.
 #[must_use]
-pub fn parts(pairs: &Pairs, images: &Images) -> Vec<u32> {
-    components(pairs.rows(), |a| pairs.of(a).map(|ab| images.source(ab.b)))
+pub fn parts(pairs: &Pairs, images: &Images, joined: impl Fn(usize, usize) -> bool) -> Vec<u32> {
+    let joined = &joined;
+    components(pairs.rows(), |a| pairs.of(a).filter(move |ab| joined(a, ab.b)).map(|ab| images.source(ab.b)))
 }

@@ -66,6 +66,8 @@ pub struct Flow {
     pub particles: Particles,
     /// Depth of each wall particle in m.
     pub wall_depth: Vec<f64>,
+    /// Normal of the wall nearest to each wall particle, into the fluid.
+    pub wall_facing: Vec<Vec2>,
     /// Open sides and what passed through them.
     pub open: Open,
     /// Time in s.
@@ -116,6 +118,7 @@ impl Flow {
             lines: Vec::new(),
             particles,
             wall_depth,
+            wall_facing: Vec::new(),
             open,
             time: 0.0,
             steps: 0,
@@ -127,8 +130,10 @@ impl Flow {
             work: Work::default(),
         };
         flow.order_walls();
+        flow.face_walls();
         flow.prepare();
-        flow.particles.part = parts(&flow.pairs, &flow.images);
+        let facing = flow.facing();
+        flow.particles.part = parts(&flow.pairs, &flow.images, |a, b| pressure::joined(facing[a], facing[b]));
         flow
     }
 
@@ -170,6 +175,12 @@ impl Flow {
         let order = Cells::build(walls, &self.domain, self.method.kernel.support()).order().to_vec();
         self.wall_depth = order.iter().map(|&i| self.wall_depth[i as usize]).collect();
         self.reorder((0..moving).chain(order.iter().map(|&i| i as usize + moving)).collect());
+    }
+
+    /// Finds where each wall particle faces; they rest.
+    pub(in crate::sph) fn face_walls(&mut self) {
+        let walls = &self.particles.position[self.particles.moving()..];
+        self.wall_facing = walls.iter().map(|&x| (self.wall)(x).1).collect();
     }
 
     fn reorder(&mut self, order: Vec<usize>) {

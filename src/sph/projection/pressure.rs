@@ -12,11 +12,20 @@ use crate::sph::terms::pressure_gradient;
 /// Above this density ratio the multigrid keeps light and heavy particles apart.
 const LARGEST_SMOOTH_RATIO: f64 = 5.0;
 
+/// Wall particles whose nearest walls face each other by a cosine below this belong to opposite sides of a solid.
+const OPPOSITE: f64 = -0.5;
+
 /// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
 const GIVEN: u8 = 2;
 
 /// Largest relative residual of the drift correction: what one step leaves, the next ones take.
 const DRIFT_RESIDUAL: f64 = 0.01;
+
+/// Whether the pressures of two particles that are `facing` so are coupled: all but those of wall particles that belong to opposite sides of a thin
+/// solid, through which the pressure of one side would reach the other.
+pub(super) fn joined(facing: Vec2, other: Vec2) -> bool {
+    facing.dot(&other) > OPPOSITE
+}
 
 impl Flow {
     /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
@@ -38,7 +47,8 @@ impl Flow {
             -f.volume[a] * (source[a] / dt - drift * self.crowding(a))
         });
         let mut matrix = std::mem::take(&mut self.pressure.matrix);
-        assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density);
+        let facing = self.facing();
+        assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
         if let Some(jump) = &f.jump {
             jump.subtract_from(&mut b, &matrix, &self.pairs, method.tension);
         }
@@ -88,6 +98,14 @@ impl Flow {
             });
         }
         Ok((p, self.drift_correction(potential)))
+    }
+
+    /// Where each wall particle and its images face; zero on other particles.
+    pub(super) fn facing(&self) -> Vec<Vec2> {
+        let mut facing = vec![Vec2::zeros(); self.particles.moving()];
+        facing.extend_from_slice(&self.wall_facing);
+        self.images.extend_reflected(&mut facing);
+        facing
     }
 
     /// V_0/V_a − 1, the density error of a fluid particle; 0 on others.
