@@ -64,12 +64,6 @@ impl Images {
         self.mirrors.iter().enumerate().filter(move |(k, _)| via >> k & 1 == 1).map(|(_, mirror)| mirror)
     }
 
-    /// How many there are.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.source.len()
-    }
-
     /// Whether there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {

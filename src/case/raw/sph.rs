@@ -120,9 +120,9 @@ tables! {
         /// Share of the density error taken back per step by moving particles without their velocities, 0 to 1 (default 0, without tension 0.2).
         pub drift_correction: f64,
         /// Background pressure in units of tension over smoothing length, or of density times speed squared (default
-        /// 0.5, without tension 0).
+        /// 0, with `csf` 0.5).
         pub background_pressure: f64,
-        /// Particle shifting against crowding, over h times the largest speed times the step (default 0, without tension 2).
+        /// Particle shifting against crowding, over h times the largest speed times the step (default 2, with `csf` 0).
         pub shifting: f64,
         /// Strength of the push at short range in the shifting, from 0 (none) to 1 (default 0.2 with the pressure jump, else 0).
         pub short_range_push: f64,

@@ -32,8 +32,8 @@ pub fn assemble(
     tasks.into_par_iter().for_each(|(range, coupling)| {
         let all = range.flat_map(|a| pairs.of(a).map(move |ab| (a, ab)));
         for (out, (a, ab)) in coupling.iter_mut().zip(all) {
-            let coefficient = || coefficient(volume[a] * volume[ab.b], density[a] + density[ab.b], &ab);
-            *out = if joined(a, ab.b) { coefficient() } else { 0.0 };
+            let b = ab.b;
+            *out = if joined(a, b) { coefficient(volume[a] * volume[b], density[a] + density[b], &ab) } else { 0.0 };
         }
     });
     matrix.diagonal.resize(rows, 0.0);

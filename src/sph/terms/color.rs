@@ -2,6 +2,7 @@
 
 use crate::math::{Mat2, Vec2};
 use crate::sph::pairs::{Pairs, each};
+use crate::sph::terms::average;
 
 /// The moment matrix is 1 inside the fluid and about 1/4 in a right corner; below this its inverse is not to be trusted.
 const SMALLEST_DETERMINANT: f64 = 0.05;
@@ -10,14 +11,7 @@ const SMALLEST_DETERMINANT: f64 = 0.05;
 ///
 /// Smoothing once before the gradient brings the curvature's error down; the paper is silent on it.
 pub fn smoothed_color(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], smoothed: &mut [f64]) {
-    each(smoothed, |a| {
-        let own = fluid_volume[a] * pairs.w_self;
-        let (sum, norm) = pairs.of(a).fold((own * color[a], own), |(sum, norm), ab| {
-            let weight = fluid_volume[ab.b] * ab.w;
-            (sum + weight * color[ab.b], norm + weight)
-        });
-        if norm > 0.0 { sum / norm } else { color[a] }
-    });
+    average::over_fluid(pairs, fluid_volume, color, smoothed);
 }
 
 /// n_a = (1/\[c\]) Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m, \[c\] = 1, over fluid [Huber2013, Eq. 18]. Points into the wetting phase.

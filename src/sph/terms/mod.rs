@@ -3,6 +3,7 @@
 //! Fields are slices with one entry per particle and image. Where the paper's sum runs over fluid particles only, the
 //! function takes `fluid_volume`: V_b on fluid, 0 on walls.
 
+pub mod average;
 pub mod color;
 pub mod curvature;
 pub mod density;

@@ -5,6 +5,7 @@
 use crate::math::Vec2;
 use crate::sph::images::Images;
 use crate::sph::pairs::{Pairs, each};
+use crate::sph::terms::average;
 
 /// Where the color gradient exceeds this, in units of 1/h, particles are shifted along the interface only.
 const INTERFACE: f64 = 0.05;
@@ -24,23 +25,17 @@ pub fn short_range(pairs: &Pairs, volume: &[f64], (strength, w_of_spacing): (f64
     pairs.sum_into(push, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w);
 }
 
-/// s_a − Σ_b V_b W_ab s_b/Σ_b V_b W_ab over fluid particles, a itself among them: what is left parts neighbors and moves no crowds.
+/// s_a − ⟨s⟩_a with the average over the fluid around: what is left parts neighbors and moves no crowds.
 ///
 /// The mean of short pushes drives particles from strained to calm places. The pressure must then bring fluid back, by a flow that is no flow
-/// of the liquid and goes through interfaces. `volume` in m², 0 on walls, over particles and images.
-pub fn take_out_mean((pairs, images): (&Pairs, &Images), volume: &[f64], push: &mut [Vec2]) {
-    let particles = volume.len() - images.len();
+/// of the liquid and goes through interfaces. `fluid_volume` in m², 0 on walls, over particles and images.
+pub fn take_out_mean((pairs, images): (&Pairs, &Images), fluid_volume: &[f64], push: &mut [Vec2]) {
     let mut all = push.to_vec();
-    all.resize(particles, Vec2::zeros());
+    all.resize(pairs.rows(), Vec2::zeros());
     images.extend_reflected(&mut all);
-    each(push, |a| {
-        let own = pairs.w_self * volume[a];
-        let (sum, weight) = pairs.of(a).fold((own * all[a], own), |(sum, weight), ab| {
-            let share = volume[ab.b] * ab.w;
-            (sum + share * all[ab.b], weight + share)
-        });
-        all[a] - sum / weight
-    });
+    let mut mean = vec![Vec2::zeros(); push.len()];
+    average::over_fluid(pairs, fluid_volume, &all, &mut mean);
+    push.iter_mut().zip(mean).for_each(|(push, mean)| *push -= mean);
 }
 
 /// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `uneven` is ∇C with the pushes at short range, in 1/m, `diffusion` in m², `h` and the result in m.

@@ -1,0 +1,22 @@
+//! Averages of a field over the fluid around a particle.
+
+use std::ops::{Add, Div, Mul};
+
+use crate::sph::pairs::{Pairs, each};
+
+/// ⟨f⟩_a = Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid, the particle itself included (Shepard); f_a where no fluid is near.
+///
+/// `fluid_volume` in m², 0 on walls; it and `field` over particles and images.
+pub fn over_fluid<T>(pairs: &Pairs, fluid_volume: &[f64], field: &[T], average: &mut [T])
+where
+    T: Copy + Send + Sync + Add<Output = T> + Mul<f64, Output = T> + Div<f64, Output = T>,
+{
+    each(average, |a| {
+        let own = fluid_volume[a] * pairs.w_self;
+        let (sum, norm) = pairs.of(a).fold((field[a] * own, own), |(sum, norm), ab| {
+            let weight = fluid_volume[ab.b] * ab.w;
+            (sum + field[ab.b] * weight, norm + weight)
+        });
+        if norm > 0.0 { sum / norm } else { field[a] }
+    });
+}
