@@ -25,23 +25,58 @@ pub(super) struct Near {
     pub(super) weight: f64,
 }
 
-/// Least squares of v = a + b u + k (u² + v²)/2 in the frame of `normal`; the curvature is k/√(1 + b² − 2ka).
-pub(super) fn free_fit(near: &[Near], normal: Vec2) -> Option<f64> {
-    if near.len() < FEWEST {
-        return None;
+/// The circle v = a + b u + k (u² + v²)/2 in the frame of `tangent` and `normal`, its origin where that of the points was.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Circle {
+    a: f64,
+    b: f64,
+    k: f64,
+    tangent: Vec2,
+    normal: Vec2,
+}
+
+impl Circle {
+    /// Weighted least squares through `near`, none through too few points; `normal` is about that of the interface.
+    pub(super) fn through(near: &[Near], normal: Vec2) -> Option<Self> {
+        if near.len() < FEWEST {
+            return None;
+        }
+        let tangent = -perpendicular(normal);
+        let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
+        for q in near {
+            let (u, v) = (q.x.dot(&tangent), q.x.dot(&normal));
+            let row = Vector3::new(1.0, u, 0.5 * (u * u + v * v));
+            matrix += q.weight * row * row.transpose();
+            right += q.weight * v * row;
+        }
+        let solution = matrix.cholesky()?.solve(&right);
+        Some(Self { a: solution[0], b: solution[1], k: solution[2], tangent, normal })
     }
-    let tangent = -perpendicular(normal);
-    let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
-    for q in near {
-        let (u, v) = (q.x.dot(&tangent), q.x.dot(&normal));
-        let row = Vector3::new(1.0, u, 0.5 * (u * u + v * v));
-        matrix += q.weight * row * row.transpose();
-        right += q.weight * v * row;
+
+    /// k/√(1 + b² − 2ka) in 1/m.
+    pub(super) fn curvature(&self) -> Option<f64> {
+        let square = 1.0 + self.b * self.b - 2.0 * self.k * self.a;
+        (square > 0.0).then(|| self.k / square.sqrt())
     }
-    let solution = matrix.cholesky()?.solve(&right);
-    let (a, b, k) = (solution[0], solution[1], solution[2]);
-    let square = 1.0 + b * b - 2.0 * k * a;
-    (square > 0.0).then(|| k / square.sqrt())
+
+    /// The point of the circle nearest to `x` (m) and the unit normal there, none for the center.
+    ///
+    /// F = a + b u + k (u² + v²)/2 − v is quadratic, and on the line through x along ∇F it is F − t|∇F| + k t²/2.
+    pub(super) fn foot(&self, x: Vec2) -> Option<(Vec2, Vec2)> {
+        let slope = |u: f64, v: f64| Vec2::new(self.b + self.k * u, self.k * v - 1.0);
+        let (u, v) = (x.dot(&self.tangent), x.dot(&self.normal));
+        let off = self.a + self.b * u + 0.5 * self.k * (u * u + v * v) - v;
+        let steep = slope(u, v).norm();
+        let square = steep * steep - 2.0 * self.k * off;
+        if steep == 0.0 || square < 0.0 {
+            return None;
+        }
+        let way = 2.0 * off / (steep + square.sqrt());
+        let foot = Vec2::new(u, v) - way / steep * slope(u, v);
+        let normal = -slope(foot.x, foot.y).try_normalize(0.0)?;
+        let turned = |y: Vec2| y.x * self.tangent + y.y * self.normal;
+        Some((turned(foot), turned(normal)))
+    }
 }
 
 /// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.

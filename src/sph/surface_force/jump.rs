@@ -7,16 +7,16 @@ use crate::sph::images::Images;
 use crate::sph::pairs::{GRAIN, Pairs, each};
 use crate::sph::poisson::Matrix;
 use crate::sph::surface_force::fit::InterfaceFit;
-use crate::sph::surface_force::windows::WINDOW;
+use crate::sph::surface_force::windows::{SMOOTHNESS, WINDOW};
 
-/// Passes of the smoothing of the curvature along the interface: two bring the parasitic currents down by an order of magnitude.
-const PASSES: usize = 2;
+/// Passes of the smoothing of the curvature along the interface.
+const PASSES: usize = 1;
 
 /// What the kernel's average takes from a wave of the wavenumber k, over k²h²: half its second moment, 5 h²/18 along each direction.
 const LOSS_OF_A_PASS: f64 = 5.0 / 36.0;
 
-/// What a circle fit takes, over k²h²: k² r_f²/22 for its window r_f and weight (1 − d²/r_f²)².
-const LOSS_OF_THE_FIT: f64 = WINDOW * WINDOW / 22.0;
+/// What a circle fit takes, over k²h²: k² r²/(4s + 14) for its window r and the weight (1 − d²/r²)^s.
+const LOSS_OF_THE_FIT: f64 = WINDOW * WINDOW / (4 * SMOOTHNESS + 14) as f64;
 
 /// How often the loss of all passes is given back, so that it makes up for those of color and fit too.
 const GIVEN_BACK: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 * LOSS_OF_A_PASS);

@@ -5,7 +5,7 @@
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::surface_force::circles::{Near, angle_through, fit_from_contact, free_fit};
+use crate::sph::surface_force::circles::{Circle, Near, angle_through, fit_from_contact};
 use crate::sph::surface_force::fit::{FEWEST_HELD, Foot, InterfaceFit};
 use crate::sph::wetting::lines::Sighting;
 
@@ -94,7 +94,8 @@ impl InterfaceFit<'_> {
         let into_wetting = into_wetting.try_normalize(f64::EPSILON)?;
         let outward = -(into_wetting - into_wetting.dot(&normal) * normal).try_normalize(f64::EPSILON)?;
         let level = self.window(into_wetting, place);
-        let kappa = free_fit(&self.of_one_curvature(&level, Vec2::zeros()), into_wetting).unwrap_or(0.0);
+        let circle = Circle::through(&self.of_one_curvature(&level, Vec2::zeros()), into_wetting);
+        let kappa = circle.and_then(|circle| circle.curvature()).unwrap_or(0.0);
         let near = self.of_one_curvature(&self.on_interface(&level, kappa), Vec2::zeros());
         (near.len() >= FEWEST_HELD).then_some(InterfaceLine {
             fit: self,

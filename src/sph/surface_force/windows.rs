@@ -4,11 +4,18 @@
 //! bends the interface away from its circle by the deflection w with w'' = ∇κ·x along it, w = ∇κ·d |d|²/6 at the distance d.
 
 use crate::math::{LINE_MOMENT, Vec2};
-use crate::sph::surface_force::circles::Near;
+use crate::sph::surface_force::circles::{Circle, Near};
 use crate::sph::surface_force::fit::InterfaceFit;
+use crate::sph::surface_force::points::InterfacePoint;
 
-/// Radius of the window of a fit over h.
-pub const WINDOW: f64 = 2.5;
+/// Radius r of the window of a fit over h.
+pub const WINDOW: f64 = 3.0;
+
+/// A point at the distance d has the weight (1 − d²/r²) to this power. Two sees waves of two to three spacings upside down.
+pub const SMOOTHNESS: i32 = 6;
+
+/// A window is moved to the foot of its particle so many times; the second moves it by less than a hundredth of a spacing.
+const FEET: usize = 2;
 
 /// Squared distances that differ by less than this share are equal.
 const TIE: f64 = 1e-9;
@@ -34,6 +41,37 @@ impl InterfaceFit<'_> {
         nearest
     }
 
+    /// The foot of `x` (m) on the interface near the point `nearest` of it, and the window there.
+    ///
+    /// The foot moves as x does. The nearest point would not: particles inside see the dents of a rough interface and those outside its
+    /// bumps, so that the curvatures on both sides of one place differ.
+    pub(super) fn window_at_foot(&self, nearest: InterfacePoint, x: Vec2) -> (InterfacePoint, Vec<Near>) {
+        let mut point = nearest;
+        let mut near = self.window(point.normal, point.x);
+        for _ in 0..FEET {
+            let circle = Circle::through(&self.of_one_curvature(&near, Vec2::zeros()), point.normal);
+            let Some((foot, normal)) = circle.and_then(|circle| circle.foot(x - point.x)) else { break };
+            point.x += foot * (self.h / foot.norm()).min(1.0);
+            point.normal = normal;
+            if point.wall_distance.is_finite() {
+                self.keep_before_wall(&mut point);
+            }
+            near = self.window(point.normal, point.x);
+        }
+        (point, near)
+    }
+
+    /// Looks up the wall near `point`, which goes back along the interface to it if it lies behind it.
+    fn keep_before_wall(&self, point: &mut InterfacePoint) {
+        (point.wall_distance, point.wall_normal) = (self.wall)(point.x);
+        if point.wall_distance < 0.0
+            && let Some(foot) = self.foot(point)
+        {
+            point.x += foot.contact;
+            (point.wall_distance, point.wall_normal) = (self.wall)(point.x);
+        }
+    }
+
     /// The points of the piece with about the unit `normal` within the window around `x_p` (m).
     pub(super) fn window(&self, normal: Vec2, x_p: Vec2) -> Vec<Near> {
         let reach2 = (WINDOW * self.h).powi(2);
@@ -42,7 +80,11 @@ impl InterfaceFit<'_> {
             let index = i as usize;
             let d2 = r.norm_squared();
             if d2 < reach2 && self.points[index].normal.dot(&normal) > SAME_PIECE {
-                near.push(Near { index, x: -r, weight: self.points[index].weight * (1.0 - d2 / reach2).powi(2) });
+                near.push(Near {
+                    index,
+                    x: -r,
+                    weight: self.points[index].weight * (1.0 - d2 / reach2).powi(SMOOTHNESS),
+                });
             }
         });
         near
