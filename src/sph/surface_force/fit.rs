@@ -100,7 +100,7 @@ impl<'a> InterfaceFit<'a> {
         (count > 0).then(|| sum / f64::from(count))
     }
 
-    /// The curvature at `x` from the window around the foot of x on the interface, near the point `p`, from which x lies at `from_p`.
+    /// The curvature at `x` from the window near the point `p`, from which x lies at `from_p`.
     fn curvature_at(&self, p: usize, from_p: Vec2, x: Vec2) -> Option<f64> {
         let nearest = InterfacePoint { x: x - from_p, ..self.points[p] };
         let (point, level) = self.window_at_foot(nearest, x);
@@ -108,7 +108,7 @@ impl<'a> InterfaceFit<'a> {
         for _ in 0..MOVES {
             kappa = self.fitted(&point, &self.on_interface(&level, kappa))?;
         }
-        // The end of the interface may lie a little way along it.
+        // A point at the end of the interface may lie a little way along it.
         let kappa = kappa + self.gradient.dot(&along(x - point.x, point.normal));
         let limit = self.limit();
         kappa.is_finite().then(|| kappa.clamp(-limit, limit))
@@ -134,7 +134,7 @@ impl<'a> InterfaceFit<'a> {
         if slope < SMALLEST_TANGENT {
             return None;
         }
-        let way = point.wall_distance / slope.max(2.0 * SMALLEST_TANGENT);
+        let way = point.wall_distance.max(0.0) / slope.max(2.0 * SMALLEST_TANGENT);
         // Down along the interface to the wall, then onto it.
         let mut down = perpendicular(point.normal);
         if down.dot(&point.wall_normal) > 0.0 {

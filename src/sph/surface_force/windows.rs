@@ -43,33 +43,23 @@ impl InterfaceFit<'_> {
 
     /// The foot of `x` (m) on the interface near the point `nearest` of it, and the window there.
     ///
-    /// The foot moves as x does. The nearest point would not: particles inside see the dents of a rough interface and those outside its
-    /// bumps, so that the curvatures on both sides of one place differ.
+    /// The foot moves as x does. The nearest point does not: particles inside see the dents of a rough interface and those outside its
+    /// bumps, so that the curvatures on both sides of one place differ. Near a wall the interface ends, and a foot may lie behind the
+    /// wall or at the other line of a small base: there the window stays around the nearest point.
     pub(super) fn window_at_foot(&self, nearest: InterfacePoint, x: Vec2) -> (InterfacePoint, Vec<Near>) {
         let mut point = nearest;
         let mut near = self.window(point.normal, point.x);
+        if nearest.wall_distance.is_finite() {
+            return (point, near);
+        }
         for _ in 0..FEET {
             let circle = Circle::through(&self.of_one_curvature(&near, Vec2::zeros()), point.normal);
             let Some((foot, normal)) = circle.and_then(|circle| circle.foot(x - point.x)) else { break };
             point.x += foot * (self.h / foot.norm()).min(1.0);
             point.normal = normal;
-            if point.wall_distance.is_finite() {
-                self.keep_before_wall(&mut point);
-            }
             near = self.window(point.normal, point.x);
         }
         (point, near)
-    }
-
-    /// Looks up the wall near `point`, which goes back along the interface to it if it lies behind it.
-    fn keep_before_wall(&self, point: &mut InterfacePoint) {
-        (point.wall_distance, point.wall_normal) = (self.wall)(point.x);
-        if point.wall_distance < 0.0
-            && let Some(foot) = self.foot(point)
-        {
-            point.x += foot.contact;
-            (point.wall_distance, point.wall_normal) = (self.wall)(point.x);
-        }
     }
 
     /// The points of the piece with about the unit `normal` within the window around `x_p` (m).
