@@ -14,7 +14,7 @@ pub const WINDOW: f64 = 3.0;
 /// A point at the distance d has the weight (1 − d²/r²) to this power. Two sees waves of two to three spacings upside down.
 pub const SMOOTHNESS: i32 = 6;
 
-/// A window is moved to the foot of its particle so many times; the second moves it by less than a hundredth of a spacing.
+/// A window is moved to the foot of its particle so many times: by the circle around the nearest point, and by that around the foot found.
 const FEET: usize = 2;
 
 /// Squared distances that differ by less than this share are equal.
