@@ -12,7 +12,7 @@ use flow::flow;
 use meniscus::math::Vec2;
 use meniscus::sph::particles::Phase;
 use meniscus::sph::projection::Flow;
-use meniscus::sph::terms::shifting::{carried_velocity, short_range, take_out_mean};
+use meniscus::sph::terms::shifting::{carried_velocity, keep_off, short_range, take_out_mean};
 
 const PERIODIC: &str =
     "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
@@ -69,6 +69,40 @@ fn a_uniform_flow_of_two_fluids_without_tension_stays_uniform() {
     }
     let change = flow.particles.velocity.iter().map(|v| (v - Vec2::new(0.3, -0.1)).norm()).fold(0.0, f64::max);
     assert!(change < 1e-9 * 0.3, "rounding of twenty steps on the lattice: {change:.1e} m/s");
+}
+
+/// The largest speed after one step of a fluid that started at rest, over that of free fall.
+fn share_of_free_fall(flow: &mut Flow) -> f64 {
+    flow.step(1.0).unwrap();
+    fastest(flow) / (flow.method.gravity.norm() * flow.time)
+}
+
+#[test]
+fn a_fluid_in_a_box_rests_under_gravity_however_its_particles_lie() {
+    // On walls, on an image wall and on a plane of symmetry, and between walls that gravity is not normal to.
+    for (gravity, bottom) in
+        [([0.0, -9.81], "wall"), ([5.0, -8.0], "wall"), ([0.0, -9.81], "image"), ([0.0, -9.81], "symmetry")]
+    {
+        let mut flow = flow(&case(&format!(
+            "gravity = {gravity:?}\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n\
+             [sph.numerics]\nbackground-pressure = 0.0\n[sph.sides]\nbottom = \"{bottom}\"\n"
+        )));
+        shake(&mut flow);
+        let share = share_of_free_fall(&mut flow);
+        assert!(share < 1.0e-9, "{share:.1e} of free fall under {gravity:?} on the side {bottom}");
+    }
+}
+
+#[test]
+fn a_heavy_fluid_below_a_light_one_rests() {
+    let mut flow = flow(&case(
+        "gravity = [0.0, -9.81]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n\
+         [sph.phases.non-wetting]\ndensity = 10.0\nviscosity = 1.0e-5\n[sph.interface]\ntension = 0.02\n\
+         [sph.wetting.young]\ncontact-angle-deg = 90.0\n\
+         [[sph.initial.wetting]]\nrectangle = { center = [0.0, -3.0e-4], size = [2.0e-3, 6.0e-4] }\n",
+    ));
+    let share = share_of_free_fall(&mut flow);
+    assert!(share < 1.0e-9, "{share:.1e} of free fall");
 }
 
 /// An oblong drop in a periodic box, with tension.
@@ -162,6 +196,10 @@ fn pushes_at_short_range_part_a_pair_and_move_no_crowds() {
         push[left] * dx,
         push[right] * dx
     );
+    // Along the interface nothing is pushed.
+    keep_off(&flow.fields.normal, flow.method.kernel.h, &mut push);
+    let along = (0..fluids).filter(|&a| flow.fields.normal[a].norm() > 0.05 / flow.method.kernel.h);
+    assert!(along.clone().count() > 20 && along.into_iter().all(|a| push[a] == Vec2::zeros()));
 }
 
 #[test]

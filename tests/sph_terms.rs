@@ -98,6 +98,30 @@ fn divergence_and_pressure_gradient_of_linear_fields_are_exact_on_the_lattice() 
 }
 
 #[test]
+fn a_gradient_over_its_moment_has_the_mean_of_a_linear_field() {
+    // By particle the moment is that of all directions, not of the one of the slope: exact is the mean over two slopes at right angles.
+    let cloud = Cloud::new(24, false, 0.3);
+    let n = cloud.points.len();
+    let density = vec![1.0; n];
+    let along = |slope: Vec2| {
+        let pressure: Vec<f64> = cloud.points.iter().map(|x| slope.dot(x)).collect();
+        let mut gradient = vec![Vec2::zeros(); n];
+        pressure_gradient::difference(&cloud.pairs, &cloud.volume, &density, &pressure, |_, _| 0.0, &mut gradient);
+        let plain: Vec<f64> = gradient.iter().map(|g| -g.dot(&slope)).collect();
+        pressure_gradient::over_moment(&cloud.pairs, &cloud.volume, |a, b| cloud.separation(a, b), &mut gradient);
+        (plain, gradient.iter().map(|g| -g.dot(&slope)).collect::<Vec<f64>>())
+    };
+    let (slope, across) = (Vec2::new(0.6, -0.8), Vec2::new(0.8, 0.6));
+    let ((plain, exact), (plain_across, exact_across)) = (along(slope), along(across));
+    let mut largest = 0.0_f64;
+    for a in cloud.inner() {
+        assert!((0.5 * (exact[a] + exact_across[a]) - 1.0).abs() < 10.0 * ROUNDING, "{} at {a}", exact[a]);
+        largest = largest.max((0.5 * (plain[a] + plain_across[a]) - 1.0).abs());
+    }
+    assert!(largest > 0.01, "without the moment it is off by {largest}");
+}
+
+#[test]
 fn viscosity_of_a_parabola_is_its_second_derivative_on_the_lattice() {
     let cloud = Cloud::new(24, false, 0.0);
     let n = cloud.points.len();

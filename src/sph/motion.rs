@@ -99,7 +99,7 @@ impl Flow {
         }
     }
 
-    /// ∇C of the fluid particles and the pushes at short range, less their mean, in 1/m: what shifting goes down.
+    /// ∇C of the fluid particles and, away from the interface, the pushes at short range, less their mean, in 1/m: what shifting goes down.
     fn uneven(&self) -> Vec<Vec2> {
         let (m, f) = (&self.method, &self.fields);
         let mut uneven = vec![Vec2::zeros(); self.particles.fluids];
@@ -108,6 +108,7 @@ impl Flow {
             let mut push = vec![Vec2::zeros(); self.particles.fluids];
             shifting::short_range(&self.pairs, &f.volume, (m.short_range_push, m.kernel.w(m.spacing)), &mut push);
             shifting::take_out_mean((&self.pairs, &self.images), &f.fluid_volume, &mut push);
+            shifting::keep_off(&f.normal, m.kernel.h, &mut push);
             uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
         }
         uneven

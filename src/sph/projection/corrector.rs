@@ -26,8 +26,15 @@ impl Flow {
             PressureGradient::Symmetric => pressure_gradient::symmetric(pairs, volume, density, &p, &mut acceleration),
             PressureGradient::Weighted => pressure_gradient::weighted(pairs, volume, density, &p, &mut acceleration),
             PressureGradient::Difference => {
-                let jump = |a: usize, b: usize| f.jump.as_ref().map_or(0.0, |jump| self.method.tension * jump.of(a, b));
-                pressure_gradient::difference(pairs, volume, density, &p, jump, &mut acceleration);
+                let at_rest = self.at_rest();
+                let rise = |a: usize, b: usize| at_rest.rise(a, b);
+                pressure_gradient::difference(pairs, volume, density, &p, rise, &mut acceleration);
+                // Not without tension: there vortices keep their rate better as the sums are (docs/numerics/pressure.md).
+                if f.jump.is_some() {
+                    let x = &self.particles.position;
+                    let r_ab = |a: usize, b: usize| self.domain.separation(x[a], self.images.position(b, x));
+                    pressure_gradient::over_moment(pairs, volume, r_ab, &mut acceleration);
+                }
             }
         }
         let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);

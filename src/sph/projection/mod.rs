@@ -2,6 +2,7 @@
 //!
 //! [`Flow::step`] is that order; the files beside this one hold its stages.
 
+mod at_rest;
 mod corrector;
 mod predictor;
 mod pressure;
@@ -94,7 +95,7 @@ pub(super) struct Predicted {
     pub(super) limit: &'static str,
     /// The largest velocity of a particle in m/s, relative to the mean of all.
     fastest: f64,
-    /// v_int over particles and images in m/s.
+    /// v_int over particles and images in m/s, without the gravity that goes with the pressure.
     velocity: Vec<Vec2>,
     /// Where the buffers of open sides take the velocity from.
     feet: Feet,

@@ -11,7 +11,8 @@ use crate::sph::terms::pressure_gradient;
 use crate::sph::time_step::landing;
 
 impl Flow {
-    /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25].
+    /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25], without the gravity that goes with the
+    /// pressure (`at_rest`).
     pub(super) fn predict(&self, until: f64) -> Result<Predicted, SolverError> {
         let (particles, fluids, moving) = (&self.particles, self.particles.fluids, self.particles.moving());
         let mut velocity = particles.velocity.clone();
@@ -36,9 +37,10 @@ impl Flow {
         let fastest = relative_speed(&particles.velocity[..fluids]);
         let background = self.background_acceleration(speed);
         let f = &self.fields;
+        let body = self.method.gravity - self.balanced_gravity();
         each(&mut velocity[..fluids], |a| {
             let forces = (f.surface_force[a] + f.line_force[a]) / f.density[a];
-            particles.velocity[a] + step.dt * (viscous[a] + self.method.gravity + forces + background[a])
+            particles.velocity[a] + step.dt * (viscous[a] + body + forces + background[a])
         });
         let feet = Feet::new(particles, &self.open.sides, &self.domain, &self.method.kernel);
         self.set_buffer_velocity(&feet, &mut velocity);

@@ -49,9 +49,7 @@ impl Flow {
         let mut matrix = std::mem::take(&mut self.pressure.matrix);
         let facing = self.facing();
         assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
-        if let Some(jump) = &f.jump {
-            jump.subtract_from(&mut b, &matrix, &self.pairs, method.tension);
-        }
+        self.at_rest().subtract_from(&mut b, &matrix, &self.pairs);
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
         let given = |a: usize| prescribed.of(a, fluids);

@@ -108,8 +108,8 @@ impl<'a> InterfaceFit<'a> {
         for _ in 0..MOVES {
             kappa = self.fitted(&point, &self.on_interface(&level, kappa))?;
         }
-        // A point at the end of the interface may lie a little way along it.
-        let kappa = kappa + self.gradient.dot(&along(x - point.x, point.normal));
+        // At rest the curvature, continued so off the interface, balances gravity between any two particles.
+        let kappa = kappa + self.gradient.dot(&(x - point.x));
         let limit = self.limit();
         kappa.is_finite().then(|| kappa.clamp(-limit, limit))
     }

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use crate::math::{LINE_MOMENT, Vec2};
 use crate::sph::images::Images;
 use crate::sph::pairs::{GRAIN, Pairs, each};
-use crate::sph::poisson::Matrix;
 use crate::sph::surface_force::fit::InterfaceFit;
 use crate::sph::surface_force::windows::{SMOOTHNESS, WINDOW};
 
@@ -51,7 +50,7 @@ impl Jump {
             .map(|a| if unlike(a) { fit.curvature(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
             .collect();
         self.curvature.clear();
-        let rest = |a: usize, b: usize| fit.gradient.dot(&r_ab(a, b));
+        let rest = |a: usize, b: usize| fit.gradient.dot(&r_ab(a, images.source(b)));
         self.curvature.extend(smoothed(on_fluid, (pairs, images), &rest));
         self.curvature.resize(n, f64::NAN);
         // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
@@ -82,19 +81,6 @@ impl Jump {
             (true, true) => 0.0,
         };
         kappa * step
-    }
-
-    /// Takes Σ_b A_ab J_ab off the right side of the pressure equation; `tension` in N/m.
-    pub fn subtract_from(&self, right: &mut [f64], matrix: &Matrix, pairs: &Pairs, tension: f64) {
-        let jumps: Vec<f64> = (0..right.len())
-            .into_par_iter()
-            .with_min_len(GRAIN)
-            .map(|a| {
-                let coupling = &matrix.coupling[pairs.row(a)];
-                pairs.of(a).zip(coupling).map(|(ab, coupling)| coupling * self.of(a, ab.b)).sum()
-            })
-            .collect();
-        right.iter_mut().zip(&jumps).for_each(|(right, jump)| *right -= tension * jump);
     }
 }
 

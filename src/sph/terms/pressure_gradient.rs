@@ -3,6 +3,9 @@
 use crate::math::Vec2;
 use crate::sph::pairs::Pairs;
 
+/// Below this moment a particle has too few neighbors to divide by it.
+const SMALLEST_MOMENT: f64 = 0.5;
+
 /// −(∇p/ρ)_a = −Σ_b m_b (p_a + p_b)/(ρ_a ρ_b) ∇_a W_ab in m/s² [Huber2013, Eq. 15], after Morris 2000.
 ///
 /// Keeps momentum; the constant in p matters, since it orders the particles. Up to density ratios of about 5.
@@ -28,19 +31,38 @@ pub fn weighted(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64]
 /// Continuous in ∇p/ρ across the interface, so it holds at any density ratio; the constant in p does nothing, and momentum is kept only
 /// as well as the particles are ordered.
 ///
-/// `jump(a, b)` in Pa is the jump of the pressure from a to b where an interface lies between them, else zero.
+/// `rise(a, b)` in Pa is what the pressure of a fluid at rest is greater by at b than at a.
 pub fn difference(
     pairs: &Pairs,
     volume: &[f64],
     density: &[f64],
     pressure: &[f64],
-    jump: impl Fn(usize, usize) -> f64 + Sync,
+    rise: impl Fn(usize, usize) -> f64 + Sync,
     acceleration: &mut [Vec2],
 ) {
     pairs.sum_into(acceleration, |a, ab| {
         let b = ab.b;
-        -volume[b] * 2.0 * (pressure[b] - pressure[a] - jump(a, b)) / (density[a] + density[b]) * ab.grad_w
+        -volume[b] * 2.0 * (pressure[b] - pressure[a] - rise(a, b)) / (density[a] + density[b]) * ab.grad_w
     });
+}
+
+/// Divides what [`difference`] gives by the moment −½ Σ_b V_b r_ab·∇_a W_ab of its sums, 1 on the lattice and a little less in disorder.
+///
+/// Divergence, gradient and the Laplacian of Eq. (30) all have this factor. Once taken out of the gradient, the divergence of the gradient
+/// is the Laplacian. `r_ab(a, b)` in m; a particle with few neighbors keeps what it has.
+pub fn over_moment(
+    pairs: &Pairs,
+    volume: &[f64],
+    r_ab: impl Fn(usize, usize) -> Vec2 + Sync,
+    acceleration: &mut [Vec2],
+) {
+    let mut moment = vec![0.0; acceleration.len()];
+    pairs.sum_into(&mut moment, |a, ab| -0.5 * volume[ab.b] * r_ab(a, ab.b).dot(&ab.grad_w));
+    for (acceleration, moment) in acceleration.iter_mut().zip(moment) {
+        if moment > SMALLEST_MOMENT {
+            *acceleration /= moment;
+        }
+    }
 }
 
 /// −∇φ/ρ of a potential φ without jumps, by [`difference`]: the way in m down the gradient for φ in kg/m.

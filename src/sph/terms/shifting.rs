@@ -7,7 +7,7 @@ use crate::sph::images::Images;
 use crate::sph::pairs::{Pairs, each};
 use crate::sph::terms::average;
 
-/// Where the color gradient exceeds this, in units of 1/h, particles are shifted along the interface only.
+/// Where the color gradient exceeds this, in units of 1/h, particles are shifted along the interface only, and not pushed.
 const INTERFACE: f64 = 0.05;
 
 /// A particle is shifted by at most this share of h per step.
@@ -36,6 +36,15 @@ pub fn take_out_mean((pairs, images): (&Pairs, &Images), fluid_volume: &[f64], p
     let mut mean = vec![Vec2::zeros(); push.len()];
     average::over_fluid(pairs, fluid_volume, &all, &mut mean);
     push.iter_mut().zip(mean).for_each(|(push, mean)| *push -= mean);
+}
+
+/// Leaves out the pushes near the interface, which would keep moving it where it should rest; `normal` is the color gradient in 1/m, `h` in m.
+pub fn keep_off(normal: &[Vec2], h: f64, push: &mut [Vec2]) {
+    for (push, n) in push.iter_mut().zip(normal) {
+        if n.norm() > INTERFACE / h {
+            *push = Vec2::zeros();
+        }
+    }
 }
 
 /// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `uneven` is ∇C with the pushes at short range, in 1/m, `diffusion` in m², `h` and the result in m.

@@ -1,0 +1,90 @@
+//! How the pressures of two neighbors differ in a fluid at rest: by the jump across its interface and by the weight between them.
+//!
+//! Pressure equation and pressure gradient weigh what is left of the differences by the same sums. So a fluid at rest feels no force,
+//! particle by particle and up to its walls, however the particles lie (a well-balanced scheme).
+
+use rayon::prelude::*;
+
+use super::Flow;
+use crate::math::Vec2;
+use crate::sph::boundary::carry;
+use crate::sph::method::PressureGradient;
+use crate::sph::pairs::{GRAIN, Pairs};
+use crate::sph::particles::Phase;
+use crate::sph::poisson::Matrix;
+use crate::sph::surface_force::jump::Jump;
+
+/// What makes the pressure of a fluid at rest uneven.
+pub(super) struct AtRest<'a> {
+    jump: Option<&'a Jump>,
+    tension: f64,
+    /// In kg/m³ over particles and images, empty without gravity.
+    density: Vec<f64>,
+    /// g·x in m²/s² over particles and images, empty without gravity.
+    potential: Vec<f64>,
+}
+
+impl Flow {
+    /// The fluid at its present places, at rest.
+    pub(super) fn at_rest(&self) -> AtRest<'_> {
+        let gravity = self.balanced_gravity();
+        let mut potential = Vec::new();
+        if gravity != Vec2::zeros() {
+            potential.extend(self.particles.position.iter().map(|x| gravity.dot(x)));
+            self.images.extend(&mut potential);
+        }
+        let jump = self.fields.jump.as_ref();
+        let density = if potential.is_empty() { Vec::new() } else { self.density_at_rest() };
+        AtRest { jump, tension: self.method.tension, density, potential }
+    }
+
+    /// The density in kg/m³ of the phase, over particles and images; walls have that of the side they take, or of the fluid nearby.
+    fn density_at_rest(&self) -> Vec<f64> {
+        let (particles, moving) = (&self.particles, self.particles.moving());
+        let of = |phase: Phase| self.method.fluid(phase).density;
+        if let Some(jump) = &self.fields.jump {
+            let phase = |side: f64| if side == 1.0 { Phase::Wetting } else { Phase::NonWetting };
+            return jump.side.iter().map(|&side| of(phase(side))).collect();
+        }
+        let mut density: Vec<f64> = particles.phase[..moving].iter().map(|&phase| of(phase)).collect();
+        density.resize(particles.len(), self.method.mean_density());
+        self.images.extend(&mut density);
+        carry::into_walls(&self.pairs, &self.fields.fluid_volume, moving, &mut density);
+        self.images.extend(&mut density);
+        density
+    }
+
+    /// The part of gravity in m/s² that the pressure can balance: not along periods, where it drives the flow.
+    ///
+    /// The forms of the gradient with the sum of pressures do not have it: their sums differ from those of the pressure equation.
+    pub(super) fn balanced_gravity(&self) -> Vec2 {
+        if self.method.pressure_gradient() != PressureGradient::Difference {
+            return Vec2::zeros();
+        }
+        let [x, y] = self.domain.periodic.map(|periodic| if periodic { 0.0 } else { 1.0 });
+        self.method.gravity.component_mul(&Vec2::new(x, y))
+    }
+}
+
+impl AtRest<'_> {
+    /// p_b − p_a = σ κ̄_ab (c_b − c_a) + (ρ_a + ρ_b)/2 g·(x_b − x_a) in Pa.
+    #[inline]
+    pub(super) fn rise(&self, a: usize, b: usize) -> f64 {
+        let jump = self.jump.map_or(0.0, |jump| self.tension * jump.of(a, b));
+        if self.potential.is_empty() {
+            return jump;
+        }
+        jump + 0.5 * (self.density[a] + self.density[b]) * (self.potential[b] - self.potential[a])
+    }
+
+    /// Takes Σ_b A_ab (p_b − p_a) of the fluid at rest off the right side of the pressure equation.
+    pub(super) fn subtract_from(&self, right: &mut [f64], matrix: &Matrix, pairs: &Pairs) {
+        if self.jump.is_none() && self.potential.is_empty() {
+            return;
+        }
+        right.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, right)| {
+            let coupling = &matrix.coupling[pairs.row(a)];
+            *right -= pairs.of(a).zip(coupling).map(|(ab, coupling)| coupling * self.rise(a, ab.b)).sum::<f64>();
+        });
+    }
+}
