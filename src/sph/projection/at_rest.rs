@@ -1,7 +1,8 @@
 //! How the pressures of two neighbors differ in a fluid at rest: by the jump across its interface and by the weight between them.
 //!
-//! Pressure equation and pressure gradient weigh what is left of the differences by the same sums. So a fluid at rest feels no force,
-//! particle by particle and up to its walls, however the particles lie (a well-balanced scheme).
+//! Pressure equation and pressure gradient weigh what is left of the differences by the same sums. So one fluid at rest feels no force,
+//! particle by particle and up to its walls, however the particles lie (a well-balanced scheme), and two with the pressure jump none
+//! but what their curvature errs by. Without a jump the rises across an interface of two densities do not close.
 
 use rayon::prelude::*;
 

@@ -25,7 +25,7 @@ const GIVEN_BACK: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 *
 pub struct Jump {
     /// Side of the interface: 1 in the wetting phase, 0 in the other; wall particles take that of the fluid nearby.
     pub side: Vec<f64>,
-    /// Curvature in 1/m of the interface near the particle, NaN where there is none.
+    /// Curvature in 1/m of the interface near the particle, continued to it by what it varies by at rest; NaN where there is none.
     pub curvature: Vec<f64>,
 }
 

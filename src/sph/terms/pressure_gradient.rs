@@ -49,7 +49,7 @@ pub fn difference(
 /// Divides what [`difference`] gives by the moment −½ Σ_b V_b r_ab·∇_a W_ab of its sums, 1 on the lattice and a little less in disorder.
 ///
 /// Divergence, gradient and the Laplacian of Eq. (30) all have this factor. Once taken out of the gradient, the divergence of the gradient
-/// is the Laplacian. `r_ab(a, b)` in m; a particle with few neighbors keeps what it has.
+/// is the Laplacian, on the mean over directions. `r_ab(a, b)` in m; a particle with few neighbors keeps what it has.
 pub fn over_moment(
     pairs: &Pairs,
     volume: &[f64],
