@@ -11,7 +11,6 @@ use crate::math::Vec2;
 use crate::sph::boundary::carry;
 use crate::sph::method::PressureGradient;
 use crate::sph::pairs::{GRAIN, Pairs};
-use crate::sph::particles::Phase;
 use crate::sph::poisson::Matrix;
 use crate::sph::surface_force::jump::Jump;
 
@@ -41,14 +40,14 @@ impl Flow {
 
     /// The density in kg/m³ of the phase, over particles and images; walls have that of the side they take, or of the fluid nearby.
     fn density_at_rest(&self) -> Vec<f64> {
-        let (particles, moving) = (&self.particles, self.particles.moving());
-        let of = |phase: Phase| self.method.fluid(phase).density;
+        let (particles, moving, method) = (&self.particles, self.particles.moving(), &self.method);
         if let Some(jump) = &self.fields.jump {
-            let phase = |side: f64| if side == 1.0 { Phase::Wetting } else { Phase::NonWetting };
-            return jump.side.iter().map(|&side| of(phase(side))).collect();
+            let (wetting, other) = (method.wetting_fluid.density, method.other_fluid.density);
+            return jump.side.iter().map(|&side| if side == 1.0 { wetting } else { other }).collect();
         }
-        let mut density: Vec<f64> = particles.phase[..moving].iter().map(|&phase| of(phase)).collect();
-        density.resize(particles.len(), self.method.mean_density());
+        let of_phase = particles.phase[..moving].iter().map(|&phase| method.fluid(phase).density);
+        let mut density: Vec<f64> = of_phase.collect();
+        density.resize(particles.len(), method.mean_density());
         self.images.extend(&mut density);
         carry::into_walls(&self.pairs, &self.fields.fluid_volume, moving, &mut density);
         self.images.extend(&mut density);

@@ -38,10 +38,15 @@ pub fn take_out_mean((pairs, images): (&Pairs, &Images), fluid_volume: &[f64], p
     push.iter_mut().zip(mean).for_each(|(push, mean)| *push -= mean);
 }
 
+/// Whether the interface is near, by the color gradient `n` in 1/m.
+fn is_interface(n: Vec2, h: f64) -> bool {
+    n.norm() > INTERFACE / h
+}
+
 /// Leaves out the pushes near the interface, which would keep moving it where it should rest; `normal` is the color gradient in 1/m, `h` in m.
 pub fn keep_off(normal: &[Vec2], h: f64, push: &mut [Vec2]) {
     for (push, n) in push.iter_mut().zip(normal) {
-        if n.norm() > INTERFACE / h {
+        if is_interface(*n, h) {
             *push = Vec2::zeros();
         }
     }
@@ -76,7 +81,7 @@ pub fn carried_velocity(
 /// the color gradient in 1/m, `h` in m (method: Lind et al. 2012 at a free surface).
 pub fn keep_along(normal: &[Vec2], h: f64, shift: &mut [Vec2]) {
     for (by, n) in shift.iter_mut().zip(normal) {
-        if n.norm() > INTERFACE / h {
+        if is_interface(*n, h) {
             *by -= by.dot(n) / n.norm_squared() * n;
         }
     }
