@@ -12,7 +12,7 @@ use flow::flow;
 use meniscus::math::Vec2;
 use meniscus::sph::particles::Phase;
 use meniscus::sph::projection::Flow;
-use meniscus::sph::terms::shifting::{carried_velocity, keep_off, short_range, take_out_mean};
+use meniscus::sph::terms::shifting::{carried_velocity, keep_along, short_range, take_out_mean};
 
 const PERIODIC: &str =
     "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
@@ -196,12 +196,21 @@ fn pushes_at_short_range_part_a_pair_and_move_no_crowds() {
         push[left] * dx,
         push[right] * dx
     );
-    // Along the interface nothing is pushed, away from it all that is.
-    let (h, mut kept) = (flow.method.kernel.h, vec![Vec2::new(1.0, 0.0); fluids]);
-    keep_off(&flow.fields.normal, h, &mut kept);
-    let along = |a: usize| flow.fields.normal[a].norm() > 0.05 / h;
-    assert!((20..fluids - 20).contains(&(0..fluids).filter(|&a| along(a)).count()));
-    assert!((0..fluids).all(|a| kept[a].x == if along(a) { 0.0 } else { 1.0 }));
+}
+
+#[test]
+fn particles_go_down_the_concentration_along_the_interface_only() {
+    let flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
+    let (fluids, h, normal) = (flow.particles.fluids, flow.method.kernel.h, &flow.fields.normal);
+    let given = Vec2::new(1.0, -2.0);
+    let mut kept = vec![given; fluids];
+    keep_along(normal, h, &mut kept);
+    let near: Vec<usize> = (0..fluids).filter(|&a| normal[a].norm() > 0.05 / h).collect();
+    assert!((20..fluids - 20).contains(&near.len()));
+    for a in 0..fluids {
+        let across = if near.contains(&a) { normal[a].normalize() } else { Vec2::zeros() };
+        assert!((kept[a] - (given - given.dot(&across) * across)).norm() < 1e-12, "{} at {across}", kept[a]);
+    }
 }
 
 #[test]

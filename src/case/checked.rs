@@ -336,6 +336,8 @@ pub struct Numerics {
     pub wall_stretch: f64,
     /// Whether wall particles follow walls that the lattice does not fit.
     pub fitted_walls: bool,
+    /// Whether particles follow the initial interface where the lattice does not fit it.
+    pub fitted_interface: bool,
     /// Largest relative residual of the pressure solve.
     pub pressure_tolerance: f64,
     /// Factor on all three limits of the time step, above 0 and at most 1.

@@ -21,6 +21,7 @@ pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
         short_range_push,
         wall_stretch: 10.0,
         fitted_walls: true,
+        fitted_interface: surface_force == Some(SurfaceForce::PressureJump),
         pressure_tolerance: 1.0e-6,
         time_step_factor: 1.0,
     }
@@ -62,6 +63,7 @@ pub(super) fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numeri
         ),
         wall_stretch: within("wall-stretch", raw.wall_stretch, (1.0, 1.0e3), "a factor", default.wall_stretch),
         fitted_walls: raw.fitted_walls.unwrap_or(default.fitted_walls),
+        fitted_interface: raw.fitted_interface.unwrap_or(default.fitted_interface),
         pressure_tolerance: within(
             "pressure-tolerance",
             raw.pressure_tolerance,

@@ -173,6 +173,7 @@ fn raw_numerics(numerics: &Numerics) -> RawNumerics {
         short_range_push: Some(numerics.short_range_push),
         wall_stretch: Some(numerics.wall_stretch),
         fitted_walls: Some(numerics.fitted_walls),
+        fitted_interface: Some(numerics.fitted_interface),
         pressure_tolerance: Some(numerics.pressure_tolerance),
         time_step_factor: Some(numerics.time_step_factor),
     }

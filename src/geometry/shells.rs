@@ -1,9 +1,10 @@
-//! Shells: lines within the solid at a constant depth below its surface, along which wall particles stand.
+//! Shells: lines at a constant depth below the surface of a solid, or above it, along which particles stand.
 //!
-//! The surface is followed from piece to piece. Each sample of it is moved into the solid along the normal, a fan of samples around each
-//! corner into the pore closes the gap that opens there, and a sample is kept where it has its depth indeed: where bodies
-//! overlap, and behind a corner into the solid, another part of the surface is nearer, and the line is cut.
-//! Straight walls that the caller's lattice fits already are left out.
+//! The surface is followed from piece to piece. Each sample of it is moved along the normal, a fan of samples around each
+//! corner closes the gap that opens there, and a sample is kept where it has its depth indeed: where bodies
+//! overlap, and within a corner, another part of the surface is nearer, and the line is cut.
+//! Straight parts that the caller's lattice fits already are left out. The interface between two phases is the surface of the region that one
+//! of them fills.
 
 use crate::geometry::boundary::{Nearest, Piece, chains, followers};
 use crate::geometry::curve::{Curve, cross};
@@ -40,6 +41,14 @@ impl Shell {
         self.points.windows(2).map(|pair| (pair[0], pair[1])).chain(back)
     }
 
+    /// Points at equal distances along the line, as near to `spacing` (m) as their number allows; an even number around a closed line, which
+    /// keeps the symmetry of a disc.
+    #[must_use]
+    pub fn every(&self, spacing: f64) -> Vec<Vec2> {
+        let share = self.length() / spacing;
+        self.divided(if self.closed { 2.0 * (0.5 * share).round() } else { share.round() } as usize)
+    }
+
     /// `count` points at equal distances along the line, half of one away from the ends of an open line.
     #[must_use]
     pub fn divided(&self, count: usize) -> Vec<Vec2> {
@@ -64,17 +73,17 @@ impl Shell {
     }
 }
 
-/// The walls of a geometry that no lattice fits: curved, oblique, or between its rows.
+/// The parts of the surface of a geometry that no lattice fits: curved, oblique, or between its rows.
 #[derive(Debug, Clone)]
-pub struct FreeWalls<'a> {
+pub struct FreeSurface<'a> {
     geometry: &'a Geometry,
     is_free: Vec<bool>,
     next: Vec<Option<usize>>,
     before: Vec<Option<usize>>,
 }
 
-impl<'a> FreeWalls<'a> {
-    /// The walls near the domain but the straight ones whose ends `is_on_lattice` takes.
+impl<'a> FreeSurface<'a> {
+    /// The surface near the domain but the straight parts whose ends `is_on_lattice` takes.
     #[must_use]
     pub fn new(geometry: &'a Geometry, reach: f64, is_on_lattice: impl Fn(Vec2, Vec2) -> bool) -> Self {
         let pieces = &geometry.boundary.pieces;
@@ -97,7 +106,7 @@ impl<'a> FreeWalls<'a> {
         !self.is_free.contains(&true)
     }
 
-    /// Whether the wall nearest to `x` is one of these; a corner is where one of its two sides is.
+    /// Whether the part nearest to `x` is one of these; a corner is where one of its two sides is.
     #[must_use]
     pub fn own(&self, x: Vec2) -> bool {
         let Some(Nearest { piece, foot }) = self.geometry.boundary.nearest(self.geometry.wrapped(x)) else {
@@ -113,18 +122,18 @@ impl<'a> FreeWalls<'a> {
         self.is_free[piece] || beside.is_some_and(|beside| self.is_free[beside])
     }
 
-    /// The lines at `depth` below these walls within the box, sampled every `step`; all in m.
+    /// The lines at `depth` below the surface, or above it where that is negative, as far as `within` holds, sampled every `step`; all in m.
     #[must_use]
-    pub fn shells(&self, depth: f64, step: f64, within: Bounds) -> Vec<Shell> {
+    pub fn shells(&self, depth: f64, step: f64, within: impl Fn(Vec2) -> bool) -> Vec<Shell> {
         let mut shells = Vec::new();
         for (chain, is_closed) in chains(&self.geometry.boundary.pieces, &self.next) {
             let samples = self.samples(&chain, is_closed, depth, step);
-            shells.extend(self.cut(&samples, is_closed, (depth, step), within));
+            shells.extend(self.cut(&samples, is_closed, (depth, step), &within));
         }
         shells
     }
 
-    /// The samples of a chain moved to `depth`; those of walls that are left out are none, and cut the line.
+    /// The samples of a chain moved to `depth`; those of parts that are left out are none, and cut the line.
     fn samples(&self, chain: &[usize], is_closed: bool, depth: f64, step: f64) -> Vec<Option<Vec2>> {
         let mut samples = Vec::new();
         for (k, &i) in chain.iter().enumerate() {
@@ -140,23 +149,27 @@ impl<'a> FreeWalls<'a> {
             let follower = if k + 1 < chain.len() { Some(chain[k + 1]) } else { is_closed.then(|| chain[0]) };
             if let Some(j) = follower.filter(|&j| !curve.is_closed() && (self.is_free[i] || self.is_free[j])) {
                 let (from, to) = (curve.tangent(1.0), self.geometry.boundary.pieces[j].curve.tangent(0.0));
-                fan(
-                    curve.point(1.0),
-                    curve.normal(1.0) * depth,
-                    cross(from, to).atan2(from.dot(&to)),
-                    step,
-                    &mut samples,
-                );
+                let angle = cross(from, to).atan2(from.dot(&to));
+                // Below a corner into the pore, and above one into the solid.
+                let leaves_gap = angle * depth < 0.0;
+                if leaves_gap {
+                    samples.extend(fan(curve.point(1.0), curve.normal(1.0) * depth, angle, step).map(Some));
+                }
             }
         }
         samples
     }
 
     /// The parts of a sampled line that have their depth.
-    fn cut(&self, samples: &[Option<Vec2>], is_closed: bool, (depth, step): (f64, f64), within: Bounds) -> Vec<Shell> {
-        let has_depth = |x: Vec2| {
-            within.contains(x) && (self.geometry.signed_distance(x) + depth).abs() < SAME_DEPTH * step && self.own(x)
-        };
+    fn cut(
+        &self,
+        samples: &[Option<Vec2>],
+        is_closed: bool,
+        (depth, step): (f64, f64),
+        within: impl Fn(Vec2) -> bool,
+    ) -> Vec<Shell> {
+        let has_depth =
+            |x: Vec2| within(x) && (self.geometry.signed_distance(x) + depth).abs() < SAME_DEPTH * step && self.own(x);
         let good: Vec<bool> = samples.iter().map(|x| x.is_some_and(has_depth)).collect();
         let place = |i: usize| samples[i].unwrap_or_default();
         // The last good place between a good sample and a bad one.
@@ -197,13 +210,10 @@ impl<'a> FreeWalls<'a> {
     }
 }
 
-/// Samples around a corner into the pore, which leaves a gap behind it: `spoke` from the corner to the first, turned by `angle` in all.
-fn fan(corner: Vec2, spoke: Vec2, angle: f64, step: f64, samples: &mut Vec<Option<Vec2>>) {
-    if angle < 0.0 {
-        let count = (-angle * spoke.norm() / step).ceil().max(1.0) as usize;
-        let turned = |k: usize| nalgebra::Rotation2::new(angle * k as f64 / count as f64) * spoke;
-        samples.extend((0..=count).map(|k| Some(corner - turned(k))));
-    }
+/// Samples around a corner: `spoke` from the first to the corner, turned by `angle` in all.
+fn fan(corner: Vec2, spoke: Vec2, angle: f64, step: f64) -> impl Iterator<Item = Vec2> {
+    let count = (angle.abs() * spoke.norm() / step).ceil().max(1.0) as usize;
+    (0..=count).map(move |k| corner - nalgebra::Rotation2::new(angle * k as f64 / count as f64) * spoke)
 }
 
 /// Joins lines whose ends are nearer than `reach` (m) to the begin of the next one; none shorter than that is kept.

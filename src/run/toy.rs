@@ -170,6 +170,7 @@ pub fn case() -> Case {
             short_range_push: 0.0,
             wall_stretch: 1.5,
             fitted_walls: true,
+            fitted_interface: false,
             pressure_tolerance: 1.0e-6,
             time_step_factor: 1.0,
         },

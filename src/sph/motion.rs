@@ -65,7 +65,7 @@ impl Flow {
         Ok(())
     }
 
-    /// Shifts crowded particles apart, along the interface near it, and strays back across it; they carry their velocity along.
+    /// Shifts crowded particles apart, and strays back across the interface; they carry their velocity along.
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
         let (fluids, m, f) = (self.particles.fluids, &self.method, &self.fields);
         let diffusion = m.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
@@ -74,7 +74,6 @@ impl Flow {
             shifting::shift(&self.uneven(), diffusion, m.kernel.h, &mut by);
         }
         if let Some(jump) = &f.jump {
-            shifting::keep_along(&f.normal, m.kernel.h, &mut by);
             let strays = Strays {
                 side: &jump.side,
                 normal: &f.normal,
@@ -99,16 +98,19 @@ impl Flow {
         }
     }
 
-    /// ∇C of the fluid particles and, away from the interface, the pushes at short range, less their mean, in 1/m: what shifting goes down.
+    /// ∇C of the fluid particles, near the interface its part along that, and the pushes at short range, less their mean, in 1/m: what
+    /// shifting goes down.
     fn uneven(&self) -> Vec<Vec2> {
         let (m, f) = (&self.method, &self.fields);
         let mut uneven = vec![Vec2::zeros(); self.particles.fluids];
         shifting::concentration_gradient(&self.pairs, &f.volume, &mut uneven);
+        if f.jump.is_some() {
+            shifting::keep_along(&f.normal, m.kernel.h, &mut uneven);
+        }
         if m.short_range_push > 0.0 {
             let mut push = vec![Vec2::zeros(); self.particles.fluids];
             shifting::short_range(&self.pairs, &f.volume, (m.short_range_push, m.kernel.w(m.spacing)), &mut push);
             shifting::take_out_mean((&self.pairs, &self.images), &f.fluid_volume, &mut push);
-            shifting::keep_off(&f.normal, m.kernel.h, &mut push);
             uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
         }
         uneven

@@ -23,6 +23,9 @@ const LARGEST_MOVE: f64 = 0.1;
 /// No particle comes nearer to a wall than this share of the spacing.
 const CLOSEST_TO_WALL: f64 = 0.25;
 
+/// No particle comes nearer to an interface than this share of the spacing: its layers stand at half a spacing.
+const CLOSEST_TO_INTERFACE: f64 = 0.75;
+
 /// Rounds in which neighbors are ordered.
 const ROUNDS: usize = 200;
 
@@ -38,10 +41,13 @@ const SHARE: f64 = 0.5;
 /// The potential need not be exact: the next round takes what is left.
 const TOLERANCE: Tolerance = Tolerance { residual: 1e-3, iterations: 100 };
 
+/// Signed distance in m from a surface, and its gradient.
+pub type Surface<'a> = &'a (dyn Fn(Vec2) -> (f64, Vec2) + Sync);
+
 /// What does not move while a pore is packed.
-pub struct Packing<'a, Wall: Fn(Vec2) -> (f64, Vec2) + Sync> {
-    /// Wall particles in m.
-    pub walls: &'a [Vec2],
+pub struct Packing<'a> {
+    /// Particles that hold still, in m: walls, and layers beside the interface.
+    pub fixed: &'a [Vec2],
     /// Box and sides.
     pub domain: &'a Domain,
     /// Smoothing kernel.
@@ -50,16 +56,18 @@ pub struct Packing<'a, Wall: Fn(Vec2) -> (f64, Vec2) + Sync> {
     pub spacing: f64,
     /// V_0 in m², the room of a particle.
     pub volume: f64,
-    /// Signed distance in m and normal of the nearest wall.
-    pub wall: Wall,
+    /// The nearest wall.
+    pub wall: Surface<'a>,
+    /// The interface between two phases that has layers beside it.
+    pub interface: Option<Surface<'a>>,
 }
 
-impl<Wall: Fn(Vec2) -> (f64, Vec2) + Sync> Packing<'_, Wall> {
+impl Packing<'_> {
     /// Moves the particles `fluid` (m) to their places.
     pub fn pack(&self, fluid: &mut [Vec2]) {
         let mut solve = PressureSolve::default();
         for round in 0..ROUNDS + LAST_ROUNDS {
-            let mut points: Vec<Vec2> = fluid.iter().chain(self.walls).copied().collect();
+            let mut points: Vec<Vec2> = fluid.iter().chain(self.fixed).copied().collect();
             let count = points.len();
             let images = Images::append(&mut points, self.domain, self.kernel.support());
             let pairs = Pairs::find(&points, count, self.domain, self.kernel);
@@ -104,7 +112,8 @@ impl<Wall: Fn(Vec2) -> (f64, Vec2) + Sync> Packing<'_, Wall> {
 
     /// Moves the particles and keeps them off the walls.
     fn advance(&self, pairs: &Pairs, images: &Images, by: &[Vec2], fluid: &mut [Vec2]) {
-        let (largest, closest) = (LARGEST_MOVE * self.spacing, CLOSEST_TO_WALL * self.spacing);
+        let [largest, closest, beyond_layer] =
+            [LARGEST_MOVE, CLOSEST_TO_WALL, CLOSEST_TO_INTERFACE].map(|n| n * self.spacing);
         let fluids = fluid.len();
         let old = fluid.to_vec();
         each(fluid, |a| {
@@ -112,6 +121,11 @@ impl<Wall: Fn(Vec2) -> (f64, Vec2) + Sync> Packing<'_, Wall> {
             if pairs.of(a).any(|ab| images.source(ab.b) >= fluids) {
                 let (distance, normal) = (self.wall)(x);
                 x += (closest - distance).max(0.0) * normal;
+                if let Some(interface) = self.interface {
+                    let side = interface(old[a]).0.signum();
+                    let (distance, normal) = interface(x);
+                    x += side * (beyond_layer - side * distance).max(0.0) * normal;
+                }
             }
             for mirror in &self.domain.mirrors {
                 let inwards = (self.domain.bounds.center()[mirror.axis] - mirror.at).signum();

@@ -132,6 +132,9 @@ tables! {
         /// Whether wall particles stand in layers along curved and oblique walls, and the fluid is packed to them, or all
         /// on the lattice (default true).
         pub fitted_walls: bool,
+        /// Whether the first particles on both sides of the initial interface stand in layers along it, and the fluid is packed to them, or
+        /// all on the lattice (default true with the pressure jump, else false).
+        pub fitted_interface: bool,
         /// Largest relative residual of the pressure solve (default 1e-6).
         pub pressure_tolerance: f64,
         /// Factor on all limits of the time step, above 0 and at most 1 (default 1).

@@ -4,6 +4,7 @@ mod error;
 mod initial;
 mod method;
 mod open_sides;
+mod places;
 mod surroundings;
 mod walls;
 
@@ -14,8 +15,9 @@ pub use initial::region;
 
 use self::method::method;
 use self::open_sides::{inside_of_open_sides, open_sides};
+use self::places::places;
 use self::surroundings::surroundings;
-use self::walls::{fitted_places, mirrors, wall_spots};
+use self::walls::{mirrors, wall_spots};
 use crate::case::checked::{Case, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
@@ -61,11 +63,8 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
     };
     let walls = sides.map(|side| side == Side::Wall);
-    let places = if sph.numerics.fitted_walls {
-        fitted_places((&geometry, &domain), &lattice, &method, walls)
-    } else {
-        fill::on_lattice(&lattice, support, walls, |x| geometry.signed_distance(x))
-    };
+    let interface = (sph.non_wetting.is_some() && sph.numerics.fitted_interface).then_some(&region);
+    let places = places((&geometry, &domain), interface, &lattice, (&method, sph.numerics.fitted_walls), walls);
     let mut particles = places.particles(phase);
     let mut depth = places.depth;
     if particles.fluids == 0 {

@@ -1,15 +1,11 @@
-//! Walls: where their particles stand, how they move, where the wetting differs, and mirrors.
+//! Walls: how they move, where the wetting differs, and mirrors.
 
 use std::sync::Arc;
 
 use crate::case::checked::{PatchedWall, Side, Sph, WettingPatch};
 use crate::geometry::Geometry;
-use crate::geometry::shells::FreeWalls;
 use crate::math::{Bounds, Vec2};
 use crate::sph::domain::{Domain, ImageVelocity, Mirror};
-use crate::sph::fill::{self, Lattice, Places};
-use crate::sph::method::Method;
-use crate::sph::packing::Packing;
 use crate::sph::wetting::wall::{WallSpot, WallSpots};
 
 pub(super) fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
@@ -20,36 +16,6 @@ pub(super) fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
         Side::Periodic | Side::Wall | Side::Inlet | Side::Outlet => None,
     };
     sides.into_iter().zip(places).filter_map(mirror).collect()
-}
-
-/// Where the particles stand at time zero: along walls that the lattice does not fit, and packed to them.
-pub(super) fn fitted_places(
-    (geometry, domain): (&Geometry, &Domain),
-    lattice: &Lattice,
-    method: &Method,
-    walls: [bool; 4],
-) -> Places {
-    let support = method.kernel.support();
-    let signed_distance = |x| geometry.signed_distance(x);
-    let free = FreeWalls::new(geometry, support, |a, b| lattice.fits(a, b));
-    if free.is_empty() {
-        return fill::on_lattice(lattice, support, walls, signed_distance);
-    }
-    let pore_area = geometry.porosity().value * geometry.bounds().area();
-    let mut places = fill::along_walls((lattice, domain), (support, walls), &free, signed_distance, pore_area);
-    let packing = Packing {
-        walls: &places.walls,
-        domain,
-        kernel: &method.kernel,
-        spacing: method.spacing,
-        volume: method.volume,
-        wall: |x| {
-            let wall = geometry.wall(x);
-            (wall.distance, wall.normal)
-        },
-    };
-    packing.pack(&mut places.fluid);
-    places
 }
 
 /// Patches and velocities of the walls; none where all walls are alike and at rest.

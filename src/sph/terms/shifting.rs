@@ -7,7 +7,7 @@ use crate::sph::images::Images;
 use crate::sph::pairs::{Pairs, each};
 use crate::sph::terms::average;
 
-/// Where the color gradient exceeds this, in units of 1/h, particles are shifted along the interface only, and not pushed.
+/// Where the color gradient exceeds this, in units of 1/h, particles go down the concentration along the interface only.
 const INTERFACE: f64 = 0.05;
 
 /// A particle is shifted by at most this share of h per step.
@@ -16,6 +16,16 @@ const LARGEST_SHIFT: f64 = 0.1;
 /// ∇C_a = Σ_b V_b ∇_a W_ab in 1/m: points to where particles crowd.
 pub fn concentration_gradient(pairs: &Pairs, volume: &[f64], gradient: &mut [Vec2]) {
     pairs.sum_into(gradient, |_, ab| volume[ab.b] * ab.grad_w);
+}
+
+/// Takes the part across the interface out of a concentration gradient, so that the interface keeps its place and shape; `normal` is
+/// the color gradient in 1/m, `h` in m (method: Lind et al. 2012 at a free surface).
+pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
+    for (gradient, n) in gradient.iter_mut().zip(normal) {
+        if n.norm() > INTERFACE / h {
+            *gradient -= gradient.dot(n) / n.norm_squared() * n;
+        }
+    }
 }
 
 /// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m: grows steeply where two are nearer than dx (after Monaghan 2000, Lind et al. 2012).
@@ -36,20 +46,6 @@ pub fn take_out_mean((pairs, images): (&Pairs, &Images), fluid_volume: &[f64], p
     let mut mean = vec![Vec2::zeros(); push.len()];
     average::over_fluid(pairs, fluid_volume, &all, &mut mean);
     push.iter_mut().zip(mean).for_each(|(push, mean)| *push -= mean);
-}
-
-/// Whether the interface is near, by the color gradient `n` in 1/m.
-fn is_interface(n: Vec2, h: f64) -> bool {
-    n.norm() > INTERFACE / h
-}
-
-/// Leaves out the pushes near the interface, which would keep moving it where it should rest; `normal` is the color gradient in 1/m, `h` in m.
-pub fn keep_off(normal: &[Vec2], h: f64, push: &mut [Vec2]) {
-    for (push, n) in push.iter_mut().zip(normal) {
-        if is_interface(*n, h) {
-            *push = Vec2::zeros();
-        }
-    }
 }
 
 /// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `uneven` is ∇C with the pushes at short range, in 1/m, `diffusion` in m², `h` and the result in m.
@@ -75,14 +71,4 @@ pub fn carried_velocity(
         let weight = 2.0 * density[b] / (density[a] + density[b]);
         weight * volume[b] * ab.grad_w.dot(&shift[a]) * (velocity[b] - velocity[a])
     });
-}
-
-/// Takes the part across the interface out of `shift` (m), so that the interface keeps its place and shape; `normal` is
-/// the color gradient in 1/m, `h` in m (method: Lind et al. 2012 at a free surface).
-pub fn keep_along(normal: &[Vec2], h: f64, shift: &mut [Vec2]) {
-    for (by, n) in shift.iter_mut().zip(normal) {
-        if is_interface(*n, h) {
-            *by -= by.dot(n) / n.norm_squared() * n;
-        }
-    }
 }

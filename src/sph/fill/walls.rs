@@ -1,0 +1,48 @@
+//! Fills the pore along walls that no lattice fits.
+
+use super::{CLOSEST, EQUAL, Lattice, Places, SAMPLING, apart, deepest};
+use crate::geometry::shells::FreeSurface;
+use crate::math::Vec2;
+use crate::sph::domain::Domain;
+
+/// Lattice points farther than this from a wall, in spacings, are surely fluid or surely not.
+const DOUBTFUL: f64 = 0.5;
+
+/// Fills the domain with wall particles in layers at half a spacing, one and a half, .. below the walls that no lattice fits, evenly
+/// along each layer, so that each has the volume of the lattice; all else as [`super::on_lattice`] does.
+///
+/// As many fluid particles as the pore has room for: `pore_area` in m². They stand on the lattice still, to be packed next.
+pub fn along_walls(
+    (lattice, domain): (&Lattice, &Domain),
+    (support, walls): (f64, [bool; 4]),
+    free: &FreeSurface,
+    signed_distance: impl Fn(Vec2) -> f64,
+    pore_area: f64,
+) -> Places {
+    let spacing = lattice.step.product().sqrt();
+    let mut places = Places::default();
+    let mut doubtful: Vec<(f64, Vec2)> = Vec::new();
+    for x in lattice.points(support, walls) {
+        let (d, own) = (signed_distance(x), free.own(x));
+        if own && d.abs() < DOUBTFUL * spacing && lattice.holds(x) {
+            doubtful.push((d, x));
+        } else if d > 0.0 && lattice.holds(x) {
+            places.fluid.push(x);
+        } else if d <= 0.0 && d > -support && !own {
+            places.push_wall(x, -d);
+        }
+    }
+    let wanted = (pore_area / (spacing * spacing)).round() as usize;
+    places.fluid.extend(deepest(doubtful, wanted.saturating_sub(places.fluid.len()), EQUAL * spacing));
+    let extent = lattice.extent(support, walls);
+    let mut depth = 0.5 * spacing;
+    while depth < support {
+        let lines = free.shells(depth, SAMPLING * spacing, |x| extent.contains(x));
+        lines.iter().flat_map(|line| line.every(spacing)).for_each(|x| places.push_wall(x, depth));
+        depth += spacing;
+    }
+    let mut kept = apart(&places.walls, domain, CLOSEST * spacing).into_iter();
+    let (walls, depth) = places.walls.iter().zip(&places.depth).filter(|_| kept.next().unwrap_or(true)).unzip();
+    (places.walls, places.depth) = (walls, depth);
+    places
+}
