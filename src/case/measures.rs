@@ -36,7 +36,7 @@ groups! {
     taylor_green,
     /// `filling-angle-deg`, `neck-half-width-m`, `capillary-pressure-ratio` of a bridge between two discs.
     capillary_bridge,
-    /// `interface-curvature-per-m` of the menisci between four discs.
+    /// `interface-curvature-ratio`, `capillary-pressure-ratio` of the menisci between four discs.
     four_discs,
     /// Wetted part and height of a drop on a disc.
     drop_on_disc,

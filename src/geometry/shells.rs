@@ -74,12 +74,26 @@ impl Shell {
 }
 
 /// The parts of the surface of a geometry that no lattice fits: curved, oblique, or between its rows.
-#[derive(Debug, Clone)]
 pub struct FreeSurface<'a> {
     geometry: &'a Geometry,
     is_free: Vec<bool>,
     next: Vec<Option<usize>>,
     before: Vec<Option<usize>>,
+    counts: Option<Box<Counts<'a>>>,
+}
+
+/// Whether a point of a surface (m) with this normal counts.
+type Counts<'a> = dyn Fn(Vec2, Vec2) -> bool + Send + Sync + 'a;
+
+/// The nearest point of a surface that counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Near {
+    /// Signed distance in m, below 0 in the solid.
+    pub distance: f64,
+    /// Unit normal out of the solid.
+    pub normal: Vec2,
+    /// Whether no lattice fits the surface there; a corner is where one of its two sides is.
+    pub is_free: bool,
 }
 
 impl<'a> FreeSurface<'a> {
@@ -97,7 +111,13 @@ impl<'a> FreeSurface<'a> {
         for (i, j) in next.iter().enumerate().filter_map(|(i, j)| j.map(|j| (i, j))) {
             before[j] = Some(i);
         }
-        Self { geometry, is_free: pieces.iter().map(is_free).collect(), next, before }
+        Self { geometry, is_free: pieces.iter().map(is_free).collect(), next, before, counts: None }
+    }
+
+    /// The same surface, of which only the points count for which `counts` holds, by their place (m) and the normal there.
+    #[must_use]
+    pub fn where_it(self, counts: impl Fn(Vec2, Vec2) -> bool + Send + Sync + 'a) -> Self {
+        Self { counts: Some(Box::new(counts)), ..self }
     }
 
     /// Whether there are none.
@@ -109,17 +129,31 @@ impl<'a> FreeSurface<'a> {
     /// Whether the part nearest to `x` is one of these; a corner is where one of its two sides is.
     #[must_use]
     pub fn own(&self, x: Vec2) -> bool {
-        let Some(Nearest { piece, foot }) = self.geometry.boundary.nearest(self.geometry.wrapped(x)) else {
-            return false;
-        };
-        let is_closed = self.geometry.boundary.pieces[piece].curve.is_closed();
+        self.near(x, f64::INFINITY).is_some_and(|near| near.is_free)
+    }
+
+    /// The point of the surface nearest to `x` that counts, where there is one within `reach` (m).
+    #[must_use]
+    pub fn near(&self, x: Vec2, reach: f64) -> Option<Near> {
+        let (x, boundary) = (self.geometry.wrapped(x), &self.geometry.boundary);
+        let nearest = match &self.counts {
+            None => boundary.nearest(x).filter(|nearest| (nearest.foot.point - x).norm() <= reach),
+            Some(counts) => {
+                let normal = |near: &Nearest| boundary.pieces[near.piece].curve.normal(near.foot.u);
+                let counted = boundary.within(x, reach).filter(|near| counts(near.foot.point, normal(near)));
+                counted.min_by(|a, b| (a.foot.point - x).norm().total_cmp(&(b.foot.point - x).norm()))
+            }
+        }?;
+        let Nearest { piece, foot } = nearest;
         let beside = match foot.u {
-            _ if is_closed => None,
+            _ if boundary.pieces[piece].curve.is_closed() => None,
             0.0 => self.before[piece],
             1.0 => self.next[piece],
             _ => None,
         };
-        self.is_free[piece] || beside.is_some_and(|beside| self.is_free[beside])
+        let wall = self.geometry.wall_at(x, nearest);
+        let is_free = self.is_free[piece] || beside.is_some_and(|beside| self.is_free[beside]);
+        Some(Near { distance: wall.distance, normal: wall.normal, is_free })
     }
 
     /// The lines at `depth` below the surface, or above it where that is negative, as far as `within` holds, sampled every `step`; all in m.
@@ -168,8 +202,10 @@ impl<'a> FreeSurface<'a> {
         (depth, step): (f64, f64),
         within: impl Fn(Vec2) -> bool,
     ) -> Vec<Shell> {
-        let has_depth =
-            |x: Vec2| within(x) && (self.geometry.signed_distance(x) + depth).abs() < SAME_DEPTH * step && self.own(x);
+        let has_depth = |x: Vec2| {
+            let is_at_depth = |near: Near| (near.distance + depth).abs() < SAME_DEPTH * step && near.is_free;
+            within(x) && self.near(x, 2.0 * depth.abs()).is_some_and(is_at_depth)
+        };
         let good: Vec<bool> = samples.iter().map(|x| x.is_some_and(has_depth)).collect();
         let place = |i: usize| samples[i].unwrap_or_default();
         // The last good place between a good sample and a bad one.

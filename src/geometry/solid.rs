@@ -247,7 +247,7 @@ impl Geometry {
         if others.is_empty() { None } else { sum.try_normalize(CANCELED) }
     }
 
-    fn wall_at(&self, x: Vec2, Nearest { piece, foot }: Nearest) -> Wall {
+    pub(crate) fn wall_at(&self, x: Vec2, Nearest { piece, foot }: Nearest) -> Wall {
         let curve = &self.boundary.pieces[piece].curve;
         let shape = self.boundary.pieces[piece].shape;
         let offset = x - foot.point;

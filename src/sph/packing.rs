@@ -1,11 +1,13 @@
 //! Packs the fluid of a pore before time zero: particles move from crowded to empty places until all have the same room.
 //!
-//! Beside walls that no lattice fits, a lattice has gaps and crowds. Two displacements take turns. One goes down the gradient of the
+//! Beside walls and interfaces that no lattice fits, a lattice has gaps and crowds. Two displacements take turns. One goes down the gradient of the
 //! concentration (Lind et al. 2012) and orders neighbors; walls hold still, and straight walls on the lattice have no gradient and
 //! leave it as it is. The other is the gradient of a potential whose Laplacian is the density error, as the drift
 //! source of the pressure equation: it evens out what is too much in one part of the pore and too little in another, which
 //! the first, a diffusion, would take long for.
 
+use crate::geometry::Geometry;
+use crate::geometry::shells::FreeSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
 use crate::sph::images::Images;
@@ -20,11 +22,11 @@ const DIFFUSION: f64 = 0.2;
 /// A particle moves by at most this share of the spacing at a time.
 const LARGEST_MOVE: f64 = 0.1;
 
-/// No particle comes nearer to a wall than this share of the spacing.
+/// No particle comes nearer to a wall, a side or an interface on the lattice than this share of the spacing.
 const CLOSEST_TO_WALL: f64 = 0.25;
 
-/// No particle comes nearer to an interface than this share of the spacing: its layers stand at half a spacing.
-const CLOSEST_TO_INTERFACE: f64 = 0.75;
+/// No particle comes nearer to an interface that has layers than this share of the spacing: these stand at half a spacing.
+const CLOSEST_TO_LAYERED: f64 = 0.75;
 
 /// Rounds in which neighbors are ordered.
 const ROUNDS: usize = 200;
@@ -41,12 +43,9 @@ const SHARE: f64 = 0.5;
 /// The potential need not be exact: the next round takes what is left.
 const TOLERANCE: Tolerance = Tolerance { residual: 1e-3, iterations: 100 };
 
-/// Signed distance in m from a surface, and its gradient.
-pub type Surface<'a> = &'a (dyn Fn(Vec2) -> (f64, Vec2) + Sync);
-
 /// What does not move while a pore is packed.
 pub struct Packing<'a> {
-    /// Particles that hold still, in m: walls, and layers beside the interface.
+    /// Particles that hold still, in m: walls, layers beside the interface, and what stands beyond open sides.
     pub fixed: &'a [Vec2],
     /// Box and sides.
     pub domain: &'a Domain,
@@ -56,10 +55,12 @@ pub struct Packing<'a> {
     pub spacing: f64,
     /// V_0 in m², the room of a particle.
     pub volume: f64,
-    /// The nearest wall.
-    pub wall: Surface<'a>,
+    /// The pore.
+    pub pore: &'a Geometry,
     /// The interface between two phases that has layers beside it.
-    pub interface: Option<Surface<'a>>,
+    pub interface: Option<&'a FreeSurface<'a>>,
+    /// Sides of the box that no particle crosses, open sides and mirrors: axis, and place along it in m.
+    pub sides: &'a [(usize, f64)],
 }
 
 impl Packing<'_> {
@@ -110,28 +111,31 @@ impl Packing<'_> {
         by.iter_mut().zip(&down).for_each(|(by, down)| *by += down);
     }
 
-    /// Moves the particles and keeps them off the walls.
+    /// Moves the particles and keeps them off the interface, the walls and the sides.
     fn advance(&self, pairs: &Pairs, images: &Images, by: &[Vec2], fluid: &mut [Vec2]) {
-        let [largest, closest, beyond_layer] =
-            [LARGEST_MOVE, CLOSEST_TO_WALL, CLOSEST_TO_INTERFACE].map(|n| n * self.spacing);
+        let [largest, closest] = [LARGEST_MOVE, CLOSEST_TO_WALL].map(|share| share * self.spacing);
         let fluids = fluid.len();
         let old = fluid.to_vec();
         each(fluid, |a| {
             let mut x = old[a] + by[a] * (largest / by[a].norm()).min(1.0);
             if pairs.of(a).any(|ab| images.source(ab.b) >= fluids) {
-                let (distance, normal) = (self.wall)(x);
-                x += (closest - distance).max(0.0) * normal;
-                if let Some(interface) = self.interface {
-                    let side = interface(old[a]).0.signum();
-                    let (distance, normal) = interface(x);
-                    x += side * (beyond_layer - side * distance).max(0.0) * normal;
-                }
+                x += self.interface.map_or(Vec2::zeros(), |interface| self.back_from(interface, old[a], x));
+                let wall = self.pore.wall(x);
+                x += (closest - wall.distance).max(0.0) * wall.normal;
             }
-            for mirror in &self.domain.mirrors {
-                let inwards = (self.domain.bounds.center()[mirror.axis] - mirror.at).signum();
-                x[mirror.axis] += inwards * (closest - inwards * (x[mirror.axis] - mirror.at)).max(0.0);
+            for &(axis, at) in self.sides {
+                let inwards = (self.domain.bounds.center()[axis] - at).signum();
+                x[axis] += inwards * (closest - inwards * (x[axis] - at)).max(0.0);
             }
             self.domain.wrapped(x)
         });
+    }
+
+    /// The way back of a particle that came from `old` to `x` (m), too near to the interface or across it.
+    fn back_from(&self, interface: &FreeSurface, old: Vec2, x: Vec2) -> Vec2 {
+        let Some(near) = interface.near(x, self.spacing) else { return Vec2::zeros() };
+        let side = interface.near(old, self.spacing).unwrap_or(near).distance.signum();
+        let closest = if near.is_free { CLOSEST_TO_LAYERED } else { CLOSEST_TO_WALL } * self.spacing;
+        side * (closest - side * near.distance).max(0.0) * near.normal
     }
 }

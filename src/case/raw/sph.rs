@@ -129,11 +129,11 @@ tables! {
         /// Largest stretch of velocity differences at walls: 10 for no slip, less lets the fluid slip (default 10; 1.5 is a slip
         /// length of a quarter of the spacing).
         pub wall_stretch: f64,
-        /// Whether wall particles stand in layers along curved and oblique walls, and the fluid is packed to them, or all
-        /// on the lattice (default true).
+        /// Whether wall particles stand in layers along curved and oblique walls, and the fluid is packed to them (default true);
+        /// else they stand on the lattice.
         pub fitted_walls: bool,
-        /// Whether the first particles on both sides of the initial interface stand in layers along it, and the fluid is packed to them, or
-        /// all on the lattice (default true with the pressure jump, else false).
+        /// Whether the first particles on both sides of the initial interface stand in layers along it, and the fluid is packed to them
+        /// (default true with the pressure jump, else false).
         pub fitted_interface: bool,
         /// Largest relative residual of the pressure solve (default 1e-6).
         pub pressure_tolerance: f64,

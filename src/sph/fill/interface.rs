@@ -3,36 +3,56 @@
 use super::{CLOSEST, EQUAL, Lattice, Places, SAMPLING, apart, deepest};
 use crate::geometry::Geometry;
 use crate::geometry::shells::FreeSurface;
-use crate::math::Vec2;
+use crate::math::{Bounds, Vec2};
 use crate::sph::domain::Domain;
+
+/// Lattice points farther from the interface than this, in spacings, are all kept.
+const DOUBTFUL: f64 = 3.0;
 
 /// The initial interface between two phases in a pore.
 pub struct Interface<'a> {
-    /// What its shapes enclose, as a solid: negative distance within.
-    pub region: &'a Geometry,
-    /// The pore that both phases fill.
-    pub pore: &'a Geometry,
+    region: &'a Geometry,
+    pore: &'a Geometry,
+    surface: FreeSurface<'a>,
 }
 
-impl Interface<'_> {
-    /// Takes the fluid particles next to the interface out of `places`, so that as many are left on each side as its area has room for
-    /// beside the layers, and returns these: particles half a spacing from the interface on both sides, evenly along it.
+impl<'a> Interface<'a> {
+    /// The interface around a `region` that is filled in a `pore`, as its own solid: negative distance within.
+    #[must_use]
+    pub fn new(region: &'a Geometry, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
+        let spacing = lattice.volume().sqrt();
+        let surface = FreeSurface::new(region, 0.0, |a, b| lattice.fits(a, b))
+            .where_it(move |foot, normal| is_interface((foot, normal), pore, spacing));
+        Self { region, pore, surface }
+    }
+
+    /// The parts of the outline of the region that are interface.
+    #[must_use]
+    pub fn surface(&self) -> &FreeSurface<'a> {
+        &self.surface
+    }
+
+    /// Makes room in `places` for layers beside the interface, and returns these: particles half a spacing from it on both sides, evenly along it.
+    /// As many other fluid particles are left on each side as its area has room for beside its layer, those farthest from the interface.
     ///
     /// Nothing is changed, and there are no layers, where the lattice fits the interface, and where a phase is too small for one.
-    pub fn layers(&self, (lattice, domain): (&Lattice, &Domain), places: &mut Places) -> Vec<Vec2> {
-        let free = FreeSurface::new(self.region, 0.0, |a, b| lattice.fits(a, b));
-        if free.is_empty() {
+    pub fn make_room(&self, (lattice, domain): (&Lattice, &Domain), places: &mut Places) -> Vec<Vec2> {
+        if self.surface.is_empty() {
             return Vec::new();
         }
         let spacing = lattice.volume().sqrt();
-        let [inner, outer] = [0.5, -0.5].map(|depth| self.layer(&free, depth * spacing, (lattice, domain)));
+        let [inner, outer] = [0.5, -0.5].map(|depth| self.layer(depth * spacing, (lattice, domain)));
         let within = (self.area(lattice) / lattice.volume()).round() as usize;
         let core = within.checked_sub(inner.len());
         let rest = places.fluid.len().checked_sub(within + outer.len());
         let (Some(core), Some(rest), false) = (core, rest, inner.is_empty() || outer.is_empty()) else {
             return Vec::new();
         };
-        let far = |x: Vec2| if free.own(x) { self.region.signed_distance(x).abs() } else { f64::INFINITY };
+        let far = |x: Vec2| match self.surface.near(x, DOUBTFUL * spacing) {
+            Some(near) if near.is_free => near.distance.abs(),
+            Some(_) => f64::INFINITY,
+            None => self.region.signed_distance(x).abs().max(DOUBTFUL * spacing),
+        };
         let (inside, outside): (Vec<Vec2>, Vec<Vec2>) =
             places.fluid.iter().partition(|x| self.region.signed_distance(**x) < 0.0);
         let farthest = |points: Vec<Vec2>, count| {
@@ -42,24 +62,27 @@ impl Interface<'_> {
         [inner, outer].concat()
     }
 
-    /// The particles at `depth` (m) within the shapes.
-    fn layer(&self, free: &FreeSurface, depth: f64, (lattice, domain): (&Lattice, &Domain)) -> Vec<Vec2> {
+    /// The particles at `depth` (m) within the region.
+    fn layer(&self, depth: f64, (lattice, domain): (&Lattice, &Domain)) -> Vec<Vec2> {
         let spacing = lattice.volume().sqrt();
         // A line that meets a wall ends where its last particle, half a spacing along the line from its end, has half a spacing of room.
         let is_in_pore = |x: Vec2| {
-            let wall = self.pore.wall(x);
-            let across = wall.normal.dot(&self.region.wall(x).normal);
-            let along = (1.0 - across * across).max(0.0).sqrt();
-            lattice.holds(x) && wall.distance > 0.5 * spacing * (1.0 - along)
+            let has_room = || {
+                let wall = self.pore.wall(x);
+                let across = wall.normal.dot(&self.region.wall(x).normal);
+                let along = (1.0 - across * across).max(0.0).sqrt();
+                wall.distance > 0.5 * spacing * (1.0 - along)
+            };
+            lattice.holds(x) && has_room()
         };
-        let lines = free.shells(depth, SAMPLING * spacing, is_in_pore);
+        let lines = self.surface.shells(depth, SAMPLING * spacing, is_in_pore);
         let mut points: Vec<Vec2> = lines.iter().flat_map(|line| line.every(spacing)).collect();
         let mut kept = apart(&points, domain, CLOSEST * spacing).into_iter();
         points.retain(|_| kept.next().unwrap_or(true));
         points
     }
 
-    /// The part of the pore in m² that the shapes take.
+    /// The part of the pore in m² that the region takes.
     fn area(&self, lattice: &Lattice) -> f64 {
         /// Parts of a cell along each side, where it is cut.
         const PARTS: usize = 4;
@@ -75,6 +98,25 @@ impl Interface<'_> {
         };
         lattice.points(0.0, [false; 4]).map(share).sum::<f64>() * lattice.volume()
     }
+}
+
+/// Whether a point of a region's outline is interface: not deep in a wall or out of the box, and no side of the region that lies along one of
+/// these, as those of a rectangle from wall to wall.
+fn is_interface((foot, normal): (Vec2, Vec2), pore: &Geometry, spacing: f64) -> bool {
+    let lies_along = |distance: f64, wall: Vec2| {
+        /// Cosine of the angle between two surfaces that are taken for one.
+        const ALONG: f64 = 0.99;
+        distance < -spacing || (distance.abs() < 0.5 * spacing && normal.dot(&wall).abs() > ALONG)
+    };
+    let Bounds { min, max } = pore.bounds();
+    let wall = pore.wall(foot);
+    let sides = [
+        (foot.x - min.x, Vec2::x()),
+        (max.x - foot.x, Vec2::x()),
+        (foot.y - min.y, Vec2::y()),
+        (max.y - foot.y, Vec2::y()),
+    ];
+    !lies_along(wall.distance, wall.normal) && !sides.iter().any(|(distance, normal)| lies_along(*distance, *normal))
 }
 
 /// The share of a cell of `size` around `x` (m) on the positive side of a surface, which is straight within it: exact where the surface lies along an

@@ -68,6 +68,16 @@ impl Lattice {
         Bounds { min: self.bounds.min - Vec2::new(by(0), by(2)), max: self.bounds.max + Vec2::new(by(1), by(3)) }
     }
 
+    /// The lattice points to a depth of `margin` (m) beyond the sides for which `open` holds, corners at `walls` included.
+    pub fn beyond(&self, margin: f64, walls: [bool; 4], open: [bool; 4]) -> impl Iterator<Item = Vec2> + '_ {
+        let all = [0, 1, 2, 3].map(|side| walls[side] || open[side]);
+        let Bounds { min, max } = self.bounds;
+        self.points(margin, all).filter(move |x| {
+            let beyond = [x.x < min.x, x.x > max.x, x.y < min.y, x.y > max.y];
+            (0..4).any(|side| open[side] && beyond[side])
+        })
+    }
+
     /// The lattice points of the box, and of a margin of `margin` (m) beyond the sides for which `beyond` holds.
     pub(super) fn points(&self, margin: f64, beyond: [bool; 4]) -> impl Iterator<Item = Vec2> + '_ {
         let extra = |i: usize, side: usize| if beyond[side] { (margin / self.step[i]).ceil() as i64 } else { 0 };

@@ -8,7 +8,8 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     let mean = found.iter().sum::<f64>() / found.len() as f64;
     let spread = (found.iter().map(|k| (k - mean).powi(2)).sum::<f64>() / found.len() as f64).sqrt();
     let exact = s.disc_pair().and_then(|pair| pair.liquid_between_four(s.seen.areas.wetting));
-    let ratio = exact.map_or(f64::NAN, |exact| -mean / exact.curvature);
+    let over_exact = |curvature: f64| exact.map_or(f64::NAN, |exact| curvature / exact.curvature);
+    let pressure = s.seen.capillary_pressure.value;
     vec![
         measure(
             "interface-curvature-per-m",
@@ -19,10 +20,17 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
         ),
         measure(
             "interface-curvature-ratio",
-            ratio,
+            over_exact(-mean),
             "",
             Some(spread / mean.abs()),
             "curvature over that of the exact menisci with the same area and the requested angle",
+        ),
+        measure(
+            "capillary-pressure-ratio",
+            over_exact(pressure / s.flow.method.tension),
+            "",
+            None,
+            "capillary pressure over that of the exact menisci with the same area and the requested angle",
         ),
     ]
 }

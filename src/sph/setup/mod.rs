@@ -64,7 +64,7 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
     };
     let walls = sides.map(|side| side == Side::Wall);
     let interface = (sph.non_wetting.is_some() && sph.numerics.fitted_interface).then_some(&region);
-    let places = places((&geometry, &domain), interface, &lattice, (&method, sph.numerics.fitted_walls), walls);
+    let places = places((&geometry, &domain), interface, &lattice, (&method, sph.numerics.fitted_walls), sides);
     let mut particles = places.particles(phase);
     let mut depth = places.depth;
     if particles.fluids == 0 {

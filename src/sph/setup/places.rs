@@ -1,12 +1,13 @@
 //! Where particles stand at time zero.
 
+use crate::case::checked::Side;
 use crate::geometry::Geometry;
 use crate::geometry::shells::FreeSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
 use crate::sph::fill::{self, Interface, Lattice, Places};
 use crate::sph::method::Method;
-use crate::sph::packing::{Packing, Surface};
+use crate::sph::packing::Packing;
 
 /// Where the particles stand: along walls and, with a `region` that one phase fills, along its interface, where the lattice does not fit these, and packed to
 /// them.
@@ -15,10 +16,11 @@ pub(super) fn places(
     region: Option<&Geometry>,
     lattice: &Lattice,
     (method, fitted_walls): (&Method, bool),
-    walls: [bool; 4],
+    sides: [Side; 4],
 ) -> Places {
     let support = method.kernel.support();
     let signed_distance = |x| geometry.signed_distance(x);
+    let walls = sides.map(|side| side == Side::Wall);
     let free = FreeSurface::new(geometry, support, |a, b| lattice.fits(a, b));
     let follows_walls = fitted_walls && !free.is_empty();
     let mut places = if follows_walls {
@@ -27,19 +29,21 @@ pub(super) fn places(
     } else {
         fill::on_lattice(lattice, support, walls, signed_distance)
     };
-    let interface = region.map(|region| Interface { region, pore: geometry });
-    let layers = interface.map(|interface| interface.layers((lattice, domain), &mut places)).unwrap_or_default();
+    let interface = region.map(|region| Interface::new(region, geometry, lattice));
+    let layers =
+        interface.as_ref().map(|interface| interface.make_room((lattice, domain), &mut places)).unwrap_or_default();
     if follows_walls || !layers.is_empty() {
-        let fixed = [&places.walls[..], &layers].concat();
-        let interface = region.filter(|_| !layers.is_empty()).map(surface);
+        let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
+        let beyond: Vec<Vec2> = lattice.beyond(support, walls, open).collect();
         let packing = Packing {
-            fixed: &fixed,
+            fixed: &[&places.walls[..], &layers, &beyond].concat(),
             domain,
             kernel: &method.kernel,
             spacing: method.spacing,
             volume: method.volume,
-            wall: &surface(geometry),
-            interface: interface.as_ref().map(|interface| interface as Surface),
+            pore: geometry,
+            interface: interface.as_ref().filter(|_| !layers.is_empty()).map(Interface::surface),
+            sides: &held(domain, open),
         };
         packing.pack(&mut places.fluid);
     }
@@ -47,10 +51,10 @@ pub(super) fn places(
     places
 }
 
-/// Distance from the surface of a geometry, and its normal.
-fn surface(of: &Geometry) -> impl Fn(Vec2) -> (f64, Vec2) + Sync {
-    move |x| {
-        let wall = of.wall(x);
-        (wall.distance, wall.normal)
-    }
+/// The sides that no particle crosses: axis, and place along it in m.
+fn held(domain: &Domain, open: [bool; 4]) -> Vec<(usize, f64)> {
+    let mirrors = domain.mirrors.iter().map(|mirror| (mirror.axis, mirror.at));
+    let (min, max) = (domain.bounds.min, domain.bounds.max);
+    let places = [(0, min.x), (0, max.x), (1, min.y), (1, max.y)];
+    mirrors.chain(places.into_iter().zip(open).filter(|(_, open)| *open).map(|(place, _)| place)).collect()
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::case::checked::{PatchedWall, Side, Sph, WettingPatch};
 use crate::geometry::Geometry;
 use crate::math::{Bounds, Vec2};
-use crate::sph::domain::{Domain, ImageVelocity, Mirror};
+use crate::sph::domain::{ImageVelocity, Mirror};
 use crate::sph::wetting::wall::{WallSpot, WallSpots};
 
 pub(super) fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
