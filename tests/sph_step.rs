@@ -198,6 +198,37 @@ fn pushes_at_short_range_part_a_pair_and_move_no_crowds() {
     );
 }
 
+/// The fluid particle nearest to `x` (m).
+fn nearest(flow: &Flow, x: Vec2) -> usize {
+    let distance = |a: &usize| (flow.particles.position[*a] - x).norm();
+    (0..flow.particles.fluids).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+}
+
+#[test]
+fn pushes_part_a_crowded_row_across_the_interface() {
+    // Two neighbors of the first row under the upper side of the drop come to 0.6 spacings, one a little higher.
+    let [upper, lower] = [Vec2::new(-0.5e-4, 1.5e-4), Vec2::new(0.1e-4, 1.4e-4)];
+    let moved = |strength: f64| {
+        let text =
+            format!("{}[sph.numerics]\nshort-range-push = {strength:?}\n", drop(1000.0, [0.0, 0.0], "pressure-jump"));
+        let mut flow = flow(&text);
+        let id = |flow: &Flow, x: Vec2| flow.particles.id[nearest(flow, x)];
+        let pair = [id(&flow, upper), id(&flow, Vec2::new(0.5e-4, 1.5e-4))];
+        let at = |flow: &Flow, id: u32| flow.particles.id.iter().position(|other| *other == id).unwrap();
+        let second = at(&flow, pair[1]);
+        flow.particles.position[second] = lower;
+        // Shifts need motion.
+        let far = nearest(&flow, Vec2::new(4.5e-4, -4.5e-4));
+        flow.particles.velocity[far] = Vec2::new(0.05, 0.0);
+        flow.prepare();
+        flow.step(1.0).unwrap();
+        pair.map(|id| flow.particles.position[at(&flow, id)])
+    };
+    let [with, without] = [0.2, 0.0].map(moved);
+    let by = [0, 1].map(|k| with[k] - without[k]);
+    assert!(by[0].y > 0.0 && by[1].y < 0.0, "the upper one is pushed by {:?} m, the lower one by {:?} m", by[0], by[1]);
+}
+
 #[test]
 fn particles_go_down_the_concentration_along_the_interface_only() {
     let flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));

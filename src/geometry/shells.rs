@@ -74,9 +74,9 @@ impl Shell {
 }
 
 /// The parts of the surface of a geometry that no lattice fits: curved, oblique, or between its rows.
-pub struct FreeSurface<'a> {
+pub struct UnfittedSurface<'a> {
     geometry: &'a Geometry,
-    is_free: Vec<bool>,
+    is_unfitted: Vec<bool>,
     next: Vec<Option<usize>>,
     before: Vec<Option<usize>>,
     counts: Option<Box<Counts<'a>>>,
@@ -93,16 +93,16 @@ pub struct Near {
     /// Unit normal out of the solid.
     pub normal: Vec2,
     /// Whether no lattice fits the surface there; a corner is where one of its two sides is.
-    pub is_free: bool,
+    pub is_unfitted: bool,
 }
 
-impl<'a> FreeSurface<'a> {
+impl<'a> UnfittedSurface<'a> {
     /// The surface near the domain but the straight parts whose ends `is_on_lattice` takes.
     #[must_use]
     pub fn new(geometry: &'a Geometry, reach: f64, is_on_lattice: impl Fn(Vec2, Vec2) -> bool) -> Self {
         let pieces = &geometry.boundary.pieces;
         let near = geometry.bounds().grown(reach);
-        let is_free = |piece: &Piece| {
+        let is_unfitted = |piece: &Piece| {
             let on_lattice = matches!(piece.curve, Curve::Segment { a, b } if is_on_lattice(a, b));
             !on_lattice && overlap(&near, &piece.curve.bounds())
         };
@@ -111,7 +111,7 @@ impl<'a> FreeSurface<'a> {
         for (i, j) in next.iter().enumerate().filter_map(|(i, j)| j.map(|j| (i, j))) {
             before[j] = Some(i);
         }
-        Self { geometry, is_free: pieces.iter().map(is_free).collect(), next, before, counts: None }
+        Self { geometry, is_unfitted: pieces.iter().map(is_unfitted).collect(), next, before, counts: None }
     }
 
     /// The same surface, of which only the points count for which `counts` holds, by their place (m) and the normal there.
@@ -123,13 +123,13 @@ impl<'a> FreeSurface<'a> {
     /// Whether there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        !self.is_free.contains(&true)
+        !self.is_unfitted.contains(&true)
     }
 
     /// Whether the part nearest to `x` is one of these; a corner is where one of its two sides is.
     #[must_use]
     pub fn own(&self, x: Vec2) -> bool {
-        self.near(x, f64::INFINITY).is_some_and(|near| near.is_free)
+        self.near(x, f64::INFINITY).is_some_and(|near| near.is_unfitted)
     }
 
     /// The point of the surface nearest to `x` that counts, where there is one within `reach` (m).
@@ -152,8 +152,8 @@ impl<'a> FreeSurface<'a> {
             _ => None,
         };
         let wall = self.geometry.wall_at(x, nearest);
-        let is_free = self.is_free[piece] || beside.is_some_and(|beside| self.is_free[beside]);
-        Some(Near { distance: wall.distance, normal: wall.normal, is_free })
+        let is_unfitted = self.is_unfitted[piece] || beside.is_some_and(|beside| self.is_unfitted[beside]);
+        Some(Near { distance: wall.distance, normal: wall.normal, is_unfitted })
     }
 
     /// The lines at `depth` below the surface, or above it where that is negative, as far as `within` holds, sampled every `step`; all in m.
@@ -172,7 +172,7 @@ impl<'a> FreeSurface<'a> {
         let mut samples = Vec::new();
         for (k, &i) in chain.iter().enumerate() {
             let curve = &self.geometry.boundary.pieces[i].curve;
-            if self.is_free[i] {
+            if self.is_unfitted[i] {
                 let count = (curve.length() / step).ceil().max(1.0) as usize;
                 let last = if curve.is_closed() { count - 1 } else { count };
                 let at = |u: f64| Some(curve.point(u) - depth * curve.normal(u));
@@ -181,7 +181,7 @@ impl<'a> FreeSurface<'a> {
                 samples.push(None);
             }
             let follower = if k + 1 < chain.len() { Some(chain[k + 1]) } else { is_closed.then(|| chain[0]) };
-            if let Some(j) = follower.filter(|&j| !curve.is_closed() && (self.is_free[i] || self.is_free[j])) {
+            if let Some(j) = follower.filter(|&j| !curve.is_closed() && (self.is_unfitted[i] || self.is_unfitted[j])) {
                 let (from, to) = (curve.tangent(1.0), self.geometry.boundary.pieces[j].curve.tangent(0.0));
                 let angle = cross(from, to).atan2(from.dot(&to));
                 // Below a corner into the pore, and above one into the solid.
@@ -203,7 +203,7 @@ impl<'a> FreeSurface<'a> {
         within: impl Fn(Vec2) -> bool,
     ) -> Vec<Shell> {
         let has_depth = |x: Vec2| {
-            let is_at_depth = |near: Near| (near.distance + depth).abs() < SAME_DEPTH * step && near.is_free;
+            let is_at_depth = |near: Near| (near.distance + depth).abs() < SAME_DEPTH * step && near.is_unfitted;
             within(x) && self.near(x, 2.0 * depth.abs()).is_some_and(is_at_depth)
         };
         let good: Vec<bool> = samples.iter().map(|x| x.is_some_and(has_depth)).collect();

@@ -7,7 +7,7 @@
 //! the first, a diffusion, would take long for.
 
 use crate::geometry::Geometry;
-use crate::geometry::shells::FreeSurface;
+use crate::geometry::shells::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
 use crate::sph::images::Images;
@@ -58,7 +58,7 @@ pub struct Packing<'a> {
     /// The pore.
     pub pore: &'a Geometry,
     /// The interface between two phases that has layers beside it.
-    pub interface: Option<&'a FreeSurface<'a>>,
+    pub interface: Option<&'a UnfittedSurface<'a>>,
     /// Sides of the box that no particle crosses, open sides and mirrors: axis, and place along it in m.
     pub sides: &'a [(usize, f64)],
 }
@@ -132,10 +132,10 @@ impl Packing<'_> {
     }
 
     /// The way back of a particle that came from `old` to `x` (m), too near to the interface or across it.
-    fn back_from(&self, interface: &FreeSurface, old: Vec2, x: Vec2) -> Vec2 {
+    fn back_from(&self, interface: &UnfittedSurface, old: Vec2, x: Vec2) -> Vec2 {
         let Some(near) = interface.near(x, self.spacing) else { return Vec2::zeros() };
         let side = interface.near(old, self.spacing).unwrap_or(near).distance.signum();
-        let closest = if near.is_free { CLOSEST_TO_LAYERED } else { CLOSEST_TO_WALL } * self.spacing;
+        let closest = if near.is_unfitted { CLOSEST_TO_LAYERED } else { CLOSEST_TO_WALL } * self.spacing;
         side * (closest - side * near.distance).max(0.0) * near.normal
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use meniscus::geometry::Geometry;
-use meniscus::geometry::shells::{FreeSurface, Shell};
+use meniscus::geometry::shells::{Shell, UnfittedSurface};
 use meniscus::geometry::spec::{HalfPlane, ShapeSpec, SolidSide};
 use meniscus::math::Vec2;
 
@@ -11,8 +11,8 @@ use crate::shapes::{disc, polygon, rectangle, solid, spec, v, zoo};
 
 const STEP: f64 = 1e-3;
 
-fn all(geometry: &Geometry) -> FreeSurface<'_> {
-    FreeSurface::new(geometry, 0.0, |_, _| false)
+fn all(geometry: &Geometry) -> UnfittedSurface<'_> {
+    UnfittedSurface::new(geometry, 0.0, |_, _| false)
 }
 
 fn within(x: Vec2) -> bool {
@@ -91,7 +91,7 @@ fn a_line_ends_on_the_sides_of_the_box_and_at_walls_that_are_left_out() {
     // A half disc on the floor: the line ends above the floor, at whose foot the floor's own particles begin.
     let floor = ShapeSpec::HalfPlane(HalfPlane { point: [0.0, 0.0], rotation_deg: 0.0 });
     let geometry = solid(vec![floor, disc(0.0, 0.0, 1.0)]);
-    let walls = FreeSurface::new(&geometry, 0.0, |a, b| a.y == b.y);
+    let walls = UnfittedSurface::new(&geometry, 0.0, |a, b| a.y == b.y);
     assert!(!walls.is_empty() && walls.own(v(0.3, 0.8)) && !walls.own(v(1.5, -0.1)));
     // The arc, and a quarter of a circle around each of the two corners between disc and floor.
     assert_one(&walls.shells(0.1, STEP, within), PI * 0.9 + 2.0 * 0.5 * PI * 0.1, false);

@@ -2,7 +2,7 @@
 
 use super::{CLOSEST, EQUAL, Lattice, Places, SAMPLING, apart, deepest};
 use crate::geometry::Geometry;
-use crate::geometry::shells::FreeSurface;
+use crate::geometry::shells::UnfittedSurface;
 use crate::math::{Bounds, Vec2};
 use crate::sph::domain::Domain;
 
@@ -13,7 +13,7 @@ const DOUBTFUL: f64 = 3.0;
 pub struct Interface<'a> {
     region: &'a Geometry,
     pore: &'a Geometry,
-    surface: FreeSurface<'a>,
+    surface: UnfittedSurface<'a>,
 }
 
 impl<'a> Interface<'a> {
@@ -21,14 +21,14 @@ impl<'a> Interface<'a> {
     #[must_use]
     pub fn new(region: &'a Geometry, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
         let spacing = lattice.volume().sqrt();
-        let surface = FreeSurface::new(region, 0.0, |a, b| lattice.fits(a, b))
+        let surface = UnfittedSurface::new(region, 0.0, |a, b| lattice.fits(a, b))
             .where_it(move |foot, normal| is_interface((foot, normal), pore, spacing));
         Self { region, pore, surface }
     }
 
     /// The parts of the outline of the region that are interface.
     #[must_use]
-    pub fn surface(&self) -> &FreeSurface<'a> {
+    pub fn surface(&self) -> &UnfittedSurface<'a> {
         &self.surface
     }
 
@@ -49,7 +49,7 @@ impl<'a> Interface<'a> {
             return Vec::new();
         };
         let far = |x: Vec2| match self.surface.near(x, DOUBTFUL * spacing) {
-            Some(near) if near.is_free => near.distance.abs(),
+            Some(near) if near.is_unfitted => near.distance.abs(),
             Some(_) => f64::INFINITY,
             None => self.region.signed_distance(x).abs().max(DOUBTFUL * spacing),
         };
@@ -76,10 +76,8 @@ impl<'a> Interface<'a> {
             lattice.holds(x) && has_room()
         };
         let lines = self.surface.shells(depth, SAMPLING * spacing, is_in_pore);
-        let mut points: Vec<Vec2> = lines.iter().flat_map(|line| line.every(spacing)).collect();
-        let mut kept = apart(&points, domain, CLOSEST * spacing).into_iter();
-        points.retain(|_| kept.next().unwrap_or(true));
-        points
+        let points: Vec<Vec2> = lines.iter().flat_map(|line| line.every(spacing)).collect();
+        apart(&points, domain, CLOSEST * spacing).into_iter().map(|a| points[a]).collect()
     }
 
     /// The part of the pore in m² that the region takes.

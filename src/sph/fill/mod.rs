@@ -49,16 +49,16 @@ const EQUAL: f64 = 1e-6;
 /// Particles of layers nearer to one before them than this, in spacings, are left out: where layers of different surfaces meet.
 const CLOSEST: f64 = 0.5;
 
-/// Whether each point is kept, if those nearer than `closest` (m) to a kept one before them are left out.
-fn apart(points: &[Vec2], domain: &Domain, closest: f64) -> Vec<bool> {
+/// The indices of the points that are kept, if those nearer than `closest` (m) to a kept one before them are left out.
+fn apart(points: &[Vec2], domain: &Domain, closest: f64) -> Vec<usize> {
     let cells = Cells::build(points, domain, closest);
     let mut kept = vec![true; points.len()];
     for a in 0..points.len() {
-        let mut is_free = true;
-        cells.visit_near(points[a], |b, r| is_free &= b as usize >= a || !kept[b as usize] || r.norm() >= closest);
-        kept[a] = is_free;
+        let mut is_kept = true;
+        cells.visit_near(points[a], |b, r| is_kept &= b as usize >= a || !kept[b as usize] || r.norm() >= closest);
+        kept[a] = is_kept;
     }
-    kept
+    (0..points.len()).filter(|a| kept[*a]).collect()
 }
 
 /// The `count` points with the largest distances, or all. Of those whose distances differ by less than `equal` some can be left out, as in a

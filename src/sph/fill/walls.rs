@@ -1,7 +1,7 @@
 //! Fills the pore along walls that no lattice fits.
 
 use super::{CLOSEST, EQUAL, Lattice, Places, SAMPLING, apart, deepest};
-use crate::geometry::shells::FreeSurface;
+use crate::geometry::shells::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
 
@@ -15,7 +15,7 @@ const DOUBTFUL: f64 = 0.5;
 pub fn along_walls(
     (lattice, domain): (&Lattice, &Domain),
     (support, walls): (f64, [bool; 4]),
-    free: &FreeSurface,
+    unfitted: &UnfittedSurface,
     signed_distance: impl Fn(Vec2) -> f64,
     pore_area: f64,
 ) -> Places {
@@ -23,7 +23,7 @@ pub fn along_walls(
     let mut places = Places::default();
     let mut doubtful: Vec<(f64, Vec2)> = Vec::new();
     for x in lattice.points(support, walls) {
-        let (d, own) = (signed_distance(x), free.own(x));
+        let (d, own) = (signed_distance(x), unfitted.own(x));
         if own && d.abs() < DOUBTFUL * spacing && lattice.holds(x) {
             doubtful.push((d, x));
         } else if d > 0.0 && lattice.holds(x) {
@@ -37,12 +37,12 @@ pub fn along_walls(
     let extent = lattice.extent(support, walls);
     let mut depth = 0.5 * spacing;
     while depth < support {
-        let lines = free.shells(depth, SAMPLING * spacing, |x| extent.contains(x));
+        let lines = unfitted.shells(depth, SAMPLING * spacing, |x| extent.contains(x));
         lines.iter().flat_map(|line| line.every(spacing)).for_each(|x| places.push_wall(x, depth));
         depth += spacing;
     }
-    let mut kept = apart(&places.walls, domain, CLOSEST * spacing).into_iter();
-    let (walls, depth) = places.walls.iter().zip(&places.depth).filter(|_| kept.next().unwrap_or(true)).unzip();
-    (places.walls, places.depth) = (walls, depth);
+    let kept = apart(&places.walls, domain, CLOSEST * spacing);
+    places.walls = kept.iter().map(|a| places.walls[*a]).collect();
+    places.depth = kept.iter().map(|a| places.depth[*a]).collect();
     places
 }

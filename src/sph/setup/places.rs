@@ -2,7 +2,7 @@
 
 use crate::case::checked::Side;
 use crate::geometry::Geometry;
-use crate::geometry::shells::FreeSurface;
+use crate::geometry::shells::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
 use crate::sph::fill::{self, Interface, Lattice, Places};
@@ -21,11 +21,11 @@ pub(super) fn places(
     let support = method.kernel.support();
     let signed_distance = |x| geometry.signed_distance(x);
     let walls = sides.map(|side| side == Side::Wall);
-    let free = FreeSurface::new(geometry, support, |a, b| lattice.fits(a, b));
-    let follows_walls = fitted_walls && !free.is_empty();
+    let unfitted = UnfittedSurface::new(geometry, support, |a, b| lattice.fits(a, b));
+    let follows_walls = fitted_walls && !unfitted.is_empty();
     let mut places = if follows_walls {
         let pore_area = geometry.porosity().value * geometry.bounds().area();
-        fill::along_walls((lattice, domain), (support, walls), &free, signed_distance, pore_area)
+        fill::along_walls((lattice, domain), (support, walls), &unfitted, signed_distance, pore_area)
     } else {
         fill::on_lattice(lattice, support, walls, signed_distance)
     };
