@@ -1,5 +1,6 @@
 //! Where particles stand at time zero.
 
+use super::walls::places_of_sides;
 use crate::case::checked::Side;
 use crate::geometry::Geometry;
 use crate::geometry::shells::UnfittedSurface;
@@ -34,6 +35,8 @@ pub(super) fn places(
         interface.as_ref().map(|interface| interface.make_room((lattice, domain), &mut places)).unwrap_or_default();
     if follows_walls || !layers.is_empty() {
         let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
+        let held = places_of_sides(domain.bounds).into_iter().zip(sides);
+        let held = held.filter(|(_, side)| !matches!(side, Side::Wall | Side::Periodic)).map(|(place, _)| place);
         let beyond: Vec<Vec2> = lattice.beyond(support, walls, open).collect();
         let packing = Packing {
             fixed: &[&places.walls[..], &layers, &beyond].concat(),
@@ -43,18 +46,10 @@ pub(super) fn places(
             volume: method.volume,
             pore: geometry,
             interface: interface.as_ref().filter(|_| !layers.is_empty()).map(Interface::surface),
-            sides: &held(domain, open),
+            sides: &held.collect::<Vec<_>>(),
         };
         packing.pack(&mut places.fluid);
     }
     places.fluid.extend(layers);
     places
-}
-
-/// The sides that no particle crosses: axis, and place along it in m.
-fn held(domain: &Domain, open: [bool; 4]) -> Vec<(usize, f64)> {
-    let mirrors = domain.mirrors.iter().map(|mirror| (mirror.axis, mirror.at));
-    let (min, max) = (domain.bounds.min, domain.bounds.max);
-    let places = [(0, min.x), (0, max.x), (1, min.y), (1, max.y)];
-    mirrors.chain(places.into_iter().zip(open).filter(|(_, open)| *open).map(|(place, _)| place)).collect()
 }

@@ -8,14 +8,18 @@ use crate::math::{Bounds, Vec2};
 use crate::sph::domain::{ImageVelocity, Mirror};
 use crate::sph::wetting::wall::{WallSpot, WallSpots};
 
+/// Axis of each side (left, right, bottom, top) and its place along it in m.
+pub(super) fn places_of_sides(Bounds { min, max }: Bounds) -> [(usize, f64); 4] {
+    [(0, min.x), (0, max.x), (1, min.y), (1, max.y)]
+}
+
 pub(super) fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
-    let places = [(0, bounds.min.x), (0, bounds.max.x), (1, bounds.min.y), (1, bounds.max.y)];
     let mirror = |(side, (axis, at)): (Side, (usize, f64))| match side {
         Side::Image => Some(Mirror { axis, at, image: ImageVelocity::Reversed }),
         Side::Symmetry => Some(Mirror { axis, at, image: ImageVelocity::Mirrored }),
         Side::Periodic | Side::Wall | Side::Inlet | Side::Outlet => None,
     };
-    sides.into_iter().zip(places).filter_map(mirror).collect()
+    sides.into_iter().zip(places_of_sides(bounds)).filter_map(mirror).collect()
 }
 
 /// Patches and velocities of the walls; none where all walls are alike and at rest.
