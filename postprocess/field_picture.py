@@ -18,6 +18,14 @@ def measure(path: str | Path, field: str = "pressure", time: float | None = None
     return {"frame": frame, "field": field, "min": low, "max": high}
 
 
+def draw(directory: Path, found: dict, picture: Path, size: int = scene.LONG_SIDE) -> None:
+    """Writes the picture, its longer side `size` pixels."""
+    plotter = scene.plotter(directory, found["frame"], size)
+    scene.draw(plotter, directory, found["frame"], found["field"], (found["min"], found["max"]))
+    plotter.screenshot(picture)
+    plotter.close()
+
+
 def main() -> None:
     """Writes the picture and prints its name."""
     parser = argparse.ArgumentParser(description="draw one field at one time")
@@ -26,11 +34,7 @@ def main() -> None:
     parser.add_argument("--time", type=float, help="time in s, the last one by default")
     parser.add_argument("--picture", type=Path, default=Path("field.png"))
     asked = parser.parse_args()
-    found = measure(asked.directory, asked.field, asked.time)
-    plotter = scene.plotter(asked.directory, found["frame"])
-    scene.draw(plotter, asked.directory, found["frame"], asked.field, (found["min"], found["max"]))
-    plotter.screenshot(asked.picture)
-    plotter.close()
+    draw(asked.directory, measure(asked.directory, asked.field, asked.time), asked.picture)
     print(asked.picture)
 
 

@@ -79,7 +79,7 @@ pub struct Fluid {
 }
 
 /// Forms of the surface force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceForce {
     /// Continuum surface force [Huber2013, Eq. 20].
@@ -87,8 +87,11 @@ pub enum SurfaceForce {
         /// How the force of a contact line is spread.
         line_delta: LineDelta,
     },
-    /// Pressure jump across a sharp interface with fitted curvature.
-    PressureJump,
+    /// Pressure jump across a sharp interface.
+    PressureJump {
+        /// Curvature in 1/m of all interfaces, fitted where there is none.
+        curvature: Option<f64>,
+    },
 }
 
 /// Forms of the contact line delta [Huber2013, Eq. 21].

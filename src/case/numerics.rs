@@ -9,7 +9,7 @@ use super::raw::{RawNumerics, RawViscousTerm};
 pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
     let (drift_source, drift_correction, background_pressure, shifting, short_range_push) = match surface_force {
         Some(SurfaceForce::Csf { .. }) => (0.02, 0.0, 0.5, 0.0, 0.0),
-        Some(SurfaceForce::PressureJump) => (0.2, 0.0, 0.0, 2.0, 0.2),
+        Some(SurfaceForce::PressureJump { .. }) => (0.2, 0.0, 0.0, 2.0, 0.2),
         None => (0.0, 0.2, 0.0, 2.0, 0.0),
     };
     Numerics {
@@ -21,7 +21,7 @@ pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
         short_range_push,
         wall_stretch: 10.0,
         fitted_walls: true,
-        fitted_interface: surface_force == Some(SurfaceForce::PressureJump),
+        fitted_interface: matches!(surface_force, Some(SurfaceForce::PressureJump { .. })),
         pressure_tolerance: 1.0e-6,
         time_step_factor: 1.0,
     }

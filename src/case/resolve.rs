@@ -6,8 +6,9 @@ use super::checked::{
 };
 use super::raw::{
     Empty, RawCase, RawCsf, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface,
-    RawLineDelta, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawProfile, RawSide,
-    RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousTerm, RawWallSpeeds, RawWalls,
+    RawLineDelta, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawPressureJump, RawProfile,
+    RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousTerm, RawWallSpeeds,
+    RawWalls,
 };
 use super::wetting;
 
@@ -72,10 +73,9 @@ fn raw_sph(sph: &Sph) -> RawSph {
             non_wetting: sph.non_wetting.as_ref().map(raw_fluid),
         }),
         interface: two_phases.then_some(RawInterface { tension: Some(sph.tension) }),
-        surface_force: sph.surface_force.map(|force| RawSurfaceForce {
-            csf: csf(force),
-            pressure_jump: (force == SurfaceForce::PressureJump).then_some(Empty {}),
-        }),
+        surface_force: sph
+            .surface_force
+            .map(|force| RawSurfaceForce { csf: csf(force), pressure_jump: pressure_jump(force) }),
         wetting: sph.wetting_model.map(|model| wetting::raw(&model, &sph.wetting_patches)),
         sides: Some(raw_sides(&sph.sides, sph.wall_speeds, sph.open)),
         walls: Some(RawWalls {
@@ -184,6 +184,14 @@ fn csf(force: SurfaceForce) -> Option<RawCsf> {
     match force {
         SurfaceForce::Csf { line_delta: LineDelta::Normalized } => Some(RawCsf::default()),
         SurfaceForce::Csf { line_delta: LineDelta::Local } => Some(RawCsf { line_delta: Some(RawLineDelta::Local) }),
-        SurfaceForce::PressureJump => None,
+        SurfaceForce::PressureJump { .. } => None,
+    }
+}
+
+/// The table of the pressure jump, where it is the one chosen.
+fn pressure_jump(force: SurfaceForce) -> Option<RawPressureJump> {
+    match force {
+        SurfaceForce::PressureJump { curvature } => Some(RawPressureJump { curvature }),
+        SurfaceForce::Csf { .. } => None,
     }
 }

@@ -83,7 +83,7 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
 }
 
 /// The surface force of a case that names none.
-const DEFAULT_SURFACE_FORCE: SurfaceForce = SurfaceForce::PressureJump;
+const DEFAULT_SURFACE_FORCE: SurfaceForce = SurfaceForce::PressureJump { curvature: None };
 
 /// h/dx of the paper's examples.
 const DEFAULT_SMOOTHING_RATIO: f64 = 1.5;
@@ -168,7 +168,9 @@ fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<Surfac
     let chosen = match force.map(|force| (force.csf.is_some(), force.pressure_jump.is_some())) {
         None => DEFAULT_SURFACE_FORCE,
         Some((true, false)) => SurfaceForce::Csf { line_delta: line_delta(force.and_then(|force| force.csf.as_ref())) },
-        Some((false, true)) => SurfaceForce::PressureJump,
+        Some((false, true)) => SurfaceForce::PressureJump {
+            curvature: force.and_then(|force| force.pressure_jump.as_ref()).and_then(|jump| jump.curvature),
+        },
         Some((both, _)) => {
             checker.refuse(
                 "sph.surface-force",

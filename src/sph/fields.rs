@@ -147,7 +147,9 @@ impl Fields {
         images.extend(&mut self.color);
         match method.surface_force {
             SurfaceForce::Csf(delta) => self.continuum_forces(neighborhood, (method, delta), place, (lines, dt)),
-            SurfaceForce::PressureJump => self.pressure_jump((neighborhood, &sharp), method, place, (lines, dt)),
+            SurfaceForce::PressureJump { curvature } => {
+                self.pressure_jump((neighborhood, &sharp), (method, curvature), place, (lines, dt));
+            }
         }
         self.slip_near_lines(particles, method, place.domain);
     }
@@ -200,11 +202,11 @@ impl Fields {
         found.line_force(&fields, delta, (&angles, method.tension), &mut self.line_force);
     }
 
-    /// Sides and curvatures for the pressure jump; the normal is the consistent gradient of the smoothed color.
+    /// Sides and curvatures for the pressure jump, fitted where none is `given` (1/m); the normal is the consistent gradient of the smoothed color.
     fn pressure_jump(
         &mut self,
         ((particles, pairs, images), sharp): ((&Particles, &Pairs, &Images), &[f64]),
-        method: &Method,
+        (method, given): (&Method, Option<f64>),
         place: &Place,
         (lines, dt): (&[Line], f64),
     ) {
@@ -246,7 +248,9 @@ impl Fields {
         let mut side = sharp.to_vec();
         carry::into_walls(pairs, &self.fluid_volume, moving, &mut side);
         let mut jump = Jump::default();
-        jump.update((pairs, images, moving), &side, (position, r_ab), &fit);
+        let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
+        let curvature_at = |x: Vec2| given.or_else(|| fit.curvature(x));
+        jump.update((pairs, images, moving), &side, (position, r_ab), (curvature_at, gradient));
         for (kappa, found) in self.curvature.iter_mut().zip(&jump.curvature) {
             *kappa = if found.is_nan() { 0.0 } else { *found };
         }

@@ -124,7 +124,8 @@ impl Method {
     #[must_use]
     pub fn pressure_gradient(&self) -> PressureGradient {
         let ratio = self.density_ratio();
-        if self.tension == 0.0 || self.surface_force == SurfaceForce::PressureJump || ratio > LARGEST_WEIGHTED_RATIO {
+        let has_jump = matches!(self.surface_force, SurfaceForce::PressureJump { .. });
+        if self.tension == 0.0 || has_jump || ratio > LARGEST_WEIGHTED_RATIO {
             PressureGradient::Difference
         } else if ratio > LARGEST_SYMMETRIC_RATIO {
             PressureGradient::Weighted

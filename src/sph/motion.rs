@@ -1,4 +1,4 @@
-//! The end of a step: particles move [Huber2013, Eq. 27], keep their order and stay out of walls.
+//! The end of a step: particles move, keep their order and stay out of walls.
 
 use crate::math::Vec2;
 use crate::solver::{SolverError, StepInfo};
@@ -24,8 +24,8 @@ pub(super) fn relative_speed(velocity: &[Vec2]) -> f64 {
 }
 
 impl Flow {
-    /// Moves the particles with the mean of old and new velocity [Huber2013, Eq. 27], and by `drift` (m), if there is any, which takes
-    /// density errors back and leaves velocities alone.
+    /// Moves the particles with the new velocity, and by `drift` (m), if there is any, which takes density errors back and leaves velocities
+    /// alone. The mean of old and new velocity [Huber2013, Eq. 27] would feed every swing that viscosity does not damp (docs/numerics/forces.md).
     pub(super) fn advance(
         &mut self,
         predicted: &Predicted,
@@ -35,7 +35,7 @@ impl Flow {
         let (fluids, moving, dt) = (self.particles.fluids, self.particles.moving(), predicted.dt);
         let mut position = Vec::with_capacity(moving);
         for (a, v) in velocity.iter().enumerate() {
-            let by = 0.5 * dt * (self.particles.velocity[a] + v);
+            let by = dt * v;
             if !(by.norm() <= LARGEST_MOVE * self.method.kernel.h) {
                 let phase = if self.particles.phase[a] == Phase::Wetting { "wetting" } else { "non-wetting" };
                 return Err(SolverError::BlowUp {

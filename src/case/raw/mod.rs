@@ -31,8 +31,8 @@ mod wetting;
 pub use measures::{RawExpectation, RawMeasures};
 pub use sides::{RawOpenSide, RawOpenSides, RawProfile, RawSide, RawSideName, RawSides, RawWallSpeeds};
 pub use sph::{
-    RawCsf, RawFluid, RawInitial, RawInterface, RawLineDelta, RawNumerics, RawPhase, RawPhases, RawSph,
-    RawSurfaceForce, RawTaylorGreen, RawVelocity, RawViscousTerm, RawWalls,
+    RawCsf, RawFluid, RawInitial, RawInterface, RawLineDelta, RawNumerics, RawPhase, RawPhases, RawPressureJump,
+    RawSph, RawSurfaceForce, RawTaylorGreen, RawVelocity, RawViscousTerm, RawWalls,
 };
 pub use wetting::{
     RawAngleWindow, RawAxis, RawContactAngle, RawCoxVoinov, RawLineFriction, RawMolecularKinetic, RawStripes,

@@ -66,8 +66,14 @@ tables! {
     pub struct RawSurfaceForce {
         /// Continuum surface force, Huber et al. 2013, Eq. 20.
         pub csf: RawCsf,
-        /// Pressure jump across a sharp interface with fitted curvature.
-        pub pressure_jump: Empty,
+        /// Pressure jump across a sharp interface.
+        pub pressure_jump: RawPressureJump,
+    }
+
+    /// The pressure jump.
+    pub struct RawPressureJump {
+        /// Curvature in 1/m of all interfaces, positive where the wetting phase is convex, for tests of all but the fits (default fitted).
+        pub curvature: f64,
     }
 
     /// The continuum surface force.

@@ -3,6 +3,7 @@
 use super::{Subject, measure};
 use crate::analysis::phases::{PhaseAreas, density_error};
 use crate::solver::Measure;
+use crate::sph::projection::Flow;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
     let fluids = s.flow.particles.fluids;
@@ -16,10 +17,26 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
         let method = "signed distance of the fluid particle nearest to a wall; below 0: inside of it";
         found.push(measure("smallest-wall-distance-m", nearest, "m", None, method));
     }
+    let distance = smallest_distance(s.flow);
+    if distance.is_finite() {
+        let method =
+            "distance of the two nearest fluid particles over dx at the end; particles that pair up come below 0.5";
+        found.push(measure("smallest-particle-distance-ratio", distance, "", None, method));
+    }
     if s.flow.method.tension > 0.0 {
         found.extend(two_phases(s));
     }
     found
+}
+
+/// Distance of the two nearest fluid particles over the spacing.
+fn smallest_distance(flow: &Flow) -> f64 {
+    let (position, fluids) = (&flow.particles.position, flow.particles.fluids);
+    let among_fluids = |a: usize| flow.pairs.of(a).filter(|ab| flow.images.source(ab.b) < fluids);
+    let distances = (0..fluids).flat_map(|a| {
+        among_fluids(a).map(move |ab| flow.domain.separation(position[a], flow.images.position(ab.b, position)).norm())
+    });
+    distances.fold(f64::INFINITY, f64::min) / flow.method.spacing
 }
 
 fn two_phases(s: &Subject) -> Vec<Measure> {

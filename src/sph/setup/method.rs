@@ -28,7 +28,7 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
         other_fluid: sph.non_wetting.as_ref().map_or(wetting_fluid, fluid),
         tension: sph.tension,
         surface_force: match sph.surface_force {
-            Some(checked::SurfaceForce::PressureJump) => SurfaceForce::PressureJump,
+            Some(checked::SurfaceForce::PressureJump { curvature }) => SurfaceForce::PressureJump { curvature },
             Some(checked::SurfaceForce::Csf { line_delta: checked::LineDelta::Local }) => {
                 SurfaceForce::Csf(LineDelta::Local)
             }

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use crate::math::{LINE_MOMENT, Vec2};
 use crate::sph::images::Images;
 use crate::sph::pairs::{GRAIN, Pairs, each};
-use crate::sph::surface_force::fit::InterfaceFit;
 use crate::sph::surface_force::windows::{SMOOTHNESS, WINDOW};
 
 /// Passes of the smoothing of the curvature along the interface.
@@ -30,13 +29,14 @@ pub struct Jump {
 }
 
 impl Jump {
-    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls, `r_ab(a, b)` in m.
+    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls, `r_ab(a, b)` in m, the curvature of the
+    /// interface near a place in 1/m, its `gradient` at rest in 1/m².
     pub fn update(
         &mut self,
         (pairs, images, fluids): (&Pairs, &Images, usize),
         color: &[f64],
         (position, r_ab): (&[Vec2], impl Fn(usize, usize) -> Vec2 + Sync),
-        fit: &InterfaceFit,
+        (curvature_at, gradient): (impl Fn(Vec2) -> Option<f64> + Sync, Vec2),
     ) {
         let n = pairs.rows();
         self.side.clear();
@@ -47,10 +47,10 @@ impl Jump {
         let on_fluid: Vec<f64> = (0..fluids)
             .into_par_iter()
             .with_min_len(GRAIN / 8)
-            .map(|a| if unlike(a) { fit.curvature(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
+            .map(|a| if unlike(a) { curvature_at(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
             .collect();
         self.curvature.clear();
-        let rest = |a: usize, b: usize| fit.gradient.dot(&r_ab(a, images.source(b)));
+        let rest = |a: usize, b: usize| gradient.dot(&r_ab(a, images.source(b)));
         self.curvature.extend(smoothed(on_fluid, (pairs, images), &rest));
         self.curvature.resize(n, f64::NAN);
         // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.

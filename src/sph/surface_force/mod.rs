@@ -16,10 +16,13 @@ mod windows;
 use crate::sph::wetting::contact_line::LineDelta;
 
 /// The forms of the surface force.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SurfaceForce {
     /// Continuum surface force and contact line force [Huber2013, Eqs. 20 and 23].
     Csf(LineDelta),
-    /// Pressure jump with fitted curvature.
-    PressureJump,
+    /// Pressure jump.
+    PressureJump {
+        /// Curvature in 1/m of all interfaces, fitted where there is none.
+        curvature: Option<f64>,
+    },
 }
