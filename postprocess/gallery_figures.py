@@ -2,11 +2,11 @@
 
 Usage: gallery_figures.py DIR [DIR ...] [--figures docs/figures] [--run NAME] [--field velocity] [--width 560]
 
-A study folder `study-NAME` gives `NAME-1.svg`, `NAME-2.svg`, ... and `NAME-picture.webp`: the picture of the run, or one of its fields.
+A study folder `study-NAME` gives `NAME-1.svg`, `NAME-2.svg`, ... and `NAME-picture.webp`: the picture of the run, or one
+of its fields.
 """
 
 import argparse
-import csv
 import shutil
 import tempfile
 from pathlib import Path
@@ -25,10 +25,8 @@ QUALITY = 85
 def measure(path: str | Path, run: str | None = None) -> dict:
     """Name of a study folder, paths of its curves, and the picture of `run` or of its complete run with most unknowns."""
     directory = Path(path)
-    with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
-        unknowns = {row[study_panel.FIRST]: float(row.get("unknowns") or 0) for row in csv.DictReader(file)}
     complete = [found for found in study_panel.measure(directory)["runs"] if run in (None, found["name"])]
-    finest = max(complete, key=lambda found: unknowns[found["name"]], default=None)
+    finest = max(complete, key=lambda found: float(found["row"].get("unknowns") or 0), default=None)
     return {
         "name": directory.resolve().name.removeprefix("study-"),
         "curves": sorted(directory.glob("curve-*.svg")),

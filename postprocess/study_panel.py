@@ -21,7 +21,7 @@ WIDTH, TITLE = 4.0, 0.4
 
 
 def measure(path: str | Path) -> dict:
-    """The complete runs of a study folder in their order: name, parameters as text, path of the picture."""
+    """The complete runs of a study folder in their order: name, row of the table, parameters as text, path of the picture."""
     directory = Path(path)
     with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -31,7 +31,7 @@ def measure(path: str | Path) -> dict:
         parameters = {name: row[name] for name in names[names.index(FIRST) + 1 : names.index(LAST)]}
         picture = directory / "runs" / row[FIRST] / "picture.png"
         if row[LAST] == "done" and picture.is_file():
-            runs.append({"name": row[FIRST], "parameters": parameters, "picture": picture})
+            runs.append({"name": row[FIRST], "row": row, "parameters": parameters, "picture": picture})
     return {"runs": runs, "all": len(rows)}
 
 
