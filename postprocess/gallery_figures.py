@@ -2,8 +2,8 @@
 
 Usage: gallery_figures.py DIR [DIR ...] [--figures docs/figures] [--run NAME] [--field velocity] [--width 560]
 
-A study folder `study-NAME` gives `NAME-1.svg`, `NAME-2.svg`, ... and `NAME-picture.webp`: the picture of the run, or one
-of its fields.
+A study folder `study-NAME` gives `NAME-1.svg`, `NAME-2.svg`, ... and `NAME-picture.webp`: the picture of the run, or
+one of its fields.
 """
 
 import argparse
@@ -23,7 +23,7 @@ QUALITY = 85
 
 
 def measure(path: str | Path, run: str | None = None) -> dict:
-    """Name of a study folder, paths of its curves, and the picture of `run` or of its complete run with most unknowns."""
+    """Name of a study folder, paths of its curves, picture of `run` or of its complete run with most unknowns."""
     directory = Path(path)
     complete = [found for found in study_panel.measure(directory)["runs"] if run in (None, found["name"])]
     finest = max(complete, key=lambda found: float(found["row"].get("unknowns") or 0), default=None)
@@ -59,7 +59,7 @@ def main() -> None:
     for directory in asked.directories:
         found = measure(directory, asked.run)
         if found["picture"] is None:
-            raise SystemExit(f"{directory} has no complete run{f' {asked.run}' if asked.run else ''}: do the study first")
+            raise SystemExit(f"{directory} has no complete run {asked.run or ''}: do the study first")
         for index, curve in enumerate(found["curves"], 1):
             target = asked.figures / f"{found['name']}-{index}.svg"
             shutil.copyfile(curve, target)

@@ -21,7 +21,7 @@ WIDTH, TITLE = 4.0, 0.4
 
 
 def measure(path: str | Path) -> dict:
-    """The complete runs of a study folder in their order: name, row of the table, parameters as text, path of the picture."""
+    """The complete runs of a study folder in their order: name, row of the table, parameters as text, picture."""
     directory = Path(path)
     with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
