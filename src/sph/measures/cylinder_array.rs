@@ -1,6 +1,6 @@
 //! Drag on the solids of a periodic cell (A5 to A7 of the benchmarks; Sangani & Acrivos 1982).
 
-use super::{Subject, measure};
+use super::{Subject, measure, pairs};
 use crate::math::Vec2;
 use crate::solver::Measure;
 
@@ -23,9 +23,25 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
                   velocity averaged over the whole cell, at the end";
     let method_of_mean = "velocity along the force averaged over the whole cell, solids at rest, at the end";
     let method_of_permeability = "viscosity times mean velocity over force per volume";
+    let pull = force.norm() * s.seen.areas.wetting;
+    let unsteady = acceleration(s, along) / pull;
+    let method_of_unsteady = "rate of the momentum along the force between the last two records over the force on the fluid; the drag of a \
+                              flow that still gathers speed is too high";
     vec![
         measure("drag-over-mu-u", drag, "", None, method),
         measure("mean-velocity-m-per-s", mean, "m/s", None, method_of_mean),
         measure("permeability-m2", permeability, "m2", None, method_of_permeability),
+        measure("unsteady-share", unsteady, "", None, method_of_unsteady),
     ]
+}
+
+/// Rate in N/m at which the fluid gathered momentum along a unit vector between the last two records.
+fn acceleration(s: &Subject, along: Vec2) -> f64 {
+    let (times, x) = pairs(s.series, "momentum_x_kg_per_m_s");
+    let (_, y) = pairs(s.series, "momentum_y_kg_per_m_s");
+    let momenta: Vec<f64> = x.into_iter().zip(y).map(|(x, y)| Vec2::new(x, y).dot(&along)).collect();
+    match (&times[..], &momenta[..]) {
+        ([.., before, now], [.., was, is]) => (is - was) / (now - before),
+        _ => f64::NAN,
+    }
 }
