@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use super::circle::{self, CircleFit};
 use super::contour::Polyline;
 use super::wall::WallPoint;
-use crate::math::Vec2;
+use crate::math::{Vec2, perpendicular};
 
 /// What to fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,6 +77,15 @@ pub struct ContactLine {
     /// Why there is no angle.
     pub problem: Option<ContactProblem>,
 }
+
+/// A wall that has turned away by more than this (sine) within the exclusion distance has an edge there.
+const TURNED: f64 = 0.8;
+
+/// An arc that passes an edge nearer than this, over the exclusion distance, ends there.
+const GRAZE: f64 = 0.2;
+
+/// Cosine between the normals of both faces of an edge.
+const BENT: f64 = 0.5;
 
 /// The fewest points that are fitted: twice the unknowns.
 pub const LEAST_POINTS: usize = 6;
@@ -154,7 +163,7 @@ fn measure(
     let from = if side == WettingSide::Left { points[0] } else { points[found - 1] };
     let angle_of = |circle: &CircleFit| {
         let position = meet(circle, from, side, wall, exclusion)?;
-        Some((position, angle(circle.normal_at(position), wall(position).normal)))
+        Some((position, angle(circle.normal_at(position), face_under_wetting(position, side, wall, exclusion))))
     };
     let (position, theta) = angle_of(&circle).ok_or(ContactProblem::NoIntersection)?;
     // Derivatives of the angle by curvature, direction and offset, each by a step of one standard error or a small one.
@@ -180,13 +189,22 @@ fn measure(
     })
 }
 
+/// Normal of the wall at a contact line; at an edge, where an interface can stand at many angles, of the face that the wetting phase covers.
+fn face_under_wetting(position: Vec2, side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoint, exclusion: f64) -> Vec2 {
+    let normal = wall(position).normal;
+    let left = perpendicular(normal);
+    let along = if side == WettingSide::Left { left } else { -left };
+    let there = wall(position + exclusion * along).normal;
+    if there.dot(&along) > TURNED { there } else { normal }
+}
+
 /// Angle in rad between interface and wall, from the normals into the wetting phase and into the pore.
 fn angle(into_wetting: Vec2, into_pore: Vec2) -> f64 {
     // cos = -n.e; the two-argument arctangent keeps its accuracy near 0 and 180 degrees.
     into_wetting.perp(&into_pore).abs().atan2(-into_wetting.dot(&into_pore))
 }
 
-/// Follows the circle from the vertex `from` towards the wall until the wall distance is zero.
+/// Follows the circle from the vertex `from` towards the wall until the wall distance is zero, or past an edge.
 fn meet(
     circle: &CircleFit,
     from: Vec2,
@@ -201,7 +219,7 @@ fn meet(
     let distance = |way: f64| wall(circle.walk(from, direction * way)).distance;
     // The wall is never nearer than its distance, so steps of that length cannot pass it; the least step gets through.
     let least = 1e-3 * exclusion;
-    let (mut before, mut way) = (0.0, 0.0);
+    let (mut before, mut way, mut last) = (0.0, 0.0, f64::INFINITY);
     loop {
         let d = distance(way);
         if d.is_nan() {
@@ -210,6 +228,15 @@ fn meet(
         if d <= 0.0 {
             break;
         }
+        // An interface that ends at an edge may pass by it as the fit errs.
+        if d > last && last < GRAZE * exclusion {
+            let [behind, here, ahead] =
+                [-exclusion, 0.0, exclusion].map(|by| circle.walk(from, direction * (before + by)));
+            if wall(behind).normal.dot(&wall(ahead).normal) < BENT {
+                return Some(here);
+            }
+        }
+        last = d;
         before = way;
         way += d.max(least);
         if way > longest {
@@ -318,6 +345,29 @@ mod tests {
             let summary = summarize(&lines);
             assert_eq!((summary.measured, summary.failed), (2, 0), "angle {theta}: {lines:?}");
             assert!((summary.mean_deg - theta).abs() < 0.5, "angle {theta}: {summary:?}");
+        }
+    }
+
+    #[test]
+    fn a_drop_that_ends_at_the_edges_of_a_pillar_has_its_angle_to_the_face_below_it() {
+        // The pillar |x| < 0.7, y < 0; a cap over all of its top.
+        let wall = |x: Vec2| {
+            let beyond = Vec2::new((x.x.abs() - 0.7).max(0.0), x.y.max(0.0));
+            let outside = Vec2::new(x.x.signum() * beyond.x, beyond.y);
+            if outside != Vec2::zeros() {
+                return WallPoint { distance: outside.norm(), normal: outside.normalize() };
+            }
+            let (to_side, to_top) = (x.x.abs() - 0.7, x.y);
+            let normal = if to_side > to_top { Vec2::new(x.x.signum(), 0.0) } else { Vec2::y() };
+            WallPoint { distance: to_side.max(to_top), normal }
+        };
+        for theta in [75.0, 100.0, 130.0_f64] {
+            let radius = 0.7 / theta.to_radians().sin();
+            let lines = angles(|x| tanh_disc(x, Vec2::new(0.0, -radius * theta.to_radians().cos()), radius), &wall);
+            assert_eq!(lines.len(), 2, "angle {theta}");
+            for line in lines {
+                assert!((line.angle_deg - theta).abs() < 0.3, "angle {theta}: {line:?}");
+            }
         }
     }
 

@@ -229,10 +229,12 @@ impl Fields {
         let lengths = (method.spacing, method.kernel.h);
         let points = interface_points((pairs, images), domain, &fields, moving, lengths);
         let mut fit = InterfaceFit::new(&points, domain, lengths, place.wall).under(method.curvature_gradient());
+        let mut bends = Vec::new();
         if method.wetting.is_some() {
-            let seen = fit.lines(domain);
+            let seen = fit.lines();
             self.contact_lines = seen.len();
             self.lines = place.following(method, |following| following.follow(lines, &seen, dt));
+            bends.extend(seen.iter().zip(&self.lines).filter_map(|(line, now)| line.bend(now.angle)));
         }
         let lines = &self.lines;
         let angle_at = |x: Vec2, outward: Vec2| {
@@ -243,7 +245,7 @@ impl Fields {
             line.map_or_else(|| model.static_angle(), |line| line.angle)
         };
         if method.wetting.is_some() {
-            fit = fit.held_to(&angle_at);
+            fit = fit.held_to(&angle_at).with_bends(&bends);
         }
         let mut side = sharp.to_vec();
         carry::into_walls(pairs, &self.fluid_volume, moving, &mut side);

@@ -10,9 +10,11 @@
 use crate::math::{Vec2, perpendicular};
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
+use crate::sph::surface_force::bends::Bend;
 use crate::sph::surface_force::circles::{Circle, Near, fit_from_contact};
 use crate::sph::surface_force::points::InterfacePoint;
 use crate::sph::surface_force::windows::WINDOW;
+use crate::sph::wetting::lines::LINE_REACH;
 
 /// The points of a window are moved from the level to the interface so many times. At a wall, the circle through the level is not the
 /// one that meets it at the angle; each time gains more than a digit.
@@ -54,6 +56,9 @@ pub struct InterfaceFit<'a> {
     /// ∇κ in 1/m² of an interface at rest.
     pub(super) gradient: Vec2,
     pub(super) wall: &'a Wall<'a>,
+    pub(super) domain: &'a Domain,
+    /// The contact lines at edges and tight bends of the walls.
+    bends: &'a [Bend],
 }
 
 /// Where the straight continuation of the interface meets the wall.
@@ -62,8 +67,8 @@ pub(super) struct Foot {
     pub(super) contact: Vec2,
     /// Wall normal there.
     pub(super) normal: Vec2,
-    /// ν_ns there.
-    pub(super) outwards: Vec2,
+    /// 1 where ν_ns lies to the left of the normal, else -1: the same all along a wall, around its edges too.
+    pub(super) side: f64,
     /// Way along the interface to the wall in m.
     pub(super) way: f64,
 }
@@ -71,10 +76,10 @@ pub(super) struct Foot {
 impl<'a> InterfaceFit<'a> {
     /// Sorts the points; the interface meets walls at any angle.
     #[must_use]
-    pub fn new(points: &'a [InterfacePoint], domain: &Domain, (spacing, h): (f64, f64), wall: &'a Wall<'a>) -> Self {
+    pub fn new(points: &'a [InterfacePoint], domain: &'a Domain, (spacing, h): (f64, f64), wall: &'a Wall<'a>) -> Self {
         let places: Vec<Vec2> = points.iter().map(|p| p.x).collect();
         let cells = Cells::build(&places, domain, WINDOW * h);
-        Self { points, cells, h, spacing, angle: None, gradient: Vec2::zeros(), wall }
+        Self { points, cells, h, spacing, angle: None, gradient: Vec2::zeros(), wall, domain, bends: &[] }
     }
 
     /// The same interface under gravity, with the gradient (1/m²) of its curvature at rest.
@@ -87,6 +92,12 @@ impl<'a> InterfaceFit<'a> {
     #[must_use]
     pub fn held_to(self, angle: &'a AngleAt<'a>) -> Self {
         Self { angle: Some(angle), ..self }
+    }
+
+    /// The same interface with its contact lines at edges and tight bends.
+    #[must_use]
+    pub fn with_bends(self, bends: &'a [Bend]) -> Self {
+        Self { bends, ..self }
     }
 
     /// Curvature in 1/m of the interface nearest to `x`, none where there is no interface within the window.
@@ -134,6 +145,7 @@ impl<'a> InterfaceFit<'a> {
         if slope < SMALLEST_TANGENT {
             return None;
         }
+        let side = -perpendicular(point.wall_normal).dot(&point.normal).signum();
         let way = point.wall_distance.max(0.0) / slope.max(2.0 * SMALLEST_TANGENT);
         // Down along the interface to the wall, then onto it.
         let mut down = perpendicular(point.normal);
@@ -143,29 +155,29 @@ impl<'a> InterfaceFit<'a> {
         let foot = point.x + way * down;
         let (distance, normal) = (self.wall)(foot);
         let contact = foot - distance * normal - point.x;
-        let outwards = outwards_of(point.normal, normal)?;
-        Some(Foot { contact, normal, outwards, way })
+        Some(Foot { contact, normal, side, way })
     }
 
     /// The curvature held to the contact angle, and its share, where the interface meets a wall near `point`.
     fn held_fit(&self, point: &InterfacePoint, near: &[Near]) -> Option<(f64, f64)> {
-        let angle_at = self.angle?;
         let touches = near.iter().any(|q| self.points[q.index].touches);
-        if !touches || near.len() < FEWEST_HELD {
+        if self.angle.is_none() || !touches || near.len() < FEWEST_HELD {
             return None;
         }
-        let Foot { mut contact, mut normal, mut outwards, way } = self.foot(point)?;
+        let Foot { mut contact, mut normal, side, way } = self.foot(point)?;
         let share = ((REACH * self.h - way) / (2.0 * self.h)).clamp(0.0, 1.0);
         if share == 0.0 {
             return None;
         }
+        if let Some(bend) = self.bend_of(point.x + contact, side) {
+            let contact = self.domain.separation(bend.place, point.x);
+            return Some((self.fit_at(point, near, contact, (bend.outwards, bend.normal))?.0, share));
+        }
         let mut kappa = None;
         for _ in 0..PROJECTIONS {
-            let present = (-point.normal.dot(&normal)).clamp(-1.0, 1.0).acos();
-            let angle = angle_at(point.x + contact, outwards).clamp(present - LARGEST_PULL, present + LARGEST_PULL);
-            let at_contact = self.of_one_curvature(near, contact);
-            let (found, delta) = fit_from_contact(&at_contact, contact, (outwards, normal), angle)?;
-            kappa = Some(found - self.gradient.dot(&(contact + delta * outwards)));
+            let outwards = side * perpendicular(normal);
+            let (found, delta) = self.fit_at(point, near, contact, (outwards, normal))?;
+            kappa = Some(found);
             // The contact point found lies on the tangent of the wall; a curved wall is looked at again there.
             let place = point.x + contact + delta.clamp(-self.h, self.h) * outwards;
             let (distance, there) = (self.wall)(place);
@@ -173,10 +185,32 @@ impl<'a> InterfaceFit<'a> {
                 break;
             }
             (contact, normal) = (place - distance * there - point.x, there);
-            outwards = outwards_of(point.normal, normal)?;
         }
         kappa.map(|kappa| (kappa, share))
     }
+
+    /// Curvature in 1/m at `point` of the circle that meets the straight wall (ν, normal) through `contact` (m from `point`) at the
+    /// contact angle, and the way in m along ν from there to where it does.
+    fn fit_at(&self, point: &InterfacePoint, near: &[Near], contact: Vec2, wall: (Vec2, Vec2)) -> Option<(f64, f64)> {
+        let angle = angle_pulled(point.normal, wall, (self.angle?)(point.x + contact, wall.0));
+        let at_contact = self.of_one_curvature(near, contact);
+        let (kappa, delta) = fit_from_contact(&at_contact, contact, wall, angle)?;
+        Some((kappa - self.gradient.dot(&(contact + delta * wall.0)), delta))
+    }
+
+    /// The line at a bend to which an interface belongs that meets the wall about `x` (m), on the given side.
+    fn bend_of(&self, x: Vec2, side: f64) -> Option<&Bend> {
+        let distance = |bend: &&Bend| self.domain.separation(bend.place, x).norm();
+        let same = |bend: &&Bend| side * perpendicular(bend.normal).dot(&bend.outwards) > 0.0;
+        let bends = self.bends.iter().filter(same).filter(|bend| distance(bend) < LINE_REACH * self.h);
+        bends.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}
+
+/// The contact angle in rad as far as an interface with the unit `normal` is pulled towards it at once, at the wall (ν, normal).
+pub(super) fn angle_pulled(normal: Vec2, (outwards, wall): (Vec2, Vec2), angle: f64) -> f64 {
+    let present = (-normal.dot(&outwards)).atan2(-normal.dot(&wall));
+    angle.clamp(present - LARGEST_PULL, present + LARGEST_PULL)
 }
 
 /// The part of `n` along the line with the unit normal `e`.
@@ -184,21 +218,17 @@ fn along(n: Vec2, e: Vec2) -> Vec2 {
     n - n.dot(&e) * e
 }
 
-/// ν_ns: the unit vector along the wall towards the non-wetting phase, none where the interface runs along the wall.
-fn outwards_of(normal: Vec2, wall_normal: Vec2) -> Option<Vec2> {
-    (-along(normal, wall_normal)).try_normalize(0.5 * SMALLEST_TANGENT)
-}
-
 #[cfg(test)]
 mod tests {
+    use std::sync::LazyLock;
+
     use super::*;
     use crate::math::{Bounds, LINE_MOMENT};
 
     const H: f64 = 0.15;
 
-    fn domain() -> Domain {
-        Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![])
-    }
+    static DOMAIN: LazyLock<Domain> =
+        LazyLock::new(|| Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![]));
 
     /// Radius of the level 1/2 of the smoothed color of a disc of radius 1.
     fn level() -> f64 {
@@ -239,7 +269,7 @@ mod tests {
     #[test]
     fn the_curvature_of_a_circle_is_one_over_its_radius() {
         let points = circle(2.0);
-        let fit = InterfaceFit::new(&points, &domain(), (0.1, H), &floor);
+        let fit = InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor);
         for t in [0.0_f64, 0.7, 2.0, 4.0] {
             let x = Vec2::new(0.0, 2.0) + 1.1 * Vec2::new(t.cos(), t.sin());
             let kappa = fit.curvature(x).unwrap();
@@ -254,7 +284,7 @@ mod tests {
         let bump = |n: &Vec2| (27.0 * n.y.atan2(n.x)).cos();
         let rough = directions().map(|n| ((level() + 0.01 * bump(&n)) * n, -n));
         let points = interface(rough, &|_| (f64::INFINITY, Vec2::zeros()));
-        let fit = InterfaceFit::new(&points, &domain(), (0.1, H), &floor);
+        let fit = InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor);
         for n in directions().take(30) {
             let [inside, outside] = [0.75, 1.25].map(|r| fit.curvature(r * n).unwrap());
             assert!((inside - outside).abs() < 5e-3, "{inside} inside, {outside} outside");
@@ -269,7 +299,7 @@ mod tests {
             let angle = degrees.to_radians();
             let points = circle(-angle.cos());
             let law = |_, _| angle;
-            let fit = InterfaceFit::new(&points, &domain(), (0.1, H), &floor).held_to(&law);
+            let fit = InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor).held_to(&law);
             // From .1 up at 30 degrees the tangent misses the contact point by so much that the steps end 1e-3 off.
             let tolerance = if degrees == 30.0 { 2e-3 } else { 1e-5 };
             // Points below the top of the cap only.
@@ -294,7 +324,7 @@ mod tests {
             };
             let points = interface(directions().map(|n| (level() * n, -n)), &wall);
             let law = |_, _| angle;
-            let fit = InterfaceFit::new(&points, &domain(), (0.1, H), &wall).held_to(&law);
+            let fit = InterfaceFit::new(&points, &DOMAIN, (0.1, H), &wall).held_to(&law);
             for point in points.iter().filter(|p| p.x.x > 0.0 && p.wall_distance < 0.3) {
                 let kappa = fit.curvature(point.x).unwrap();
                 // The interface is followed down to the wall along its tangent, and the wall along its own.
@@ -302,6 +332,38 @@ mod tests {
                     (kappa - 1.0).abs() < 2e-3,
                     "at {degrees} degrees, {:.3} off the wall: {kappa}",
                     point.wall_distance
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_drop_that_ends_at_an_edge_has_one_curvature_at_any_angle_between_those_of_both_faces() {
+        // A quarter of the plane is solid; the wetting phase stands on its level face, up to the edge at the origin.
+        let wall = |x: Vec2| match (x.x > 0.0, x.y > 0.0) {
+            (true, true) => (x.norm(), x.normalize()),
+            (true, false) => (x.x, Vec2::x()),
+            (false, true) => (x.y, Vec2::y()),
+            (false, false) if x.x > x.y => (x.x, Vec2::x()),
+            (false, false) => (x.y, Vec2::y()),
+        };
+        for degrees in [62.0_f64, 80.0, 112.0, 130.0, 148.0] {
+            let angle = degrees.to_radians();
+            let center = Vec2::new(-angle.sin(), -angle.cos());
+            // The rest of its circle lies in the solid, or beyond the edge.
+            let up = Vec2::new(-angle.cos(), angle.sin());
+            let places = directions().map(|n| (center + level() * n, -n)).filter(|(x, _)| x.dot(&up) > 0.0);
+            let points = interface(places, &wall);
+            let law = |_, _| 60_f64.to_radians();
+            let fit = InterfaceFit::new(&points, &DOMAIN, (0.1, H), &wall).held_to(&law);
+            let bends: Vec<Bend> = fit.lines().iter().filter_map(|line| line.bend(60_f64.to_radians())).collect();
+            let fit = fit.with_bends(&bends);
+            for point in points.iter().filter(|p| p.x.norm() < 0.4) {
+                let kappa = fit.curvature(point.x).unwrap();
+                assert!(
+                    (kappa - 1.0).abs() < 3e-3,
+                    "at {degrees} degrees, {:.3} from the edge: {kappa}",
+                    point.x.norm()
                 );
             }
         }
@@ -334,9 +396,8 @@ mod tests {
             );
             let law = |_, _| angle;
             let at = |gradient: f64| {
-                let fit = InterfaceFit::new(&points, &domain(), (0.1, H), &floor)
-                    .under(Vec2::new(0.0, gradient))
-                    .held_to(&law);
+                let fit =
+                    InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor).under(Vec2::new(0.0, gradient)).held_to(&law);
                 let near_wall = profile.iter().filter(|(_, z, ..)| depth - z < 0.3);
                 let error = |x: f64, z: f64, exact: f64| fit.curvature(Vec2::new(x, depth - z)).unwrap() - exact;
                 let largest = near_wall.map(|(x, z, _, exact)| error(*x, *z, *exact).abs()).fold(0.0, f64::max);
@@ -352,7 +413,7 @@ mod tests {
     fn a_cap_that_is_too_steep_bends_outwards_at_the_wall() {
         let points = circle(0.0);
         let fit = |angle: f64| {
-            InterfaceFit::new(&points, &domain(), (0.1, H), &floor)
+            InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor)
                 .held_to(&|_, _| angle)
                 .curvature(Vec2::new(1.0, 0.02))
                 .unwrap()

@@ -3,8 +3,10 @@
 //! [`SurfaceForce::Csf`] is the paper's: a volume force in a band, with the contact line force beside it. In
 //! [`SurfaceForce::PressureJump`] the jump σκ enters the pressure differences across the interface, as in the ghost fluid method
 //! (Fedkiw et al. 1999; Kang et al. 2000), and the wetting law is the angle at which the interface meets the wall.
-//! `points` finds the interface, `fit` its curvature by `circles` in `windows`, `sightings` its contact lines, `jump` carries it to the pairs.
+//! `points` finds the interface, `fit` its curvature by `circles` in `windows`, `sightings` its contact lines and
+//! `bends` those at edges of walls, `jump` carries it to the pairs.
 
+pub mod bends;
 mod circles;
 pub mod equivalent;
 pub mod fit;

@@ -3,7 +3,7 @@
 //! Points nearer to the wall than 2 dx, where both phases touch it, that continue to the same place are one line. Around that place, the points within the
 //! window of a fit tell its speed and its angle. Leaves out lines with fewer points than a fit needs.
 
-use crate::math::Vec2;
+use crate::math::{Vec2, perpendicular};
 use crate::sph::domain::Domain;
 use crate::sph::surface_force::circles::{Circle, Near, angle_through, fit_from_contact};
 use crate::sph::surface_force::fit::{FEWEST_HELD, Foot, InterfaceFit};
@@ -16,32 +16,30 @@ const NEAR_WALL: f64 = 2.0;
 /// Points whose continuations meet the wall nearer to each other than this, over h, are of one line.
 const ONE_LINE: f64 = 2.0;
 
-/// Walls whose normals differ more than this (cosine) bear different lines: both sides of a narrow throat.
-const ONE_WALL: f64 = 0.3;
-
 /// A contact line as the interface shows it.
 pub struct InterfaceLine<'a> {
-    fit: &'a InterfaceFit<'a>,
-    domain: &'a Domain,
+    pub(super) fit: &'a InterfaceFit<'a>,
     /// About where it is, on the wall, in m.
-    place: Vec2,
-    outward: Vec2,
+    pub(super) place: Vec2,
+    pub(super) outward: Vec2,
     /// Wall normal.
-    normal: Vec2,
+    pub(super) normal: Vec2,
+    /// 1 where ν_ns lies to the left of the wall normal, else -1.
+    pub(super) side: f64,
     /// Mean unit normal of the interface.
-    into_wetting: Vec2,
+    pub(super) into_wetting: Vec2,
     /// The points around it, relative to the place.
-    near: Vec<Near>,
+    pub(super) near: Vec<Near>,
 }
 
 impl InterfaceFit<'_> {
     /// The contact lines in the order of their first points.
     #[must_use]
-    pub fn lines<'a>(&'a self, domain: &'a Domain) -> Vec<InterfaceLine<'a>> {
+    pub fn lines(&self) -> Vec<InterfaceLine<'_>> {
         const NONE: usize = usize::MAX;
         let feet: Vec<(usize, Foot)> = (0..self.points.len())
             .filter(|&i| self.points[i].touches && self.points[i].wall_distance < NEAR_WALL * self.spacing)
-            .filter(|&i| is_inside(domain, self.points[i].x))
+            .filter(|&i| is_inside(self.domain, self.points[i].x))
             .filter_map(|i| Some((i, self.foot(&self.points[i])?)))
             .collect();
         let mut foot_of = vec![NONE; self.points.len()];
@@ -66,23 +64,23 @@ impl InterfaceFit<'_> {
                     let (_, there) = &feet[other];
                     // From the foot of k to that of the other one; r = x_k − x_j.
                     let apart = (there.contact - r - foot.contact).norm();
-                    let same = there.outwards.dot(&foot.outwards) > 0.0 && there.normal.dot(&foot.normal) > ONE_WALL;
-                    if same && apart < ONE_LINE * self.h {
+                    // On the other side of a narrow throat, or of a small drop, ν lies on the other side of the normal.
+                    if there.side == foot.side && apart < ONE_LINE * self.h {
                         taken[other] = true;
                         group.push(other);
                     }
                 });
             }
-            lines.extend(self.line(domain, &feet, &group));
+            lines.extend(self.line(&feet, &group));
         }
         lines
     }
 
     /// The line at the mean of the feet of a group.
-    fn line<'a>(&'a self, domain: &'a Domain, feet: &[(usize, Foot)], group: &[usize]) -> Option<InterfaceLine<'a>> {
+    fn line(&self, feet: &[(usize, Foot)], group: &[usize]) -> Option<InterfaceLine<'_>> {
         let from = self.points[feet[group[0]].0].x;
         let weight = |k: &usize| self.points[feet[*k].0].weight;
-        let place = |k: &usize| domain.separation(self.points[feet[*k].0].x, from) + feet[*k].1.contact;
+        let place = |k: &usize| self.domain.separation(self.points[feet[*k].0].x, from) + feet[*k].1.contact;
         let sum: f64 = group.iter().map(weight).sum();
         if sum <= 0.0 {
             return None;
@@ -92,17 +90,18 @@ impl InterfaceFit<'_> {
         let place = mean - distance * normal;
         let into_wetting: Vec2 = group.iter().map(|k| weight(k) * self.points[feet[*k].0].normal).sum();
         let into_wetting = into_wetting.try_normalize(f64::EPSILON)?;
-        let outward = -(into_wetting - into_wetting.dot(&normal) * normal).try_normalize(f64::EPSILON)?;
+        let side = feet[group[0]].1.side;
+        let outward = side * perpendicular(normal);
         let level = self.window(into_wetting, place);
         let circle = Circle::through(&self.of_one_curvature(&level, Vec2::zeros()), into_wetting);
         let kappa = circle.and_then(|circle| circle.curvature()).unwrap_or(0.0);
         let near = self.of_one_curvature(&self.on_interface(&level, kappa), Vec2::zeros());
         (near.len() >= FEWEST_HELD).then_some(InterfaceLine {
             fit: self,
-            domain,
             place,
             outward,
             normal,
+            side,
             into_wetting,
             near,
         })
@@ -116,7 +115,7 @@ fn is_inside(domain: &Domain, x: Vec2) -> bool {
 
 impl Sighting for InterfaceLine<'_> {
     fn place(&self) -> Vec2 {
-        self.domain.wrapped(self.place)
+        self.fit.domain.wrapped(self.place)
     }
 
     fn outward(&self) -> Vec2 {
@@ -134,7 +133,7 @@ impl Sighting for InterfaceLine<'_> {
     }
 
     fn present(&self, anchor: Option<Vec2>) -> f64 {
-        let anchor = anchor.map_or(Vec2::zeros(), |anchor| self.domain.separation(anchor, self.place));
+        let anchor = anchor.map_or(Vec2::zeros(), |anchor| self.fit.domain.separation(anchor, self.place));
         let straight = (-self.into_wetting.dot(&self.normal)).clamp(-1.0, 1.0).acos();
         angle_through(&self.near, anchor, self.into_wetting, self.normal).unwrap_or(straight)
     }
@@ -194,7 +193,7 @@ mod tests {
         for degrees in [40.0_f64, 60.0, 90.0, 120.0, 140.0] {
             let (points, domain) = (drop(degrees, 0.3), domain());
             let fit = InterfaceFit::new(&points, &domain, (0.1, H), &floor);
-            let lines = fit.lines(&domain);
+            let lines = fit.lines();
             assert_eq!(lines.len(), 2, "{degrees}");
             for line in lines {
                 let side = line.outward().x;
@@ -213,7 +212,7 @@ mod tests {
     fn an_interface_that_stands_out_over_its_anchor_looks_steeper() {
         let (points, domain) = (drop(90.0, 0.0), domain());
         let fit = InterfaceFit::new(&points, &domain, (0.1, H), &floor);
-        for line in fit.lines(&domain) {
+        for line in fit.lines() {
             let inside = line.present(Some(Vec2::new(0.97 * line.outward().x, 0.0))).to_degrees();
             let outside = line.present(Some(Vec2::new(1.03 * line.outward().x, 0.0))).to_degrees();
             assert!(inside > 92.0 && outside < 88.0, "{inside} {outside}");
