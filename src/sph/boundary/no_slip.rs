@@ -24,13 +24,30 @@ pub struct NoSlip {
     pub line_slip_length: f64,
 }
 
+/// Where a wall particle stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallDepth {
+    /// Its depth in the wall in m.
+    pub depth: f64,
+    /// Curvature of the wall in 1/m, positive where the solid is convex.
+    pub curvature: f64,
+}
+
 impl NoSlip {
-    /// β = min(β_max, 1 + d_b/d_a), by which the difference v_a − v_wall is stretched so that the velocity vanishes on
-    /// the surface between them [Morris1997, Eq. 28]. `distance` d_a of the fluid particle and `depth` d_b in m.
+    /// β = min(β_max, 1 + c d_b/d_a), by which the difference v_a − v_wall is stretched so that the velocity vanishes on
+    /// the surface between them [Morris1997, Eq. 28]. `distance` d_a of the fluid particle and depth d_b in m.
+    ///
+    /// Along a wall with the curvature κ (1/m, positive where it is convex) the velocity is y − κy²/2 and not y: c = 1 + κ (d_a + d_b)/2.
     #[must_use]
-    pub fn stretch(&self, distance: f64, depth: f64) -> f64 {
-        let d_a = distance.max(CLOSEST * self.spacing);
-        (1.0 + depth.max(0.0) / d_a).min(self.largest_stretch)
+    pub fn stretch(&self, distance: f64, wall: WallDepth) -> f64 {
+        self.stretch_to(distance, wall, 0.0)
+    }
+
+    /// The same where the velocity vanishes at the depth `b` in m.
+    fn stretch_to(&self, distance: f64, wall: WallDepth, b: f64) -> f64 {
+        let (d_a, d_b) = (distance.max(CLOSEST * self.spacing), wall.depth.max(0.0));
+        let bent = 1.0 + 0.5 * wall.curvature * (d_a + d_b);
+        (1.0 + bent * (d_b - b) / (d_a + b)).min(self.largest_stretch)
     }
 
     /// The slip length b in m of a wall at the distance `line_distance` (m) from the nearest contact line, which may be infinite.
@@ -42,17 +59,15 @@ impl NoSlip {
     }
 
     /// The stretched difference of the velocity `v_ab` = v_a − v_wall: with a slip length b (m), the part along the wall is stretched by
-    /// min(β_max, (d_a + d_b)/(d_a + b)), so that it vanishes at the depth b. `normal` is that of the wall.
+    /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `normal` is that of the wall.
     #[must_use]
-    pub fn difference(&self, v_ab: Vec2, (distance, normal): (f64, Vec2), depth: f64, b: f64) -> Vec2 {
-        let beta = self.stretch(distance, depth);
+    pub fn difference(&self, v_ab: Vec2, (distance, normal): (f64, Vec2), wall: WallDepth, b: f64) -> Vec2 {
+        let beta = self.stretch(distance, wall);
         if b == 0.0 {
             return beta * v_ab;
         }
-        let d_a = distance.max(CLOSEST * self.spacing);
-        let along = ((d_a + depth.max(0.0)) / (d_a + b)).min(self.largest_stretch);
         let across = v_ab.dot(&normal) * normal;
-        beta * across + along * (v_ab - across)
+        beta * across + self.stretch_to(distance, wall, b) * (v_ab - across)
     }
 }
 
@@ -65,7 +80,8 @@ mod tests {
         let wall = NoSlip { spacing: 1.0, largest_stretch: 10.0, slip_length: 2.0, line_slip_length: 2.0 };
         // u = y + b over the wall y = 0, which rises at 3: at the depth d it is b − d, and v_y = 3 (1 + d/y) less 3.
         for (y, depth) in [(0.5, 0.5), (1.5, 2.5), (0.7, 1.5)] {
-            let v_ab = wall.difference(Vec2::new(y + 2.0, 3.0), (y, Vec2::y()), depth, 2.0);
+            let flat = WallDepth { depth, curvature: 0.0 };
+            let v_ab = wall.difference(Vec2::new(y + 2.0, 3.0), (y, Vec2::y()), flat, 2.0);
             assert!((v_ab - Vec2::new(y + depth, 3.0 * (1.0 + depth / y))).norm() < 1e-14, "{v_ab:?}");
         }
     }
@@ -73,7 +89,22 @@ mod tests {
     #[test]
     fn without_slip_length_the_whole_difference_is_stretched() {
         let wall = NoSlip { spacing: 1.0, largest_stretch: 1.5, slip_length: 0.0, line_slip_length: 0.0 };
-        assert_eq!(wall.difference(Vec2::new(2.0, 4.0), (0.5, Vec2::y()), 0.5, 0.0), Vec2::new(3.0, 6.0));
+        let flat = WallDepth { depth: 0.5, curvature: 0.0 };
+        assert_eq!(wall.difference(Vec2::new(2.0, 4.0), (0.5, Vec2::y()), flat, 0.0), Vec2::new(3.0, 6.0));
+    }
+
+    #[test]
+    fn a_vortex_around_a_cylinder_is_extrapolated_into_it() {
+        // u = r − R²/r around a cylinder at rest, as between two that turn: y − y²/2R to the second order, twice over.
+        const RADIUS: f64 = 20.0;
+        let wall = NoSlip { spacing: 1.0, largest_stretch: 100.0, slip_length: 0.0, line_slip_length: 0.0 };
+        let u = |y: f64| RADIUS + y - RADIUS * RADIUS / (RADIUS + y);
+        for (y, depth) in [(0.5, 0.5), (1.5, 1.5), (0.7, 2.5)] {
+            let exact = 1.0 - u(-depth) / u(y);
+            let error = |curvature: f64| (wall.stretch(y, WallDepth { depth, curvature }) / exact - 1.0).abs();
+            let (bent, straight) = (error(1.0 / RADIUS), error(0.0));
+            assert!(bent < 8e-3 && bent < 0.2 * straight, "{bent}, without the curvature {straight}");
+        }
     }
 
     #[test]

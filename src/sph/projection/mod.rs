@@ -10,7 +10,7 @@ mod viscous;
 
 use std::time::Instant;
 
-use crate::math::Vec2;
+use crate::math::{Vec2, perpendicular};
 use crate::solver::{PartTime, SolverError, StepInfo};
 use crate::sph::cells::Cells;
 use crate::sph::domain::{Domain, WallQuery};
@@ -30,6 +30,12 @@ const REORDER_EVERY: u64 = 20;
 /// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
 /// fluid answers to that of the buffer by a small share, so that few will do.
 const FIRST_SOLVES: usize = 6;
+
+/// The curvature of a wall is the turn of its normal this far to both sides, over dx.
+const TURN_OVER: f64 = 0.25;
+
+/// Walls with more curvature than this, over 1/h, count as edges.
+const TIGHTEST: f64 = 0.5;
 
 /// Counts of the solver's work.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -69,6 +75,8 @@ pub struct Flow {
     pub wall_depth: Vec<f64>,
     /// Normal of the wall nearest to each wall particle, into the fluid.
     pub wall_facing: Vec<Vec2>,
+    /// Curvature in 1/m of the wall nearest to each wall particle, positive where the solid is convex; 0 at edges.
+    pub wall_curvature: Vec<f64>,
     /// Open sides and what passed through them.
     pub open: Open,
     /// Time in s.
@@ -120,6 +128,7 @@ impl Flow {
             particles,
             wall_depth,
             wall_facing: Vec::new(),
+            wall_curvature: Vec::new(),
             open,
             time: 0.0,
             steps: 0,
@@ -178,10 +187,21 @@ impl Flow {
         self.reorder((0..moving).chain(order.iter().map(|&i| i as usize + moving)).collect());
     }
 
-    /// Finds where each wall particle faces; they rest.
+    /// Finds where each wall particle faces and how its wall bends; they rest.
     pub(in crate::sph) fn face_walls(&mut self) {
         let walls = &self.particles.position[self.particles.moving()..];
         self.wall_facing = walls.iter().map(|&x| (self.wall)(x).1).collect();
+        self.wall_curvature = walls.iter().map(|&x| self.curvature_of_wall(x)).collect();
+    }
+
+    /// The turn of the normal along the wall nearest to `x` (m) over its length, in 1/m.
+    fn curvature_of_wall(&self, x: Vec2) -> f64 {
+        let (distance, normal) = (self.wall)(x);
+        let (foot, along) = (x - distance * normal, perpendicular(normal));
+        let normal_at = |way: f64| (self.wall)(foot + way * along).1;
+        let step = TURN_OVER * self.method.spacing;
+        let curvature = (normal_at(step) - normal_at(-step)).dot(&along) / (2.0 * step);
+        if curvature.abs() * self.method.kernel.h < TIGHTEST { curvature } else { 0.0 }
     }
 
     fn reorder(&mut self, order: Vec<usize>) {

@@ -2,6 +2,7 @@
 
 use super::Flow;
 use crate::math::Vec2;
+use crate::sph::boundary::no_slip::WallDepth;
 use crate::sph::method::ViscousTerm;
 use crate::sph::terms::viscosity::Viscous;
 
@@ -65,17 +66,17 @@ impl Flow {
         let v_ab = velocity[a] - velocity[b];
         let f = &self.fields;
         let wall = (f.wall_distance[a], f.wall_normal[a]);
-        self.depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, wall, depth, f.slip_length[a]))
+        self.wall_depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, wall, depth, f.slip_length[a]))
     }
 
     /// The largest |v_ab| over the velocity difference: β at walls, 1 between fluid particles.
     fn stretch(&self, a: usize, b: usize) -> f64 {
-        self.depth(b).map_or(1.0, |depth| self.method.no_slip.stretch(self.fields.wall_distance[a], depth))
+        self.wall_depth(b).map_or(1.0, |depth| self.method.no_slip.stretch(self.fields.wall_distance[a], depth))
     }
 
-    /// Depth in m of a wall particle or its image, none for fluid.
-    fn depth(&self, b: usize) -> Option<f64> {
-        let source = self.images.source(b);
-        source.checked_sub(self.particles.moving()).map(|wall| self.wall_depth[wall])
+    /// Where a wall particle or its image stands, none for fluid.
+    fn wall_depth(&self, b: usize) -> Option<WallDepth> {
+        let wall = self.images.source(b).checked_sub(self.particles.moving())?;
+        Some(WallDepth { depth: self.wall_depth[wall], curvature: self.wall_curvature[wall] })
     }
 }
