@@ -152,8 +152,10 @@ fn an_interrupted_study_leaves_runs_that_can_be_taken_up() {
     let folder = folder_with(&STUDY.replace("time.end=1.5e-3", "time.end=1.5e-2"));
     let child = start(folder.path(), "out");
     let runs = folder.path().join("out/runs");
-    wait_for("a saved state", || {
-        std::fs::read_dir(&runs).into_iter().flatten().any(|run| run.unwrap().path().join("restart/state.bin").exists())
+    // Its state is saved at time zero; a second row of the series says that it steps.
+    let steps = |run: &Path| std::fs::read_to_string(run.join("series.csv")).is_ok_and(|rows| rows.lines().count() > 2);
+    wait_for("a run that steps", || {
+        std::fs::read_dir(&runs).into_iter().flatten().any(|run| steps(&run.unwrap().path()))
     });
     // A second study in the same folder is refused while the first one is at work.
     let second = run_study(folder.path(), "out");
