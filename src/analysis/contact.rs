@@ -9,8 +9,8 @@ use nalgebra::Vector3;
 
 use super::circle::{self, CircleFit};
 use super::contour::Polyline;
-use super::wall::WallPoint;
-use crate::math::{Vec2, perpendicular};
+use super::wall::{WallPoint, face_beside, is_edge_between};
+use crate::math::Vec2;
 
 /// What to fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,14 +78,8 @@ pub struct ContactLine {
     pub problem: Option<ContactProblem>,
 }
 
-/// A wall that has turned away by more than this (sine) within the exclusion distance has an edge there.
-const TURNED: f64 = 0.8;
-
 /// An arc that passes an edge nearer than this, over the exclusion distance, ends there.
 const GRAZE: f64 = 0.2;
-
-/// Cosine between the normals of both faces of an edge.
-const BENT: f64 = 0.5;
 
 /// The fewest points that are fitted: twice the unknowns.
 pub const LEAST_POINTS: usize = 6;
@@ -163,7 +157,9 @@ fn measure(
     let from = if side == WettingSide::Left { points[0] } else { points[found - 1] };
     let angle_of = |circle: &CircleFit| {
         let position = meet(circle, from, side, wall, exclusion)?;
-        Some((position, angle(circle.normal_at(position), face_under_wetting(position, side, wall, exclusion))))
+        // An interface at an edge has its angle to the face that the wetting phase covers.
+        let normal = face_beside(wall, position, side == WettingSide::Left, exclusion);
+        Some((position, angle(circle.normal_at(position), normal)))
     };
     let (position, theta) = angle_of(&circle).ok_or(ContactProblem::NoIntersection)?;
     // Derivatives of the angle by curvature, direction and offset, each by a step of one standard error or a small one.
@@ -187,15 +183,6 @@ fn measure(
         contour: 0,
         problem: None,
     })
-}
-
-/// Normal of the wall at a contact line; at an edge, where an interface can stand at many angles, of the face that the wetting phase covers.
-fn face_under_wetting(position: Vec2, side: WettingSide, wall: &dyn Fn(Vec2) -> WallPoint, exclusion: f64) -> Vec2 {
-    let normal = wall(position).normal;
-    let left = perpendicular(normal);
-    let along = if side == WettingSide::Left { left } else { -left };
-    let there = wall(position + exclusion * along).normal;
-    if there.dot(&along) > TURNED { there } else { normal }
 }
 
 /// Angle in rad between interface and wall, from the normals into the wetting phase and into the pore.
@@ -232,7 +219,7 @@ fn meet(
         if d > last && last < GRAZE * exclusion {
             let [behind, here, ahead] =
                 [-exclusion, 0.0, exclusion].map(|by| circle.walk(from, direction * (before + by)));
-            if wall(behind).normal.dot(&wall(ahead).normal) < BENT {
+            if is_edge_between(wall, behind, ahead) {
                 return Some(here);
             }
         }

@@ -1,7 +1,7 @@
 //! What a measurement needs to know of a wall at a point of the plane, and contours cut off there.
 
 use super::contour::Polyline;
-use crate::math::Vec2;
+use crate::math::{Vec2, perpendicular};
 
 /// The wall as seen from a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,6 +10,28 @@ pub struct WallPoint {
     pub distance: f64,
     /// Unit normal of the nearest wall, pointing into the pore.
     pub normal: Vec2,
+}
+
+/// A wall that has turned away by more than this (sine) has an edge.
+const TURNED: f64 = 0.8;
+
+/// Cosine between the normals of both faces of an edge.
+const BENT: f64 = 0.5;
+
+/// Whether the walls nearest to two points (m) are the faces of an edge.
+#[must_use]
+pub fn is_edge_between(wall: &dyn Fn(Vec2) -> WallPoint, behind: Vec2, ahead: Vec2) -> bool {
+    wall(behind).normal.dot(&wall(ahead).normal) < BENT
+}
+
+/// Normal of the wall at a point `x` (m) of it; where an edge stands within `reach` (m) to the left, for someone who looks into the
+/// pore, or else to the right, of the face behind that.
+#[must_use]
+pub fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool, reach: f64) -> Vec2 {
+    let normal = wall(x).normal;
+    let along = if left { perpendicular(normal) } else { -perpendicular(normal) };
+    let there = wall(x + reach * along).normal;
+    if there.dot(&along) > TURNED { there } else { normal }
 }
 
 /// The parts of `lines` in the pore, ending on the wall.

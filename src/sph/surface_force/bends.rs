@@ -30,10 +30,10 @@ const LIFT: f64 = 0.5;
 pub struct Bend {
     /// A place in m on the tangent of the wall that the interface meets.
     pub(super) place: Vec2,
-    /// ν_ns along the tangent.
-    pub(super) outwards: Vec2,
     /// The wall normal of the tangent.
     pub(super) normal: Vec2,
+    /// 1 where ν_ns lies to the left of the normal, else -1.
+    pub(super) side: f64,
 }
 
 /// A place of the wall where the interface may end, relative to the line.
@@ -73,12 +73,67 @@ impl InterfaceLine<'_> {
             let (distance, normal) = (fit.wall)(place + next);
             end = End { contact: next - distance * normal, normal };
         }
-        let place = fit.domain.wrapped(place + end.contact);
-        Some(Bend { place, outwards: self.side * perpendicular(end.normal), normal: end.normal })
+        Some(Bend { place: fit.domain.wrapped(place + end.contact), normal: end.normal, side: self.side })
     }
 
     /// A place above an end from which the wall is found again with the same normal.
     fn above(&self, end: &End) -> Vec2 {
         end.contact + LIFT * self.fit.spacing * end.normal
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::math::{Bounds, LINE_MOMENT};
+    use crate::sph::domain::Domain;
+    use crate::sph::surface_force::fit::InterfaceFit;
+    use crate::sph::surface_force::points::InterfacePoint;
+
+    const H: f64 = 0.15;
+
+    /// A quarter of the plane is solid, its edge at the origin.
+    fn wall(x: Vec2) -> (f64, Vec2) {
+        match (x.x > 0.0, x.y > 0.0) {
+            (true, true) => (x.norm(), x.normalize()),
+            (true, false) => (x.x, Vec2::x()),
+            (false, true) => (x.y, Vec2::y()),
+            (false, false) if x.x > x.y => (x.x, Vec2::x()),
+            (false, false) => (x.y, Vec2::y()),
+        }
+    }
+
+    /// Points of the level 1/2 of a drop of radius 1 on the level face that ends at the edge with an angle (rad) to that face.
+    fn drop(angle: f64) -> Vec<InterfacePoint> {
+        let (center, up) = (Vec2::new(-angle.sin(), -angle.cos()), Vec2::new(-angle.cos(), angle.sin()));
+        (0..400)
+            .map(|i| TAU * f64::from(i) / 400.0)
+            .map(|t| Vec2::new(t.cos(), t.sin()))
+            .map(|n| (center + (1.0 - LINE_MOMENT * H * H) * n, -n))
+            // The rest of its circle lies in the solid, or beyond the edge.
+            .filter(|(x, _)| x.dot(&up) > 0.0 && wall(*x).0 > 0.0)
+            .map(|(x, normal)| {
+                let (velocity, (wall_distance, wall_normal)) = (Vec2::zeros(), wall(x));
+                InterfacePoint { x, normal, velocity, wall_distance, wall_normal, touches: true, weight: 1.0 }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_drop_that_ends_at_an_edge_has_one_curvature_at_any_angle_between_those_of_both_faces() {
+        let domain = Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![]);
+        let law = |_, _| 60_f64.to_radians();
+        for degrees in [62.0_f64, 80.0, 112.0, 130.0, 148.0] {
+            let points = drop(degrees.to_radians());
+            let fit = InterfaceFit::new(&points, &domain, (0.1, H), &wall).held_to(&law);
+            let bends: Vec<Bend> = fit.lines().iter().filter_map(|line| line.bend(60_f64.to_radians())).collect();
+            let fit = fit.with_bends(&bends);
+            for point in points.iter().filter(|p| p.x.norm() < 0.4) {
+                let (kappa, from) = (fit.curvature(point.x).unwrap(), point.x.norm());
+                assert!((kappa - 1.0).abs() < 3e-3, "at {degrees} degrees, {from:.3} from the edge: {kappa}");
+            }
+        }
     }
 }
