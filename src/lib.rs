@@ -14,6 +14,7 @@ pub mod geometry;
 pub mod case;
 
 pub mod analysis;
+pub mod network;
 pub mod sph;
 pub mod thin_film;
 

@@ -8,7 +8,9 @@ use parry2d_f64::shape::{Polyline, PolylineFlags, SharedShape};
 
 use crate::geometry::cosine;
 use crate::geometry::curve::{Curve, Foot, unit};
-use crate::geometry::spec::{Capsule, HalfPlane, Polygon, Rectangle, ShapeSpec, ThroatCosine, ThroatDiscs};
+use crate::geometry::spec::{
+    Capsule, CurvedPolygon, HalfPlane, Polygon, Rectangle, ShapeSpec, ThroatCosine, ThroatDiscs,
+};
 use crate::math::{Bounds, Vec2, perpendicular};
 
 /// Straight walls without end are built this many box diagonals long: far beyond any query, and rounding stays small.
@@ -21,6 +23,8 @@ enum Inside {
     Parry(Pose, SharedShape),
     /// The side of the nearest of these surface curves; right for smooth chains only.
     Chain(Vec<Curve>),
+    /// The points that these closed curves wind around.
+    Wound(Vec<Curve>),
     /// The part of another body within a box.
     Within(Box<Inside>, Bounds),
 }
@@ -89,6 +93,7 @@ impl Body {
             ShapeSpec::Rectangle(rectangle) => vec![Self::rectangle(shape, rectangle)],
             ShapeSpec::Capsule(capsule) => vec![Self::capsule(shape, capsule)],
             ShapeSpec::Polygon(polygon) => vec![Self::polygon(shape, polygon)],
+            ShapeSpec::CurvedPolygon(polygon) => vec![Self::curved_polygon(shape, polygon)],
             ShapeSpec::Channel(channel) => {
                 let angle = channel.rotation_deg.to_radians();
                 let up = perpendicular(unit(angle)) * (0.5 * channel.width);
@@ -160,6 +165,16 @@ impl Body {
         }
         let polyline = Polyline::with_flags(vertices, Some(edges), PolylineFlags::ORIENTED);
         Self::finite(shape, curves, Pose::IDENTITY, SharedShape::new(polyline))
+    }
+
+    fn curved_polygon(shape: u32, polygon: &CurvedPolygon) -> Self {
+        let (angle, by) = (polygon.rotation_deg.to_radians(), Vec2::from(polygon.position));
+        let curves: Vec<Curve> = std::iter::once(&polygon.outer)
+            .chain(&polygon.holes)
+            .flat_map(|ring| bulged_ring(ring))
+            .map(|curve| curve.placed(angle, by))
+            .collect();
+        Self { shape, bounds: bounds_of(&curves), inside: Inside::Wound(curves.clone()), curves }
     }
 
     fn throat_discs(shape: u32, throat: &ThroatDiscs) -> Vec<Self> {
@@ -238,6 +253,7 @@ impl Inside {
                 Self::Parry(place, shape.clone())
             }
             Self::Chain(curves) => Self::Chain(curves.iter().map(|curve| curve.shifted(by)).collect()),
+            Self::Wound(curves) => Self::Wound(curves.iter().map(|curve| curve.shifted(by)).collect()),
             Self::Within(inner, bounds) => Self::Within(Box::new(inner.shifted(by)), shift(*bounds, by)),
         }
     }
@@ -253,6 +269,11 @@ impl Inside {
             }
             Self::Chain(chain) => nearest_curve(chain, x)
                 .map_or(f64::INFINITY, |(curve, foot)| (x - foot.point).dot(&curve.normal(foot.u))),
+            Self::Wound(wound) => {
+                let turns = wound.iter().map(|curve| curve.winding(x)).sum::<f64>() / std::f64::consts::TAU;
+                let sign = if turns > 0.5 { -1.0 } else { 1.0 };
+                sign * distance_to(wound, x)
+            }
             Self::Within(inner, bounds) => {
                 let out = (bounds.min - x).sup(&(x - bounds.max)).max();
                 inner.signed_distance(curves, x).max(out)
@@ -267,6 +288,14 @@ fn distance_to(curves: &[Curve], x: Vec2) -> f64 {
 
 fn shift(bounds: Bounds, by: Vec2) -> Bounds {
     Bounds { min: bounds.min + by, max: bounds.max + by }
+}
+
+/// The segments and arcs of a closed ring of vertices with bulges.
+pub(crate) fn bulged_ring(ring: &[[f64; 3]]) -> impl Iterator<Item = Curve> {
+    (0..ring.len()).map(|i| {
+        let ([x, y, bulge], [u, v, _]) = (ring[i], ring[(i + 1) % ring.len()]);
+        Curve::from_bulge(Vec2::new(x, y), Vec2::new(u, v), bulge)
+    })
 }
 
 /// The segments of a closed ring.

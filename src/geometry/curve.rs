@@ -8,7 +8,7 @@ use crate::math::{Bounds, Vec2, perpendicular};
 
 /// A segment or an arc, solid on the left.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Curve {
+pub enum Curve {
     /// A straight piece.
     Segment {
         /// Start in m.
@@ -31,7 +31,7 @@ pub(crate) enum Curve {
 
 /// The nearest point of a curve.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Foot {
+pub struct Foot {
     /// Parameter, 0 to 1; exactly 0 or 1 where the nearest point is an end.
     pub u: f64,
     /// Position in m.
@@ -39,12 +39,12 @@ pub(crate) struct Foot {
 }
 
 /// The unit vector of polar angle `angle` in rad.
-pub(crate) fn unit(angle: f64) -> Vec2 {
+pub fn unit(angle: f64) -> Vec2 {
     Vec2::new(angle.cos(), angle.sin())
 }
 
 /// The z component of the cross product.
-pub(crate) fn cross(a: Vec2, b: Vec2) -> f64 {
+pub fn cross(a: Vec2, b: Vec2) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
@@ -66,6 +66,12 @@ impl Curve {
         let center = a + perpendicular(t) * (chord.norm_squared() / (2.0 * bend));
         let from = a - center;
         Self::Arc { center, radius: from.norm(), start: from.y.atan2(from.x), sweep: 2.0 * bend.atan2(t.dot(&chord)) }
+    }
+
+    /// The edge from `a` to `b` with the given bulge, the tangent of a quarter of its signed angle; a segment where it is 0.
+    pub fn from_bulge(a: Vec2, b: Vec2, bulge: f64) -> Self {
+        let angle = 2.0 * bulge.atan();
+        Self::arc_from_tangent(a, nalgebra::Rotation2::new(-angle) * (b - a).normalize(), b)
     }
 
     /// Whether this is a full circle, which has no ends.
@@ -185,6 +191,19 @@ impl Curve {
                 Self::Arc { center: turn(center), radius, start: start + angle, sweep }
             }
         }
+    }
+
+    /// The signed angle in rad under which the curve is seen from `x`; over a closed outline 2π times its winding number.
+    pub fn winding(&self, x: Vec2) -> f64 {
+        let (a, b) = (self.point(0.0) - x, self.point(1.0) - x);
+        let chord = cross(a, b).atan2(a.dot(&b));
+        let Self::Arc { center, radius, sweep, .. } = *self else { return chord };
+        if self.is_closed() {
+            return if (x - center).norm() < radius { sweep } else { 0.0 };
+        }
+        // Seen from between chord and arc, the arc turns the other way round.
+        let is_between = (x - center).norm() < radius && cross(a, b) * sweep < 0.0;
+        if is_between { chord + sweep.signum() * TAU } else { chord }
     }
 
     /// ½ ∫ (x dy − y dx) about `origin`, in m²: summed over a closed outline it is the area on its left (Green).

@@ -6,8 +6,9 @@
 pub(crate) mod body;
 pub(crate) mod boundary;
 pub(crate) mod cosine;
-pub(crate) mod curve;
+pub mod curve;
 pub(crate) mod disc_list;
+pub mod import;
 pub(crate) mod intersect;
 pub mod measures;
 pub mod outline;

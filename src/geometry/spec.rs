@@ -17,6 +17,8 @@ pub enum ShapeSpec {
     Capsule(Capsule),
     /// A polygon, with holes.
     Polygon(Polygon),
+    /// A polygon whose edges may be circular arcs, with holes.
+    CurvedPolygon(CurvedPolygon),
     /// Two plates: all points farther than half the width from a center line.
     Channel(Channel),
     /// Two discs that leave a gap: a throat with converging and diverging walls.
@@ -78,6 +80,24 @@ pub struct Polygon {
     /// Holes in m.
     #[serde(default)]
     pub holes: Vec<Vec<[f64; 2]>>,
+    /// Shift in m, after the turn.
+    #[serde(default)]
+    pub position: [f64; 2],
+    /// Turn about the origin of the ring's coordinates in degrees.
+    #[serde(default)]
+    pub rotation_deg: f64,
+}
+
+/// A polygon of segments and circular arcs: each vertex is `[x, y, bulge]` with the bulge of the edge that begins there, the tangent
+/// of a quarter of its arc's angle: 0 straight, 1 a half circle that turns counter-clockwise, below 0 clockwise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct CurvedPolygon {
+    /// Outer ring counter-clockwise, x and y in m, at least two vertices.
+    pub outer: Vec<[f64; 3]>,
+    /// Holes, clockwise.
+    #[serde(default)]
+    pub holes: Vec<Vec<[f64; 3]>>,
     /// Shift in m, after the turn.
     #[serde(default)]
     pub position: [f64; 2],

@@ -9,7 +9,7 @@ use crate::geometry::body::{Body, Place};
 use crate::geometry::boundary::split;
 use crate::geometry::curve::cross;
 use crate::geometry::solid::Geometry;
-use crate::geometry::spec::{GeometrySpec, Polygon, ShapeSpec, SolidSide};
+use crate::geometry::spec::{CurvedPolygon, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
 
@@ -101,6 +101,7 @@ impl ShapeSpec {
             Self::Rectangle(_) => "rectangle",
             Self::Capsule(_) => "capsule",
             Self::Polygon(_) => "polygon",
+            Self::CurvedPolygon(_) => "curved-polygon",
             Self::Channel(_) => "channel",
             Self::ThroatDiscs(_) => "throat-discs",
             Self::ThroatCosine(_) => "throat-cosine",
@@ -130,6 +131,7 @@ impl ShapeSpec {
                 check.positive("radius", &[s.radius]);
             }
             Self::Polygon(s) => check.polygon(s),
+            Self::CurvedPolygon(s) => check.curved_polygon(s),
             Self::Channel(s) => {
                 check.finite("center", &s.center);
                 check.positive("width", &[s.width]);
@@ -194,6 +196,18 @@ impl Check {
             for error in to_geo(polygon).validation_errors() {
                 self.invalid(&error);
             }
+        }
+    }
+
+    fn curved_polygon(&mut self, polygon: &CurvedPolygon) {
+        self.finite("position", &polygon.position);
+        self.finite("rotation-deg", &[polygon.rotation_deg]);
+        for (key, ring) in std::iter::once(("outer", &polygon.outer)).chain(polygon.holes.iter().map(|h| ("holes", h)))
+        {
+            if ring.len() < 2 {
+                self.add(key, format!("the ring has {} vertices", ring.len()), "a ring needs at least two vertices");
+            }
+            self.finite(key, ring.as_flattened());
         }
     }
 

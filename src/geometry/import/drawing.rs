@@ -1,0 +1,76 @@
+//! What a reader finds in a drawing, in the drawing's own unit and before anything is scaled, recognized or cut.
+
+use std::collections::BTreeMap;
+
+use crate::math::{Bounds, Vec2};
+
+/// A closed ring of segments and circular arcs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ring {
+    /// x, y and the bulge of the edge that begins there (the tangent of a quarter of its signed angle); the first vertex is not repeated.
+    pub vertices: Vec<[f64; 3]>,
+}
+
+/// Which points a set of rings covers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FillRule {
+    /// Those that a ray leaves through an odd number of edges.
+    #[default]
+    EvenOdd,
+    /// Those that the rings wind around, whatever the direction.
+    NonZero,
+}
+
+/// A filled shape of a drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outline {
+    /// A circle, exact.
+    Disc {
+        /// Center.
+        center: Vec2,
+        /// Radius.
+        radius: f64,
+    },
+    /// Rings in any order and direction, filled together by one rule.
+    Area {
+        /// The rings.
+        rings: Vec<Ring>,
+        /// Which points are covered.
+        rule: FillRule,
+    },
+}
+
+/// A filled shape and where it stands in the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entity {
+    /// The shape.
+    pub outline: Outline,
+    /// Where it stands, for messages: `line 12`, `LWPOLYLINE 2F`, `feature 3`.
+    pub place: String,
+}
+
+/// A unit of length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unit {
+    /// Its name, as in `mm`.
+    pub name: String,
+    /// Its length in m.
+    pub meters: f64,
+}
+
+/// All that a reader finds in a file.
+#[derive(Debug, Clone, Default)]
+pub struct Drawing {
+    /// The filled shapes.
+    pub entities: Vec<Entity>,
+    /// The unit that the file names, where it names one.
+    pub unit: Option<Unit>,
+    /// The page or domain that the file names, where it names one.
+    pub frame: Option<Bounds>,
+    /// The layers of the file with the number of entities on each, where the format has layers.
+    pub layers: BTreeMap<String, usize>,
+    /// What was read and is not used, by kind, with its number: text, hatches, open lines, other layers.
+    pub unused: BTreeMap<String, usize>,
+    /// What the user should know beside that, one sentence each.
+    pub notes: Vec<String>,
+}

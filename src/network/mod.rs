@@ -1,0 +1,3 @@
+//! Pore networks: extraction from the exact geometry, menisci in throats, displacement, conductance and permeability.
+
+pub mod graph;
