@@ -64,5 +64,6 @@ fn spacing(case: &Case) -> f64 {
     match &case.model {
         Model::Sph(sph) => sph.spacing,
         Model::ThinFilm(film) => film.spacing,
+        Model::Network(_) => 0.0,
     }
 }
