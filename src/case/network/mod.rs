@@ -3,8 +3,10 @@
 
 mod check;
 pub mod checked;
+mod quick;
 pub mod raw;
 mod resolve;
 
 pub(super) use check::network;
+pub use quick::quick;
 pub(super) use resolve::raw as resolved;
