@@ -11,8 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::cycles::Cycles;
 use super::displacement::{Conditions, Displacement, EventKind};
 use super::graph::{Network, Pores};
-use super::summary::{self, PoreStates};
-use super::{layers, measures, openpnm, pictures, tables};
+use super::{layers, measures, openpnm, pictures, summary, tables};
 use crate::diagram::Diagram;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
@@ -153,7 +152,7 @@ impl Solver for NetworkSolver {
         let mut row = vec![sample("displaced_pore_volumes", self.clock), sample("step", self.steps() as f64)];
         if let Some(cycles) = &self.cycles {
             let tension = self.setting.tension.unwrap_or(f64::NAN);
-            let invaded = PoreStates::new(&self.setting, cycles).invaded();
+            let invaded = summary::invaded_pores(&self.setting, cycles);
             row.extend([
                 sample("half_cycle", (cycles.half_cycle_index() + 1) as f64),
                 sample("saturation", cycles.saturation()),

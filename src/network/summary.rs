@@ -35,12 +35,22 @@ impl PoreStates {
         let invading = cycles.half_cycle().invading;
         Self(elements_of.iter().map(|elements| state(cycles, elements, invading)).collect())
     }
+}
 
-    /// Number of pores that the invading phase holds.
-    #[must_use]
-    pub fn invaded(&self) -> usize {
-        self.0.iter().filter(|state| state.invasion.is_some()).count()
+/// Number of pores that the invading phase came to hold in the present half cycle.
+#[must_use]
+pub fn invaded_pores(setting: &Setting, cycles: &Cycles) -> usize {
+    let mut filled = vec![[0.0; 2]; setting.pores.main_region.len()];
+    for (index, element) in cycles.displacement().elements().iter().enumerate() {
+        let [before, now] = &mut filled[setting.pores.pore_of[element.region]];
+        match cycles.invasions()[index] {
+            Some(_) => *now += element.area,
+            None if cycles.displacement().phase(index) == Phase::Invading => *before += element.area,
+            None => {}
+        }
     }
+    let halves = setting.pores.area.iter().map(|area| 0.5 * area);
+    filled.iter().zip(halves).filter(|([before, now], half)| before <= half && before + now > *half).count()
 }
 
 fn state(cycles: &Cycles, elements: &[usize], invading: Fluid) -> PoreState {
