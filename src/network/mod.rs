@@ -1,3 +1,4 @@
 //! Pore networks: extraction from the exact geometry, menisci in throats, displacement, conductance and permeability.
 
 pub mod graph;
+pub mod menisci;
