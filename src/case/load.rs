@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::check::{self, Checker};
 use super::checked::{Case, Model};
 use super::raw::{RawCase, RawGeometry, RawShapeFile};
-use super::{film, resolve, shapes, sph};
+use super::{film, network, resolve, shapes, sph};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Document, InputError, Mistake, Overrides, Problem};
 
@@ -78,7 +78,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
         Some(raw) => geometry(&mut checker, raw, origin, &mut sources, &mut elsewhere),
     };
     let model = model(&mut checker, raw, geometry.as_ref());
-    let end = check::end(&mut checker, raw);
+    let end = check::end(&mut checker, raw, model.as_ref());
     let output = check::output(&mut checker, raw, end);
     let expect = check::expectations(&mut checker, raw);
     let mut mistakes = reading.refuse(checker.problems);
@@ -94,20 +94,24 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
 }
 
 fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>) -> Option<Model> {
-    match (&raw.sph, &raw.thin_film) {
-        (Some(raw), None) => sph::sph(checker, raw, geometry).map(|sph| Model::Sph(Box::new(sph))),
-        (None, Some(raw)) => film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
-        (Some(_), Some(_)) => {
-            let message = "expected exactly one model, found `sph` and `thin-film`";
-            checker.refuse(
-                "thin-film",
-                message,
-                "use [sph], direct simulation, or [thin-film], a droplet on a flat wall",
-            );
+    match (&raw.sph, &raw.thin_film, &raw.network) {
+        (Some(raw), None, None) => sph::sph(checker, raw, geometry).map(|sph| Model::Sph(Box::new(sph))),
+        (None, Some(raw), None) => film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
+        (None, None, Some(raw)) => {
+            network::network(checker, raw, geometry).map(|network| Model::Network(Box::new(network)))
+        }
+        (None, None, None) => {
+            checker.refuse("sph", "expected a model, found none", "add the table [sph], [thin-film] or [network]");
             None
         }
-        (None, None) => {
-            checker.refuse("sph", "expected a model, found none", "add the table [sph], or [thin-film]");
+        (sph, film, network) => {
+            let given = [("sph", sph.is_some()), ("thin-film", film.is_some()), ("network", network.is_some())];
+            let names: Vec<&str> = given.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
+            checker.refuse(
+                names.last().copied().unwrap_or_default(),
+                format!("expected exactly one model, found `{}`", names.join("` and `")),
+                "use [sph], direct simulation, [thin-film], a droplet on a flat wall, or [network], slow displacement in many pores",
+            );
             None
         }
     }

@@ -37,8 +37,8 @@ pub enum Command {
     Schema(SchemaArguments),
     /// Print a completion script for a shell
     Completions(CompletionArguments),
-    /// Pore networks (not yet available)
-    Network(AnyArguments),
+    /// Extract pores and throats of a shape file, and displace one fluid by another in them
+    Network(NetworkArguments),
     /// Parameter studies: many runs from one file, with a table, curves and a page
     #[command(subcommand)]
     Study(StudyCommand),
@@ -85,6 +85,89 @@ pub struct GeometryArguments {
     /// Folder for outline, signed distance and picture; nothing is written where there is none
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// `network`.
+#[derive(Debug, Args)]
+pub struct NetworkArguments {
+    /// Shape file, or a case file
+    pub file: PathBuf,
+    /// Persistence ratio above which two maxima of the wall distance are one pore, 0.5 to 1 (default 0.95)
+    #[arg(long, value_name = "RATIO")]
+    pub persistence: Option<f64>,
+    /// Contact angle through the wetting phase in degrees (default 0)
+    #[arg(long, value_name = "DEGREES")]
+    pub angle_deg: Option<f64>,
+    /// Interfacial tension in N/m (default 1, so that pressures are those per N/m)
+    #[arg(long, value_name = "N_PER_M")]
+    pub tension: Option<f64>,
+    /// Side that the invading phase enters through; where there is none, the network is extracted and nothing is displaced
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub inlet: Option<SideName>,
+    /// Side that the defending phase leaves through
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub outlet: Option<SideName>,
+    /// What is displaced (default drainage)
+    #[arg(long, value_enum, value_name = "PROCESS")]
+    pub process: Option<NetworkProcess>,
+    /// Number of cycles, with --process cycle (default 1)
+    #[arg(long, value_name = "N")]
+    pub cycles: Option<u32>,
+    /// Whether a defending region without a way to the outlet is trapped (default true)
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
+    pub trapping: Option<bool>,
+    /// Joins opposite sides
+    #[arg(long, value_enum, value_name = "AXES")]
+    pub periodic: Option<PeriodicAxes>,
+    /// Output folder, new or empty; where there is none: out/NAME-network, out/NAME-network-2, ...
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads; all cores where there is none. The results do not depend on it
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
+}
+
+impl NetworkArguments {
+    /// Whether menisci matter: something is displaced, or entry pressures are asked for.
+    #[must_use]
+    pub fn has_interface(&self) -> bool {
+        self.inlet.is_some() || self.angle_deg.is_some() || self.tension.is_some()
+    }
+}
+
+/// A side of the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SideName {
+    /// x = min
+    Left,
+    /// x = max
+    Right,
+    /// y = min
+    Bottom,
+    /// y = max
+    Top,
+}
+
+/// What is displaced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum NetworkProcess {
+    /// The wetting phase by the non-wetting one
+    Drainage,
+    /// The non-wetting phase by the wetting one
+    Imbibition,
+    /// Both in turn
+    Cycle,
+}
+
+/// Axes along which opposite sides are joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PeriodicAxes {
+    /// Left and right
+    X,
+    /// Bottom and top
+    Y,
+    /// Both pairs
+    Xy,
 }
 
 /// `study`.
@@ -194,12 +277,4 @@ pub struct SchemaArguments {
 pub struct CompletionArguments {
     /// The shell
     pub shell: Shell,
-}
-
-/// Arguments of a command that is not yet available.
-#[derive(Debug, Args)]
-pub struct AnyArguments {
-    /// Not read
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    pub rest: Vec<String>,
 }

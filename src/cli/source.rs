@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use super::exit::{BAD_INPUT, Failure};
-use crate::case::checked::Case;
+use crate::case::checked::{Case, Model};
 use crate::case::{self, Loaded};
 use crate::geometry::Geometry;
+use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
 use crate::input::{InputError, Overrides};
 use crate::run::setup;
@@ -58,6 +59,23 @@ fn load(path: Option<&Path>, overrides: &[String]) -> Result<Loaded, InputError>
         Some(path) => case::load(path, &overrides),
         None => case::load_default(&overrides),
     }
+}
+
+/// Whether a file is a case file, and no shape file: TOML with a table `geometry`.
+pub fn is_case_file(path: &Path) -> bool {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let is_toml = path.extension().is_some_and(|extension| extension == "toml");
+    is_toml && text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("geometry"))
+}
+
+/// Whether a case is one of a network.
+pub fn is_network(case: &Case) -> bool {
+    matches!(case.model, Model::Network(_))
+}
+
+/// Loads a shape file.
+pub fn geometry_of_file(path: &Path) -> Result<GeometrySpec, Failure> {
+    case::load_shapes(path).map_err(Failure::input)
 }
 
 /// Loads and measures a shape file.

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::film::raw::RawThinFilm;
+use super::network::raw::RawNetwork;
 use crate::geometry::spec::{ShapeSpec, SolidSide};
 
 /// Derives and attributes of every table of a case file or another input file.
@@ -52,7 +53,9 @@ tables! {
         pub sph: RawSph,
         /// Droplets on a flat wall, by a thin-film equation.
         pub thin_film: RawThinFilm,
-        /// How long the simulation runs.
+        /// A pore network and a quasi-static displacement in it.
+        pub network: RawNetwork,
+        /// How long the simulation runs; not with `[network]`.
         pub time: RawTime,
         /// What is written and when.
         pub output: RawOutput,
@@ -96,9 +99,9 @@ tables! {
 
     /// What is written and when.
     pub struct RawOutput {
-        /// Particle, grid and interface files (default: 50 records).
+        /// Particle, grid and interface files (default: 50 records; with `[network]`: 50 in each half cycle).
         pub vtk: RawEvery,
-        /// Rows of series.csv (default: 200 records).
+        /// Rows of series.csv (default: 200 records; with `[network]`: 200 in each half cycle).
         pub series: RawEvery,
         /// The regular grid.
         pub grid: RawGrid,
@@ -110,6 +113,8 @@ tables! {
     pub struct RawEvery {
         /// Time between records in s.
         pub every_time: f64,
+        /// Displaced pore volumes between records, with `[network]`.
+        pub every_pore_volume: f64,
     }
 
     /// The regular grid of the output.

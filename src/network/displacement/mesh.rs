@@ -48,7 +48,7 @@ pub(super) struct Mesh {
 }
 
 /// The loop of a region.
-fn loop_of(region: &Region) -> Loop {
+pub(super) fn loop_of(region: &Region) -> Loop {
     let mut found = Loop::default();
     let mut wall = Vec::new();
     // Beginning after a crossing, so that no stretch of wall is split where the list of edges begins.

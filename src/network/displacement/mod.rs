@@ -18,7 +18,7 @@ use self::loops::Loop;
 use self::mesh::Mesh;
 use self::outflow::Outflow;
 use self::walls::{Sides, gate_walls};
-use super::graph::{Network, Pores, WallPiece};
+use super::graph::{Network, Pores, Region, WallPiece};
 use super::menisci::{Passage, Wall, WallPart, overlap};
 use crate::geometry::curve::Curve;
 use crate::math::Vec2;
@@ -358,6 +358,12 @@ impl Displacement {
         }
         found
     }
+}
+
+/// The boundary of a region as a polygon in m, arcs as chords, for pictures.
+#[must_use]
+pub fn outline(region: &Region) -> Vec<Vec2> {
+    mesh::loop_of(region).outline()
 }
 
 /// The next event, which is done; none where no meniscus can move any more.
