@@ -156,7 +156,7 @@ impl Cycles {
     #[must_use]
     pub fn new(network: Arc<Network>, pores: Arc<Pores>, half_cycles: Vec<HalfCycle>) -> Option<Self> {
         let first = half_cycles.first()?;
-        let displacement = Displacement::new(Arc::clone(&network), Arc::clone(&pores), first.conditions.clone());
+        let displacement = Displacement::new(&network, &pores, first.conditions.clone());
         let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
         let wetting_area = if first.invading == Fluid::Wetting { 0.0 } else { pore_area };
         let invasions = vec![None; displacement.elements().len()];

@@ -39,7 +39,7 @@ pub fn extract(geometry: &Geometry, open: [bool; 4]) -> Result<Network, ExtractE
             let start = from.y.atan2(from.x);
             let sweep = (from.x * to.y - from.y * to.x).atan2(from.dot(&to));
             let curve = Curve::Arc { center: a.0, radius: a.1, start, sweep };
-            edges.push(Edge::Wall(vec![WallPiece { curve, shape: a.2 }]));
+            edges.push(Edge::Wall(vec![WallPiece { curve, whole: Curve::circle(a.0, a.1), shape: a.2 }]));
             area -= 0.5 * a.1 * a.1 * sweep.abs();
             let half = 3 * tri + k;
             let (f, g) = (a.0 + to * a.1, b.0 - to * b.1);

@@ -3,6 +3,7 @@
 pub mod cycles;
 pub mod displacement;
 pub mod graph;
+pub mod menisci;
 pub mod setup;
 pub mod solver;
 

@@ -97,8 +97,8 @@ impl NetworkSolver {
     pub fn entry_curvatures(&self) -> Option<Vec<f64>> {
         let Setting { network, pores, entry, .. } = &self.setting;
         let conditions = entry.clone()?;
-        let at_rest = Displacement::new(Arc::clone(network), Arc::clone(pores), conditions);
-        Some((0..network.throats.len()).map(|throat| at_rest.entry_curvature(throat)).collect())
+        let at_rest = Displacement::new(network, pores, conditions);
+        Some(at_rest.entry_curvatures(network.throats.len()))
     }
 
     fn count(&self, kind: EventKind) -> f64 {
@@ -222,12 +222,7 @@ impl Solver for NetworkSolver {
     }
 
     fn statistics(&self) -> Statistics {
-        let counts = [
-            ("bursts", EventKind::Burst),
-            ("touches", EventKind::Touch),
-            ("overlaps", EventKind::Overlap),
-            ("reconnections", EventKind::Reconnection),
-        ];
+        let counts = [("bursts", EventKind::Burst), ("touches", EventKind::Touch), ("overlaps", EventKind::Overlap)];
         let parts = ["network: extraction", "network: displacement"].into_iter().zip(self.seconds);
         Statistics {
             unknowns: self.setting.pores.main_region.len(),

@@ -217,6 +217,5 @@ pub(super) fn kind_name(kind: EventKind) -> &'static str {
         EventKind::Burst => "burst",
         EventKind::Touch => "touch",
         EventKind::Overlap => "overlap",
-        EventKind::Reconnection => "reconnection",
     }
 }
