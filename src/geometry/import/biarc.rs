@@ -83,8 +83,12 @@ impl Biarc {
         let second = -bulge_from_tangent(-to, joint - b);
         let bulges = [first, second];
         // Also false where a tangent is missing or an arm infinite.
-        (arm > 0.0 && arm.is_finite() && bulges.iter().all(|bulge| bulge.abs() <= LARGEST_BULGE))
-            .then_some(Self { a, joint, b, bulges })
+        (arm > 0.0 && arm.is_finite() && bulges.iter().all(|bulge| bulge.abs() <= LARGEST_BULGE)).then_some(Self {
+            a,
+            joint,
+            b,
+            bulges,
+        })
     }
 
     /// The distance of `x` from the nearer circle of the two.
@@ -183,6 +187,8 @@ mod tests {
             assert!((distance_to_circle(a, b, bulge, x) - expected).abs() < 1e-14);
             assert!((distance_to_circle(b, a, -bulge, x) - expected).abs() < 1e-14);
         }
-        assert!((distance_to_circle(Vec2::zeros(), Vec2::new(2.0, 0.0), 0.0, Vec2::new(9.0, -3.0)) - 3.0).abs() < 1e-15);
+        assert!(
+            (distance_to_circle(Vec2::zeros(), Vec2::new(2.0, 0.0), 0.0, Vec2::new(9.0, -3.0)) - 3.0).abs() < 1e-15
+        );
     }
 }

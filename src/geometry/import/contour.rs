@@ -60,6 +60,8 @@ pub enum Closed {
         center: Vec2,
         /// Radius.
         radius: f64,
+        /// Whether the contour runs around it clockwise.
+        is_clockwise: bool,
     },
     /// A ring of segments and arcs.
     Ring(Ring),
@@ -257,27 +259,32 @@ impl Piece {
     }
 }
 
-/// The closed shape of pieces that follow each other; a last one that does not end where the first begins is joined to it by a line.
-pub fn close(pieces: &[Piece]) -> Closed {
+/// The closed shape of pieces that follow each other; a last one that ends farther than `gap` from where the first begins is joined to it
+/// by a line.
+pub fn close(pieces: &[Piece], gap: f64) -> Closed {
     if let [Piece::Ellipse(arc)] = pieces
         && arc.sweep.abs() >= TAU
         && arc.is_circular()
     {
         let radius = arc.mean_radius();
-        return if radius > 0.0 { Closed::Circle { center: arc.center, radius } } else { Closed::Empty };
+        let is_clockwise = (arc.sweep < 0.0) != (cross(arc.radii[0], arc.radii[1]) < 0.0);
+        return if radius > 0.0 { Closed::Circle { center: arc.center, radius, is_clockwise } } else { Closed::Empty };
     }
     let mut vertices = Vec::new();
     for piece in pieces {
         piece.append(&mut vertices);
     }
     if let Some(piece) = pieces.last() {
-        let end = piece.ends()[1];
-        vertices.push([end.x, end.y, 0.0]);
+        let (start, end) = (pieces[0].ends()[0], piece.ends()[1]);
+        if !((end - start).norm() <= gap) {
+            vertices.push([end.x, end.y, 0.0]);
+        }
     }
     let size = extent(&vertices);
     merge_vertices(&mut vertices, ONE_VERTEX * size);
     if let Some((center, radius)) = one_circle(&vertices) {
-        return Closed::Circle { center, radius };
+        let is_clockwise = vertices.first().is_some_and(|vertex| vertex[2] < 0.0);
+        return Closed::Circle { center, radius, is_clockwise };
     }
     if vertices.len() < 2 || !(area(&vertices).abs() > NO_AREA * size * size) {
         return Closed::Empty;
@@ -368,7 +375,7 @@ mod tests {
     use super::*;
 
     fn ring(pieces: &[Piece]) -> Ring {
-        match close(pieces) {
+        match close(pieces, 0.0) {
             Closed::Ring(ring) => ring,
             other => panic!("{other:?}"),
         }
@@ -391,7 +398,10 @@ mod tests {
     fn a_circle_stays_one_under_turns_and_becomes_an_ellipse_under_stretching() {
         let piece = Piece::Ellipse(EllipticArc::circle(Vec2::new(1.0, 2.0), 3.0));
         let turned = Affine::rotation_deg(27.0).after(&Affine::scaling(-2.0, 2.0));
-        let Closed::Circle { center, radius } = close(&[piece.mapped(&turned)]) else { panic!("no circle") };
+        let Closed::Circle { center, radius, is_clockwise } = close(&[piece.mapped(&turned)], 0.0) else {
+            panic!("no circle")
+        };
+        assert!(is_clockwise, "the map mirrors");
         assert!((center - turned.apply(Vec2::new(1.0, 2.0))).norm() < 1e-14);
         assert!((radius - 6.0).abs() < 1e-14);
         let stretched = ring(&[piece.mapped(&Affine::scaling(1.0, 2.0))]);
@@ -403,11 +413,13 @@ mod tests {
         let points = [Vec2::new(-1.0, 0.0), Vec2::new(1.0, 0.0)];
         let half = |bulge| Piece::from_bulge(points, bulge);
         let back = |bulge| Piece::from_bulge([points[1], points[0]], bulge);
-        assert!(matches!(close(&[half(1.0), back(1.0)]), Closed::Circle { radius, .. } if (radius - 1.0).abs() < 1e-15));
+        assert!(
+            matches!(close(&[half(1.0), back(1.0)], 0.0), Closed::Circle { radius, .. } if (radius - 1.0).abs() < 1e-15)
+        );
         let lens = ring(&[half(0.5), back(0.5)]);
         let (angle, radius) = (4.0 * 0.5f64.atan(), 1.25);
         assert!((area(&lens.vertices) - radius * radius * (angle - angle.sin())).abs() < 1e-14);
-        assert_eq!(close(&[half(1.0), back(-1.0)]), Closed::Empty);
+        assert_eq!(close(&[half(1.0), back(-1.0)], 0.0), Closed::Empty);
     }
 
     #[test]
@@ -424,13 +436,16 @@ mod tests {
     fn a_bezier_curve_with_a_cusp_and_one_that_begins_without_speed_are_read() {
         let p = Vec2::new;
         // The cusp at (1/2, 3/4): the derivative vanishes there. Area by Green's theorem on the polynomial.
-        for points in [
-            [p(0.0, 0.0), p(1.0, 1.0), p(0.0, 1.0), p(1.0, 0.0)],
-            [p(0.0, 0.0), p(0.0, 0.0), p(0.0, 1.0), p(1.0, 0.0)],
-        ] {
+        for points in
+            [[p(0.0, 0.0), p(1.0, 1.0), p(0.0, 1.0), p(1.0, 0.0)], [p(0.0, 0.0), p(0.0, 0.0), p(0.0, 1.0), p(1.0, 0.0)]]
+        {
             let [a, b, c, d] = points;
             let exact = 0.05
-                * (6.0 * cross(a, b) + 3.0 * cross(a, c) + cross(a, d) + 3.0 * cross(b, c) + 3.0 * cross(b, d)
+                * (6.0 * cross(a, b)
+                    + 3.0 * cross(a, c)
+                    + cross(a, d)
+                    + 3.0 * cross(b, c)
+                    + 3.0 * cross(b, d)
                     + 6.0 * cross(c, d))
                 + 0.5 * cross(d, a);
             let ring = ring(&[Piece::Cubic(points)]);

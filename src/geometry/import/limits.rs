@@ -6,7 +6,7 @@ use crate::math::Vec2;
 /// number, so that no length derived from it overflows.
 const LARGEST_COORDINATE: f64 = 1e38;
 /// Items that a file of any size may hold; each takes about 100 bytes.
-const FREE_ITEMS: usize = 100_000;
+const FREE_ITEMS: usize = 500_000;
 
 /// How many more items, shapes and vertices alike, a file may unfold into.
 #[derive(Debug)]
@@ -16,7 +16,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// The budget of a file of `bytes` bytes: 100,000 items and one more for each byte.
+    /// The budget of a file of `bytes` bytes: 500,000 items and one more for each byte.
     pub fn of_file(bytes: usize) -> Self {
         let total = FREE_ITEMS.saturating_add(bytes);
         Self { left: total, total }

@@ -200,7 +200,13 @@ fn solve_cyclic(rows: &[Row]) -> Vec<Vec2> {
     open[n - 1].0[1] -= corner_first * corner_last / gamma;
     let mut unit = open.clone();
     for (i, row) in unit.iter_mut().enumerate() {
-        let entry = if i == 0 { gamma } else if i == n - 1 { corner_last } else { 0.0 };
+        let entry = if i == 0 {
+            gamma
+        } else if i == n - 1 {
+            corner_last
+        } else {
+            0.0
+        };
         row.1 = Vec2::new(entry, 0.0);
     }
     let (y, z) = (solve(&open), solve(&unit));

@@ -136,19 +136,22 @@ fn arc(ends: [Vec2; 2], radii: [f64; 2], rotation_deg: f64, [is_large, is_positi
     let half = to_unit(b - a) * 0.5;
     let stretch = half.norm_squared();
     // Radii too small for the distance of the ends grow until they reach.
-    let (grown, height) = if stretch > 1.0 - HALF_TURN {
-        (stretch.sqrt(), 0.0)
-    } else {
-        (1.0, ((1.0 - stretch) / stretch).sqrt())
-    };
+    let (grown, height) =
+        if stretch > 1.0 - HALF_TURN { (stretch.sqrt(), 0.0) } else { (1.0, ((1.0 - stretch) / stretch).sqrt()) };
     let side = if is_large == is_positive { -1.0 } else { 1.0 };
     // The unit center, seen from the middle of the ends.
-    let center = Vec2::new(-half.y, half.x) * (-side * height) / grown;
+    let center = Vec2::new(-half.y, half.x) * (side * height) / grown;
     let half = half / grown;
     let (from, to) = (-half - center, half - center);
     let angle = cross(from, to).atan2(from.dot(&to));
     let sweep = match (is_positive, angle > 0.0) {
-        _ if height == 0.0 => if is_positive { std::f64::consts::PI } else { -std::f64::consts::PI },
+        _ if height == 0.0 => {
+            if is_positive {
+                std::f64::consts::PI
+            } else {
+                -std::f64::consts::PI
+            }
+        }
         (true, false) => angle + std::f64::consts::TAU,
         (false, true) => angle - std::f64::consts::TAU,
         _ => angle,

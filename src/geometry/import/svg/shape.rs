@@ -38,10 +38,8 @@ pub fn contours(node: Node, viewport: Viewport) -> Result<Vec<Subpath>, String> 
             let (rx, ry) = (size("rx", Along::X)?, size("ry", Along::Y)?);
             let [width, height] = [size("width", Along::X)?, size("height", Along::Y)?].map(|side| side.unwrap_or(0.0));
             let corner = Vec2::new(length("x", Along::X)?, length("y", Along::Y)?);
-            let radii = Vec2::new(
-                rx.or(ry).unwrap_or(0.0).min(0.5 * width),
-                ry.or(rx).unwrap_or(0.0).min(0.5 * height),
-            );
+            let radii =
+                Vec2::new(rx.or(ry).unwrap_or(0.0).min(0.5 * width), ry.or(rx).unwrap_or(0.0).min(0.5 * height));
             let is_drawn = width > 0.0 && height > 0.0;
             Ok(if is_drawn { closed(rectangle(corner, Vec2::new(width, height), radii)) } else { Vec::new() })
         }
@@ -71,8 +69,7 @@ fn points(node: Node, is_polygon: bool) -> Result<Vec<Subpath>, String> {
     let points: Vec<Vec2> = PointsParser::from(text).map(|(x, y)| Vec2::new(x, y)).collect();
     // The parser stops at what it cannot read and drops half a point.
     let numbers = text.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty()).count();
-    let last_is_read = PointsParser::from(text).count() * 2 >= numbers;
-    if !last_is_read {
+    if points.len() * 2 < numbers {
         return Err(format!("points=\"...\" with {} points and something else behind", points.len()));
     }
     let pieces: Vec<Piece> = points.windows(2).map(|pair| Piece::Line([pair[0], pair[1]])).collect();
