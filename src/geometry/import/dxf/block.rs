@@ -13,6 +13,8 @@ use crate::math::Vec2;
 
 /// Blocks within blocks.
 const DEEPEST: usize = 64;
+/// Groups that an entity may have for each item of the budget.
+const GROUPS_PER_ITEM: usize = 32;
 /// Messages after which the rest of a file is not looked at.
 const MOST_REFUSALS: usize = 20;
 
@@ -79,7 +81,8 @@ impl Reader<'_> {
         let mut at = 0;
         while at < records.len() && !self.is_over {
             let record = &records[at];
-            if !self.spend(1, || record.place()) {
+            // Long entities without vertices, as long texts, cost time alone.
+            if !self.spend(1 + record.groups.len() / GROUPS_PER_ITEM, || record.place()) {
                 return;
             }
             match entity::read(&records[at..]) {
@@ -150,7 +153,8 @@ impl Reader<'_> {
             self.closed(&pieces, CLOSING_GAP * size, record.place());
         } else {
             let open = self.open.entry(layer.to_owned()).or_default();
-            open.extend(pieces.into_iter().map(|piece| (piece, record.place())));
+            let place = record.place();
+            open.extend(pieces.into_iter().map(|piece| (piece, place.clone())));
         }
     }
 

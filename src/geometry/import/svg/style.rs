@@ -24,6 +24,9 @@ const PROPERTIES: [&str; 9] = [
     "opacity",
 ];
 
+/// Rules for one class, id or kind of element; each is tried at each of its elements.
+pub const MOST_RULES: usize = 200;
+
 /// With what a shape is filled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fill {
@@ -148,6 +151,11 @@ impl StyleSheet {
             sheet.read(&without_comments(&text));
         }
         sheet
+    }
+
+    /// A selector that has more rules than are tried.
+    pub fn overfull(&self) -> Option<&str> {
+        self.rules.iter().find(|(_, rules)| rules.len() > MOST_RULES).map(|(key, _)| key.as_str())
     }
 
     fn read(&mut self, text: &str) {

@@ -7,7 +7,7 @@ use roxmltree::{Document, Node};
 use super::Lines;
 use super::page::{self, Along, Page, Viewport};
 use super::shape;
-use super::style::{Fill, Style, StyleSheet};
+use super::style::{self, Fill, Style, StyleSheet};
 use crate::geometry::import::affine::Affine;
 use crate::geometry::import::contour::{Closed, close};
 use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring};
@@ -52,6 +52,10 @@ pub fn drawing(
         vec![Refusal::new(lines.place(root), found, expected)]
     })?;
     let sheet = StyleSheet::of(document);
+    if let Some(selector) = sheet.overfull() {
+        let found = format!("more than {} rules for `{selector}`", style::MOST_RULES);
+        return Err(vec![Refusal::new("style sheet", found, "a plain style sheet")]);
+    }
     let mut ids = BTreeMap::new();
     for node in document.descendants() {
         if let Some(id) = node.attribute("id") {
@@ -324,6 +328,9 @@ impl<'a, 'input> Walk<'a, 'input> {
             if style.fill == Fill::None && !subpath.is_closed {
                 self.count("open lines");
                 continue;
+            }
+            if !self.budget.spend(pieces.len()) {
+                return self.refuse_size(node);
             }
             let closed = close(&pieces, 0.0);
             let vertices = if let Closed::Ring(ring) = &closed { ring.vertices.len() } else { 1 };
