@@ -387,7 +387,6 @@ mod tests {
             let arc = EllipticArc::new(Vec2::new(7.0, -3.0), [Vec2::new(ratio, 0.0), Vec2::y()], 0.0, TAU);
             let ring = ring(&[Piece::Ellipse(arc)]);
             let error = area(&ring.vertices) / (PI * ratio) - 1.0;
-            println!("axes {ratio}: {} arcs, area error {error:.1e}", ring.vertices.len());
             // At most the tolerance along the whole circumference; a tenth of that, as the chain lies on both sides.
             assert!(error.abs() < 0.1 * 4.0 * ratio * 2.0 * biarc::TOLERANCE, "{ratio}: {error:e}");
             assert!(ring.vertices.len() <= 120);

@@ -53,12 +53,12 @@ impl Pen {
                 self.end_subpath(false);
                 self.at = point(abs, x, y);
                 self.start = self.at;
-                return crate::geometry::import::limits::is_in_range(self.at).then_some(());
+                crate::geometry::import::limits::is_in_range(self.at).then_some(())
             }
             PathSegment::ClosePath { .. } => {
                 self.end_subpath(true);
                 self.at = self.start;
-                return Some(());
+                Some(())
             }
             PathSegment::LineTo { abs, x, y } => self.push(Piece::Line([at, point(abs, x, y)])),
             PathSegment::HorizontalLineTo { abs, x } => {

@@ -361,9 +361,9 @@ fn five_thousand_circles_take_milliseconds() {
     let text = page("viewBox='0 0 70 72' width='70mm'", &circles);
     let begin = std::time::Instant::now();
     assert_eq!(read(&text, None).unwrap().entities.len(), 5000);
-    println!("5,000 circles: {:.1} ms", begin.elapsed().as_secs_f64() * 1e3);
     // Aim .05 s; wide, for a debug build on a busy machine.
-    assert!(begin.elapsed().as_secs_f64() < 2.0);
+    let taken = begin.elapsed().as_secs_f64();
+    assert!(taken < 2.0, "{taken} s");
 }
 
 proptest! {
