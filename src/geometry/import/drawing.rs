@@ -86,6 +86,13 @@ pub struct Refusal {
     pub expected: String,
 }
 
+impl Refusal {
+    /// A refusal of its three parts.
+    pub fn new(place: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self { place: place.into(), found: found.into(), expected: expected.into() }
+    }
+}
+
 impl std::fmt::Display for Refusal {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}: found {}, expected {}", self.place, self.found, self.expected)

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::geometry::import::drawing::{Drawing, Refusal};
 use crate::geometry::import::format::Format;
 use crate::geometry::import::options::Options;
-use crate::geometry::import::{esri, geojson, list, wkt};
+use crate::geometry::import::{dxf, esri, geojson, list, svg, wkt};
 
 /// Reads the bytes of a file; `path` tells where files beside it are looked for.
 pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options) -> Result<Drawing, Vec<Refusal>> {
@@ -20,8 +20,8 @@ pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options)
         }
         // The case reader, which knows places in TOML, reads these.
         Format::Toml => Err(one("a TOML shape file", "a drawing")),
-        Format::Svg => Err(one("an SVG drawing", "a format that this version reads")),
-        Format::Dxf => Err(one("a DXF drawing", "a format that this version reads")),
+        Format::Svg => svg::read(text(bytes)?, options.layers.as_deref()),
+        Format::Dxf => dxf::read(bytes, options.layers.as_deref()),
         Format::Mask => Err(one("an image", "a format that this version reads")),
     }
 }
