@@ -1,4 +1,4 @@
-"""The second drawing: shapes that are no discs, with holes, arcs and an ellipse. Lengths in mm, areas in closed form."""
+"""The second drawing: shapes that are no discs, with holes, arcs and an ellipse; areas in closed form. In mm."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""SVG files as Inkscape writes them: layers, nested transforms, `use`, units in mm. Written as text, without a library."""
+"""SVG files as Inkscape writes them: layers, nested transforms, `use`, units in mm. Written as text."""
 
 import math
 from pathlib import Path
@@ -98,7 +98,7 @@ FORMS = [circle, arc_path, relative_path, used, used_at, stretched, turned, nest
 
 
 def write_pack(path: Path, rows: np.ndarray) -> None:
-    """The pack: each disc in one of nine forms, within a layer that is shifted twice; helper layers that show nothing solid."""
+    """The pack: each disc in one of nine forms, in a layer shifted twice; other layers hold nothing solid."""
     size = [1e3 * value for value in pack.BOX[1]]
     box = f"0 0 {number(pack.BOX[1][0] / UNIT)} {number(HEIGHT)}"
     lines = [HEAD.format(width=number(size[0]), height=number(size[1]), box=box, name=path.name)]

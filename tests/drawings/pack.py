@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 MM = 1e-3
-BOX = ((0.0, 0.0), (14 * MM, 9 * MM))
+BOX = ((0.0, 0.0), (14e-3, 9e-3))
 COUNT = 60
 SEED = 2026
 MEAN_RADIUS, SPREAD = 0.5 * MM, 0.15 * MM

@@ -1,8 +1,9 @@
-"""Writes the drawings of this folder with the programs that users draw with. Not run by the tests: its files are kept here.
+"""Writes the drawings of this folder with the programs that users draw with; tests read the files as kept.
 
 Usage: write.py [FOLDER], with the packages of requirements.txt. What each file is stands in README.md.
 """
 
+import itertools
 import json
 import math
 import sys
@@ -63,7 +64,9 @@ def write_shapely(folder: Path, rows: np.ndarray) -> None:
         for i, shape in enumerate(polygons(1e6 * rows, 8, 3))
     ]
     text = json.dumps({"type": "FeatureCollection", "features": features}, separators=(",", ":"))
-    (folder / "pack.geojson").write_text(text.replace('{"type":"Feature"', '\n{"type":"Feature"') + "\n", encoding="utf-8")
+    (folder / "pack.geojson").write_text(
+        text.replace('{"type":"Feature"', '\n{"type":"Feature"') + "\n", encoding="utf-8"
+    )
 
 
 def write_shapefile(path: Path, rings: list[list], prj: str) -> None:
@@ -96,7 +99,7 @@ def bulges(space, rows: np.ndarray) -> None:
     for i, (x, y, r) in enumerate(rows):
         angles = np.array([0.0, 1.0, 3.0, 2 * math.pi]) + 0.7 * i
         points = [
-            (x + r * math.cos(a), y + r * math.sin(a), math.tan((b - a) / 4)) for a, b in zip(angles, angles[1:], strict=False)
+            (x + r * math.cos(a), y + r * math.sin(a), math.tan((b - a) / 4)) for a, b in itertools.pairwise(angles)
         ]
         if i % 2:
             # Every second one runs clockwise.
@@ -122,7 +125,7 @@ def splines(space, rows: np.ndarray) -> None:
 
 
 def blocks(space, rows: np.ndarray) -> None:
-    """Blocks: a post of radius 1 off its origin, scaled, turned and mirrored; two posts in a block within a block; an array."""
+    """Blocks: a post of radius 1 off its origin, scaled, turned and mirrored; a block within a block."""
     document = space.doc
     post = document.blocks.new("POST", base_point=(3.0, 1.0))
     post.add_circle((5.0, 1.0), 1.0)
