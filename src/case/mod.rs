@@ -9,6 +9,7 @@ mod facts;
 pub mod film;
 mod load;
 mod measures;
+pub mod network;
 mod numerics;
 mod open;
 pub mod preset;

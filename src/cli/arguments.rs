@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use crate::geometry::import::Options;
+
 /// Exit codes, as the help tells them.
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 bug, 2 usage or output folder, 3 bad case or shape file, 4 solver failed, \
                           5 expectation failed, 130 interrupted";
@@ -37,8 +39,8 @@ pub enum Command {
     Schema(SchemaArguments),
     /// Print a completion script for a shell
     Completions(CompletionArguments),
-    /// Pore networks (not yet available)
-    Network(AnyArguments),
+    /// Extract pores and throats of a shape file, and displace one fluid by another in them
+    Network(NetworkArguments),
     /// Parameter studies: many runs from one file, with a table, curves and a page
     #[command(subcommand)]
     Study(StudyCommand),
@@ -80,11 +82,158 @@ pub struct CheckArguments {
 /// `geometry`.
 #[derive(Debug, Args)]
 pub struct GeometryArguments {
-    /// Shape file
+    /// Shape file: TOML, list of discs, SVG, DXF, shapefile, GeoJSON, WKT, or a mask in PNG or TIFF
     pub file: PathBuf,
+    #[command(flatten)]
+    pub import: ImportArguments,
     /// Folder for outline, signed distance and picture; nothing is written where there is none
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// `network`.
+#[derive(Debug, Args)]
+pub struct NetworkArguments {
+    /// Shape file, or a case file
+    pub file: PathBuf,
+    /// Persistence ratio above which two maxima of the wall distance are one pore, 0.5 to 1 (default 0.95)
+    #[arg(long, value_name = "RATIO")]
+    pub persistence: Option<f64>,
+    /// Contact angle through the wetting phase in degrees (default 0)
+    #[arg(long, value_name = "DEGREES")]
+    pub angle_deg: Option<f64>,
+    /// Interfacial tension in N/m (default 1, so that pressures are those per N/m)
+    #[arg(long, value_name = "N_PER_M")]
+    pub tension: Option<f64>,
+    /// Side that the invading phase enters through; where there is none, the network is extracted and nothing is displaced
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub inlet: Option<SideName>,
+    /// Side that the defending phase leaves through
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub outlet: Option<SideName>,
+    /// What is displaced (default drainage)
+    #[arg(long, value_enum, value_name = "PROCESS")]
+    pub process: Option<NetworkProcess>,
+    /// Number of cycles, with --process cycle (default 1)
+    #[arg(long, value_name = "N")]
+    pub cycles: Option<u32>,
+    /// Whether a defending region without a way to the outlet is trapped (default true)
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
+    pub trapping: Option<bool>,
+    /// Joins opposite sides
+    #[arg(long, value_enum, value_name = "AXES")]
+    pub periodic: Option<PeriodicAxes>,
+    /// Output folder, new or empty; where there is none: out/NAME-network, out/NAME-network-2, ...
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads; all cores where there is none. The results do not depend on it
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
+    #[command(flatten)]
+    pub import: ImportArguments,
+}
+
+impl NetworkArguments {
+    /// Whether menisci matter: something is displaced, or entry pressures are asked for.
+    #[must_use]
+    pub fn has_interface(&self) -> bool {
+        self.inlet.is_some() || self.angle_deg.is_some() || self.tension.is_some()
+    }
+}
+
+/// A side of the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SideName {
+    /// x = min
+    Left,
+    /// x = max
+    Right,
+    /// y = min
+    Bottom,
+    /// y = max
+    Top,
+}
+
+/// What is displaced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum NetworkProcess {
+    /// The wetting phase by the non-wetting one
+    Drainage,
+    /// The non-wetting phase by the wetting one
+    Imbibition,
+    /// Both in turn
+    Cycle,
+}
+
+/// Axes along which opposite sides are joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PeriodicAxes {
+    /// Left and right
+    X,
+    /// Bottom and top
+    Y,
+    /// Both pairs
+    Xy,
+}
+
+/// How a drawing is read: the keys of `[geometry]` beside `file`.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "How a drawing is read")]
+pub struct ImportArguments {
+    /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px
+    #[arg(long, value_name = "UNIT")]
+    pub unit: Option<String>,
+    /// Length of the drawing unit in m, in place of --unit
+    #[arg(long, value_name = "M")]
+    pub scale: Option<f64>,
+    /// Corners of the domain in m: shapes outside of it are left out
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_delimiter = ',', num_args = 4, allow_hyphen_values = true)]
+    pub window: Option<Vec<f64>>,
+    /// Layers that are read; all where there is none
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub layers: Option<Vec<String>>,
+    /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white)
+    #[arg(long, value_name = "GRAY")]
+    pub threshold: Option<f64>,
+    /// Side of a pixel of a mask in m
+    #[arg(long, value_name = "M")]
+    pub pixel_size: Option<f64>,
+    /// What is drawn is the pore, and all else is solid
+    #[arg(long)]
+    pub invert: bool,
+    /// Keep polygons whose vertices lie on a circle
+    #[arg(long)]
+    pub no_circles: bool,
+    /// Vertices that turn by less than this many degrees become arcs; 20 where there is none, 0: none
+    #[arg(long, value_name = "DEG")]
+    pub smooth_below_deg: Option<f64>,
+    /// Columns of x, y and radius in a list of discs, the first one being 0
+    #[arg(long, value_name = "X,Y,R", value_delimiter = ',', num_args = 3)]
+    pub columns: Option<Vec<usize>>,
+    /// The character between the columns of a list of discs
+    #[arg(long, value_name = "CHAR")]
+    pub separator: Option<char>,
+}
+
+impl ImportArguments {
+    /// The same as options of the reader.
+    pub fn options(&self) -> Options {
+        // The number of values is known to the parser of the command line.
+        let window = self.window.as_deref().and_then(|window| <[f64; 4]>::try_from(window).ok());
+        Options {
+            unit: self.unit.clone(),
+            scale: self.scale,
+            window: window.map(|[x0, y0, x1, y1]| [[x0, y0], [x1, y1]]),
+            layers: self.layers.clone(),
+            threshold: self.threshold,
+            pixel_size: self.pixel_size,
+            invert: self.invert.then_some(true),
+            recognize_circles: self.no_circles.then_some(false),
+            smooth_below_deg: self.smooth_below_deg,
+            columns: self.columns.as_deref().and_then(|columns| columns.try_into().ok()),
+            separator: self.separator,
+        }
+    }
 }
 
 /// `study`.
@@ -194,12 +343,4 @@ pub struct SchemaArguments {
 pub struct CompletionArguments {
     /// The shell
     pub shell: Shell,
-}
-
-/// Arguments of a command that is not yet available.
-#[derive(Debug, Args)]
-pub struct AnyArguments {
-    /// Not read
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    pub rest: Vec<String>,
 }

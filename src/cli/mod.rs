@@ -10,6 +10,7 @@ pub mod exit;
 mod geometry;
 mod interrupt;
 mod list;
+mod network;
 mod new;
 mod opened_study;
 mod output;

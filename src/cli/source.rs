@@ -3,9 +3,12 @@
 use std::path::Path;
 
 use super::exit::{BAD_INPUT, Failure};
-use crate::case::checked::Case;
+use super::output::tell;
+use crate::case::checked::{Case, Model};
 use crate::case::{self, Loaded};
 use crate::geometry::Geometry;
+use crate::geometry::import::Options;
+use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
 use crate::input::{InputError, Overrides};
 use crate::run::setup;
@@ -49,6 +52,7 @@ pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Fa
     let loaded = load(path, overrides).map_err(Failure::input)?;
     let problems = setup::problems(&loaded.case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
     loaded.refuse(problems).map_err(Failure::input)?;
+    loaded.notes.iter().for_each(tell);
     Ok(Source { case: loaded.case, resolved: loaded.resolved, name })
 }
 
@@ -60,10 +64,30 @@ fn load(path: Option<&Path>, overrides: &[String]) -> Result<Loaded, InputError>
     }
 }
 
+/// Whether a file is a case file, and no shape file: TOML with a table `geometry`.
+pub fn is_case_file(path: &Path) -> bool {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let is_toml = path.extension().is_some_and(|extension| extension == "toml");
+    is_toml && text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("geometry"))
+}
+
+/// Whether a case is one of a network.
+pub fn is_network(case: &Case) -> bool {
+    matches!(case.model, Model::Network(_))
+}
+
+/// Loads a shape file.
+pub fn geometry_of_file(path: &Path, options: &Options) -> Result<GeometrySpec, Failure> {
+    let read = case::load_shapes(path, options).map_err(Failure::input)?;
+    read.notes.iter().for_each(tell);
+    Ok(read.spec)
+}
+
 /// Loads and measures a shape file.
-pub fn load_shapes(path: &Path) -> Result<Shapes, Failure> {
-    let spec = case::load_shapes(path).map_err(Failure::input)?;
-    let geometry = Geometry::new(&spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+pub fn load_shapes(path: &Path, options: &Options) -> Result<Shapes, Failure> {
+    let read = case::load_shapes(path, options).map_err(Failure::input)?;
+    read.notes.iter().for_each(tell);
+    let geometry = Geometry::new(&read.spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
     let spacing = geometry.bounds().size().max() / GRID_NODES;
     Ok(Shapes { outline: geometry.outline(), distance: geometry.distance_grid(spacing), measures: measures(&geometry) })
 }

@@ -4,7 +4,7 @@ use crate::case::checked::{Case, Model};
 use crate::case::{Facts, check_against};
 use crate::input::Problem;
 use crate::solver::Solver;
-use crate::{sph, thin_film};
+use crate::{network, sph, thin_film};
 
 /// A case that no solver can be made for.
 #[derive(Debug, thiserror::Error)]
@@ -15,6 +15,9 @@ pub enum SetupError {
     /// The thin film cannot be set up.
     #[error("{0}")]
     ThinFilm(#[from] thin_film::setup::SetupError),
+    /// The network cannot be set up.
+    #[error("{0}")]
+    Network(#[from] network::setup::SetupError),
 }
 
 /// The solver of a case, in its initial state.
@@ -25,6 +28,7 @@ pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => Ok(Box::new(sph::setup::build(case, sph)?)),
         Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
+        Model::Network(network) => Ok(Box::new(network::setup::build(case, network)?)),
     }
 }
 
