@@ -63,6 +63,20 @@ class OpenPnm(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "pore.inlet is no label"):
                 network_to_openpnm.load(Path(other))
 
+    def test_a_network_of_more_pores_than_throats_loads(self):
+        """Three pores in a row: the last row of the throats is empty."""
+        with tempfile.TemporaryDirectory() as other:
+            names = ["pore.coords[0]", "pore.coords[1]", "pore.coords[2]", "pore.boundary", "pore.inlet", "pore.outlet"]
+            names += ["throat.conns[0]", "throat.conns[1]", "throat.boundary"]
+            ends = [["False"] * 3, ["True", "True", "False"], ["True", "False", "True"]]
+            links = [["0", "1", "True"], ["0", "2", "True"], ["", "", ""]]
+            lines = [[str(k), "0", "0", *ends[k], *links[k]] for k in range(3)]
+            text = "\n".join(",".join(line) for line in [names, *lines])
+            (Path(other) / "openpnm.csv").write_text(text + "\n", encoding="utf-8")
+            _, network = network_to_openpnm.load(Path(other))
+            self.assertEqual(network["throat.conns"].tolist(), [[0, 1], [0, 2]])
+            self.assertEqual(network.num_pores("inlet"), 1)
+
     def test_the_table_and_the_picture_are_made(self):
         """Every row has its three fields."""
         rows = network_to_openpnm.rows(self.found)
