@@ -201,8 +201,9 @@ impl Curve {
         if self.is_closed() {
             return if (x - center).norm() < radius { sweep } else { 0.0 };
         }
-        // Seen from between chord and arc, the arc turns the other way round.
-        let is_between = (x - center).norm() < radius && cross(a, b) * sweep < 0.0;
+        // From within its circle an arc turns the way it runs: seen from between chord and arc not the way of the chord. The sign is that of
+        // the angle, which tells it on the chord too, where the cross product is a zero of either sign.
+        let is_between = (x - center).norm() < radius && chord * sweep < 0.0;
         if is_between { chord + sweep.signum() * TAU } else { chord }
     }
 

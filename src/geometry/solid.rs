@@ -7,6 +7,7 @@
 use crate::geometry::body::Body;
 use crate::geometry::boundary::{Boundary, Nearest, clip_body, complement, union};
 use crate::geometry::spec::{GeometrySpec, SolidSide};
+use crate::geometry::tree::Tree;
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
 
@@ -46,6 +47,8 @@ pub struct Geometry {
     wall_sides: [bool; 4],
     shape_count: u32,
     bodies: Vec<Body>,
+    /// The tree over the boxes of `bodies`.
+    tree: Tree,
     walls: Vec<Body>,
     pub(crate) boundary: Boundary,
 }
@@ -82,6 +85,7 @@ impl Geometry {
             wall_sides: [false; 4],
             shape_count: spec.shapes.len() as u32,
             bodies: Vec::new(),
+            tree: Tree::over([]),
             walls: Vec::new(),
             boundary: Boundary::new(Vec::new(), 0.0),
         }
@@ -109,13 +113,13 @@ impl Geometry {
     /// The same solids seen through the periodic images of the domain along x and y.
     #[must_use]
     pub fn with_periodic(self, periodic: [bool; 2]) -> Self {
-        Self { periodic, ..self }.rebuilt()
+        if self.periodic == periodic { self } else { Self { periodic, ..self }.rebuilt() }
     }
 
     /// The same solids and solid half-planes outside of the chosen sides: left, right, bottom, top.
     #[must_use]
     pub fn with_wall_sides(self, wall_sides: [bool; 4]) -> Self {
-        Self { wall_sides, ..self }.rebuilt()
+        if self.wall_sides == wall_sides { self } else { Self { wall_sides, ..self }.rebuilt() }
     }
 
     /// Lengths in m below this count as zero.
@@ -126,13 +130,12 @@ impl Geometry {
     fn rebuilt(mut self) -> Self {
         let tolerance = self.tolerance();
         self.bodies = self.shapes.iter().flat_map(|body| self.images(body)).collect();
+        self.tree = Tree::over(self.bodies.iter().map(|body| body.bounds));
         self.walls = self.side_walls();
+        let (bodies, walls): (Vec<&Body>, Vec<&Body>) = (self.bodies.iter().collect(), self.walls.iter().collect());
         let pieces = match self.side {
-            SolidSide::Inside => {
-                let all: Vec<Body> = self.bodies.iter().chain(&self.walls).cloned().collect();
-                union(&all, tolerance)
-            }
-            SolidSide::Outside => complement(&self.bodies, &self.walls, tolerance),
+            SolidSide::Inside => union(&[bodies, walls].concat(), tolerance),
+            SolidSide::Outside => complement(&bodies, &walls, tolerance),
         };
         // Ends come from intersections computed twice, once on each curve.
         const ROUNDING: f64 = 10.0;
@@ -203,7 +206,7 @@ impl Geometry {
     pub fn is_solid(&self, x: Vec2) -> bool {
         let x = self.wrapped(x);
         let within = |body: &Body| body.bounds.contains(x) && body.signed_distance(x) < 0.0;
-        let in_shapes = self.bodies.iter().any(within);
+        let in_shapes = self.tree.near(Bounds { min: x, max: x }).any(|i| within(&self.bodies[i]));
         (in_shapes == (self.side == SolidSide::Inside)) || self.walls.iter().any(within)
     }
 
