@@ -181,7 +181,7 @@ impl Boundary {
 
     /// The nearest points to `x` of all pieces within `reach` (m).
     pub fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = Nearest> {
-        self.tree.near(Bounds { min: x, max: x }.grown(reach)).filter_map(move |piece| {
+        self.tree.within(x, reach).filter_map(move |piece| {
             let foot = self.pieces.get(piece)?.curve.project(x);
             ((foot.point - x).norm() <= reach).then_some(Nearest { piece, foot })
         })

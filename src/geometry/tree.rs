@@ -5,7 +5,7 @@
 
 use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
-use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 
 use crate::math::{Bounds, Vec2};
 
@@ -52,17 +52,29 @@ impl Tree {
         found
     }
 
+    /// Things whose box comes within `reach` (m) of `x`, up to rounding, in the order of the tree.
+    pub fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = usize> {
+        // A hair more, so that rounding of a box hides nothing.
+        let most = reach * reach * (1.0 + 1e-12);
+        let leaves = self.bvh.leaves(move |node| squared_distance(x, node) <= most);
+        let finite = leaves.filter_map(|leaf| self.leaves.get(leaf as usize));
+        self.endless.iter().chain(finite).map(|&index| index as usize)
+    }
+
     /// The thing of least squared distance (m²) from `x` among those with an end, and that distance; `squared` tells it by index.
     pub fn nearest(&self, x: Vec2, squared: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
-        let to_box = |min: Vector, max: Vector| {
-            let (dx, dy) = ((min.x - x.x).max(x.x - max.x).max(0.0), (min.y - x.y).max(x.y - max.y).max(0.0));
-            dx * dx + dy * dy
-        };
         let of_leaf = |leaf: u32| self.leaves.get(leaf as usize).map(|&index| squared(index as usize));
         let (leaf, least) =
-            self.bvh.find_best(f64::MAX, |node, _| to_box(node.mins(), node.maxs()), |leaf, _| of_leaf(leaf))?;
+            self.bvh.find_best(f64::MAX, |node, _| squared_distance(x, node), |leaf, _| of_leaf(leaf))?;
         Some((*self.leaves.get(leaf as usize)? as usize, least))
     }
+}
+
+/// Squared distance in m² from `x` to the box of a node.
+fn squared_distance(x: Vec2, node: &BvhNode) -> f64 {
+    let (min, max) = (node.mins(), node.maxs());
+    let (dx, dy) = ((min.x - x.x).max(x.x - max.x).max(0.0), (min.y - x.y).max(x.y - max.y).max(0.0));
+    dx * dx + dy * dy
 }
 
 #[cfg(test)]
