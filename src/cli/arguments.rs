@@ -27,7 +27,7 @@ pub enum Command {
     Run(RunArguments),
     /// Tell everything that can be told before a run: mistakes, particles, time step, dimensionless numbers, duration
     Check(CheckArguments),
-    /// Measure a shape file: porosity, specific surface, throats; write its outline and signed distance
+    /// Measure a shape file or the geometry of a case: porosity, specific surface, throats; write its outline and signed distance
     Geometry(GeometryArguments),
     /// Write a commented starter case
     New(NewArguments),
@@ -80,11 +80,32 @@ pub struct CheckArguments {
 /// `geometry`.
 #[derive(Debug, Args)]
 pub struct GeometryArguments {
-    /// Shape file
+    /// Shape file, or a case file, whose geometry is measured with the sides of the case
     pub file: PathBuf,
+    /// Sides of a shape file that are joined; none where it is not given
+    #[arg(long, value_name = "AXES")]
+    pub periodic: Option<Axes>,
     /// Folder for outline, signed distance and picture; nothing is written where there is none
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Axes along which a domain is joined to itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Axes {
+    /// Left and right
+    X,
+    /// Bottom and top
+    Y,
+    /// All four
+    Xy,
+}
+
+impl Axes {
+    /// Whether x and y are among them.
+    pub fn along(self) -> [bool; 2] {
+        [self != Self::Y, self != Self::X]
+    }
 }
 
 /// `study`.
