@@ -45,9 +45,9 @@ impl CurveSet {
     pub fn nearest(&self, x: Vec2) -> Option<(&Curve, Foot)> {
         let Some(tree) = &self.tree else { return nearest_of(self.curves.iter(), x) };
         let (_, squared) = tree.nearest(x, |index| (self.curves[index].project(x).point - x).norm_squared())?;
-        // A hair more than the distance found, so that rounding does not hide the curves that are as near.
-        let reach = squared.sqrt() * (1.0 + 1e-12) + f64::MIN_POSITIVE;
-        nearest_of(self.near(Bounds { min: x, max: x }.grown(reach)), x)
+        let mut as_near: Vec<usize> = tree.within(x, squared.sqrt()).collect();
+        as_near.sort_unstable();
+        nearest_of(as_near.into_iter().map(|index| &self.curves[index]), x)
     }
 
     /// Distance of `x` from the nearest curve in m; infinite where there is none.

@@ -9,6 +9,8 @@ pub(crate) mod cosine;
 pub mod curve;
 pub(crate) mod curve_set;
 pub(crate) mod disc_list;
+#[cfg(test)]
+mod growth;
 pub mod import;
 pub(crate) mod intersect;
 pub mod measures;
