@@ -6,6 +6,7 @@
 pub(crate) mod body;
 pub(crate) mod boundary;
 pub(crate) mod cosine;
+pub(crate) mod critical;
 pub mod curve;
 pub(crate) mod curve_set;
 #[cfg(test)]
