@@ -11,6 +11,7 @@ mod geometry;
 mod interrupt;
 mod list;
 mod new;
+mod new_pack;
 mod opened_study;
 mod output;
 mod progress;
@@ -19,5 +20,6 @@ mod source;
 mod study;
 mod study_run;
 mod summary;
+mod write_shapes;
 
 pub use entry::main;

@@ -6,6 +6,7 @@ use super::exit::{BAD_INPUT, Failure};
 use crate::case::checked::Case;
 use crate::case::{self, Loaded};
 use crate::geometry::Geometry;
+use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
 use crate::input::{InputError, Overrides};
 use crate::run::setup;
@@ -41,6 +42,8 @@ pub struct Shapes {
     pub distance: Grid<'static>,
     /// Porosity, specific surface, throats.
     pub measures: Vec<Measure>,
+    /// The shapes as they were read.
+    pub spec: GeometrySpec,
 }
 
 /// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
@@ -65,7 +68,8 @@ pub fn load_shapes(path: &Path) -> Result<Shapes, Failure> {
     let spec = case::load_shapes(path).map_err(Failure::input)?;
     let geometry = Geometry::new(&spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
     let spacing = geometry.bounds().size().max() / GRID_NODES;
-    Ok(Shapes { outline: geometry.outline(), distance: geometry.distance_grid(spacing), measures: measures(&geometry) })
+    let (outline, distance) = (geometry.outline(), geometry.distance_grid(spacing));
+    Ok(Shapes { outline, distance, measures: measures(&geometry), spec })
 }
 
 fn measures(geometry: &Geometry) -> Vec<Measure> {

@@ -8,6 +8,7 @@ use geo::algorithm::validation::InvalidPolygon;
 use crate::geometry::body::{Body, Place};
 use crate::geometry::boundary::split;
 use crate::geometry::curve::cross;
+use crate::geometry::pack::PackError;
 use crate::geometry::solid::Geometry;
 use crate::geometry::spec::{CurvedPolygon, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
@@ -105,6 +106,8 @@ impl ShapeSpec {
             Self::Channel(_) => "channel",
             Self::ThroatDiscs(_) => "throat-discs",
             Self::ThroatCosine(_) => "throat-cosine",
+            Self::RandomPack(_) => "random-pack",
+            Self::Array(_) => "array",
         }
     }
 
@@ -155,6 +158,11 @@ impl ShapeSpec {
                         format!("the throat, {:e} m, is wider than the channel, {:e} m", s.throat, s.width),
                         "make `throat` at most `width`",
                     );
+                }
+            }
+            Self::RandomPack(_) | Self::Array(_) => {
+                if let Err(PackError { key, message, help }) = self.expanded() {
+                    check.add(key, message, help);
                 }
             }
         }

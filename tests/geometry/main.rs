@@ -3,7 +3,10 @@
 mod corners;
 mod distance;
 mod files;
+mod masks;
 mod measures;
+mod packs;
 mod shapes;
 mod shells;
 mod sides;
+mod written;
