@@ -217,7 +217,7 @@ pub struct PackArguments {
     #[arg(long, value_name = "M", default_value = "2e-5", requires = "pack")]
     pub gap: f64,
     /// Width and height of the pack in m
-    #[arg(long, value_name = "W,H", value_delimiter = ',', num_args = 2, default_values_t = [5e-3, 3e-3], requires = "pack")]
+    #[arg(long, value_name = "W,H", value_delimiter = ',', num_args = 1, default_values_t = [5e-3, 3e-3], requires = "pack")]
     pub size: Vec<f64>,
     /// Axes along which a random pack repeats itself
     #[arg(long, value_enum, default_value = "none", requires = "pack")]

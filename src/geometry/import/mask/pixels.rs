@@ -199,7 +199,10 @@ fn unpacked(result: DecodingResult, bits: u16, row: usize, rows: usize) -> Resul
         DecodingResult::F32(v) => v,
         DecodingResult::F64(v) => v.iter().map(|&v| v as f32).collect(),
         _ => {
-            return Err(refusal("signed, 16-bit float or 64-bit integer samples", "8, 16 or 32 bits, or 32-bit floats"));
+            return Err(refusal(
+                "signed, 16-bit float or 64-bit integer samples",
+                "8, 16 or 32 bits, or 32-bit floats",
+            ));
         }
     })
 }
