@@ -28,11 +28,29 @@ pub(super) fn inline(checker: &mut Checker, at: &str, raw: &RawGeometry) -> Opti
         }
         return None;
     };
-    let spec = GeometrySpec { min, max, solid, shapes };
+    let spec = GeometrySpec { min, max, solid, shapes: expanded(checker, at, &shapes) };
+    if checker.problems.len() > before {
+        return None;
+    }
     for problem in spec_problems(&spec) {
         checker.refuse(join(at, &problem.path), problem.message, problem.help);
     }
     (checker.problems.len() == before).then_some(spec)
+}
+
+/// The shapes with generators replaced by the discs that they make.
+fn expanded(checker: &mut Checker, at: &str, shapes: &[ShapeSpec]) -> Vec<ShapeSpec> {
+    let mut plain = Vec::new();
+    for (index, shape) in shapes.iter().enumerate() {
+        match shape.expanded() {
+            Ok(shapes) => plain.extend(shapes),
+            Err(error) => {
+                let path = join(at, &format!("shapes[{index}].{}.{}", shape.key(), error.key));
+                checker.refuse(path, error.message, error.help);
+            }
+        }
+    }
+    plain
 }
 
 /// Refuses keys that belong to the file where a file is named.

@@ -93,6 +93,19 @@ pub struct GeometryArguments {
     /// Folder for outline, signed distance and picture; nothing is written where there is none
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub drawings: WriteArguments,
+}
+
+/// `geometry --write`.
+#[derive(Debug, Default, Args)]
+pub struct WriteArguments {
+    /// Write the shapes as a drawing: .svg, .dxf, .wkt, .geojson, .xyr, .toml, .vtp, or a mask as .png; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub write: Vec<PathBuf>,
+    /// Side of a pixel of a mask in m; where there is none the longer side has 2048
+    #[arg(long, value_name = "M")]
+    pub mask_pixel: Option<f64>,
 }
 
 /// `network`.
@@ -337,9 +350,67 @@ pub struct StudyReportArguments {
 /// `new`.
 #[derive(Debug, Args)]
 pub struct NewArguments {
-    /// File to write, which must not exist
-    #[arg(default_value = "case.toml")]
-    pub file: PathBuf,
+    /// File to write, which must not exist; case.toml, or pack.toml with --pack, where there is none
+    pub file: Option<PathBuf>,
+    #[command(flatten)]
+    pub pack: PackArguments,
+}
+
+/// `new --pack`.
+#[derive(Debug, Args)]
+pub struct PackArguments {
+    /// Write a shape file of generated grains in place of a case
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub pack: Option<PackKind>,
+    /// Chooses the random pack
+    #[arg(long, default_value = "1", requires = "pack")]
+    pub seed: u64,
+    /// Share of a random pack that is not solid
+    #[arg(long, default_value = "0.6", requires = "pack")]
+    pub porosity: f64,
+    /// Radius in m, the mean one of a random pack
+    #[arg(long, value_name = "M", default_value = "1e-4", requires = "pack")]
+    pub radius: f64,
+    /// Standard deviation of the radii of a random pack over their mean, 0 to 0.35
+    #[arg(long, default_value = "0", requires = "pack")]
+    pub radius_deviation: f64,
+    /// Smallest gap between grains in m; of a cosine throat its width
+    #[arg(long, value_name = "M", default_value = "2e-5", requires = "pack")]
+    pub gap: f64,
+    /// Width and height of the pack in m
+    #[arg(long, value_name = "W,H", value_delimiter = ',', num_args = 1, default_values_t = [5e-3, 3e-3], requires = "pack")]
+    pub size: Vec<f64>,
+    /// Axes along which a random pack repeats itself
+    #[arg(long, value_enum, default_value = "none", requires = "pack")]
+    pub periodic: PackPeriodic,
+}
+
+/// What is generated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PackKind {
+    /// Discs at random places
+    Random,
+    /// Discs on the corners of squares
+    Square,
+    /// Discs on the corners of equal triangles
+    Hexagonal,
+    /// A channel with a cosine constriction
+    Cosine,
+    /// A random pack with manifolds, channels and walls
+    Micromodel,
+}
+
+/// Axes of a periodic pack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PackPeriodic {
+    /// Neither
+    None,
+    /// Along x
+    X,
+    /// Along y
+    Y,
+    /// Along both
+    Xy,
 }
 
 /// `schema`.

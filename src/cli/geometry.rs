@@ -7,6 +7,7 @@ use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{readable, say};
 use super::source::{self, Shapes};
 use super::stages::Stages;
+use super::write_shapes::write_shapes;
 use crate::io::picture::{PORE, picture};
 use crate::io::{atomic, vtk};
 use crate::math::Vec2;
@@ -37,6 +38,7 @@ pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
         drop(stages);
         say(format_args!("wrote solid.vtp, distance.vti and picture.png to {}", folder.display()));
     }
+    write_shapes(&arguments.drawings, &shapes.spec)?;
     Ok(DONE)
 }
 
@@ -85,7 +87,13 @@ mod tests {
         };
         let distance =
             Grid { origin: Vec2::zeros(), spacing: Vec2::repeat(1.0e-6), counts: [30, 20], fields: vec![distance] };
-        let shapes = Shapes { outline, distance, measures: Vec::new(), sides: None };
+        let spec = crate::geometry::spec::GeometrySpec {
+            min: [0.0; 2],
+            max: [1.0; 2],
+            solid: Default::default(),
+            shapes: Vec::new(),
+        };
+        let shapes = Shapes { outline, distance, measures: Vec::new(), sides: None, spec };
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), &shapes, "half a plane").unwrap();
         let mut names: Vec<_> =

@@ -12,6 +12,7 @@ mod interrupt;
 mod list;
 mod network;
 mod new;
+mod new_pack;
 mod opened_study;
 mod output;
 mod progress;
@@ -21,5 +22,6 @@ mod stages;
 mod study;
 mod study_run;
 mod summary;
+mod write_shapes;
 
 pub use entry::main;

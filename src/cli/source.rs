@@ -49,6 +49,8 @@ pub struct Shapes {
     pub measures: Vec<Measure>,
     /// What stands at the sides, where the user said it.
     pub sides: Option<String>,
+    /// The shapes as they were read.
+    pub spec: GeometrySpec,
 }
 
 /// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
@@ -97,7 +99,7 @@ pub fn load_shapes(
 ) -> Result<Shapes, Failure> {
     at("reading and checking the shapes");
     let is_case = is_case_file(path);
-    let geometry = match (is_case, periodic) {
+    let (geometry, spec) = match (is_case, periodic) {
         (true, Some(_)) => {
             let message = "a case says itself which of its sides are periodic: leave out --periodic";
             return Err(Failure::new(USAGE, &message));
@@ -105,13 +107,13 @@ pub fn load_shapes(
         (true, None) => {
             let case = load(Some(path), &[]).map_err(Failure::input)?.case;
             at("uniting the shapes");
-            setup::geometry(&case).map_err(|error| Failure::new(BAD_INPUT, &error))?
+            (setup::geometry(&case).map_err(|error| Failure::new(BAD_INPUT, &error))?, case.geometry)
         }
         (false, periodic) => {
             let spec = geometry_of_file(path, options)?;
             at("uniting the shapes");
             let geometry = Geometry::new(&spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
-            geometry.with_sides(periodic.unwrap_or_default(), [false; 4])
+            (geometry.with_sides(periodic.unwrap_or_default(), [false; 4]), spec)
         }
     };
     let sides = (is_case || periodic.is_some()).then(|| told_sides(&geometry));
@@ -122,7 +124,7 @@ pub fn load_shapes(
     let outline = geometry.outline_within(OUTLINE_ERROR * longer);
     at("computing the signed distance on a grid");
     let distance = geometry.distance_grid(longer / GRID_NODES);
-    Ok(Shapes { outline, distance, measures, sides })
+    Ok(Shapes { outline, distance, measures, sides, spec })
 }
 
 /// What stands at each side, as far as the geometry sees it.

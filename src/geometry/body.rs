@@ -94,6 +94,11 @@ impl Body {
             }
             ShapeSpec::ThroatDiscs(throat) => Self::throat_discs(shape, throat),
             ShapeSpec::ThroatCosine(throat) => Self::throat_cosine(shape, throat, domain),
+            // Files are read with generators expanded; what is wrong with one is told by its check.
+            ShapeSpec::RandomPack(_) | ShapeSpec::Array(_) => {
+                let plain = spec.expanded().unwrap_or_default();
+                plain.iter().flat_map(|spec| Self::of(spec, shape, domain)).collect()
+            }
         }
     }
 

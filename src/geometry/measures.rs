@@ -43,7 +43,7 @@ impl Geometry {
     }
 
     /// Closed outline of the solid within the domain: its walls, and the domain's sides where they cut solid.
-    fn solid_outline(&self) -> Vec<Curve> {
+    pub(crate) fn solid_outline(&self) -> Vec<Curve> {
         let tolerance = self.tolerance();
         let frame = Body::of_box(u32::MAX, self.bounds());
         let mut outline = Vec::new();

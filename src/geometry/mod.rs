@@ -9,12 +9,14 @@ pub(crate) mod cosine;
 pub(crate) mod critical;
 pub mod curve;
 pub(crate) mod curve_set;
+pub mod export;
 #[cfg(test)]
 mod growth;
 pub mod import;
 pub(crate) mod intersect;
 pub mod measures;
 pub mod outline;
+pub mod pack;
 pub(crate) mod rings;
 pub mod shape_file;
 pub mod shells;

@@ -5,6 +5,7 @@
 use crate::geometry::body::{Body, Place, bulged_ring};
 use crate::geometry::boundary::split;
 use crate::geometry::curve::{Curve, cross};
+use crate::geometry::pack::PackError;
 use crate::geometry::rings::{RingFault, faults};
 use crate::geometry::solid::Geometry;
 use crate::geometry::spec::{CurvedPolygon, GeometrySpec, Polygon, ShapeSpec, SolidSide};
@@ -106,6 +107,8 @@ impl ShapeSpec {
             Self::Channel(_) => "channel",
             Self::ThroatDiscs(_) => "throat-discs",
             Self::ThroatCosine(_) => "throat-cosine",
+            Self::RandomPack(_) => "random-pack",
+            Self::Array(_) => "array",
         }
     }
 
@@ -156,6 +159,11 @@ impl ShapeSpec {
                         format!("the throat, {:e} m, is wider than the channel, {:e} m", s.throat, s.width),
                         "make `throat` at most `width`",
                     );
+                }
+            }
+            Self::RandomPack(_) | Self::Array(_) => {
+                if let Err(PackError { key, message, help }) = self.expanded() {
+                    check.add(key, message, help);
                 }
             }
         }

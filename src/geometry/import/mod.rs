@@ -15,6 +15,7 @@ pub mod format;
 pub(crate) mod geojson;
 pub mod limits;
 pub(crate) mod list;
+pub mod mask;
 pub(crate) mod nest;
 pub(crate) mod notes;
 pub mod options;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::geometry::import::drawing::{Drawing, Refusal};
 use crate::geometry::import::format::Format;
+use crate::geometry::import::mask::{self, MaskOptions};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::{dxf, esri, geojson, list, svg, wkt};
 
@@ -22,7 +23,10 @@ pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options)
         Format::Toml => Err(one("a TOML shape file", "a drawing")),
         Format::Svg => svg::read(text(bytes)?, options.layers.as_deref()),
         Format::Dxf => dxf::read(bytes, options.layers.as_deref()),
-        Format::Mask => Err(one("an image", "a format that this version reads")),
+        Format::Mask => {
+            let (threshold, pixel_size) = (options.threshold, options.pixel_size);
+            mask::read(bytes, &MaskOptions { threshold, invert: options.invert.unwrap_or(false), pixel_size })
+        }
     }
 }
 
