@@ -67,8 +67,10 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
     let (pressure, saturation) = cycles.outcomes()[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
     let reached = if setting.outlet.is_none() {
         "there is no outlet"
-    } else if pressure.is_nan() {
+    } else if saturation.is_nan() {
         "the invading phase did not reach the outlet"
+    } else if pressure.is_nan() {
+        "the outlet is reached through openings alone, which hold nothing back"
     } else {
         "at the event by which the invading phase reached the outlet"
     };
@@ -138,7 +140,7 @@ fn hysteresis(setting: &Setting, cycles: &Cycles) -> Option<Measure> {
         return None;
     }
     let last = cycles.half_cycles().len() - 2;
-    let (mut before, mut work) = (cycles.outcomes()[last].first_saturation, 0.0);
+    let (mut before, mut work) = (cycles.outcomes()[last].first_saturation[1], 0.0);
     for entry in cycles.history().iter().filter(|entry| entry.half_cycle >= last) {
         work -= entry.applied * (entry.saturation - before);
         before = entry.saturation;

@@ -3,6 +3,7 @@
 //! One step does one event, which takes place when the clock stands at the volume displaced before it; the clock then runs to the
 //! volume displaced after it. So a record between two events shows the state after the first of them.
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -51,6 +52,7 @@ pub struct Setting {
 pub struct NetworkSolver {
     setting: Setting,
     cycles: Option<Cycles>,
+    entry_curvatures: OnceCell<Vec<f64>>,
     clock: f64,
     steps_before: u64,
     seconds: [f64; 2],
@@ -70,7 +72,7 @@ impl NetworkSolver {
     /// A network with nothing displaced yet.
     #[must_use]
     pub fn new(setting: Setting, cycles: Option<Cycles>) -> Self {
-        Self { setting, cycles, clock: 0.0, steps_before: 0, seconds: [0.0; 2] }
+        Self { setting, cycles, entry_curvatures: OnceCell::new(), clock: 0.0, steps_before: 0, seconds: [0.0; 2] }
     }
 
     /// The same with the time that its extraction took, in s.
@@ -94,11 +96,11 @@ impl NetworkSolver {
 
     /// Curvatures at which drainage enters the throats of the network, in 1/m; none where no angle is known.
     #[must_use]
-    pub fn entry_curvatures(&self) -> Option<Vec<f64>> {
+    pub fn entry_curvatures(&self) -> Option<&[f64]> {
         let Setting { network, pores, entry, .. } = &self.setting;
-        let conditions = entry.clone()?;
-        let at_rest = Displacement::new(network, pores, conditions);
-        Some(at_rest.entry_curvatures(network.throats.len()))
+        let conditions = entry.as_ref()?;
+        let find = || Displacement::new(network, pores, conditions.clone()).entry_curvatures(network.throats.len());
+        Some(self.entry_curvatures.get_or_init(find))
     }
 
     fn count(&self, kind: EventKind) -> f64 {

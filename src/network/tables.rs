@@ -174,7 +174,7 @@ pub(super) fn finite(value: f64) -> f64 {
 fn sequences(setting: &Setting, cycles: &Cycles) -> Vec<Option<usize>> {
     let mut passed = vec![None; setting.network.throats.len()];
     let present = cycles.history().iter().filter(|entry| entry.half_cycle == cycles.half_cycle_index());
-    for (sequence, entry) in present.enumerate() {
+    for (sequence, entry) in (1..).zip(present) {
         if let Some(throat) = entry.throat {
             passed[throat].get_or_insert(sequence);
         }
@@ -193,7 +193,7 @@ fn events(setting: &Setting, cycles: &Cycles) -> Table {
         sequence = if entry.half_cycle == last { sequence } else { 0 };
         last = entry.half_cycle;
         sequence += 1;
-        sequence - 1
+        sequence
     });
     let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].name();
     Table {
