@@ -29,11 +29,11 @@ fn raw(case: &Case) -> RawCase {
         format: Some(1),
         title: Some(case.title.clone()),
         geometry: Some(RawGeometry {
-            file: None,
             min: Some(geometry.min),
             max: Some(geometry.max),
             solid: Some(geometry.solid),
             shapes: Some(geometry.shapes.clone()),
+            ..RawGeometry::default()
         }),
         sph,
         thin_film,

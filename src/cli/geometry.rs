@@ -13,7 +13,7 @@ use crate::snapshot::{Cloud, Field, Snapshot, Values};
 
 /// Measures a shape file and writes what can be seen of it.
 pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
-    let shapes = source::load_shapes(&arguments.file)?;
+    let shapes = source::load_shapes(&arguments.file, &arguments.import.options())?;
     let width = shapes.measures.iter().map(|measure| measure.name.len()).max().unwrap_or(0);
     for measure in &shapes.measures {
         let value = format!("{} {}", readable(measure.value), measure.unit);

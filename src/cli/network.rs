@@ -26,7 +26,7 @@ pub fn network(arguments: &NetworkArguments) -> Result<u8, Failure> {
 fn load(arguments: &NetworkArguments) -> Result<Source, Failure> {
     let path = &arguments.file;
     if !source::is_case_file(path) {
-        let geometry = source::geometry_of_file(path)?;
+        let geometry = source::geometry_of_file(path, &arguments.import.options())?;
         return quick(arguments, geometry);
     }
     let overrides = overrides(arguments);

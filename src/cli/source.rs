@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use super::exit::{BAD_INPUT, Failure};
+use super::output::tell;
 use crate::case::checked::{Case, Model};
 use crate::case::{self, Loaded};
 use crate::geometry::Geometry;
+use crate::geometry::import::Options;
 use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
 use crate::input::{InputError, Overrides};
@@ -50,6 +52,7 @@ pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Fa
     let loaded = load(path, overrides).map_err(Failure::input)?;
     let problems = setup::problems(&loaded.case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
     loaded.refuse(problems).map_err(Failure::input)?;
+    loaded.notes.iter().for_each(tell);
     Ok(Source { case: loaded.case, resolved: loaded.resolved, name })
 }
 
@@ -74,14 +77,17 @@ pub fn is_network(case: &Case) -> bool {
 }
 
 /// Loads a shape file.
-pub fn geometry_of_file(path: &Path) -> Result<GeometrySpec, Failure> {
-    case::load_shapes(path).map_err(Failure::input)
+pub fn geometry_of_file(path: &Path, options: &Options) -> Result<GeometrySpec, Failure> {
+    let read = case::load_shapes(path, options).map_err(Failure::input)?;
+    read.notes.iter().for_each(tell);
+    Ok(read.spec)
 }
 
 /// Loads and measures a shape file.
-pub fn load_shapes(path: &Path) -> Result<Shapes, Failure> {
-    let spec = case::load_shapes(path).map_err(Failure::input)?;
-    let geometry = Geometry::new(&spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+pub fn load_shapes(path: &Path, options: &Options) -> Result<Shapes, Failure> {
+    let read = case::load_shapes(path, options).map_err(Failure::input)?;
+    read.notes.iter().for_each(tell);
+    let geometry = Geometry::new(&read.spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
     let spacing = geometry.bounds().size().max() / GRID_NODES;
     Ok(Shapes { outline: geometry.outline(), distance: geometry.distance_grid(spacing), measures: measures(&geometry) })
 }

@@ -81,11 +81,33 @@ tables! {
     pub struct RawGeometry {
         /// Shape file, relative to the case file.
         pub file: PathBuf,
+        /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px; needed where the file names none.
+        pub unit: String,
+        /// Length of the drawing unit in m, in place of `unit`.
+        pub scale: f64,
+        /// Part of the drawing that becomes the domain, lower left and upper right corner in m; shapes are cut at open and periodic sides.
+        pub window: [[f64; 2]; 2],
+        /// Layers of the drawing that are read (default: all).
+        pub layers: Vec<String>,
+        /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white).
+        pub threshold: f64,
+        /// Side of a pixel of a mask in m.
+        pub pixel_size: f64,
+        /// Whether solid and pore of the file change places (default: no).
+        pub invert: bool,
+        /// Whether polygons whose vertices lie on a circle are read as discs (default: yes).
+        pub recognize_circles: bool,
+        /// Vertices of drawings that turn by less than this many degrees become arcs (default 20; 0: none).
+        pub smooth_below_deg: f64,
+        /// Columns of x, y and radius in a list of discs, the first one being 0.
+        pub columns: [usize; 3],
+        /// The character between the columns of a list of discs.
+        pub separator: char,
         /// Lower left corner of the domain in m; with `file`, in place of the file's.
         pub min: [f64; 2],
         /// Upper right corner of the domain in m; with `file`, in place of the file's.
         pub max: [f64; 2],
-        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`); not with `file`.
+        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`); not with `file`, see `invert`.
         pub solid: SolidSide,
         /// The shapes; overlaps are united; not with `file`.
         pub shapes: Vec<ShapeSpec>,
