@@ -6,6 +6,7 @@
 pub(crate) mod body;
 pub(crate) mod boundary;
 pub(crate) mod cosine;
+pub(crate) mod critical;
 pub mod curve;
 pub mod import;
 pub(crate) mod intersect;

@@ -118,6 +118,12 @@ impl Geometry {
         Self { wall_sides, ..self }.rebuilt()
     }
 
+    /// Whether the left, right, bottom and top side are walls.
+    #[must_use]
+    pub fn wall_sides(&self) -> [bool; 4] {
+        self.wall_sides
+    }
+
     /// Lengths in m below this count as zero.
     pub(crate) fn tolerance(&self) -> f64 {
         TOLERANCE * self.domain.size().max()

@@ -2,16 +2,18 @@
 
 pub mod cycles;
 pub mod displacement;
+pub mod extract;
 pub mod graph;
 pub mod menisci;
 pub mod setup;
 pub mod solver;
 
-mod extraction_pending;
 mod layers;
 mod measures;
+mod merge;
 mod openpnm;
 mod pictures;
 mod summary;
 mod tables;
-pub use extraction_pending::{ExtractError, extract};
+
+pub use extract::{ExtractError, extract};

@@ -1,0 +1,306 @@
+//! Level passages: stretches of the medial axis along which the wall distance stays the same.
+//!
+//! Between parallel segments, concentric arcs, and an arc about a vertex. Stretches that follow each other are one passage. It is one
+//! throat where the distance rises, or the domain ends, beyond both of its ends; one pore where it falls beyond both; a closed one is a
+//! pore and a throat at opposite places. Its middle within the domain stands for it.
+
+use std::collections::HashMap;
+
+use crate::geometry::critical::opposite::{Opposite, slack};
+use crate::geometry::critical::slope::{Along, Slope, slope};
+use crate::geometry::critical::walls::{Contact, Shift, Walls, minus};
+use crate::geometry::curve::{Curve, cross};
+use crate::geometry::intersect::meeting_places;
+use crate::math::{Vec2, perpendicular};
+
+/// A stretch of one segment or arc.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    axis: Curve,
+    along: [Along; 2],
+}
+
+/// Where a level passage ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    Rises,
+    Falls,
+    Open,
+    Closed,
+}
+
+/// What a critical place is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Kind {
+    /// A saddle of the wall distance.
+    Saddle(Opposite),
+    /// A maximum.
+    Maximum(Opposite),
+}
+
+/// Tells what opposite points are, each level passage once.
+#[derive(Default)]
+pub(crate) struct Classifier {
+    /// Stretches known by the indices of their two walls, with the images of those.
+    known: HashMap<[usize; 2], Vec<([Shift; 2], Curve)>>,
+}
+
+impl Classifier {
+    /// What the middle of two opposite points is: nothing, one thing, or two for a closed level passage.
+    pub fn classify(&mut self, walls: &Walls, at: &Opposite) -> Vec<Kind> {
+        let t = perpendicular(at.across());
+        let slopes = [slope(walls, at, t), slope(walls, at, -t)];
+        if slopes.iter().any(|slope| matches!(slope, Slope::Level(along) if self.is_known(walls, at, along))) {
+            return Vec::new();
+        }
+        if slopes.iter().all(|slope| !matches!(slope, Slope::Level(_))) {
+            return decide(slopes.map(|slope| end(&slope)), at).into_iter().collect();
+        }
+        let (ahead, first) = follow(walls, at, t);
+        let (mut passage, ends) = if first == End::Closed {
+            (ahead, [End::Closed; 2])
+        } else {
+            let (behind, second) = follow(walls, at, -t);
+            let back = |s: Stretch| Stretch { axis: s.axis.reversed(), ..s };
+            (behind.into_iter().rev().map(back).chain(ahead).collect(), [first, second])
+        };
+        passage.retain(|stretch| stretch.axis.length() > 0.0);
+        for stretch in &passage {
+            let [a, b] = stretch.along.map(|along| base(&along));
+            let (walls_of, shifts) = if a.0 <= b.0 { ([a.0, b.0], [a.1, b.1]) } else { ([b.0, a.0], [b.1, a.1]) };
+            self.known.entry(walls_of).or_default().push((shifts, stretch.axis));
+        }
+        if ends == [End::Closed; 2] {
+            let length: f64 = passage.iter().map(|stretch| stretch.axis.length()).sum();
+            return [
+                place(walls, &passage, 0.25 * length).map(Kind::Saddle),
+                place(walls, &passage, 0.75 * length).map(Kind::Maximum),
+            ]
+            .into_iter()
+            .flatten()
+            .collect();
+        }
+        let length: f64 = passage.iter().map(|stretch| stretch.axis.length()).sum();
+        let middle = place(walls, &passage, 0.5 * length).unwrap_or(*at);
+        decide(ends, &middle).into_iter().collect()
+    }
+
+    fn is_known(&self, walls: &Walls, at: &Opposite, along: &[Along; 2]) -> bool {
+        // Passages are level up to this share of their width.
+        const NEAR: f64 = 1e-5;
+        let [a, b] = along.map(|along| base(&along));
+        let (a, b) = if a.0 <= b.0 { (a, b) } else { (b, a) };
+        let Some(known) = self.known.get(&[a.0, b.0]) else { return false };
+        known.iter().any(|(shifts, axis)| {
+            let by = minus(shifts[0], a.1);
+            let x = at.center + walls.offset(by);
+            minus(shifts[1], b.1) == by && (axis.project(x).point - x).norm() < NEAR * at.half
+        })
+    }
+}
+
+fn base(along: &Along) -> (usize, Shift) {
+    match along {
+        Along::Piece(link) => (link.wall, link.shift),
+        Along::Vertex(contact, _) => (contact.wall, contact.shift),
+    }
+}
+
+fn end(slope: &Slope) -> End {
+    match slope {
+        Slope::Rises | Slope::Level(_) => End::Rises,
+        Slope::Falls => End::Falls,
+        Slope::Open => End::Open,
+    }
+}
+
+fn decide(ends: [End; 2], at: &Opposite) -> Option<Kind> {
+    match ends {
+        [End::Falls, End::Falls] => Some(Kind::Maximum(*at)),
+        [End::Falls, _] | [_, End::Falls] => None,
+        _ => Some(Kind::Saddle(*at)),
+    }
+}
+
+/// The opposite points at a length (m) along a passage.
+fn place(walls: &Walls, passage: &[Stretch], length: f64) -> Option<Opposite> {
+    let mut passed = 0.0;
+    for (k, stretch) in passage.iter().enumerate() {
+        let here = stretch.axis.length();
+        if passed + here >= length || k + 1 == passage.len() {
+            let x = stretch.axis.point(((length - passed) / here).clamp(0.0, 1.0));
+            return Some(Opposite::between(stretch.along.map(|along| contact(walls, &along, x))));
+        }
+        passed += here;
+    }
+    None
+}
+
+/// The wall point of a level passage nearest to `x` on its axis.
+fn contact(walls: &Walls, along: &Along, x: Vec2) -> Contact {
+    match *along {
+        Along::Vertex(contact, _) => contact,
+        Along::Piece(link) => {
+            let curve = walls.curve(link.wall, link.shift);
+            let foot = curve.project(x);
+            // Just within an end counts as the end.
+            let near = |u: f64| !curve.is_closed() && (curve.point(u) - foot.point).norm() <= walls.tolerance;
+            let u = if near(0.0) {
+                0.0
+            } else if near(1.0) {
+                1.0
+            } else {
+                foot.u
+            };
+            walls.at_vertex(Contact { wall: link.wall, shift: link.shift, u, point: curve.point(u) })
+        }
+    }
+}
+
+/// Follows a level passage from opposite points along the unit vector `t` to its end.
+fn follow(walls: &Walls, from: &Opposite, t: Vec2) -> (Vec<Stretch>, End) {
+    let (mut at, mut t) = (*from, t);
+    let mut passed = Vec::new();
+    // A passage has at most two stretches per piece and image; more means that rounding leads in circles.
+    for _ in 0..4 * walls.walls.len() + 16 {
+        let along = match slope(walls, &at, t) {
+            Slope::Level(along) => along,
+            other => return (passed, end(&other)),
+        };
+        let Some(axis) = axis(walls, &at, t, &along) else { return (passed, End::Rises) };
+        let (until, hits) = first_hit(walls, &axis, at.half);
+        let (until, opens) = match leaving(walls, &axis, until) {
+            Some(u) => (u, true),
+            None => (until, false),
+        };
+        let axis = axis.part(0.0, until);
+        passed.push(Stretch { axis, along });
+        if opens {
+            return (passed, End::Open);
+        }
+        if hits {
+            return (passed, End::Falls);
+        }
+        let x = axis.point(1.0);
+        at = Opposite::between(along.map(|along| contact(walls, &along, x)));
+        t = axis.tangent(1.0);
+        let home = walls.wrapped(at.center - from.center + walls.domain.min).0 - walls.domain.min;
+        if home.norm() <= 1e-6 * at.half {
+            return (passed, End::Closed);
+        }
+        // It may also pass its start within a stretch.
+        let back = walls.wrapped(from.center).0;
+        if passed.len() > 1 {
+            let y = walls.offset(minus(walls.wrapped(axis.point(0.5)).1, [0, 0]));
+            let near = axis.project(back + y).point - (back + y);
+            if near.norm() <= 1e-6 * at.half {
+                return (passed, End::Closed);
+            }
+        }
+    }
+    (passed, End::Closed)
+}
+
+/// The axis from opposite points along `t` until one of the walls ends.
+fn axis(walls: &Walls, at: &Opposite, t: Vec2, along: &[Along; 2]) -> Option<Curve> {
+    let center = along.iter().find_map(|along| match along {
+        Along::Vertex(contact, _) => Some(contact.point),
+        Along::Piece(link) => match walls.curve(link.wall, link.shift) {
+            Curve::Arc { center, .. } => Some(center),
+            Curve::Segment { .. } => None,
+        },
+    });
+    let Some(center) = center else {
+        let length = (0..2).map(|i| remaining(walls, &at.contacts[i], &along[i], t)).fold(f64::INFINITY, f64::min);
+        return (length > 0.0).then(|| Curve::Segment { a: at.center, b: at.center + t * length });
+    };
+    let spoke = at.center - center;
+    let sign = cross(spoke, t).signum();
+    let angle = (0..2).map(|i| remaining(walls, &at.contacts[i], &along[i], t)).fold(f64::INFINITY, f64::min);
+    let start = spoke.y.atan2(spoke.x);
+    let sweep = sign * angle.min(std::f64::consts::TAU);
+    (angle > 0.0).then_some(Curve::Arc { center, radius: spoke.norm(), start, sweep })
+}
+
+/// How far a wall goes on from a contact along `t`: a length in m on a segment, else an angle in rad.
+fn remaining(walls: &Walls, contact: &Contact, along: &Along, t: Vec2) -> f64 {
+    match *along {
+        Along::Vertex(_, angle) => angle,
+        Along::Piece(link) => {
+            let curve = walls.curve(link.wall, link.shift);
+            if curve.is_closed() {
+                return std::f64::consts::TAU;
+            }
+            let own = (contact.wall, contact.shift) == (link.wall, link.shift);
+            let is_forward = curve.tangent(if own { contact.u } else { 1.0 }).dot(&t) > 0.0;
+            let u = if own { contact.u } else { 1.0 };
+            match curve {
+                Curve::Segment { a, b } => (if is_forward { b } else { a } - contact.point).norm(),
+                Curve::Arc { sweep, .. } => sweep.abs() * if is_forward { 1.0 - u } else { u },
+            }
+        }
+    }
+}
+
+/// The first place on an axis behind which a third wall is nearer than `half` (m), as a parameter; 1 and `false` where there is none.
+fn first_hit(walls: &Walls, axis: &Curve, half: f64) -> (f64, bool) {
+    let middle = axis.point(0.5);
+    let reach = 0.5 * axis.length() + half + slack(walls, half);
+    let mut places = vec![0.0, 1.0];
+    for (wall, shift) in walls.within(middle, reach) {
+        for offset in offsets(&walls.curve(wall, shift), half) {
+            meeting_places(axis, &offset, walls.tolerance, &mut places);
+        }
+    }
+    places.sort_by(f64::total_cmp);
+    for pair in places.windows(2) {
+        let shortest = 10.0 * walls.tolerance / axis.length();
+        if pair[1] - pair[0] > shortest
+            && walls.distance(axis.point(0.5 * (pair[0] + pair[1]))) < half - 2.0 * slack(walls, half)
+        {
+            return (pair[0], true);
+        }
+    }
+    (1.0, false)
+}
+
+/// The curves at a distance (m) from a piece.
+fn offsets(curve: &Curve, distance: f64) -> Vec<Curve> {
+    let mut found = match *curve {
+        Curve::Segment { .. } => vec![curve.shifted(curve.normal(0.5) * distance)],
+        Curve::Arc { center, radius, sweep, .. } => {
+            let grown = radius + sweep.signum() * distance;
+            if grown > 0.0 { vec![Curve::circle(center, grown)] } else { Vec::new() }
+        }
+    };
+    if !curve.is_closed() {
+        found.extend([0.0, 1.0].map(|u| Curve::circle(curve.point(u), distance)));
+    }
+    found
+}
+
+/// The first parameter up to `until` at which an axis leaves the domain, along the axes that are not periodic.
+fn leaving(walls: &Walls, axis: &Curve, until: f64) -> Option<f64> {
+    let domain = walls.domain;
+    let far = domain.grown(domain.size().norm());
+    let mut places = Vec::new();
+    for i in (0..2).filter(|&i| !walls.periodic[i]) {
+        for level in [domain.min[i], domain.max[i]] {
+            let (mut a, mut b) = (far.min, far.max);
+            (a[i], b[i]) = (level, level);
+            meeting_places(axis, &Curve::Segment { a, b }, walls.tolerance, &mut places);
+        }
+    }
+    places.retain(|&u| u <= until);
+    places.sort_by(f64::total_cmp);
+    places.push(until);
+    let mut from = 0.0;
+    for &to in &places {
+        let x = axis.point(0.5 * (from + to));
+        if to > from && !walls.is_within(x) {
+            return Some(from);
+        }
+        from = to;
+    }
+    None
+}

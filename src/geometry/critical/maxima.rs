@@ -1,0 +1,152 @@
+//! Local maxima of the wall distance between three walls: Newton's method on equal distances.
+//!
+//! Where the converged circle holds a nearer wall, that wall takes the place of the one beside it and the iteration goes on, so that the
+//! first guess need not name the right pieces. A maximum lies within the triangle of three of its wall points.
+
+use crate::geometry::critical::candidates::Triple;
+use crate::geometry::critical::opposite::slack;
+use crate::geometry::critical::walls::{Contact, Shift, Walls, plus};
+use crate::math::Vec2;
+
+/// A local maximum of the wall distance.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Maximum {
+    /// Its place in m, within the domain.
+    pub center: Vec2,
+    /// The wall distance there in m.
+    pub radius: f64,
+    /// The nearest wall points.
+    pub contacts: Vec<Contact>,
+}
+
+/// Three wall points that leave less than this angle (rad) to a half circle are two opposite ones.
+const HALF_CIRCLE: f64 = 1e-7;
+
+const NEWTON_STEPS: usize = 40;
+const EXCHANGES: usize = 12;
+
+/// The maximum near a candidate.
+pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
+    let mut of = triple.walls;
+    let mut x = triple.start;
+    for _ in 0..EXCHANGES {
+        let (center, feet) = equidistant(walls, &of, x)?;
+        x = center;
+        let radius = (feet[0] - x).norm();
+        if !walls.is_within(x) || radius <= walls.tolerance {
+            return None;
+        }
+        let (distance, nearest) = walls.nearest(x)?;
+        if distance >= radius - slack(walls, radius) {
+            return surrounded(&feet.map(|foot| foot - x), radius).then(|| at(walls, x, radius));
+        }
+        // The nearer wall takes the place of the one beside it.
+        let v = nearest.point - x;
+        let beside = |i: &usize| -(feet[*i] - x).dot(&v) / (feet[*i] - x).norm();
+        let replaced = (0..3).min_by(|i, j| beside(i).total_cmp(&beside(j)))?;
+        if of[replaced] == (nearest.wall, nearest.shift) {
+            return None;
+        }
+        of[replaced] = (nearest.wall, nearest.shift);
+    }
+    None
+}
+
+/// A maximum with all its wall points.
+pub(crate) fn at(walls: &Walls, center: Vec2, radius: f64) -> Maximum {
+    let (y, shift) = walls.wrapped(center);
+    let back = walls.offset(shift);
+    let mut contacts = walls.contacts(y, radius + slack(walls, radius));
+    // Points of the same place are one.
+    let mut kept: Vec<Contact> = Vec::new();
+    contacts.retain(|contact| {
+        let is_new = kept.iter().all(|other| (other.point - contact.point).norm() > 1e-6 * radius);
+        if is_new {
+            kept.push(*contact);
+        }
+        is_new
+    });
+    let _ = back;
+    Maximum { center: y, radius, contacts: kept }
+}
+
+/// Whether directions leave no half circle free.
+fn surrounded(directions: &[Vec2], radius: f64) -> bool {
+    let mut angles: Vec<f64> = directions.iter().map(|v| v.y.atan2(v.x)).collect();
+    angles.sort_by(f64::total_cmp);
+    let _ = radius;
+    let gap = |k: usize| match angles.get(k + 1) {
+        Some(next) => next - angles[k],
+        None => angles[0] + std::f64::consts::TAU - angles[k],
+    };
+    (0..angles.len()).all(|k| gap(k) < std::f64::consts::PI - HALF_CIRCLE)
+}
+
+/// The point near `x` that is equally far from three walls, and the nearest points there.
+fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(Vec2, [Vec2; 3])> {
+    let farthest = walls.domain.size().norm();
+    let begin = x;
+    for _ in 0..NEWTON_STEPS {
+        let feet = of.map(|wall| foot(walls, wall, x));
+        let d = feet.map(|foot| (x - foot).norm());
+        if d.contains(&0.0) {
+            return None;
+        }
+        let away: Vec<Vec2> = (0..3).map(|i| (x - feet[i]) / d[i]).collect();
+        let (r, s) = (away[1] - away[0], away[2] - away[0]);
+        let determinant = r.x * s.y - r.y * s.x;
+        let (e, f) = (d[0] - d[1], d[0] - d[2]);
+        let step = Vec2::new(e * s.y - f * r.y, f * r.x - e * s.x) / determinant;
+        let length = step.norm();
+        if !length.is_finite() {
+            return None;
+        }
+        // A step beyond the nearest wall says nothing.
+        let longest = 0.5 * d[0].min(d[1]).min(d[2]);
+        x += if length > longest { step * (longest / length) } else { step };
+        if (x - begin).norm() > farthest {
+            return None;
+        }
+        if length <= 1e-15 * farthest + 1e-14 * d[0] {
+            let feet = of.map(|wall| foot(walls, wall, x));
+            return Some((x, feet));
+        }
+    }
+    let feet = of.map(|wall| foot(walls, wall, x));
+    let d = feet.map(|foot| (x - foot).norm());
+    let spread = d.iter().fold(0.0_f64, |most, other| most.max((other - d[0]).abs()));
+    (spread <= slack(walls, d[0])).then_some((x, feet))
+}
+
+/// The nearest point of a piece or of the one before it, which shares its first vertex.
+fn foot(walls: &Walls, (wall, shift): (usize, Shift), x: Vec2) -> Vec2 {
+    let curve = walls.curve(wall, shift);
+    let foot = curve.project(x);
+    match walls.walls[wall].before {
+        Some(before) if foot.u == 0.0 => {
+            let other = walls.curve(before.wall, plus(shift, before.shift)).project(x).point;
+            if (other - x).norm_squared() < (foot.point - x).norm_squared() { other } else { foot.point }
+        }
+        _ => foot.point,
+    }
+}
+
+/// The center of a concave arc, where its points leave no half circle free.
+pub(crate) fn center_of_arc(walls: &Walls, wall: usize) -> Option<Maximum> {
+    let crate::geometry::curve::Curve::Arc { center, radius, sweep, .. } = walls.walls[wall].curve else { return None };
+    if sweep > 0.0 || !walls.is_within(center) || walls.distance(center) < radius - slack(walls, radius) {
+        return None;
+    }
+    let contacts = walls.contacts(center, radius + slack(walls, radius));
+    let mut directions: Vec<Vec2> = contacts.iter().map(|contact| contact.point - center).collect();
+    for contact in &contacts {
+        // All points of concentric arcs are nearest.
+        let curve = walls.curve(contact.wall, contact.shift);
+        if let crate::geometry::curve::Curve::Arc { center: other, .. } = curve
+            && (other - center).norm() <= slack(walls, radius)
+        {
+            directions.extend((0..=12).map(|k| curve.point(f64::from(k) / 12.0) - center));
+        }
+    }
+    surrounded(&directions, radius).then(|| at(walls, center, radius))
+}

@@ -1,0 +1,92 @@
+//! Critical points of the wall distance: its saddles, which are throats, and its maxima, which are pores.
+//!
+//! A point of the pore space is critical where it lies in the convex hull of its nearest wall points [Lieutier2004]. `walls` holds the walls
+//! as chains, `candidates` finds which of them face each other, `opposite` places between two walls, `slope` tells saddles from maxima,
+//! `level` joins stretches along which the distance stays the same, `maxima` finds places between three walls.
+
+pub(crate) mod candidates;
+pub(crate) mod level;
+pub(crate) mod maxima;
+pub(crate) mod opposite;
+pub(crate) mod slope;
+pub(crate) mod walls;
+
+use crate::geometry::critical::candidates::{Pair, Samples, candidates};
+use crate::geometry::critical::level::{Classifier, Kind};
+use crate::geometry::critical::maxima::{Maximum, center_of_arc, maximum};
+use crate::geometry::critical::opposite::{Opposite, opposite_points};
+use crate::geometry::critical::slope::is_opening;
+use crate::geometry::critical::walls::{Contact, Walls, minus};
+use crate::math::Vec2;
+
+/// Critical places nearer than this share of their distance from the walls are one.
+const SAME_PLACE: f64 = 1e-6;
+
+/// The critical points within the domain.
+pub(crate) struct CriticalPoints {
+    /// Saddles: the throats.
+    pub saddles: Vec<Opposite>,
+    /// Maxima: the pores.
+    pub maxima: Vec<Maximum>,
+}
+
+impl CriticalPoints {
+    /// The critical points of the distance from `walls`; `density` multiplies the samples on each piece.
+    pub fn find(walls: &Walls, density: &[f64]) -> Self {
+        let samples = Samples::new(walls, density);
+        let (pairs, triples) = candidates(walls, &samples);
+        let (saddles, mut maxima) = between_two(walls, &pairs);
+        maxima.extend(triples.iter().filter_map(|triple| maximum(walls, triple)));
+        maxima.extend((0..walls.walls.len()).filter_map(|wall| center_of_arc(walls, wall)));
+        let maxima = one_of_each(maxima, |maximum| (maximum.center, maximum.radius));
+        Self { saddles, maxima }
+    }
+}
+
+/// Saddles and maxima between two walls.
+fn between_two(walls: &Walls, pairs: &[Pair]) -> (Vec<Opposite>, Vec<Maximum>) {
+    let mut found = Vec::new();
+    for (k, pair) in pairs.iter().enumerate() {
+        let is_first = k == 0 || (pairs[k - 1].walls, pairs[k - 1].shift) != (pair.walls, pair.shift);
+        found.extend(opposite_points(walls, pair, is_first).into_iter().map(|at| in_cell(walls, at)));
+    }
+    let found = one_of_each(found, |at| (at.center, at.half));
+    let mut classifier = Classifier::default();
+    let kinds: Vec<Kind> = found.iter().flat_map(|at| classifier.classify(walls, at)).collect();
+    let (mut saddles, mut maxima) = (Vec::new(), Vec::new());
+    for kind in kinds {
+        match kind {
+            Kind::Saddle(at) if !is_opening(walls, &at) => saddles.push(in_cell(walls, at)),
+            Kind::Saddle(_) => {}
+            Kind::Maximum(at) => maxima.push(maxima::at(walls, at.center, at.half)),
+        }
+    }
+    (one_of_each(saddles, |at| (at.center, at.half)), maxima)
+}
+
+/// The same with its middle in the half-open cell.
+fn in_cell(walls: &Walls, at: Opposite) -> Opposite {
+    let (center, shift) = walls.wrapped(at.center);
+    let back = walls.offset(shift);
+    let moved = |c: Contact| Contact { shift: minus(c.shift, shift), point: c.point - back, ..c };
+    Opposite { contacts: at.contacts.map(moved), center, half: at.half }
+}
+
+/// The things whose centers differ, sorted by them; of equal ones the first.
+fn one_of_each<T>(mut found: Vec<T>, place: impl Fn(&T) -> (Vec2, f64)) -> Vec<T> {
+    found.sort_by(|a, b| {
+        let (p, q) = (place(a), place(b));
+        p.0.x.total_cmp(&q.0.x).then(p.0.y.total_cmp(&q.0.y)).then(p.1.total_cmp(&q.1))
+    });
+    let mut kept: Vec<T> = Vec::new();
+    for thing in found {
+        let (x, size) = place(&thing);
+        let near = SAME_PLACE * size;
+        let is_known =
+            kept.iter().rev().map(&place).take_while(|(y, _)| x.x - y.x <= near).any(|(y, _)| (x - y).norm() <= near);
+        if !is_known {
+            kept.push(thing);
+        }
+    }
+    kept
+}

@@ -1,0 +1,126 @@
+//! How the wall distance goes on along the medial axis from the middle of two opposite wall points.
+//!
+//! With the signed curvatures k (convex solid above 0) of the walls towards that side and half their distance h, twice the distance along
+//! the axis has the second derivative k₁ / (1 + k₁ h) + k₂ / (1 + k₂ h), a vertex counting as k → ∞. A third wall point at the same distance
+//! lets it fall at once. Where the sum vanishes the passage is level there.
+
+use crate::geometry::critical::opposite::{Opposite, SAME_DIRECTION, SAME_DISTANCE, slack};
+use crate::geometry::critical::walls::{Contact, Link, Sides, Walls};
+use crate::geometry::curve::Curve;
+use crate::math::{Vec2, perpendicular};
+
+/// What a level passage runs along on one side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Along {
+    /// A piece.
+    Piece(Link),
+    /// A vertex, around which the passage turns by at most this angle in rad.
+    Vertex(Contact, f64),
+}
+
+/// How the wall distance goes on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Slope {
+    /// It rises.
+    Rises,
+    /// It falls.
+    Falls,
+    /// The domain ends there.
+    Open,
+    /// It stays, along these two.
+    Level([Along; 2]),
+}
+
+/// How the wall distance goes on from between opposite points along the unit vector `t`, which is normal to the line between them.
+pub(crate) fn slope(walls: &Walls, at: &Opposite, t: Vec2) -> Slope {
+    if leaves(walls, at.center, t) {
+        return Slope::Open;
+    }
+    let across = at.across();
+    // A wall point within this angle of one of the two is a neighbor of that; it follows from the slack of distances.
+    let beside = (10.0 * SAME_DISTANCE).sqrt();
+    let blocks = |contact: &Contact| {
+        let v = (contact.point - at.center) / at.half;
+        v.dot(&t) > beside && v.dot(&across).abs() < 1.0 - 0.5 * beside * beside
+    };
+    if walls.contacts(at.center, at.half + slack(walls, at.half)).iter().any(blocks) {
+        return Slope::Falls;
+    }
+    let sides = [side(walls, &at.contacts[0], across, t), side(walls, &at.contacts[1], -across, t)];
+    let mut bend = [0.0; 2];
+    for i in 0..2 {
+        bend[i] = match sides[i] {
+            Side::Towards => return Slope::Falls,
+            Side::Away(..) => 1.0,
+            Side::Smooth(_, k) if 1.0 + k * at.half <= SAME_DIRECTION => return Slope::Falls,
+            Side::Smooth(_, k) => k * at.half / (1.0 + k * at.half),
+        };
+    }
+    let sum = bend[0] + bend[1];
+    if sum.abs() > SAME_DISTANCE.max(SAME_DIRECTION * bend[0].abs()) {
+        return if sum > 0.0 { Slope::Rises } else { Slope::Falls };
+    }
+    Slope::Level(sides.map(|side| match side {
+        Side::Smooth(link, _) => Along::Piece(link),
+        Side::Away(contact, angle) => Along::Vertex(contact, angle),
+        Side::Towards => unreachable!("it falls then"),
+    }))
+}
+
+/// How a wall goes on from a contact.
+enum Side {
+    /// It turns towards the pore.
+    Towards,
+    /// It turns away by this angle in rad; the contact stays at the vertex.
+    Away(Contact, f64),
+    /// It goes on along a piece of this signed curvature in 1/m.
+    Smooth(Link, f64),
+}
+
+fn side(walls: &Walls, contact: &Contact, normal: Vec2, t: Vec2) -> Side {
+    let is_forward = t.dot(&perpendicular(normal)) > 0.0;
+    let [before, after] = walls.around(contact);
+    let Some(link) = (if is_forward { after } else { before }) else {
+        // The wall is cut there: its straight continuation turns away.
+        return Side::Away(*contact, std::f64::consts::FRAC_PI_2);
+    };
+    let curve = walls.curve(link.wall, link.shift);
+    let is_within = curve.is_closed() || (contact.u > 0.0 && contact.u < 1.0);
+    let direction = match is_forward {
+        _ if is_within => t,
+        true => curve.tangent(0.0),
+        false => -curve.tangent(1.0),
+    };
+    let away = (-direction.dot(&normal)).atan2(direction.dot(&t));
+    if away > SAME_DIRECTION {
+        Side::Away(*contact, away)
+    } else if away < -SAME_DIRECTION {
+        Side::Towards
+    } else {
+        Side::Smooth(link, curvature(&curve))
+    }
+}
+
+/// The signed curvature of a wall in 1/m, above 0 where the solid is convex.
+pub(crate) fn curvature(curve: &Curve) -> f64 {
+    match *curve {
+        Curve::Segment { .. } => 0.0,
+        Curve::Arc { radius, sweep, .. } => sweep.signum() / radius,
+    }
+}
+
+/// Whether a step along `t` from `x` leaves the domain through a side that is neither periodic nor a wall.
+fn leaves(walls: &Walls, x: Vec2, t: Vec2) -> bool {
+    let y = walls.wrapped(x).0;
+    (0..2).filter(|&i| !walls.periodic[i]).any(|i| {
+        (t[i] > SAME_DIRECTION && y[i] > walls.domain.max[i] - walls.tolerance)
+            || (t[i] < -SAME_DIRECTION && y[i] < walls.domain.min[i] + walls.tolerance)
+    })
+}
+
+/// Whether both points lie on one side at which walls are cut: what is between them is an opening and not a throat.
+pub(crate) fn is_opening(walls: &Walls, at: &Opposite) -> bool {
+    let on = |i: usize, level: f64| at.contacts.iter().all(|c| (c.point[i] - level).abs() <= 10.0 * walls.tolerance);
+    walls.sides == Sides::Cut
+        && (0..2).filter(|&i| !walls.periodic[i]).any(|i| on(i, walls.domain.min[i]) || on(i, walls.domain.max[i]))
+}

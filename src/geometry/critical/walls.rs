@@ -1,0 +1,393 @@
+//! The walls of the pore space as chains of pieces that know their neighbors, on the torus where the domain is periodic.
+//!
+//! Each wall of the pore space stands here once, as a base piece; [`Shift`]s lead to its periodic images. At sides that are neither walls nor
+//! periodic the walls may be cut: within the domain the distance to the cut walls is that to walls that go on straight beyond such a side,
+//! since the point nearest to such a continuation is the cut itself.
+
+use std::f64::consts::PI;
+
+use crate::geometry::boundary::{Boundary, Piece};
+use crate::geometry::curve::{Curve, cross};
+use crate::geometry::intersect::meeting_places;
+use crate::geometry::solid::Geometry;
+use crate::math::{Bounds, Vec2, perpendicular};
+
+/// Periods along x and y.
+pub(crate) type Shift = [i32; 2];
+
+/// The sum of two shifts.
+pub(crate) fn plus(a: Shift, b: Shift) -> Shift {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+/// The difference of two shifts.
+pub(crate) fn minus(a: Shift, b: Shift) -> Shift {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// The piece that begins where another ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Link {
+    /// Index of the piece.
+    pub wall: usize,
+    /// The image of it that joins the base piece.
+    pub shift: Shift,
+}
+
+/// A piece of wall with its neighbors along the wall.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wall {
+    /// Where it runs, solid on the left.
+    pub curve: Curve,
+    /// Index of the written shape.
+    pub shape: u32,
+    /// The piece that begins where this one ends.
+    pub next: Option<Link>,
+    /// The piece that ends where this one begins.
+    pub before: Option<Link>,
+}
+
+/// A point of a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Contact {
+    /// Index of the piece; a vertex is the start of the piece that leaves it.
+    pub wall: usize,
+    /// Image of the piece.
+    pub shift: Shift,
+    /// Parameter on the piece.
+    pub u: f64,
+    /// Position in m.
+    pub point: Vec2,
+}
+
+/// What becomes of walls that reach out of the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sides {
+    /// They are cut at each side that is neither wall nor periodic.
+    Cut,
+    /// They go on beyond it.
+    Beyond,
+}
+
+/// The walls of a geometry.
+pub(crate) struct Walls {
+    /// The domain.
+    pub domain: Bounds,
+    /// Whether it is joined along x and y.
+    pub periodic: [bool; 2],
+    /// What was done at sides that are neither walls nor periodic.
+    pub sides: Sides,
+    /// Lengths in m below this count as zero.
+    pub tolerance: f64,
+    /// The base pieces.
+    pub walls: Vec<Wall>,
+    /// Base piece and shift of each piece of `index`.
+    images: Vec<(usize, Shift)>,
+    index: Boundary,
+}
+
+impl Walls {
+    /// The walls of `geometry`.
+    pub fn new(geometry: &Geometry, sides: Sides) -> Self {
+        let (domain, periodic, tolerance) = (geometry.bounds(), geometry.periodic(), geometry.tolerance());
+        let reach = if sides == Sides::Cut { 0.0 } else { domain.size().norm() };
+        let frame = domain.grown(reach);
+        let mut pieces = Vec::new();
+        for piece in &geometry.boundary.pieces {
+            for curve in clipped(&piece.curve, frame, periodic, tolerance) {
+                pieces.push(Piece { curve, shape: piece.shape });
+            }
+        }
+        let cell = |curve: &Curve| -> Shift {
+            let at = (curve.point(0.5) - domain.min).component_div(&domain.size());
+            [0, 1].map(|i| if periodic[i] { floor_near(at[i]) } else { 0 })
+        };
+        // Each wall has one image whose middle lies in the half-open cell.
+        let walls: Vec<Wall> = pieces
+            .iter()
+            .filter(|piece| cell(&piece.curve) == [0, 0])
+            .map(|piece| Wall { curve: piece.curve, shape: piece.shape, next: None, before: None })
+            .collect();
+        let mut all = Self {
+            domain,
+            periodic,
+            sides,
+            tolerance,
+            walls,
+            images: Vec::new(),
+            index: Boundary::new(Vec::new(), 0.0),
+        };
+        // Along a periodic axis the nearest point of a wall is never farther than half a period.
+        const MORE: f64 = 0.51;
+        all.images = all.images_within(domain.size() * MORE);
+        let image =
+            |&(wall, shift): &(usize, Shift)| Piece { curve: all.curve(wall, shift), shape: all.walls[wall].shape };
+        all.index = Boundary::new(all.images.iter().map(image).collect(), tolerance);
+        all.join();
+        all
+    }
+
+    /// The images of walls that reach into the domain grown by `margin` (m) along periodic axes.
+    pub fn images_within(&self, margin: Vec2) -> Vec<(usize, Shift)> {
+        let size = self.domain.size();
+        let mut images = Vec::new();
+        for (k, wall) in self.walls.iter().enumerate() {
+            let bounds = wall.curve.bounds();
+            let span = |i: usize| {
+                if !self.periodic[i] {
+                    return 0..=0;
+                }
+                let first = ((self.domain.min[i] - margin[i] - bounds.max[i]) / size[i]).ceil() as i32;
+                let last = ((self.domain.max[i] + margin[i] - bounds.min[i]) / size[i]).floor() as i32;
+                first..=last
+            };
+            for dx in span(0) {
+                images.extend(span(1).map(|dy| (k, [dx, dy])));
+            }
+        }
+        images
+    }
+
+    /// A shift in m.
+    pub fn offset(&self, shift: Shift) -> Vec2 {
+        self.domain.size().component_mul(&Vec2::new(f64::from(shift[0]), f64::from(shift[1])))
+    }
+
+    /// An image of a piece.
+    pub fn curve(&self, wall: usize, shift: Shift) -> Curve {
+        let curve = self.walls[wall].curve;
+        if shift == [0, 0] { curve } else { curve.shifted(self.offset(shift)) }
+    }
+
+    /// `x` brought into the half-open cell, and the shift that leads back.
+    pub fn wrapped(&self, x: Vec2) -> (Vec2, Shift) {
+        let at = (x - self.domain.min).component_div(&self.domain.size());
+        let shift = [0, 1].map(|i| if self.periodic[i] { floor_near(at[i]) } else { 0 });
+        (x - self.offset(shift), shift)
+    }
+
+    /// Whether `x` lies in the domain, its sides included.
+    pub fn is_within(&self, x: Vec2) -> bool {
+        self.domain.grown(self.tolerance).contains(self.wrapped(x).0)
+    }
+
+    /// The wall point nearest to `x` and its distance in m.
+    pub fn nearest(&self, x: Vec2) -> Option<(f64, Contact)> {
+        let (y, shift) = self.wrapped(x);
+        let found = self.index.nearest(y)?;
+        let contact = self.contact(found.piece, found.foot.u, found.foot.point, shift);
+        Some(((contact.point - x).norm(), contact))
+    }
+
+    /// The distance of the nearest wall from `x` in m; infinite where there is none.
+    pub fn distance(&self, x: Vec2) -> f64 {
+        let y = self.wrapped(x).0;
+        self.index.nearest(y).map_or(f64::INFINITY, |found| (found.foot.point - y).norm())
+    }
+
+    /// The nearest points of all pieces within `reach` (m) of `x`, in the order of their pieces; each vertex once.
+    pub fn contacts(&self, x: Vec2, reach: f64) -> Vec<Contact> {
+        let (y, shift) = self.wrapped(x);
+        let within = self.index.within(y, reach);
+        let mut found: Vec<Contact> =
+            within.map(|near| self.contact(near.piece, near.foot.u, near.foot.point, shift)).collect();
+        found.sort_by(|a, b| (a.wall, a.shift).cmp(&(b.wall, b.shift)).then(a.u.total_cmp(&b.u)));
+        found.dedup_by(|a, b| (a.wall, a.shift, a.u) == (b.wall, b.shift, b.u));
+        found
+    }
+
+    /// The pieces within `reach` (m) of `x` and their images.
+    pub fn within(&self, x: Vec2, reach: f64) -> Vec<(usize, Shift)> {
+        let (y, shift) = self.wrapped(x);
+        let mut found: Vec<(usize, Shift)> = self
+            .index
+            .within(y, reach)
+            .map(|near| self.images[near.piece])
+            .map(|(wall, own)| (wall, plus(own, shift)))
+            .collect();
+        found.sort_unstable();
+        found
+    }
+
+    /// Whether a piece within `reach` (m) of `x` counts, told by its image and the point of it nearest to `x`.
+    pub fn any_within(&self, x: Vec2, reach: f64, counts: impl Fn((usize, Shift), Vec2) -> bool) -> bool {
+        let (y, shift) = self.wrapped(x);
+        let back = self.offset(shift);
+        self.index.within(y, reach).any(|near| {
+            let (wall, own) = self.images[near.piece];
+            counts((wall, plus(own, shift)), near.foot.point + back)
+        })
+    }
+
+    /// A bound in m of the wall distance within a periodic domain, at most half a period.
+    pub fn largest_distance(&self) -> f64 {
+        let size = self.domain.size();
+        if self.periodic == [false; 2] {
+            return 0.0;
+        }
+        // The distance changes by at most one per length: some nodes per piece bound it closely.
+        let step = (self.domain.area() / (1.0 + 0.5 * self.walls.len() as f64)).sqrt();
+        let counts = size.map(|side| (side / step).ceil().clamp(4.0, 4096.0));
+        let cell = size.component_div(&counts);
+        let mut largest = 0.0_f64;
+        for i in 0..counts.x as usize {
+            for j in 0..counts.y as usize {
+                let at = Vec2::new(i as f64 + 0.5, j as f64 + 0.5).component_mul(&cell);
+                largest = largest.max(self.distance(self.domain.min + at));
+            }
+        }
+        (largest + 0.5 * cell.norm()).min(0.51 * size.max())
+    }
+
+    fn contact(&self, image: usize, u: f64, point: Vec2, shift: Shift) -> Contact {
+        let (wall, own) = self.images[image];
+        self.at_vertex(Contact { wall, shift: plus(own, shift), u, point: point + self.offset(shift) })
+    }
+
+    /// The same point, named by the piece that leaves it where it is a vertex.
+    pub fn at_vertex(&self, contact: Contact) -> Contact {
+        match self.walls[contact.wall].next {
+            Some(next) if contact.u == 1.0 => {
+                Contact { wall: next.wall, shift: plus(contact.shift, next.shift), u: 0.0, ..contact }
+            }
+            _ => contact,
+        }
+    }
+
+    /// The pieces that end and begin at a contact: the same one within a piece, none where a wall is cut.
+    pub fn around(&self, contact: &Contact) -> [Option<Link>; 2] {
+        let here = Link { wall: contact.wall, shift: contact.shift };
+        let along = |link: Link| Link { wall: link.wall, shift: plus(contact.shift, link.shift) };
+        let wall = &self.walls[contact.wall];
+        if wall.curve.is_closed() || (contact.u > 0.0 && contact.u < 1.0) {
+            [Some(here); 2]
+        } else if contact.u == 0.0 {
+            [wall.before.map(along), Some(here)]
+        } else {
+            [Some(here), wall.next.map(along)]
+        }
+    }
+
+    /// The inward normal of the side of the domain that is nearest to `x`, among those that are not periodic.
+    pub fn inward(&self, x: Vec2) -> Vec2 {
+        let mut nearest = (f64::INFINITY, Vec2::zeros());
+        for i in (0..2).filter(|&i| !self.periodic[i]) {
+            for (gap, sign) in [((x[i] - self.domain.min[i]).abs(), 1.0), ((self.domain.max[i] - x[i]).abs(), -1.0)] {
+                if gap < nearest.0 {
+                    let mut normal = Vec2::zeros();
+                    normal[i] = sign;
+                    nearest = (gap, normal);
+                }
+            }
+        }
+        nearest.1
+    }
+
+    /// Joins the ends of pieces. Where more than two pieces meet, as where solids touch, the wall goes on along the pore: it takes the
+    /// sharpest turn to the right.
+    fn join(&mut self) {
+        // Ends come from intersections computed once on each curve.
+        const ROUNDING: f64 = 10.0;
+        let near = ROUNDING * self.tolerance;
+        for k in 0..self.walls.len() {
+            let curve = self.walls[k].curve;
+            if curve.is_closed() {
+                continue;
+            }
+            let end = curve.point(1.0);
+            let (y, shift) = self.wrapped(end);
+            let mut starts: Vec<(usize, Shift)> = self
+                .index
+                .within(y, near)
+                .map(|found| self.images[found.piece])
+                .map(|(wall, own)| (wall, plus(own, shift)))
+                .filter(|&(wall, shift)| {
+                    let curve = self.curve(wall, shift);
+                    !curve.is_closed() && (curve.point(0.0) - end).norm() <= near
+                })
+                .collect();
+            starts.sort_unstable();
+            let turn = |&(wall, shift): &(usize, Shift)| turn(&curve, &self.curve(wall, shift), near);
+            let follower = starts.iter().min_by(|a, b| turn(a).total_cmp(&turn(b)));
+            if let Some(&(wall, shift)) = follower.filter(|&&(wall, _)| self.walls[wall].before.is_none()) {
+                self.walls[k].next = Some(Link { wall, shift });
+                self.walls[wall].before = Some(Link { wall: k, shift: minus([0, 0], shift) });
+            }
+        }
+    }
+}
+
+/// The whole part of `x`; a value that is a whole number up to rounding counts as that.
+fn floor_near(x: f64) -> i32 {
+    const ROUNDING: f64 = 1e-9;
+    let whole = x.round();
+    if (x - whole).abs() < ROUNDING { whole as i32 } else { x.floor() as i32 }
+}
+
+/// The turn in rad, to the left above 0, from the end of one curve to the start of another one that leaves there.
+fn turn(from: &Curve, to: &Curve, near: f64) -> f64 {
+    let (t, s) = (from.tangent(1.0), to.tangent(0.0));
+    let angle = cross(t, s).atan2(t.dot(&s));
+    // A cusp turns by half a circle to either side: the curves themselves tell where it opens.
+    const CUSP: f64 = 1e-4;
+    if PI - angle.abs() > CUSP {
+        return angle;
+    }
+    let reach = (1e3 * near).max(0.1 * from.length().min(to.length()));
+    let back = from.point(1.0 - (reach / from.length()).min(0.5));
+    let ahead = to.project(back).point;
+    if (ahead - back).dot(&-perpendicular(t)) > 0.0 { -PI } else { PI }
+}
+
+/// The parts of a curve within a box along the axes that are not periodic, and along periodic ones where the curve is longer than the
+/// box. A part along a side of the box is kept where its pore lies within.
+fn clipped(curve: &Curve, frame: Bounds, periodic: [bool; 2], tolerance: f64) -> Vec<Curve> {
+    let bounds = curve.bounds();
+    let cuts = |i: usize| !periodic[i] || bounds.max[i] - bounds.min[i] > 1.5 * frame.size()[i];
+    let leaves =
+        |i: usize| cuts(i) && (bounds.min[i] < frame.min[i] + tolerance || bounds.max[i] > frame.max[i] - tolerance);
+    if !leaves(0) && !leaves(1) {
+        return vec![*curve];
+    }
+    let mut places = Vec::new();
+    let far = frame.grown(bounds.size().norm() + frame.size().norm());
+    for i in (0..2).filter(|&i| cuts(i)) {
+        for level in [frame.min[i], frame.max[i]] {
+            let (mut a, mut b) = (far.min, far.max);
+            (a[i], b[i]) = (level, level);
+            meeting_places(curve, &Curve::Segment { a, b }, tolerance, &mut places);
+        }
+    }
+    places.retain(|u| u.is_finite());
+    places.sort_by(f64::total_cmp);
+    if curve.is_closed() {
+        match places.first() {
+            Some(&first) => places.push(first + 1.0),
+            None => places = vec![0.0, 1.0],
+        }
+    } else {
+        places.insert(0, 0.0);
+        places.push(1.0);
+    }
+    let shortest = tolerance / curve.length();
+    let mut parts = Vec::new();
+    let mut from = places[0];
+    for &to in &places[1..] {
+        if to - from > shortest {
+            let part = if (from, to) == (0.0, 1.0) { *curve } else { curve.part(from, to) };
+            from = to;
+            let (middle, normal) = (part.point(0.5), part.normal(0.5));
+            let keeps = (0..2).filter(|&i| cuts(i)).all(|i| {
+                let (low, high) = (middle[i] - frame.min[i], frame.max[i] - middle[i]);
+                low > -tolerance
+                    && high > -tolerance
+                    && (low > tolerance || normal[i] > 0.0)
+                    && (high > tolerance || normal[i] < 0.0)
+            });
+            if keeps {
+                parts.push(part);
+            }
+        }
+    }
+    parts
+}

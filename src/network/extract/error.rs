@@ -1,0 +1,54 @@
+//! What can keep a geometry from having a network.
+
+use crate::math::Vec2;
+
+/// Why there is no network.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ExtractError {
+    /// A side cannot be open.
+    #[error(
+        "the {side} side cannot be open: it is {}; make it neither, or choose another side",
+        if *.is_periodic { "periodic" } else { "a wall" }
+    )]
+    NotOpen {
+        /// Name of the side.
+        side: &'static str,
+        /// Whether it is periodic, else it is a wall.
+        is_periodic: bool,
+    },
+    /// There is no wall, so that there are neither pores nor throats.
+    #[error(
+        "no wall lies within the domain, which is all {}; a network needs solid and pore space",
+        if *.is_solid { "solid" } else { "pore" }
+    )]
+    NoWalls {
+        /// Whether the domain is solid.
+        is_solid: bool,
+    },
+    /// Walls do not close.
+    #[error(
+        "the wall ends at {}, within the domain; shapes that touch or nearly coincide there may be the cause: let them overlap clearly or leave a gap",
+        list(.at)
+    )]
+    Broken {
+        /// Where, in m.
+        at: Vec<Vec2>,
+    },
+    /// The regions found are not one per maximum.
+    #[error(
+        "no network was found that has one pore per region, near {}; shapes there may touch or nearly touch: let them overlap clearly or leave a gap",
+        list(.places)
+    )]
+    NoCertificate {
+        /// Where, in m.
+        places: Vec<Vec2>,
+    },
+}
+
+/// Some places as text.
+fn list(at: &[Vec2]) -> String {
+    const SHOWN: usize = 5;
+    let shown: Vec<String> = at.iter().take(SHOWN).map(|x| format!("({:.6e}, {:.6e}) m", x.x, x.y)).collect();
+    let more = at.len().saturating_sub(SHOWN);
+    if more == 0 { shown.join(", ") } else { format!("{} and {more} more", shown.join(", ")) }
+}

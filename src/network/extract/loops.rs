@@ -1,0 +1,208 @@
+//! The boundaries of pore regions: along a wall to the next chord, across it, along the wall there, until the loop is closed.
+//!
+//! Each stretch of wall between two chord ends belongs to one region, and each chord to two. Where a wall ends at an open side the loop follows
+//! the side to where the next wall begins. Loops run on base pieces and add up shifts, so that periodic domains need no images.
+
+use crate::geometry::critical::opposite::Opposite;
+use crate::geometry::critical::walls::{Contact, Shift, Walls, minus, plus};
+use crate::geometry::curve::cross;
+use crate::math::{Vec2, perpendicular};
+use crate::network::extract::sides::{Perimeter, SidePart};
+
+/// One step around a region, positions shifted by whole periods.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Step {
+    /// Along a piece of wall between two parameters; the second may pass 1 on a circle.
+    Wall { wall: usize, shift: Shift, from: f64, to: f64 },
+    /// Across a chord, from its contact number `end` to the other one.
+    Chord { throat: usize, end: usize, shift: Shift },
+    /// Along an open side.
+    Side { part: SidePart, shift: Shift },
+}
+
+/// The boundary of a region, pore on the right.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Loop {
+    /// Its steps in order.
+    pub steps: Vec<Step>,
+    /// The shift between its end and its start; zero but for loops around a periodic domain.
+    pub winding: Shift,
+}
+
+/// A chord end on a wall.
+#[derive(Debug, Clone, Copy)]
+struct ChordEnd {
+    throat: usize,
+    end: usize,
+    contact: Contact,
+    /// Angle in rad of the chord in the fan of a vertex.
+    angle: f64,
+}
+
+/// All loops, and which of them runs where.
+pub(super) struct Loops {
+    /// The loops.
+    pub loops: Vec<Loop>,
+    ends: Vec<Vec<ChordEnd>>,
+    /// For each chord end of a wall: the loop that arrives there and the shift of the wall then.
+    arriving: Vec<Vec<(usize, Shift)>>,
+    /// For each wall: the loop that passes its end.
+    leaving: Vec<(usize, Shift)>,
+}
+
+const NONE: usize = usize::MAX;
+
+impl Loops {
+    /// The loops of all regions. Chords are those of `saddles`.
+    pub fn trace(walls: &Walls, saddles: &[Opposite], perimeter: &Perimeter) -> Self {
+        let mut ends: Vec<Vec<ChordEnd>> = vec![Vec::new(); walls.walls.len()];
+        for (throat, saddle) in saddles.iter().enumerate() {
+            for end in 0..2 {
+                let contact = saddle.contacts[end];
+                let direction = saddle.contacts[1 - end].point - contact.point;
+                ends[contact.wall].push(ChordEnd {
+                    throat,
+                    end,
+                    contact,
+                    angle: fan_angle(walls, &contact, direction),
+                });
+            }
+        }
+        for list in &mut ends {
+            list.sort_by(|a, b| a.contact.u.total_cmp(&b.contact.u).then(a.angle.total_cmp(&b.angle)));
+        }
+        let mut place = vec![[(NONE, NONE); 2]; saddles.len()];
+        for (wall, list) in ends.iter().enumerate() {
+            for (k, end) in list.iter().enumerate() {
+                place[end.throat][end.end] = (wall, k);
+            }
+        }
+        let arriving = ends.iter().map(|list| vec![(NONE, [0, 0]); list.len()]).collect();
+        let mut all = Self { loops: Vec::new(), ends, arriving, leaving: vec![(NONE, [0, 0]); walls.walls.len()] };
+        for wall in 0..walls.walls.len() {
+            for k in 0..all.ends[wall].len() {
+                if all.arriving[wall][k].0 == NONE {
+                    all.run(walls, saddles, perimeter, &place, (wall, Some(k)));
+                }
+            }
+        }
+        for wall in 0..walls.walls.len() {
+            let is_circle_with_ends = walls.walls[wall].curve.is_closed() && !all.ends[wall].is_empty();
+            if all.leaving[wall].0 == NONE && !is_circle_with_ends {
+                all.run(walls, saddles, perimeter, &place, (wall, None));
+            }
+        }
+        all
+    }
+
+    /// Runs around the loop that arrives at a chord end, or passes the end of a wall.
+    fn run(
+        &mut self,
+        walls: &Walls,
+        saddles: &[Opposite],
+        perimeter: &Perimeter,
+        place: &[[(usize, usize); 2]],
+        first: (usize, Option<usize>),
+    ) {
+        let number = self.loops.len();
+        let mut steps = Vec::new();
+        // Where the loop stands: on a wall, at a parameter, its image, and the number of the next chord end there.
+        let (mut wall, mut shift) = (first.0, [0, 0]);
+        let mut next = first.1;
+        let mut is_first = true;
+        let winding = loop {
+            if (wall, next) == first && !is_first {
+                break shift;
+            }
+            let u = match next {
+                Some(k) => {
+                    self.arriving[wall][k] = (number, shift);
+                    let here = self.ends[wall][k];
+                    let by = minus(shift, here.contact.shift);
+                    steps.push(Step::Chord { throat: here.throat, end: here.end, shift: by });
+                    let there = saddles[here.throat].contacts[1 - here.end];
+                    let (other, k) = place[here.throat][1 - here.end];
+                    (wall, shift) = (other, plus(by, there.shift));
+                    next = self.after(walls, wall, Some(k));
+                    there.u
+                }
+                None => {
+                    self.leaving[wall] = (number, shift);
+                    let link = walls.walls[wall].next;
+                    if let Some(link) = link {
+                        (wall, shift) = (link.wall, plus(shift, link.shift));
+                    } else if walls.walls[wall].curve.is_closed() {
+                        // A circle without chords.
+                    } else {
+                        let Some(way) = perimeter.way(wall) else { break [0, 0] };
+                        steps.extend(way.parts.iter().map(|&part| Step::Side { part, shift }));
+                        (wall, shift) = (way.wall, plus(shift, way.shift));
+                    }
+                    next = self.after(walls, wall, None);
+                    0.0
+                }
+            };
+            is_first = false;
+            self.go(walls, (wall, shift), u, next, &mut steps);
+        };
+        self.loops.push(Loop { steps, winding });
+    }
+
+    /// The chord end on a wall that follows number `k`, or the first one; `None`: the end of the wall comes first.
+    fn after(&self, walls: &Walls, wall: usize, k: Option<usize>) -> Option<usize> {
+        let next = k.map_or(0, |k| k + 1);
+        if next < self.ends[wall].len() {
+            Some(next)
+        } else {
+            (walls.walls[wall].curve.is_closed() && !self.ends[wall].is_empty()).then_some(0)
+        }
+    }
+
+    /// Adds the stretch from `u` to the next chord end or the end of the wall.
+    fn go(&self, walls: &Walls, (wall, shift): (usize, Shift), u: f64, next: Option<usize>, steps: &mut Vec<Step>) {
+        let mut to = next.map_or(1.0, |k| self.ends[wall][k].contact.u);
+        if walls.walls[wall].curve.is_closed() && to <= u && next.is_some() {
+            to += 1.0;
+        }
+        if to > u {
+            steps.push(Step::Wall { wall, shift, from: u, to });
+        }
+    }
+
+    /// The loop that runs through a wall point which is seen from a place along `direction`, what is added to the shift of the point in the
+    /// frame of the loop, and how far (m) chord ends are.
+    pub fn at(&self, walls: &Walls, contact: &Contact, direction: Vec2) -> Option<(usize, Shift, f64)> {
+        let angle = fan_angle(walls, contact, -direction);
+        let list = &self.ends[contact.wall];
+        let k = list.partition_point(|end| (end.contact.u, end.angle) < (contact.u, angle));
+        let is_closed = walls.walls[contact.wall].curve.is_closed();
+        let (number, shift) = match k {
+            _ if k < list.len() => self.arriving[contact.wall][k],
+            _ if is_closed && !list.is_empty() => self.arriving[contact.wall][0],
+            _ => self.leaving[contact.wall],
+        };
+        let base = contact.point - walls.offset(contact.shift);
+        let margin = list
+            .iter()
+            .skip(k.saturating_sub(1))
+            .take(2)
+            .map(|end| {
+                let apart = (end.contact.point - walls.offset(end.contact.shift) - base).norm();
+                apart + direction.norm() * if end.contact.u == contact.u { (end.angle - angle).abs() } else { 0.0 }
+            })
+            .fold(f64::INFINITY, f64::min);
+        (number != NONE).then_some((number, minus(shift, contact.shift), margin))
+    }
+}
+
+/// The angle in rad, counter-clockwise, from where the fan of a vertex begins to a direction out of it; 0 within a piece.
+fn fan_angle(walls: &Walls, contact: &Contact, direction: Vec2) -> f64 {
+    let [before, after] = walls.around(contact);
+    let begins = match (before, after) {
+        (Some(before), after) if after != Some(before) => walls.curve(before.wall, before.shift).normal(1.0),
+        // A wall that is cut at its start: its continuation comes from beyond the side, whose inward normal is nearest to its direction.
+        (None, Some(after)) => -perpendicular(walls.inward(walls.curve(after.wall, after.shift).point(0.0))),
+        _ => return 0.0,
+    };
+    cross(begins, direction).atan2(begins.dot(&direction))
+}

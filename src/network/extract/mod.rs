@@ -1,0 +1,68 @@
+//! The pore network of a geometry: pores are the local maxima of the wall distance, throats its saddles.
+//!
+//! Chords, the segments between the two wall contacts of a throat, cut the pore space into regions that tile it exactly, one around each
+//! maximum: along a chord the distance falls to both walls at slope one, so that it is the watershed between both. The certificate of a
+//! network is that every region holds exactly one maximum, that regions are simply connected, that their areas sum to that of the pore space and
+//! that no throat is wider than its pores. Where it fails, the walls of the regions concerned are sampled more densely, and all is done again.
+//!
+//! At a side that is neither wall nor periodic the domain ends: regions end there with openings. The largest inscribed circle of such a region
+//! may have its center on the side.
+
+mod error;
+mod loops;
+mod moments;
+mod openings;
+mod regions;
+mod sides;
+
+pub use error::ExtractError;
+
+use crate::geometry::Geometry;
+use crate::geometry::critical::CriticalPoints;
+use crate::geometry::critical::walls::{Sides, Walls};
+use crate::network::extract::loops::Loops;
+use crate::network::extract::regions::{Attempt, attempt};
+use crate::network::extract::sides::Perimeter;
+use crate::network::graph::Network;
+
+/// How often the sampling is doubled where the certificate fails. A circle then has 24 * 2^8 samples.
+const ROUNDS: usize = 8;
+
+/// The network of all maxima. `open_sides` (left, right, bottom, top) are those through which fluids come and go; a side that is neither wall nor
+/// periodic is cut in the same way whether it is open or not, and its openings are listed.
+///
+/// # Errors
+/// An [`ExtractError`] where the geometry has no pore space or no walls, where a wall or periodic side is asked to be open, and where no
+/// network with a certificate is found.
+pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, ExtractError> {
+    for side in (0..4).filter(|&side| open_sides[side]) {
+        if geometry.periodic()[side / 2] || geometry.wall_sides()[side] {
+            return Err(ExtractError::NotOpen { side: SIDES[side], is_periodic: geometry.periodic()[side / 2] });
+        }
+    }
+    let walls = Walls::new(geometry, Sides::Cut);
+    if walls.walls.is_empty() {
+        return Err(ExtractError::NoWalls { is_solid: geometry.is_solid(geometry.bounds().center()) });
+    }
+    let perimeter =
+        Perimeter::new(&walls).map_err(|broken| ExtractError::Broken { at: broken.iter().map(|b| b.at).collect() })?;
+    let mut density = vec![1.0; walls.walls.len()];
+    let mut round = 0;
+    loop {
+        let points = CriticalPoints::find(&walls, &density);
+        let loops = Loops::trace(&walls, &points.saddles, &perimeter);
+        match attempt(geometry, &walls, &points, &loops, &perimeter) {
+            Attempt::Certified(network) => return Ok(network),
+            Attempt::Failed { places, walls_of } => {
+                if round == ROUNDS {
+                    return Err(ExtractError::NoCertificate { places });
+                }
+                walls_of.into_iter().for_each(|wall| density[wall] *= 2.0);
+                round += 1;
+            }
+        }
+    }
+}
+
+/// The names of sides in the order of their numbers.
+const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];

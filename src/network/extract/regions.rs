@@ -1,0 +1,244 @@
+//! Regions and throats from loops and maxima, and the certificate.
+
+use crate::geometry::Geometry;
+use crate::geometry::critical::CriticalPoints;
+use crate::geometry::critical::slope::curvature;
+use crate::geometry::critical::walls::{Contact, Shift, Walls, minus};
+use crate::math::Vec2;
+use crate::network::extract::loops::{Loop, Loops, Step};
+use crate::network::extract::moments::Moments;
+use crate::network::extract::openings::farthest;
+use crate::network::extract::sides::Perimeter;
+use crate::network::graph::{Edge, Network, Opening, Region, Throat, WallPiece};
+
+/// What came of some critical points.
+pub(super) enum Attempt {
+    /// A network that has its certificate.
+    Certified(Network),
+    /// Regions that do not hold exactly one maximum.
+    Failed {
+        /// Where, in m.
+        places: Vec<Vec2>,
+        /// The walls around them.
+        walls_of: Vec<usize>,
+    },
+}
+
+/// Radii and widths that differ by less than this share are equal.
+const SAME: f64 = 1e-7;
+
+/// The network of the loops, if each of them has its one maximum.
+pub(super) fn attempt(
+    geometry: &Geometry,
+    walls: &Walls,
+    points: &CriticalPoints,
+    loops: &Loops,
+    perimeter: &Perimeter,
+) -> Attempt {
+    let _ = (geometry, perimeter);
+    let owned = maxima_of(walls, points, loops);
+    let mut network = Network { throats: throats(walls, points), ..Network::default() };
+    let mut failed = Vec::new();
+    for (number, (ring, maxima)) in loops.loops.iter().zip(&owned).enumerate() {
+        let region = build(walls, points, ring, number, maxima, &mut network);
+        let is_good = region.as_ref().is_some_and(|region| is_certified(walls, points, region, maxima));
+        match region {
+            Some(region) if is_good => network.regions.push(region),
+            _ => failed.push(number),
+        }
+    }
+    if !failed.is_empty() {
+        return failure(walls, points, failed.iter().map(|&number| &loops.loops[number]));
+    }
+    let wide: Vec<usize> = (0..network.throats.len())
+        .filter(|&throat| {
+            let throat = &network.throats[throat];
+            throat.regions.iter().any(|&r| 0.5 * throat.width > network.regions[r].radius * (1.0 + SAME))
+        })
+        .collect();
+    if !wide.is_empty() {
+        let around = wide.iter().flat_map(|&throat| network.throats[throat].regions);
+        return failure(walls, points, around.map(|region| &loops.loops[region]));
+    }
+    Attempt::Certified(network)
+}
+
+/// A maximum of a loop: its number, and the shift that is added to it in the frame of the loop.
+#[derive(Debug, Clone, Copy)]
+struct Owned {
+    maximum: usize,
+    shift: Shift,
+}
+
+/// The maxima of each loop.
+fn maxima_of(walls: &Walls, points: &CriticalPoints, loops: &Loops) -> Vec<Vec<Owned>> {
+    let mut owned = vec![Vec::new(); loops.loops.len()];
+    for (k, maximum) in points.maxima.iter().enumerate() {
+        let found = maximum
+            .contacts
+            .iter()
+            .filter_map(|contact| loops.at(walls, contact, contact.point - maximum.center))
+            // The contact that is farthest from chord ends leaves no doubt.
+            .max_by(|a, b| a.2.total_cmp(&b.2));
+        if let Some((number, shift, _)) = found {
+            owned[number].push(Owned { maximum: k, shift });
+        }
+    }
+    owned
+}
+
+fn throats(walls: &Walls, points: &CriticalPoints) -> Vec<Throat> {
+    points
+        .saddles
+        .iter()
+        .map(|saddle| Throat {
+            width: 2.0 * saddle.half,
+            contacts: saddle.contacts.map(|contact| contact.point),
+            shapes: saddle.contacts.map(|contact| walls.walls[contact.wall].shape),
+            curvatures: saddle.contacts.map(|contact| contact_curvature(walls, &contact)),
+            regions: [usize::MAX; 2],
+            shift: Vec2::zeros(),
+        })
+        .collect()
+}
+
+/// The signed curvature in 1/m of the wall at a contact: infinite at a vertex that turns; where two arcs join smoothly the larger one.
+fn contact_curvature(walls: &Walls, contact: &Contact) -> f64 {
+    use crate::geometry::critical::opposite::SAME_DIRECTION;
+    let [before, after] = walls.around(contact);
+    let (Some(before), Some(after)) = (before, after) else { return f64::INFINITY };
+    let (a, b) = (walls.curve(before.wall, before.shift), walls.curve(after.wall, after.shift));
+    if before == after {
+        return curvature(&a);
+    }
+    let turns = (a.tangent(1.0) - b.tangent(0.0)).norm() > SAME_DIRECTION;
+    if turns { f64::INFINITY } else { curvature(&a).max(curvature(&b)) }
+}
+
+/// The region of a loop; none where the loop is not closed or has neither maximum nor opening.
+fn build(
+    walls: &Walls,
+    points: &CriticalPoints,
+    ring: &Loop,
+    number: usize,
+    maxima: &[Owned],
+    network: &mut Network,
+) -> Option<Region> {
+    if ring.winding != [0, 0] {
+        return None;
+    }
+    let (center, radius, frame) = match maxima.first() {
+        Some(owned) => {
+            let maximum = &points.maxima[owned.maximum];
+            (maximum.center, maximum.radius, owned.shift)
+        }
+        None => {
+            let (x, radius) = widest_opening(walls, ring)?;
+            let (center, shift) = walls.wrapped(x);
+            (center, radius, shift)
+        }
+    };
+    let by = |shift: Shift| minus(shift, frame);
+    let mut moments = Moments::about(center);
+    let mut wall_length = 0.0;
+    let mut edges = Vec::new();
+    let mut stretch: Option<Vec<WallPiece>> = None;
+    for step in &ring.steps {
+        match *step {
+            Step::Wall { wall, shift, from, to } => {
+                let curve = walls.curve(wall, by(shift));
+                let part = if (from, to) == (0.0, 1.0) { curve } else { curve.part(from, to) };
+                moments.curve(&part);
+                wall_length += part.length();
+                stretch.get_or_insert_default().push(WallPiece { curve: part, shape: walls.walls[wall].shape });
+                continue;
+            }
+            Step::Chord { throat, end, shift } => {
+                let saddle = &points.saddles[throat];
+                let offset = walls.offset(by(shift));
+                let (from, to) = (saddle.contacts[end].point + offset, saddle.contacts[1 - end].point + offset);
+                moments.straight(from, to);
+                edges.push(Edge::Wall(stretch.take().unwrap_or_default()));
+                edges.push(Edge::Throat { throat, end, from, to });
+                network.throats[throat].regions[end] = number;
+                // `contacts` and `shift` hold the frames of both regions once both have been here.
+                if end == 0 {
+                    network.throats[throat].contacts = [from, to];
+                    network.throats[throat].shift -= offset;
+                } else {
+                    network.throats[throat].shift += offset;
+                }
+            }
+            Step::Side { part, shift } => {
+                let offset = walls.offset(by(shift));
+                let (from, to) = (part.from + offset, part.to + offset);
+                moments.straight(from, to);
+                if let Some(pieces) = stretch.take() {
+                    edges.push(Edge::Wall(pieces));
+                }
+                edges.push(Edge::Opening { opening: network.openings.len(), from, to });
+                network.openings.push(Opening { side: part.side, ends: [from, to], region: number });
+            }
+        }
+    }
+    if let Some(last) = stretch {
+        match edges.first_mut() {
+            // The loop began within this stretch.
+            Some(Edge::Wall(first)) => {
+                let begin = std::mem::replace(first, last);
+                first.extend(begin);
+            }
+            _ => edges.push(Edge::Wall(last)),
+        }
+    }
+    let moments = moments.closed();
+    Some(Region { center, radius, edges, area: -moments.area, wall_length, centroid: moments.centroid() })
+}
+
+/// The point of the openings of a loop that is farthest from the walls, in the frame of the loop, and its distance in m.
+fn widest_opening(walls: &Walls, ring: &Loop) -> Option<(Vec2, f64)> {
+    let parts = ring.steps.iter().filter_map(|step| match *step {
+        Step::Side { part, shift } => Some((part, walls.offset(shift))),
+        _ => None,
+    });
+    parts.map(|(part, offset)| farthest(walls, part.from + offset, part.to + offset)).max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Whether a region has exactly one maximum.
+fn is_certified(walls: &Walls, points: &CriticalPoints, region: &Region, maxima: &[Owned]) -> bool {
+    let openings = region.edges.iter().filter_map(|edge| match edge {
+        Edge::Opening { from, to, .. } => Some((*from, *to)),
+        _ => None,
+    });
+    let is_higher_outside =
+        || openings.clone().any(|(from, to)| farthest(walls, from, to).1 > region.radius * (1.0 + SAME));
+    let _ = points;
+    match maxima.len() {
+        0 => region.area > 0.0,
+        1 => region.area > 0.0 && !is_higher_outside(),
+        _ => false,
+    }
+}
+
+/// Where the certificate fails: the first point of each loop, and all its walls.
+fn failure<'a>(walls: &Walls, points: &CriticalPoints, loops: impl Iterator<Item = &'a Loop>) -> Attempt {
+    let (mut places, mut walls_of) = (Vec::new(), Vec::new());
+    for ring in loops {
+        let place = ring.steps.iter().find_map(|step| match *step {
+            Step::Wall { wall, from, to, .. } => Some(walls.walls[wall].curve.point(0.5 * (from + to))),
+            Step::Chord { throat, .. } => Some(points.saddles[throat].center),
+            Step::Side { .. } => None,
+        });
+        places.extend(place);
+        for step in &ring.steps {
+            match *step {
+                Step::Wall { wall, .. } => walls_of.push(wall),
+                Step::Chord { throat, .. } => walls_of.extend(points.saddles[throat].contacts.map(|c| c.wall)),
+                Step::Side { .. } => {}
+            }
+        }
+    }
+    walls_of.sort_unstable();
+    walls_of.dedup();
+    Attempt::Failed { places, walls_of }
+}

@@ -1,0 +1,44 @@
+//! Regions joined to pores by persistence: a throat nearly as wide as the smaller of its pores divides nothing.
+//!
+//! Throats are taken from wide to narrow. Where half the width exceeds f times the smaller of both inscribed radii, both pores become one.
+//! Loops stay: two pores may keep two throats, and a pore one to itself.
+
+use crate::network::graph::{Network, Pores};
+
+impl Pores {
+    /// The pores for the persistence ratio f, above 0 and at most 1; 1 keeps all.
+    #[must_use]
+    pub fn merged(network: &Network, persistence: f64) -> Self {
+        let regions = &network.regions;
+        // The region with the largest circle stands for its set.
+        let mut parent: Vec<usize> = (0..regions.len()).collect();
+        let mut order: Vec<usize> = (0..network.throats.len()).collect();
+        order.sort_by(|&a, &b| network.throats[b].width.total_cmp(&network.throats[a].width).then(a.cmp(&b)));
+        let mut is_dissolved = vec![false; network.throats.len()];
+        for throat in order {
+            let [a, b] = network.throats[throat].regions.map(|region| find(&mut parent, region));
+            let (low, high) = if (regions[a].radius, b) <= (regions[b].radius, a) { (a, b) } else { (b, a) };
+            if a != b && 0.5 * network.throats[throat].width > persistence * regions[low].radius {
+                parent[low] = high;
+                is_dissolved[throat] = true;
+            }
+        }
+        let main_of: Vec<usize> = (0..regions.len()).map(|region| find(&mut parent, region)).collect();
+        let main_region: Vec<usize> = (0..regions.len()).filter(|&region| main_of[region] == region).collect();
+        let mut number = vec![0; regions.len()];
+        main_region.iter().enumerate().for_each(|(pore, &region)| number[region] = pore);
+        let pore_of: Vec<usize> = main_of.iter().map(|&region| number[region]).collect();
+        let mut area = vec![0.0; main_region.len()];
+        pore_of.iter().zip(regions).for_each(|(&pore, region)| area[pore] += region.area);
+        let throats = (0..network.throats.len()).filter(|&throat| !is_dissolved[throat]).collect();
+        Self { persistence, pore_of, main_region, area, throats }
+    }
+}
+
+fn find(parent: &mut [usize], mut region: usize) -> usize {
+    while parent[region] != region {
+        parent[region] = parent[parent[region]];
+        region = parent[region];
+    }
+    region
+}
