@@ -121,6 +121,13 @@ impl Passage {
         None
     }
 
+    /// Whether a point lies ahead of the line through the chord of the throat.
+    #[must_use]
+    pub fn is_ahead(&self, x: Vec2) -> bool {
+        let end = chord_end(&self.right, Hand::Right).unwrap_or_default();
+        cross(end - self.origin, x - self.origin) >= 0.0
+    }
+
     /// Area in m² that the meniscus has swept since the chord of the throat: between chord, walls and arc.
     #[must_use]
     pub fn swept_area(&self, meniscus: &Meniscus) -> f64 {
