@@ -1,6 +1,8 @@
 //! The measures of a network.
 
 use super::cycles::{Cycles, Fluid};
+use super::flow::{LEAST_SOLID, along, drive, relative};
+use super::permeability::Drive;
 use super::solver::{NetworkSolver, Setting};
 use super::tables::kept;
 use crate::solver::Measure;
@@ -13,6 +15,7 @@ fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Mea
 pub fn all(solver: &NetworkSolver) -> Vec<Measure> {
     let setting = solver.setting();
     let mut found = of_network(setting);
+    found.extend(permeabilities(solver));
     found.extend(entry_pressures(solver));
     if let Some(cycles) = solver.cycles() {
         found.extend(of_displacement(setting, cycles));
@@ -44,6 +47,33 @@ fn of_network(setting: &Setting) -> Vec<Measure> {
         measure("narrowest-throat-m", number(narrowest), "m", "width of the narrowest throat that the merge left"),
         measure("widest-throat-m", number(widest), "m", "width of the widest throat that the merge left"),
     ]
+}
+
+fn permeabilities(solver: &NetworkSolver) -> Vec<Measure> {
+    let setting = solver.setting();
+    let solid = 1.0 - setting.porosity;
+    let range = if solid < LEAST_SOLID {
+        format!(
+            " (WARNING: the solid fraction is {solid:.2}, and conductances of throats are too high below {LEAST_SOLID})"
+        )
+    } else {
+        String::new()
+    };
+    let of_axis = |axis: usize, name| {
+        let method = match drive(setting, axis) {
+            Some(Drive::Periodic(_)) => "flow through all throats under a mean gradient, periodic sides joined",
+            Some(Drive::Sides(_)) => "flow through all throats between the open sides",
+            None => "both sides along this axis would have to be open or periodic",
+        };
+        measure(name, along(solver, axis), "m2", format!("{method}{range}"))
+    };
+    let mut found = vec![of_axis(0, "permeability-x-m2"), of_axis(1, "permeability-y-m2")];
+    if let [[_, wetting, other]] = relative(solver, &[1.0])[..] {
+        let method = "permeability of the throats between regions that the phase holds, over that of all, at the end of the last half cycle";
+        found.push(measure("relative-permeability-wetting", wetting, "", method));
+        found.push(measure("relative-permeability-non-wetting", other, "", method));
+    }
+    found
 }
 
 fn entry_pressures(solver: &NetworkSolver) -> Vec<Measure> {

@@ -9,10 +9,11 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use super::conductance::{Conductance, conductances};
 use super::cycles::Cycles;
 use super::displacement::{Conditions, Displacement, EventKind};
 use super::graph::{Network, Pores};
-use super::{layers, measures, openpnm, pictures, summary, tables};
+use super::{flow, layers, measures, openpnm, pictures, summary, tables};
 use crate::diagram::Diagram;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
@@ -53,6 +54,7 @@ pub struct NetworkSolver {
     setting: Setting,
     cycles: Option<Cycles>,
     entry_curvatures: OnceCell<Vec<f64>>,
+    conductances: OnceCell<Vec<Conductance>>,
     clock: f64,
     steps_before: u64,
     seconds: [f64; 2],
@@ -72,7 +74,15 @@ impl NetworkSolver {
     /// A network with nothing displaced yet.
     #[must_use]
     pub fn new(setting: Setting, cycles: Option<Cycles>) -> Self {
-        Self { setting, cycles, entry_curvatures: OnceCell::new(), clock: 0.0, steps_before: 0, seconds: [0.0; 2] }
+        Self {
+            setting,
+            cycles,
+            entry_curvatures: OnceCell::new(),
+            conductances: OnceCell::new(),
+            clock: 0.0,
+            steps_before: 0,
+            seconds: [0.0; 2],
+        }
     }
 
     /// The same with the time that its extraction took, in s.
@@ -101,6 +111,12 @@ impl NetworkSolver {
         let conditions = entry.as_ref()?;
         let find = || Displacement::new(network, pores, conditions.clone()).entry_curvatures(network.throats.len());
         Some(self.entry_curvatures.get_or_init(find))
+    }
+
+    /// The conductances of all throats of the network.
+    #[must_use]
+    pub fn conductances(&self) -> &[Conductance] {
+        self.conductances.get_or_init(|| conductances(&self.setting.network))
     }
 
     fn count(&self, kind: EventKind) -> f64 {
@@ -189,6 +205,7 @@ impl Solver for NetworkSolver {
             mosaics: pictures::mosaics(self),
         };
         results.tables.push(openpnm::table(self));
+        results.tables.extend(flow::table(self));
         results
     }
 
