@@ -29,7 +29,7 @@ pub enum Command {
     Run(RunArguments),
     /// Tell everything that can be told before a run: mistakes, particles, time step, dimensionless numbers, duration
     Check(CheckArguments),
-    /// Measure a shape file: porosity, specific surface, throats; write its outline and signed distance
+    /// Measure a shape file or the geometry of a case: porosity, specific surface, throats; write its outline and signed distance
     Geometry(GeometryArguments),
     /// Write a commented starter case
     New(NewArguments),
@@ -82,10 +82,14 @@ pub struct CheckArguments {
 /// `geometry`.
 #[derive(Debug, Args)]
 pub struct GeometryArguments {
-    /// Shape file: TOML, list of discs, SVG, DXF, shapefile, GeoJSON, WKT, or a mask in PNG or TIFF
+    /// Shape file (TOML, list of discs, SVG, DXF, shapefile, GeoJSON, WKT, or a mask in PNG or TIFF), or a case file, whose geometry is
+    /// measured with the sides of the case
     pub file: PathBuf,
     #[command(flatten)]
     pub import: ImportArguments,
+    /// Sides of a shape file that are joined; none where it is not given
+    #[arg(long, value_enum, value_name = "AXES")]
+    pub periodic: Option<PeriodicAxes>,
     /// Folder for outline, signed distance and picture; nothing is written where there is none
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -172,8 +176,16 @@ pub enum PeriodicAxes {
     X,
     /// Bottom and top
     Y,
-    /// Both pairs
+    /// All four
     Xy,
+}
+
+impl PeriodicAxes {
+    /// Whether x and y are among them.
+    #[must_use]
+    pub fn along(self) -> [bool; 2] {
+        [self != Self::Y, self != Self::X]
+    }
 }
 
 /// How a drawing is read: the keys of `[geometry]` beside `file`.

@@ -17,6 +17,7 @@ mod output;
 mod progress;
 mod run;
 mod source;
+mod stages;
 mod study;
 mod study_run;
 mod summary;

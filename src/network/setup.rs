@@ -53,7 +53,7 @@ pub fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupErr
     let sides = kinds(network);
     let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
     let walls = sides.map(|side| side == Side::Wall);
-    Ok(Geometry::new(&case.geometry)?.with_periodic(periodic).with_wall_sides(walls))
+    Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
 }
 
 /// The solver of a case with nothing displaced yet.
