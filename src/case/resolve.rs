@@ -66,7 +66,7 @@ fn raw_output(output: &Output, by_volume: bool) -> RawOutput {
     RawOutput {
         vtk: every(output.vtk_every),
         series: every(output.series_every),
-        grid: Some(RawGrid { ratio: Some(output.grid_ratio) }),
+        grid: (!by_volume).then_some(RawGrid { ratio: Some(output.grid_ratio) }),
         restart: every(output.restart_every),
     }
 }

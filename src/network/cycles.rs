@@ -99,9 +99,9 @@ pub struct Entry {
 /// When an element was filled in the present half cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Invasion {
-    /// Number of the event within its half cycle, from 0 on.
+    /// Number of the event within its half cycle, from 1 on; 0 for what is filled at the beginning, through an opening of the inlet.
     pub sequence: usize,
-    /// Applied curvature towards the wetting phase in 1/m.
+    /// Applied curvature towards the wetting phase in 1/m; NaN at the beginning.
     pub applied: f64,
     /// Share of the pore space that was displaced in this half cycle, this event included.
     pub displaced: f64,
@@ -114,8 +114,8 @@ pub struct Outcome {
     pub events: usize,
     /// At the event by which the invading phase reached the outlet: applied curvature in 1/m and share of the invading phase.
     pub breakthrough: Option<(f64, f64)>,
-    /// Saturation of the wetting phase at its beginning.
-    pub first_saturation: f64,
+    /// Saturation of the wetting phase at its beginning, before and after what is open at the inlet is filled.
+    pub first_saturation: [f64; 2],
 }
 
 /// A displacement through its half cycles.
@@ -159,9 +159,8 @@ impl Cycles {
         let displacement = Displacement::new(&network, &pores, first.conditions.clone());
         let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
         let wetting_area = if first.invading == Fluid::Wetting { 0.0 } else { pore_area };
-        let invasions = vec![None; displacement.elements().len()];
-        let outcome = Outcome { first_saturation: tidy(wetting_area / pore_area), ..Outcome::default() };
-        Some(Self {
+        let elements = displacement.elements().len();
+        let mut cycles = Self {
             network,
             pores,
             displacement,
@@ -172,11 +171,49 @@ impl Cycles {
             wetting_area,
             displaced_area: 0.0,
             history: Vec::new(),
-            invasions,
-            outcomes: vec![outcome],
+            invasions: vec![None; elements],
+            outcomes: Vec::new(),
             displaced_before: 0.0,
             half_cycles,
-        })
+        };
+        cycles.begin(&vec![Phase::Defending; elements]);
+        Some(cycles)
+    }
+
+    /// Takes account of what a half cycle fills at its beginning; `before` are the phases that the elements would have without that.
+    fn begin(&mut self, before: &[Phase]) {
+        let saturation = self.saturation();
+        self.displaced_before = self.displaced_area;
+        self.invasions.iter_mut().for_each(|invasion| *invasion = None);
+        let filled: Vec<usize> = (0..before.len())
+            .filter(|&element| {
+                before[element] == Phase::Defending && self.displacement.phase(element) == Phase::Invading
+            })
+            .collect();
+        self.displace(&filled);
+        let displaced = (self.displaced_area - self.displaced_before) / self.pore_area;
+        for element in filled {
+            self.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
+        }
+        let first_saturation = [saturation, self.saturation()];
+        // No pressure holds back what enters through an opening, so that there is none to tell.
+        let breakthrough = self.displacement.reached_outlet().then(|| (f64::NAN, self.invading_saturation()));
+        self.outcomes.push(Outcome { first_saturation, breakthrough, ..Outcome::default() });
+    }
+
+    /// Share of the pore space that the invading phase holds.
+    fn invading_saturation(&self) -> f64 {
+        match self.half_cycle().invading {
+            Fluid::Wetting => self.saturation(),
+            Fluid::NonWetting => 1.0 - self.saturation(),
+        }
+    }
+
+    /// Counts the areas of elements that the invading phase filled.
+    fn displace(&mut self, elements: &[usize]) {
+        let area: f64 = elements.iter().map(|&element| self.displacement.elements()[element].area).sum();
+        self.displaced_area += area;
+        self.wetting_area += if self.half_cycle().invading == Fluid::Wetting { area } else { -area };
     }
 
     /// The same displacement at its beginning.
@@ -193,35 +230,26 @@ impl Cycles {
         self.steps += 1;
         let event = if self.has_ended_early() { None } else { self.displacement.next() };
         let Some(event) = event else { return self.turn() };
-        let area: f64 = event.elements.iter().map(|&element| self.displacement.elements()[element].area).sum();
+        self.displace(&event.elements);
         let half = &self.half_cycles[self.half_cycle];
-        self.displaced_area += area;
-        self.wetting_area += if half.invading == Fluid::Wetting { area } else { -area };
+        let (curvature, half_cycle) = (half.towards_wetting(event.curvature), self.half_cycle);
         let (saturation, applied) = (self.saturation(), half.towards_wetting(event.applied));
         let displaced = (self.displaced_area - self.displaced_before) / self.pore_area;
-        let outcome = &mut self.outcomes[self.half_cycle];
+        self.outcomes[self.half_cycle].events += 1;
+        let sequence = self.outcomes[self.half_cycle].events;
         for &element in &event.elements {
-            self.invasions[element] = Some(Invasion { sequence: outcome.events, applied, displaced });
+            self.invasions[element] = Some(Invasion { sequence, applied, displaced });
         }
-        outcome.events += 1;
-        if outcome.breakthrough.is_none() && self.displacement.reached_outlet() {
-            let share = if half.invading == Fluid::Wetting { saturation } else { 1.0 - saturation };
-            outcome.breakthrough = Some((applied, share));
+        if self.outcomes[self.half_cycle].breakthrough.is_none() && self.displacement.reached_outlet() {
+            self.outcomes[self.half_cycle].breakthrough = Some((applied, self.invading_saturation()));
         }
-        self.history.push(Entry {
-            half_cycle: self.half_cycle,
-            kind: event.kind,
-            throat: event.throat,
-            curvature: half.towards_wetting(event.curvature),
-            applied,
-            saturation,
-        });
+        self.history.push(Entry { half_cycle, kind: event.kind, throat: event.throat, curvature, applied, saturation });
         Some(kind_name(event.kind))
     }
 
     fn has_ended_early(&self) -> bool {
         let half = self.half_cycle();
-        let share = if half.invading == Fluid::Wetting { self.saturation() } else { 1.0 - self.saturation() };
+        let share = self.invading_saturation();
         let has_broken_through = self.outcomes[self.half_cycle].breakthrough.is_some();
         (half.end.at_breakthrough && has_broken_through) || half.end.at_saturation.is_some_and(|end| share >= end)
     }
@@ -231,11 +259,14 @@ impl Cycles {
             self.is_done = true;
             return None;
         };
+        let reversed = |element: usize| match self.displacement.phase(element) {
+            Phase::Defending => Phase::Invading,
+            Phase::Invading => Phase::Defending,
+        };
+        let before: Vec<Phase> = (0..self.invasions.len()).map(reversed).collect();
         self.half_cycle += 1;
         self.displacement = self.displacement.clone().reverse(next.conditions.clone());
-        self.invasions.iter_mut().for_each(|invasion| *invasion = None);
-        self.outcomes.push(Outcome { first_saturation: self.saturation(), ..Outcome::default() });
-        self.displaced_before = self.displaced_area;
+        self.begin(&before);
         Some("reversal")
     }
 

@@ -1,6 +1,8 @@
 //! The measures of a network.
 
 use super::cycles::{Cycles, Fluid};
+use super::flow::{LEAST_SOLID, along, drive, relative};
+use super::permeability::Drive;
 use super::solver::{NetworkSolver, Setting};
 use super::tables::kept;
 use crate::solver::Measure;
@@ -13,6 +15,7 @@ fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Mea
 pub fn all(solver: &NetworkSolver) -> Vec<Measure> {
     let setting = solver.setting();
     let mut found = of_network(setting);
+    found.extend(permeabilities(solver));
     found.extend(entry_pressures(solver));
     if let Some(cycles) = solver.cycles() {
         found.extend(of_displacement(setting, cycles));
@@ -46,6 +49,33 @@ fn of_network(setting: &Setting) -> Vec<Measure> {
     ]
 }
 
+fn permeabilities(solver: &NetworkSolver) -> Vec<Measure> {
+    let setting = solver.setting();
+    let solid = 1.0 - setting.porosity;
+    let range = if solid < LEAST_SOLID {
+        format!(
+            " (WARNING: the solid fraction is {solid:.2}, and conductances of throats are too high below {LEAST_SOLID})"
+        )
+    } else {
+        String::new()
+    };
+    let of_axis = |axis: usize, name| {
+        let method = match drive(setting, axis) {
+            Some(Drive::Periodic(_)) => "flow through all throats under a mean gradient, periodic sides joined",
+            Some(Drive::Sides(_)) => "flow through all throats between the open sides",
+            None => "both sides along this axis would have to be open or periodic",
+        };
+        measure(name, along(solver, axis), "m2", format!("{method}{range}"))
+    };
+    let mut found = vec![of_axis(0, "permeability-x-m2"), of_axis(1, "permeability-y-m2")];
+    if let [[_, wetting, other]] = relative(solver, &[1.0])[..] {
+        let method = "permeability of the throats between regions that the phase holds, over that of all, at the end of the last half cycle";
+        found.push(measure("relative-permeability-wetting", wetting, "", method));
+        found.push(measure("relative-permeability-non-wetting", other, "", method));
+    }
+    found
+}
+
 fn entry_pressures(solver: &NetworkSolver) -> Vec<Measure> {
     let setting = solver.setting();
     let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) else { return Vec::new() };
@@ -67,8 +97,10 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
     let (pressure, saturation) = cycles.outcomes()[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
     let reached = if setting.outlet.is_none() {
         "there is no outlet"
-    } else if pressure.is_nan() {
+    } else if saturation.is_nan() {
         "the invading phase did not reach the outlet"
+    } else if pressure.is_nan() {
+        "the outlet is reached through openings alone, which hold nothing back"
     } else {
         "at the event by which the invading phase reached the outlet"
     };
@@ -138,7 +170,7 @@ fn hysteresis(setting: &Setting, cycles: &Cycles) -> Option<Measure> {
         return None;
     }
     let last = cycles.half_cycles().len() - 2;
-    let (mut before, mut work) = (cycles.outcomes()[last].first_saturation, 0.0);
+    let (mut before, mut work) = (cycles.outcomes()[last].first_saturation[1], 0.0);
     for entry in cycles.history().iter().filter(|entry| entry.half_cycle >= last) {
         work -= entry.applied * (entry.saturation - before);
         before = entry.saturation;

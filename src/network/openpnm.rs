@@ -57,6 +57,16 @@ impl Connection<'_> {
     }
 }
 
+/// Conductance in m2 of a channel of the width of an opening up to the center of the region behind it.
+fn channel(setting: &Setting, opening: &Opening) -> f64 {
+    /// A center on the side itself: next to no resistance, and still a number.
+    const SHORTEST: f64 = 1.0e-6;
+    let width = (opening.ends[1] - opening.ends[0]).norm();
+    let axis = opening.side / 2;
+    let length = (setting.network.regions[opening.region].center - opening.ends[0])[axis].abs();
+    width.powi(3) / (12.0 * length.max(SHORTEST * width))
+}
+
 fn place(opening: &Opening) -> Vec2 {
     0.5 * (opening.ends[0] + opening.ends[1])
 }
@@ -127,6 +137,12 @@ fn throat_columns(solver: &NetworkSolver) -> Vec<Column> {
         column("throat.wall_1", &|it| it.of_throat(|throat| f64::from(throat.shapes[0]), f64::NAN)),
         column("throat.wall_2", &|it| it.of_throat(|throat| f64::from(throat.shapes[1]), f64::NAN)),
     ];
+    let conductances = solver.conductances();
+    let viscosity = setting.viscosities[0].unwrap_or(1.0);
+    columns.push(column("throat.hydraulic_conductance", &|it| match it.link {
+        Link::Throat { index, .. } => conductances[index].value / viscosity,
+        Link::Opening(opening) => channel(setting, opening) / viscosity,
+    }));
     if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
         // The meniscus at an opening is that of a reservoir: it has no entry pressure.
         columns.push(column("throat.entry_pressure", &|it| match it.link {

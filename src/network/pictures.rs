@@ -34,7 +34,7 @@ fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
     let mut traces = Vec::new();
     for (index, (half, outcome)) in cycles.half_cycles().iter().zip(cycles.outcomes()).enumerate() {
         let entries = cycles.history().iter().filter(|entry| entry.half_cycle == index);
-        let mut saturation = outcome.first_saturation;
+        let mut saturation = outcome.first_saturation[1];
         let mut points: Vec<[f64; 2]> = Vec::new();
         for entry in entries {
             let pressure = unit * tension * entry.applied;

@@ -3,15 +3,17 @@
 //! One step does one event, which takes place when the clock stands at the volume displaced before it; the clock then runs to the
 //! volume displaced after it. So a record between two events shows the state after the first of them.
 
+use std::cell::OnceCell;
 use std::sync::Arc;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use super::conductance::{Conductance, conductances};
 use super::cycles::Cycles;
 use super::displacement::{Conditions, Displacement, EventKind};
 use super::graph::{Network, Pores};
-use super::{layers, measures, openpnm, pictures, summary, tables};
+use super::{flow, layers, measures, openpnm, pictures, summary, tables};
 use crate::diagram::Diagram;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
@@ -51,6 +53,8 @@ pub struct Setting {
 pub struct NetworkSolver {
     setting: Setting,
     cycles: Option<Cycles>,
+    entry_curvatures: OnceCell<Vec<f64>>,
+    conductances: OnceCell<Vec<Conductance>>,
     clock: f64,
     steps_before: u64,
     seconds: [f64; 2],
@@ -70,7 +74,15 @@ impl NetworkSolver {
     /// A network with nothing displaced yet.
     #[must_use]
     pub fn new(setting: Setting, cycles: Option<Cycles>) -> Self {
-        Self { setting, cycles, clock: 0.0, steps_before: 0, seconds: [0.0; 2] }
+        Self {
+            setting,
+            cycles,
+            entry_curvatures: OnceCell::new(),
+            conductances: OnceCell::new(),
+            clock: 0.0,
+            steps_before: 0,
+            seconds: [0.0; 2],
+        }
     }
 
     /// The same with the time that its extraction took, in s.
@@ -94,11 +106,17 @@ impl NetworkSolver {
 
     /// Curvatures at which drainage enters the throats of the network, in 1/m; none where no angle is known.
     #[must_use]
-    pub fn entry_curvatures(&self) -> Option<Vec<f64>> {
+    pub fn entry_curvatures(&self) -> Option<&[f64]> {
         let Setting { network, pores, entry, .. } = &self.setting;
-        let conditions = entry.clone()?;
-        let at_rest = Displacement::new(network, pores, conditions);
-        Some(at_rest.entry_curvatures(network.throats.len()))
+        let conditions = entry.as_ref()?;
+        let find = || Displacement::new(network, pores, conditions.clone()).entry_curvatures(network.throats.len());
+        Some(self.entry_curvatures.get_or_init(find))
+    }
+
+    /// The conductances of all throats of the network.
+    #[must_use]
+    pub fn conductances(&self) -> &[Conductance] {
+        self.conductances.get_or_init(|| conductances(&self.setting.network))
     }
 
     fn count(&self, kind: EventKind) -> f64 {
@@ -187,6 +205,7 @@ impl Solver for NetworkSolver {
             mosaics: pictures::mosaics(self),
         };
         results.tables.push(openpnm::table(self));
+        results.tables.extend(flow::table(self));
         results
     }
 

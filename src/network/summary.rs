@@ -108,6 +108,7 @@ struct Definitions {
     area: &'static str,
     length: &'static str,
     curvature: &'static str,
+    conductance: &'static str,
     entry_pressure: &'static str,
     sequence: &'static str,
     trapped: &'static str,
@@ -121,10 +122,11 @@ const DEFINITIONS: Definitions = Definitions {
     area: "of the pore region between walls and chords, in closed form; a volume per depth",
     length: "from pore center to pore center by way of the middle of the throat",
     curvature: "of the walls at both contacts, above 0 where the solid is convex; empty at an edge",
+    conductance: "flow per depth times viscosity over pressure difference, from pore to pore; good to some ten percent above a solid fraction of 0.3",
     entry_pressure: "tension times the largest curvature of a meniscus that passes the throat in drainage, at the receding angle",
-    sequence: "number of the event, from 0 on in the last half cycle, by which the invading phase came to hold more than half of the pore; empty where none did",
+    sequence: "number of the event, from 1 on in the last half cycle, by which the invading phase came to hold more than half of the pore; 0 for what is filled at the beginning through an opening of the inlet; empty where none did",
     trapped: "more than half of the pore holds defending phase without a way to the outlet",
-    openpnm: "openpnm.csv is for a depth of 1 m: volumes are areas times 1 m, cross sections widths times 1 m, and conductances those of the viscosity given here, 1 Pa s where none is",
+    openpnm: "openpnm.csv is for a depth of 1 m: volumes are areas times 1 m, cross sections widths times 1 m, and conductances those of the viscosity of the wetting phase, 1 Pa s where none is given",
 };
 
 #[derive(Serialize)]
@@ -199,7 +201,7 @@ pub fn network_json(solver: &NetworkSolver) -> Document {
 
 fn half_cycles(cycles: &Cycles) -> Vec<HalfCycleDescription<'_>> {
     let outcomes = cycles.outcomes();
-    let after = |index: usize| outcomes.get(index + 1).map_or(cycles.saturation(), |next| next.first_saturation);
+    let after = |index: usize| outcomes.get(index + 1).map_or(cycles.saturation(), |next| next.first_saturation[0]);
     outcomes
         .iter()
         .zip(cycles.half_cycles())
@@ -208,7 +210,7 @@ fn half_cycles(cycles: &Cycles) -> Vec<HalfCycleDescription<'_>> {
             process: half.name(),
             invading: half.invading.name(),
             events: outcome.events,
-            saturation_before: outcome.first_saturation,
+            saturation_before: outcome.first_saturation[0],
             saturation_after: after(index),
         })
         .collect()

@@ -155,6 +155,8 @@ fn throats(solver: &NetworkSolver) -> Table {
         numbers("wall_curvature_1_per_m", of(|throat| finite(throat.curvatures[0]))),
         numbers("wall_curvature_2_per_m", of(|throat| finite(throat.curvatures[1]))),
     ];
+    let conductances = solver.conductances();
+    columns.push(numbers("conductance_m2", setting.pores.throats.iter().map(|&throat| conductances[throat].value)));
     if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
         let pressures = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]);
         columns.push(numbers("entry_pressure_Pa", pressures));
@@ -174,7 +176,7 @@ pub(super) fn finite(value: f64) -> f64 {
 fn sequences(setting: &Setting, cycles: &Cycles) -> Vec<Option<usize>> {
     let mut passed = vec![None; setting.network.throats.len()];
     let present = cycles.history().iter().filter(|entry| entry.half_cycle == cycles.half_cycle_index());
-    for (sequence, entry) in present.enumerate() {
+    for (sequence, entry) in (1..).zip(present) {
         if let Some(throat) = entry.throat {
             passed[throat].get_or_insert(sequence);
         }
@@ -193,7 +195,7 @@ fn events(setting: &Setting, cycles: &Cycles) -> Table {
         sequence = if entry.half_cycle == last { sequence } else { 0 };
         last = entry.half_cycle;
         sequence += 1;
-        sequence - 1
+        sequence
     });
     let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].name();
     Table {

@@ -109,7 +109,8 @@ fn color_bar(canvas: &mut Canvas, mosaic: &Mosaic, top: f32) {
     const NUMBERS: u32 = 5;
     let width = WIDTH as f32 - 2.0 * RIM;
     let label = format!("{}:", mosaic.label);
-    let from = RIM + canvas.text_width(&label, TEXT_SIZE) + 20.0;
+    // Whole pixels: columns between two would let the ground shine through.
+    let from = (RIM + canvas.text_width(&label, TEXT_SIZE) + 20.0).round();
     canvas.text(&label, [RIM, top + 22.0], TEXT_SIZE);
     let length = RIM + width - from;
     for column in 0..length as u32 {

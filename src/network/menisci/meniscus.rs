@@ -2,7 +2,7 @@
 
 use crate::geometry::curve::{Curve, cross};
 use crate::math::{Vec2, perpendicular};
-use crate::network::menisci::crossing::meet;
+use crate::network::menisci::crossing::meetings;
 use crate::network::menisci::wall::Contact;
 
 /// An interface between two walls, seen in the direction of advance.
@@ -76,13 +76,18 @@ impl Meniscus {
     /// Whether the arcs have a point in common.
     #[must_use]
     pub fn crosses(&self, other: &Self) -> bool {
-        meet(&self.curve(), &other.curve())
+        self.meetings(other).iter().any(Option::is_some)
     }
 
     /// Whether the arc has a point in common with a curve.
     #[must_use]
     pub fn touches(&self, curve: &Curve) -> bool {
-        meet(&self.curve(), curve)
+        meetings(&self.curve(), curve).iter().any(Option::is_some)
+    }
+
+    /// The points that two arcs have in common.
+    pub(super) fn meetings(&self, other: &Self) -> [Option<Vec2>; 2] {
+        meetings(&self.curve(), &other.curve())
     }
 
     /// Whether a point of its circle (or line) lies on the arc between both contacts.

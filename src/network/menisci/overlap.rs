@@ -15,7 +15,7 @@ pub fn overlap(a: &Passage, b: &Passage, shared: f64, up_to: f64) -> Option<f64>
     let low = from_a.max(from_b);
     let high = up_to.min(a.burst()?.curvature).min(b.burst()?.curvature);
     let have_met = |k: f64| match (a.at(k), b.at(k)) {
-        (Some(one), Some(other)) => met(&one, &other, shared),
+        (Some(one), Some(other)) => met((a, &one), (b, &other), shared),
         _ => true,
     };
     if !(low <= high) || !have_met(high) {
@@ -36,6 +36,12 @@ pub fn overlap(a: &Passage, b: &Passage, shared: f64, up_to: f64) -> Option<f64>
     Some(high)
 }
 
-fn met(a: &Meniscus, b: &Meniscus, shared: f64) -> bool {
-    a.left.advance + b.right.advance >= shared || (a.bend > 0.0 && b.bend > 0.0 && a.crosses(b))
+/// Whether the contacts have met on the shared wall, or the arcs off it. Arcs that cross behind both throats do so on paper only.
+fn met(a: (&Passage, &Meniscus), b: (&Passage, &Meniscus), shared: f64) -> bool {
+    // Two contacts held at one edge have met, whatever the rounding of their way there.
+    const ROUNDING: f64 = 1e-12;
+    if a.1.left.advance + b.1.right.advance >= shared * (1.0 - ROUNDING) {
+        return true;
+    }
+    a.1.meetings(b.1).into_iter().flatten().any(|x| a.0.is_ahead(x) || b.0.is_ahead(x))
 }

@@ -86,8 +86,10 @@ impl Passage {
     /// lowest one where all are above, nothing beyond the burst.
     #[must_use]
     pub fn at(&self, k: f64) -> Option<Meniscus> {
-        let k = k * self.scale;
-        let lowest = self.lowest?;
+        let (lowest, highest) = (self.lowest?, self.highest?);
+        // The curvature that the burst gives is the burst's, whatever its last digit.
+        let slack = 8.0 * f64::EPSILON * highest.curvature.abs();
+        let k = if (k * self.scale - highest.curvature).abs() <= slack { highest.curvature } else { k * self.scale };
         if k <= lowest.curvature {
             return Some(self.meniscus(&lowest));
         }
@@ -117,6 +119,13 @@ impl Passage {
             }
         }
         None
+    }
+
+    /// Whether a point lies ahead of the line through the chord of the throat.
+    #[must_use]
+    pub fn is_ahead(&self, x: Vec2) -> bool {
+        let end = chord_end(&self.right, Hand::Right).unwrap_or_default();
+        cross(end - self.origin, x - self.origin) >= 0.0
     }
 
     /// Area in m² that the meniscus has swept since the chord of the throat: between chord, walls and arc.
