@@ -391,3 +391,74 @@ fn length_between(surface: &[Curve], from: Vec2, to: Vec2) -> f64 {
     let (a, whole) = position(from);
     (position(to).0 - a).rem_euclid(whole)
 }
+
+/// A cell of three equal discs of radius 1 at the distance `l`; the first passage enters from below, the second over the disc on its left.
+fn triangle(l: f64, theta: f64) -> (Passage, Passage, Curve) {
+    let corners = [Vec2::zeros(), Vec2::new(l, 0.0), Vec2::new(0.5 * l, 0.75_f64.sqrt() * l)];
+    let enter = |left: usize, right: usize| {
+        Passage::new(
+            Wall::of_disc(corners[left], 1.0, theta, corners[right], Hand::Left),
+            Wall::of_disc(corners[right], 1.0, theta, corners[left], Hand::Right),
+        )
+    };
+    (enter(0, 1), enter(2, 0), Curve::circle(corners[2], 1.0))
+}
+
+#[test]
+fn a_flat_meniscus_reaches_the_next_row_of_a_hexagonal_pack_at_the_porosity_that_its_angle_gives() {
+    for degrees in [140.0, 160.0, 180.0_f64] {
+        let theta = degrees.to_radians();
+        // A flat meniscus lies −cos θ above the line of centers, the next row's lower edge √3/2 L − 1.
+        let l = (1.0 - theta.cos()) / 0.75_f64.sqrt();
+        for (factor, sign) in [(0.99, -1.0), (1.01, 1.0)] {
+            let (below, _, next) = triangle(factor * l, theta);
+            let k = below.touch(&[next], below.burst().unwrap().curvature).unwrap();
+            assert!(k * sign > 0.0, "{degrees} {factor}: {k}");
+        }
+        let (below, _, next) = triangle(l, theta);
+        assert!(below.touch(&[next], 1.0).unwrap().abs() < 1e-12);
+    }
+}
+
+#[test]
+fn wetting_menisci_of_one_cell_meet_on_the_shared_disc_before_they_reach_the_third() {
+    // Under 180 degrees a meniscus touches a disc where it meets it: contacts at 30 degrees from the chord,
+    // (L/2)² = ... both circles coincide with the circle through three points of touch.
+    for l in [2.1, 2.3, 2.6_f64] {
+        let (below, beside, next) = triangle(l, PI);
+        let k = overlap(&below, &beside, PI / 3.0, 10.0).unwrap();
+        // The arcs meet at 30 degrees, center of the circle at the distance L/√3 … on the other side: 2 cos 30 (1 − r) = L.
+        println!("{l} {k} {}", 1.0 / (1.0 - l / 3f64.sqrt()));
+        let touch = below.touch(&[next], 10.0).unwrap();
+        assert!(k < touch);
+    }
+    for (phi, degrees) in [(0.37, 180.0), (0.29, 160.0), (0.14, 140.0_f64)] {
+        let l = (PI / (1.0 - phi) * 2.0 / 3f64.sqrt()).sqrt();
+        let (below, beside, next) = triangle(l, degrees.to_radians());
+        println!(
+            "{phi} {degrees} touch {:?} overlap {:?} low {}",
+            below.touch(&[next], 10.0),
+            overlap(&below, &beside, PI / 3.0, 10.0),
+            below.lowest().unwrap().curvature
+        );
+    }
+}
+
+#[test]
+fn timing() {
+    let mut random = Random(2);
+    let n = 15_000;
+    let cells: Vec<_> = (0..n).map(|_| (random.between(2.05, 3.0), random.between(0.0, PI))).collect();
+    let start = std::time::Instant::now();
+    let built: Vec<_> = cells.iter().map(|&(l, theta)| triangle(l, theta)).collect();
+    println!("30000 passages {:?}", start.elapsed());
+    let start = std::time::Instant::now();
+    let s: f64 = built.iter().map(|(a, _, c)| a.touch(&[*c], 10.0).unwrap_or(0.0)).sum();
+    println!("15000 touches {:?} {s}", start.elapsed());
+    let start = std::time::Instant::now();
+    let s: f64 = built.iter().map(|(a, b, _)| overlap(a, b, PI / 3.0, 10.0).unwrap_or(0.0)).sum();
+    println!("15000 overlaps {:?} {s}", start.elapsed());
+    let start = std::time::Instant::now();
+    let s: f64 = built.iter().map(|(a, _, _)| a.at(0.3).map_or(0.0, |m| a.swept_area(&m))).sum();
+    println!("15000 at and areas {:?} {s}", start.elapsed());
+}
