@@ -245,12 +245,10 @@ mod tests {
             let network = square_array((solid / PI).sqrt());
             let found = conductances(&network);
             let values: Vec<f64> = found.iter().map(|c| c.value).collect();
-            println!("{solid} {:?}", found);
             for axis in [0, 1] {
                 let paths = Paths { conductance: &values, holds: &[true] };
                 let k = permeability(&network, paths, UNIT, Drive::Periodic(axis)).unwrap();
                 let error = 100.0 * (k * drag - 1.0);
-                println!("{solid} {error}");
                 assert!((error - high).abs() < 1.0, "{solid}: {error}");
             }
         }
