@@ -71,11 +71,12 @@ fn gap(a: (&Passage, &Meniscus), b: (&Passage, &Meniscus), shared: f64) -> f64 {
         _ => f64::INFINITY,
     };
     let have_met = a.1.meetings(b.1).into_iter().flatten().any(|x| a.0.is_ahead(x) || b.0.is_ahead(x));
-    match have_met {
-        true if arcs.is_finite() => arcs.min(0.0),
-        true => -contacts,
-        // Circles that cross elsewhere tell nothing.
-        false if arcs > 0.0 => contacts.min(arcs),
-        false => contacts,
+    if have_met {
+        if arcs.is_finite() { arcs.min(0.0) } else { -contacts }
+    } else if arcs > 0.0 {
+        contacts.min(arcs)
+    } else {
+        // Circles that cross off the arcs tell nothing.
+        contacts
     }
 }
