@@ -81,9 +81,9 @@ fn line_of_solutions(mut rows: [Condition; 3]) -> Option<([f64; 4], [f64; 4])> {
     let mut columns = [0, 1, 2, 3];
     for step in 0..3 {
         let mut best = (0.0, step, step);
-        for row in step..3 {
+        for (row, entries) in rows.iter().enumerate().skip(step) {
             for column in step..4 {
-                let size = rows[row][columns[column]].abs();
+                let size = entries[columns[column]].abs();
                 if size > best.0 {
                     best = (size, row, column);
                 }

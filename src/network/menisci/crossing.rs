@@ -27,14 +27,23 @@ pub(super) fn meetings(one: &Curve, other: &Curve) -> [Option<Vec2>; 2] {
             [half, -half].map(|h| Some(middle + t * h))
         }
         (Curve::Arc { center: c1, radius: r1, .. }, Curve::Arc { center: c2, radius: r2, .. }) => {
-            let line = c2 - c1;
-            let distance = line.norm();
-            let t = line / distance;
-            let along = 0.5 * (distance + (r1 - r2) * (r1 + r2) / distance);
-            let half = ((r1 - along) * (r1 + along)).max(0.0).sqrt();
-            [half, -half].map(|h| Some(c1 + t * along + perpendicular(t) * h))
+            circle_circle(c1, r1, c2, r2)
         }
     };
     // Infinite or undefined where the lines have no point in common: on neither.
     found.map(|x| x.filter(on_both))
+}
+
+/// Where two circles meet: twice where they touch within rounding.
+pub(super) fn circle_circle(c1: Vec2, r1: f64, c2: Vec2, r2: f64) -> [Option<Vec2>; 2] {
+    let line = c2 - c1;
+    let distance = line.norm();
+    let slack = 1e-12 * (r1 + r2);
+    if !(distance <= r1 + r2 + slack && distance >= (r1 - r2).abs() - slack && distance > 0.0) {
+        return [None, None];
+    }
+    let t = line / distance;
+    let along = 0.5 * (distance + (r1 - r2) * (r1 + r2) / distance);
+    let half = ((r1 - along) * (r1 + along)).max(0.0).sqrt();
+    [half, -half].map(|h| Some(c1 + t * along + perpendicular(t) * h))
 }

@@ -2,8 +2,11 @@
 
 use crate::geometry::curve::{Curve, cross};
 use crate::math::{Vec2, perpendicular};
-use crate::network::menisci::crossing::meetings;
+use crate::network::menisci::crossing::{circle_circle, meetings};
 use crate::network::menisci::wall::Contact;
+
+/// Arcs of a smaller angle between chord and interface, in rad, count as straight where their circle's center is asked for.
+const STRAIGHT: f64 = 1e-6;
 
 /// An interface between two walls, seen in the direction of advance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,7 +90,13 @@ impl Meniscus {
 
     /// The points that two arcs have in common.
     pub(super) fn meetings(&self, other: &Self) -> [Option<Vec2>; 2] {
-        meetings(&self.curve(), &other.curve())
+        // Circles of nearly flat arcs have no center to reckon with.
+        let centers = self.center().zip(other.center());
+        let Some((one, two)) = centers.filter(|_| self.bend.abs().min(other.bend.abs()) > STRAIGHT) else {
+            return meetings(&self.curve(), &other.curve());
+        };
+        let [r1, r2] = [(self.left.point - one).norm(), (other.left.point - two).norm()];
+        circle_circle(one, r1, two, r2).map(|x| x.filter(|x| self.holds(*x) && other.holds(*x)))
     }
 
     /// Whether a point of its circle (or line) lies on the arc between both contacts.
@@ -95,7 +104,6 @@ impl Meniscus {
         let d = self.right.point - self.left.point;
         let from = x - self.left.point;
         // Of nearly straight arcs the far part of the circle is out of reach.
-        const STRAIGHT: f64 = 1e-6;
         if self.bend.abs() < STRAIGHT {
             let along = from.dot(&d);
             return along >= 0.0 && along <= d.norm_squared();

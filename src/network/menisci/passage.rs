@@ -35,7 +35,10 @@ impl Passage {
     /// The passage between two walls, seen in the direction of advance: on the left wall curves run with the advance, on the right wall
     /// against it. Cost grows with the number of parts.
     #[must_use]
-    pub fn new(left: Wall, right: Wall) -> Self {
+    pub fn new(mut left: Wall, mut right: Wall) -> Self {
+        for wall in [&mut left, &mut right] {
+            wall.behind = wall.behind.min(wall.parts.len());
+        }
         let (origin, other) = (chord_end(&left, Hand::Left), chord_end(&right, Hand::Right));
         let (origin, other) = (origin.unwrap_or_default(), other.unwrap_or_default());
         let width = (other - origin).norm();
