@@ -81,16 +81,16 @@ fn displaced(spec: &GeometrySpec, angle_deg: f64, trapping: bool, events: Events
 fn run(mut state: Displacement) -> Outcome {
     let area: f64 = (0..state.elements().len()).map(|e| state.elements()[e].area).sum();
     let mut filled: f64 = (0..state.elements().len())
-        .filter(|&e| (state.phase(e) == Phase::Invading))
+        .filter(|&e| state.phase(e) == Phase::Invading)
         .map(|e| state.elements()[e].area)
         .sum();
     let (mut events, mut breakthrough) = (Vec::new(), None);
     while let Some(event) = state.next() {
         filled += event.elements.iter().map(|&e| state.elements()[e].area).sum::<f64>();
-        events.push(event);
         if breakthrough.is_none() && state.reached_outlet() {
             breakthrough = Some((event.applied, filled / area));
         }
+        events.push(event);
     }
     Outcome { events, breakthrough, end: filled / area, state }
 }
@@ -181,7 +181,8 @@ fn a_mirrored_pack_is_filled_in_the_same_way() {
             assert!((a.curvature - b.curvature).abs() < 1e-9 * a.curvature.abs().max(1.0));
             assert_eq!(a.kind, b.kind);
         }
-        assert!((one.end - other.end).abs() < 1e-12);
+        // Where segments that divide regions stand is known to the root of the rounding only.
+        assert!((one.end - other.end).abs() < 1e-7, "{} {}", one.end, other.end);
     }
 }
 
@@ -191,7 +192,7 @@ fn drainage_and_imbibition_leave_residuals_and_meet_no_contradiction() {
     let (network, pores, shapes) = network(&spec);
     let drained = run(Displacement::new(&network, &pores, conditions(40.0, shapes, true, Events::All)));
     let back = Conditions { inlet: RIGHT, outlet: LEFT, ..conditions(140.0, shapes, true, Events::All) };
-    let imbibed = run(drained.state.reverse(back));
+    let imbibed = run(drained.state.clone().reverse(back));
     println!("drained {:.3}, wetting after imbibition {:.3}", drained.end, imbibed.end);
     assert!(drained.end > 0.5 && imbibed.end > 0.5 && imbibed.end < 1.0);
     // The way back costs less than the way in: hysteresis.

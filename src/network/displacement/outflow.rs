@@ -2,6 +2,9 @@
 //!
 //! Every element that can flow out knows the next one on its way. Where an element is lost, those whose way led through it look for
 //! another way; what finds none is trapped. Only they are visited, so that an event costs as much as it cuts off or redirects.
+//!
+//! An element that is open at an outlet lets both phases out: the invading one leaves through it without closing it. Otherwise the first
+//! finger that reached a manifold along a whole side would trap all that is left behind.
 
 use super::mesh::Mesh;
 
@@ -13,10 +16,10 @@ pub(super) struct Outflow {
 }
 
 impl Outflow {
-    /// Ways to the elements marked as outlets through the elements marked as defending.
+    /// Ways to the elements marked as outlets, whatever they hold, through the elements marked as defending.
     pub fn new(mesh: &Mesh, defends: &[bool], is_outlet: &[bool]) -> Self {
         let mut next = vec![None; defends.len()];
-        let mut queue: Vec<usize> = (0..defends.len()).filter(|&e| defends[e] && is_outlet[e]).collect();
+        let mut queue: Vec<usize> = (0..defends.len()).filter(|&e| is_outlet[e]).collect();
         queue.iter().for_each(|&e| next[e] = Some(e));
         let mut at = 0;
         while let Some(&element) = queue.get(at) {
@@ -38,6 +41,9 @@ impl Outflow {
 
     /// Takes an element out, and returns those that have lost their way for good.
     pub fn remove(&mut self, mesh: &Mesh, element: usize) -> Vec<usize> {
+        if self.next[element] == Some(element) {
+            return Vec::new();
+        }
         self.next[element] = None;
         // All whose way led through the element, the nearest first.
         let (mut lost, mut through) = (Vec::new(), Some(element));
