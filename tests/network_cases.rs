@@ -107,7 +107,8 @@ fn the_clock_lands_on_every_stop_and_changes_nothing() {
         }
         assert!(solver.time() == stop || solver.is_done());
     }
-    assert_eq!(measures(solver.as_ref()), at_once);
+    let bits = |found: BTreeMap<String, f64>| found.into_values().map(f64::to_bits).collect::<Vec<_>>();
+    assert_eq!(bits(measures(solver.as_ref())), bits(at_once));
 }
 
 #[test]
@@ -126,7 +127,7 @@ fn displaced_volume_and_saturation_are_two_sides_of_one_sum() {
 fn pressures_are_in_proportion_to_the_tension_and_nothing_else_changes() {
     let at = |tension: &str| measures(to_the_end(&loaded(&named("drainage"), &[tension])).as_ref());
     let (one, two) = (at("network.interface.tension=0.02"), at("network.interface.tension=0.04"));
-    for (name, value) in &one {
+    for (name, value) in one.iter().filter(|(_, value)| value.is_finite()) {
         let factor = if name.ends_with("-Pa") { 2.0 } else { 1.0 };
         // One multiplication.
         assert!((two[name] - factor * value).abs() <= 1.0e-12 * value.abs(), "{name}: {value} {}", two[name]);

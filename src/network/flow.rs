@@ -76,8 +76,10 @@ pub fn relative(solver: &NetworkSolver, states: &[f64]) -> Vec<[f64; 3]> {
         let at = if *share > 0.0 { share * displaced } else { -1.0 };
         let (wetting, saturation) = wetting_regions(setting, cycles, at);
         let other: Vec<bool> = wetting.iter().map(|wetting| !wetting).collect();
-        let [wetting, other] =
-            [wetting, other].map(|holds| of_phase(solver, drive, &holds).unwrap_or(f64::NAN) / whole);
+        // What a phase carries that is not joined from side to side is rounding.
+        const ROUNDING: f64 = 1.0e-12;
+        let ratio = |holds: Vec<bool>| of_phase(solver, drive, &holds).unwrap_or(f64::NAN) / whole;
+        let [wetting, other] = [wetting, other].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
         [saturation, wetting, other]
     };
     states.iter().map(state).collect()
