@@ -38,7 +38,8 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
         }
         let (distance, nearest) = walls.nearest(x)?;
         if distance >= radius - slack(walls, radius) {
-            return surrounded(&feet.map(|foot| foot - x), radius).then(|| at(walls, x, radius));
+            let is_maximum = walls.is_seen(&nearest, x - nearest.point) && surrounded(&feet.map(|foot| foot - x));
+            return is_maximum.then(|| at(walls, x, radius));
         }
         // The nearer wall takes the place of the one beside it.
         let v = nearest.point - x;
@@ -71,10 +72,9 @@ pub(crate) fn at(walls: &Walls, center: Vec2, radius: f64) -> Maximum {
 }
 
 /// Whether directions leave no half circle free.
-fn surrounded(directions: &[Vec2], radius: f64) -> bool {
+fn surrounded(directions: &[Vec2]) -> bool {
     let mut angles: Vec<f64> = directions.iter().map(|v| v.y.atan2(v.x)).collect();
     angles.sort_by(f64::total_cmp);
-    let _ = radius;
     let gap = |k: usize| match angles.get(k + 1) {
         Some(next) => next - angles[k],
         None => angles[0] + std::f64::consts::TAU - angles[k],
@@ -87,7 +87,7 @@ fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(
     let farthest = walls.domain.size().norm();
     let begin = x;
     for _ in 0..NEWTON_STEPS {
-        let feet = of.map(|wall| foot(walls, wall, x));
+        let feet = of.map(|wall| foot(walls, of, wall, x));
         let d = feet.map(|foot| (x - foot).norm());
         if d.contains(&0.0) {
             return None;
@@ -108,26 +108,27 @@ fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(
             return None;
         }
         if length <= 1e-15 * farthest + 1e-14 * d[0] {
-            let feet = of.map(|wall| foot(walls, wall, x));
+            let feet = of.map(|wall| foot(walls, of, wall, x));
             return Some((x, feet));
         }
     }
-    let feet = of.map(|wall| foot(walls, wall, x));
+    let feet = of.map(|wall| foot(walls, of, wall, x));
     let d = feet.map(|foot| (x - foot).norm());
     let spread = d.iter().fold(0.0_f64, |most, other| most.max((other - d[0]).abs()));
     (spread <= slack(walls, d[0])).then_some((x, feet))
 }
 
-/// The nearest point of a piece or of the one before it, which shares its first vertex.
-fn foot(walls: &Walls, (wall, shift): (usize, Shift), x: Vec2) -> Vec2 {
+/// The nearest point of a piece or of the one before it, which shares its first vertex, unless that is one of the three itself.
+fn foot(walls: &Walls, of: &[(usize, Shift); 3], (wall, shift): (usize, Shift), x: Vec2) -> Vec2 {
     let curve = walls.curve(wall, shift);
     let foot = curve.project(x);
-    match walls.walls[wall].before {
-        Some(before) if foot.u == 0.0 => {
-            let other = walls.curve(before.wall, plus(shift, before.shift)).project(x).point;
+    let before = walls.walls[wall].before.map(|before| (before.wall, plus(shift, before.shift)));
+    match before.filter(|before| foot.u == 0.0 && !of.contains(before)) {
+        Some(before) => {
+            let other = walls.curve(before.0, before.1).project(x).point;
             if (other - x).norm_squared() < (foot.point - x).norm_squared() { other } else { foot.point }
         }
-        _ => foot.point,
+        None => foot.point,
     }
 }
 
@@ -148,5 +149,5 @@ pub(crate) fn center_of_arc(walls: &Walls, wall: usize) -> Option<Maximum> {
             directions.extend((0..=12).map(|k| curve.point(f64::from(k) / 12.0) - center));
         }
     }
-    surrounded(&directions, radius).then(|| at(walls, center, radius))
+    surrounded(&directions).then(|| at(walls, center, radius))
 }

@@ -65,7 +65,10 @@ pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) ->
             Contact { wall: pair.walls[1], shift: pair.shift, u: u[1], point: q },
         ];
         let opposite = Opposite::between(contacts.map(|contact| walls.at_vertex(contact)));
-        if walls.is_within(opposite.center)
+        let across = opposite.across();
+        if walls.is_seen(&opposite.contacts[0], across)
+            && walls.is_seen(&opposite.contacts[1], -across)
+            && walls.is_within(opposite.center)
             && walls.distance(opposite.center) >= opposite.half - slack(walls, opposite.half)
         {
             found.push(opposite);

@@ -268,6 +268,37 @@ impl Walls {
         }
     }
 
+    /// The tangents with which the wall arrives at a vertex and leaves it; none within a piece. Beyond a cut the wall goes straight on.
+    pub fn tangents(&self, contact: &Contact) -> Option<[Vec2; 2]> {
+        let [before, after] = self.around(contact);
+        let arriving = before.map(|link| self.curve(link.wall, link.shift).tangent(1.0));
+        let leaving = after.map(|link| self.curve(link.wall, link.shift).tangent(0.0));
+        match (arriving, leaving) {
+            (Some(_), Some(_)) if before == after => None,
+            (None, None) => None,
+            (arriving, leaving) => {
+                let inward = self.inward(contact.point);
+                Some([arriving.unwrap_or(inward), leaving.unwrap_or(-inward)])
+            }
+        }
+    }
+
+    /// Whether a place that is seen from a wall point along `v` lies on its pore side: along the normal, or within the cone of a vertex.
+    pub fn is_seen(&self, contact: &Contact, v: Vec2) -> bool {
+        // As much may a direction leave the cone by rounding.
+        let slack = 1e-6 * v.norm();
+        match self.tangents(contact) {
+            None => self.curve(contact.wall, contact.shift).normal(contact.u).dot(&v) > 0.0,
+            Some([arriving, leaving]) => {
+                // A corner of the pore is seen from nowhere; the normal lies on the right of the tangent.
+                cross(arriving, leaving) * v.norm() > -slack
+                    && arriving.dot(&v) >= -slack
+                    && leaving.dot(&v) <= slack
+                    && (perpendicular(arriving).dot(&v) < 0.0 || perpendicular(leaving).dot(&v) < 0.0)
+            }
+        }
+    }
+
     /// The inward normal of the side of the domain that is nearest to `x`, among those that are not periodic.
     pub fn inward(&self, x: Vec2) -> Vec2 {
         let mut nearest = (f64::INFINITY, Vec2::zeros());

@@ -92,7 +92,28 @@ impl Loops {
                 all.run(walls, saddles, perimeter, &place, (wall, None));
             }
         }
+        for run in &perimeter.uncut {
+            all.add_uncut(walls, run);
+        }
         all
+    }
+
+    /// Adds a closed run along sides that no wall meets to the loop that is seen from it.
+    fn add_uncut(&mut self, walls: &Walls, run: &[SidePart]) {
+        let Some(x) = run.first().map(|part| part.from) else { return };
+        let Some((distance, contact)) = walls.nearest(x) else { return };
+        // The segment to the nearest wall point crosses no chord, since chords are such segments themselves.
+        let v = x - contact.point;
+        let is_wall = distance <= walls.tolerance;
+        if is_wall || !walls.is_seen(&contact, v) {
+            return;
+        }
+        let Some((number, shift, _)) = self.at(walls, &contact, -v) else { return };
+        let ring = &mut self.loops[number];
+        ring.steps.extend(run.iter().map(|&part| Step::Side { part, shift }));
+        let passed: Vec2 = run.iter().map(|part| part.to - part.from).sum();
+        let size = walls.domain.size();
+        ring.winding = plus(ring.winding, [0, 1].map(|i| (passed[i] / size[i]).round() as i32));
     }
 
     /// Runs around the loop that arrives at a chord end, or passes the end of a wall.
@@ -197,12 +218,7 @@ impl Loops {
 
 /// The angle in rad, counter-clockwise, from where the fan of a vertex begins to a direction out of it; 0 within a piece.
 fn fan_angle(walls: &Walls, contact: &Contact, direction: Vec2) -> f64 {
-    let [before, after] = walls.around(contact);
-    let begins = match (before, after) {
-        (Some(before), after) if after != Some(before) => walls.curve(before.wall, before.shift).normal(1.0),
-        // A wall that is cut at its start: its continuation comes from beyond the side, whose inward normal is nearest to its direction.
-        (None, Some(after)) => -perpendicular(walls.inward(walls.curve(after.wall, after.shift).point(0.0))),
-        _ => return 0.0,
-    };
+    let Some([arriving, _]) = walls.tangents(contact) else { return 0.0 };
+    let begins = -perpendicular(arriving);
     cross(begins, direction).atan2(begins.dot(&direction))
 }
