@@ -197,7 +197,7 @@ mod tests {
     use crate::network::graph::{Edge, Opening, Region, Throat, WallPiece};
 
     fn wall(curve: Curve) -> Edge {
-        Edge::Wall(vec![WallPiece { curve, shape: 0 }])
+        Edge::Wall(vec![WallPiece { curve, whole: curve, shape: 0 }])
     }
 
     fn region(center: Vec2, radius: f64, edges: Vec<Edge>) -> Region {

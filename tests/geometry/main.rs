@@ -7,6 +7,7 @@ mod files;
 mod masks;
 mod measures;
 mod packs;
+mod round_trip;
 mod shapes;
 mod shells;
 mod sides;

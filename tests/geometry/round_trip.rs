@@ -1,6 +1,7 @@
-//! Drawings that the program writes come back through its readers of drawings. To be listed in main.rs once `load` reads these formats.
+//! Drawings that the program writes come back through its readers of drawings.
 
 use meniscus::geometry::export::{Format, write};
+use meniscus::geometry::import::Options;
 use meniscus::geometry::spec::{Capsule, Disc, GeometrySpec, Rectangle, ShapeSpec, SolidSide};
 use meniscus::geometry::{Geometry, load};
 
@@ -31,7 +32,8 @@ fn every_drawing_comes_back_with_its_discs_and_its_solid_area() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         std::fs::write(&path, write(&shapes(), format, None).unwrap()).unwrap();
-        let back = load(&path).unwrap();
+        let unit = matches!(format, Format::GeoJson).then(|| "m".to_owned());
+        let back = load(&path, &Options { unit, ..Options::default() }).unwrap().spec;
         assert_eq!(back.shapes.iter().filter(|s| matches!(s, ShapeSpec::Disc(_))).count(), 2, "{name}");
         let error = solid(&back) / solid(&shapes()) - 1.0;
         assert!(error.abs() < tolerance, "{name}: {error:e}");

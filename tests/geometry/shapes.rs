@@ -100,6 +100,8 @@ pub fn is_in(shape: &ShapeSpec, x: Vec2) -> bool {
             let d = v(d.dot(&unit(s.rotation_deg)), d.dot(&across(s.rotation_deg)));
             std::iter::once(&s.outer).chain(&s.holes).filter(|ring| is_in_bulged(ring, d)).count() % 2 == 1
         }
+        // Read as the discs that they stand for.
+        ShapeSpec::RandomPack(_) | ShapeSpec::Array(_) => false,
         ShapeSpec::Channel(s) => (x - Vec2::from(s.center)).dot(&across(s.rotation_deg)).abs() > 0.5 * s.width,
         ShapeSpec::ThroatDiscs(s) => [(-1.0, s.radii[0]), (1.0, s.radii[1])].iter().any(|(side, r)| {
             (x - Vec2::from(s.center) - across(s.rotation_deg) * (side * (0.5 * s.gap + r))).norm() < *r

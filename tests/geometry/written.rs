@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use meniscus::geometry::Geometry;
 use meniscus::geometry::export::{ExportError, Format, write};
+use meniscus::geometry::import::Options;
 use meniscus::geometry::import::drawing::Outline;
 use meniscus::geometry::import::mask::{MaskOptions, read};
 use meniscus::geometry::load;
@@ -51,7 +52,7 @@ fn read_back(bytes: &[u8], name: &str) -> GeometrySpec {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();
-    load(&path).unwrap()
+    load(&path, &Options::default()).unwrap().spec
 }
 
 #[test]
