@@ -100,7 +100,7 @@ fn print_table() {
             let (surface, _) = seconds(|| black_box(geometry.specific_surface()));
             let (low, size) = (geometry.bounds().min, geometry.bounds().size());
             let (distances, _) = seconds(|| {
-                let place = |k: usize| low + size.component_mul(&[scattered(k), scattered(5 * k + 3)].into());
+                let place = |k: usize| low + size.component_mul(&Vec2::new(scattered(k), scattered(5 * k + 3)));
                 (0..DISTANCES).map(|k| geometry.signed_distance(place(k))).sum::<f64>()
             });
             let (periodic, _) = seconds(|| geometry.with_periodic([true; 2]));
