@@ -14,7 +14,10 @@ fn channel() -> ShapeSpec {
 
 #[test]
 fn an_open_slit_is_one_throat_in_its_middle() {
-    for g in [grains([3.0, 1.0], vec![channel()]), grains([3.0, 0.4], Vec::new()).with_wall_sides([false, false, true, true])] {
+    for g in [
+        grains([3.0, 1.0], vec![channel()]),
+        grains([3.0, 0.4], Vec::new()).with_wall_sides([false, false, true, true]),
+    ] {
         let n = network(&g, LEFT_RIGHT);
         assert_values(&widths(&n), &[0.4]);
         assert_values(&areas(&n), &[0.6; 2]);

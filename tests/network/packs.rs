@@ -19,8 +19,7 @@ fn a_thousand_random_packs_have_a_network_with_all_its_invariants() {
         // Overlapping, nearly touching, tight and loose.
         let gap = [-0.15, 0.001, 0.02, 0.2][kind(24, 4)];
         let (side, count) = [(3.0, 3), (4.0, 10), (7.0, 30)][kind(96, 3)];
-        let pack =
-            Pack { side, count, radii: [0.2, 0.6], gap, periodic: sides == 1, grains: grains_of, seed };
+        let pack = Pack { side, count, radii: [0.2, 0.6], gap, periodic: sides == 1, grains: grains_of, seed };
         let g = grains([side; 2], pack.shapes());
         let (g, open) = match sides {
             0 => (g.with_wall_sides([true; 4]), CLOSED),
@@ -46,7 +45,8 @@ fn a_thousand_random_packs_have_a_network_with_all_its_invariants() {
 #[test]
 fn separate_grains_obey_the_formula_of_euler() {
     for seed in 0..20 {
-        let pack = Pack { side: 9.0, count: 40, radii: [0.3, 0.6], gap: 0.05, periodic: true, grains: Grains::Mixed, seed };
+        let pack =
+            Pack { side: 9.0, count: 40, radii: [0.3, 0.6], gap: 0.05, periodic: true, grains: Grains::Mixed, seed };
         let g = grains([9.0; 2], pack.shapes()).with_periodic([true, true]);
         let n = network(&g, CLOSED);
         // On the torus: pores - throats + grains = 0.

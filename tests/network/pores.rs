@@ -114,13 +114,14 @@ fn scene(turn: f64, is_mirrored: bool) -> Geometry {
         let (s, c) = turn.sin_cos();
         [5.0 + c * x - s * y, 5.0 + s * x + c * y]
     };
-    let mut shapes: Vec<ShapeSpec> = [[0.0, 0.0, 0.5], [1.3, 0.4, 0.6], [-0.9, 1.1, 0.4], [0.6, -1.2, 0.5], [0.4, 1.5, 0.3]]
-        .into_iter()
-        .map(|[x, y, r]| {
-            let [x, y] = turned([x, y]);
-            disc(x, y, r)
-        })
-        .collect();
+    let mut shapes: Vec<ShapeSpec> =
+        [[0.0, 0.0, 0.5], [1.3, 0.4, 0.6], [-0.9, 1.1, 0.4], [0.6, -1.2, 0.5], [0.4, 1.5, 0.3]]
+            .into_iter()
+            .map(|[x, y, r]| {
+                let [x, y] = turned([x, y]);
+                disc(x, y, r)
+            })
+            .collect();
     let ring = |points: &[[f64; 2]]| {
         let mut points: Vec<[f64; 2]> = points.iter().map(|&p| turned(p)).collect();
         if is_mirrored {
@@ -159,7 +160,12 @@ fn a_network_turns_and_mirrors_with_its_grains() {
 fn open_sides_may_cut_grains_anywhere() {
     for k in 0..40 {
         let x = -0.19 + 0.02 * f64::from(k);
-        let shapes = vec![disc(x, 0.3, 0.25), disc(x + 0.1, 0.9, 0.2), disc(1.2 - x, 0.5, 0.3), disc(0.5 + 0.3 * x, -0.1, 0.15)];
+        let shapes = vec![
+            disc(x, 0.3, 0.25),
+            disc(x + 0.1, 0.9, 0.2),
+            disc(1.05 - x, 0.5, 0.3),
+            disc(0.5 + 0.3 * x, -0.1, 0.15),
+        ];
         let g = grains([1.0, 1.1], shapes);
         network(&g, [true; 4]);
         network(&g.clone().with_wall_sides([false, false, true, true]), LEFT_RIGHT);

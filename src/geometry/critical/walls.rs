@@ -15,6 +15,9 @@ use crate::math::{Bounds, Vec2, perpendicular};
 /// Periods along x and y.
 pub(crate) type Shift = [i32; 2];
 
+/// Ends within this many tolerances are joined: they come from intersections computed once on each curve.
+const JOINED: f64 = 10.0;
+
 /// The sum of two shifts.
 pub(crate) fn plus(a: Shift, b: Shift) -> Shift {
     [a[0] + b[0], a[1] + b[1]]
@@ -93,8 +96,15 @@ impl Walls {
         let reach = if sides == Sides::Cut { 0.0 } else { domain.size().norm() };
         let frame = domain.grown(reach);
         let mut pieces = Vec::new();
-        for piece in &geometry.boundary.pieces {
-            for curve in clipped(&piece.curve, frame, periodic, tolerance) {
+        for (k, piece) in geometry.boundary.pieces.iter().enumerate() {
+            // A circle that another wall touches begins there, and has ends.
+            let touches = |x: Vec2| geometry.boundary.within(x, JOINED * tolerance).any(|near| near.piece != k);
+            let parts = if piece.curve.is_closed() && touches(piece.curve.point(0.0)) {
+                vec![piece.curve.part(0.0, 0.5), piece.curve.part(0.5, 1.0)]
+            } else {
+                vec![piece.curve]
+            };
+            for curve in parts.iter().flat_map(|part| clipped(part, frame, periodic, tolerance)) {
                 pieces.push(Piece { curve, shape: piece.shape });
             }
         }
@@ -317,9 +327,7 @@ impl Walls {
     /// Joins the ends of pieces. Where more than two pieces meet, as where solids touch, the wall goes on along the pore: it takes the
     /// sharpest turn to the right.
     fn join(&mut self) {
-        // Ends come from intersections computed once on each curve.
-        const ROUNDING: f64 = 10.0;
-        let near = ROUNDING * self.tolerance;
+        let near = JOINED * self.tolerance;
         for k in 0..self.walls.len() {
             let curve = self.walls[k].curve;
             if curve.is_closed() {
