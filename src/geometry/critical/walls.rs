@@ -48,6 +48,8 @@ pub(crate) struct Wall {
     pub next: Option<Link>,
     /// The piece that ends where this one begins.
     pub before: Option<Link>,
+    /// The angle in rad by which the wall turns where this piece begins, above 0 where the solid is convex; half a circle in a cusp.
+    pub turn: f64,
 }
 
 /// A point of a wall.
@@ -116,7 +118,7 @@ impl Walls {
         let walls: Vec<Wall> = pieces
             .iter()
             .filter(|piece| cell(&piece.curve) == [0, 0])
-            .map(|piece| Wall { curve: piece.curve, shape: piece.shape, next: None, before: None })
+            .map(|piece| Wall { curve: piece.curve, shape: piece.shape, next: None, before: None, turn: 0.0 })
             .collect();
         let mut all = Self {
             domain,
@@ -300,8 +302,14 @@ impl Walls {
         match self.tangents(contact) {
             None => self.curve(contact.wall, contact.shift).normal(contact.u).dot(&v) > 0.0,
             Some([arriving, leaving]) => {
+                let is_joined = self.around(contact).iter().all(Option::is_some);
+                let turn = if is_joined {
+                    self.walls[contact.wall].turn
+                } else {
+                    cross(arriving, leaving).atan2(arriving.dot(&leaving))
+                };
                 // A corner of the pore is seen from nowhere; the normal lies on the right of the tangent.
-                cross(arriving, leaving) * v.norm() > -slack
+                turn * v.norm() > -slack
                     && arriving.dot(&v) >= -slack
                     && leaving.dot(&v) <= slack
                     && (perpendicular(arriving).dot(&v) < 0.0 || perpendicular(leaving).dot(&v) < 0.0)
@@ -348,9 +356,11 @@ impl Walls {
             starts.sort_unstable();
             let turn = |&(wall, shift): &(usize, Shift)| turn(&curve, &self.curve(wall, shift), near);
             let follower = starts.iter().min_by(|a, b| turn(a).total_cmp(&turn(b)));
-            if let Some(&(wall, shift)) = follower.filter(|&&(wall, _)| self.walls[wall].before.is_none()) {
+            let Some((&(wall, shift), angle)) = follower.map(|start| (start, turn(start))) else { continue };
+            if self.walls[wall].before.is_none() {
                 self.walls[k].next = Some(Link { wall, shift });
                 self.walls[wall].before = Some(Link { wall: k, shift: minus([0, 0], shift) });
+                self.walls[wall].turn = angle;
             }
         }
     }
