@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use crate::geometry::critical::opposite::{Opposite, slack, snapped};
+use crate::geometry::critical::opposite::{Opposite, slack};
 use crate::geometry::critical::slope::{Along, Slope, slope};
 use crate::geometry::critical::walls::{Contact, Shift, Walls, minus};
 use crate::geometry::curve::{Curve, cross};
@@ -142,7 +142,7 @@ fn contact(walls: &Walls, along: &Along, x: Vec2) -> Contact {
         Along::Vertex(contact, _) => contact,
         Along::Piece(link) => {
             let curve = walls.curve(link.wall, link.shift);
-            let u = snapped(walls, &curve, curve.project(x).u);
+            let u = walls.snapped(&curve, curve.project(x).u);
             walls.at_vertex(Contact { wall: link.wall, shift: link.shift, u, point: curve.point(u) })
         }
     }

@@ -61,8 +61,8 @@ pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) ->
             return;
         }
         let contacts = [
-            Contact { wall: pair.walls[0], shift: [0, 0], u: snapped(walls, &curves[0], u[0]), point: p },
-            Contact { wall: pair.walls[1], shift: pair.shift, u: snapped(walls, &curves[1], u[1]), point: q },
+            Contact { wall: pair.walls[0], shift: [0, 0], u: walls.snapped(&curves[0], u[0]), point: p },
+            Contact { wall: pair.walls[1], shift: pair.shift, u: walls.snapped(&curves[1], u[1]), point: q },
         ];
         let opposite = Opposite::between(contacts.map(|contact| walls.at_vertex(contact)));
         let across = opposite.across();
@@ -94,19 +94,6 @@ pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) ->
         }
     }
     found
-}
-
-/// The parameter of an end where a parameter is that up to rounding.
-pub(crate) fn snapped(walls: &Walls, curve: &Curve, u: f64) -> f64 {
-    // Positions are rounded to about this share of the tolerance.
-    const ROUNDING: f64 = 1e-3;
-    let near = ROUNDING * walls.tolerance / curve.length();
-    match u {
-        _ if curve.is_closed() => u,
-        _ if u < near => 0.0,
-        _ if u > 1.0 - near => 1.0,
-        _ => u,
-    }
 }
 
 /// Whether a curve lies behind its point at `u` as seen along the unit vector `v`.

@@ -251,8 +251,22 @@ impl Walls {
         (largest + 0.5 * cell.norm()).min(0.51 * size.max())
     }
 
+    /// The parameter of an end where a parameter is that up to rounding.
+    pub fn snapped(&self, curve: &Curve, u: f64) -> f64 {
+        // Positions are rounded to about this share of the tolerance.
+        const ROUNDING: f64 = 1e-3;
+        let near = ROUNDING * self.tolerance / curve.length();
+        match u {
+            _ if curve.is_closed() => u,
+            _ if u < near => 0.0,
+            _ if u > 1.0 - near => 1.0,
+            _ => u,
+        }
+    }
+
     fn contact(&self, image: usize, u: f64, point: Vec2, shift: Shift) -> Contact {
         let (wall, own) = self.images[image];
+        let u = self.snapped(&self.walls[wall].curve, u);
         self.at_vertex(Contact { wall, shift: plus(own, shift), u, point: point + self.offset(shift) })
     }
 
