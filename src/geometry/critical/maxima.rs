@@ -57,15 +57,6 @@ fn found(walls: &Walls, x: Vec2, radius: f64, nearest: &Contact) -> Option<Maxim
     if !walls.is_seen(nearest, x - nearest.point) {
         return None;
     }
-    if std::env::var("DBG").is_ok() {
-        eprintln!(
-            "SEEN {:?} {:?} tangents {:?} turn {}",
-            x,
-            nearest,
-            walls.tangents(nearest),
-            walls.walls[nearest.wall].turn
-        );
-    }
     let maximum = at(walls, x, radius);
     let directions: Vec<Vec2> = maximum.contacts.iter().map(|contact| contact.point - maximum.center).collect();
     surrounded(&directions).then_some(maximum)
