@@ -13,6 +13,7 @@ use std::time::Instant;
 use criterion::Criterion;
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
+use meniscus::math::Vec2;
 
 /// Distances asked for in the last column of the table.
 const DISTANCES: usize = 100_000;

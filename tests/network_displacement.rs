@@ -19,7 +19,7 @@ impl Dice {
     }
 }
 
-/// Discs of radius .4 to .6 at least .12 apart in a box, as many as `tries` attempts place.
+/// Discs of radius .4 to .6 at least .12 apart in a box that is periodic along y, as many as `tries` attempts place.
 fn pack(seed: u64, size: [f64; 2], tries: usize) -> GeometrySpec {
     let mut dice = Dice(seed);
     let mut discs: Vec<Disc> = Vec::new();
@@ -44,9 +44,10 @@ fn pack(seed: u64, size: [f64; 2], tries: usize) -> GeometrySpec {
 const LEFT: [bool; 4] = [true, false, false, false];
 const RIGHT: [bool; 4] = [false, true, false, false];
 
-/// The network of shapes between walls at the bottom and the top, open on the left and on the right.
+/// The network of shapes in a domain that is open on the left and on the right and periodic from bottom to top: walls there would be
+/// ways of their own.
 fn network(spec: &GeometrySpec) -> (Arc<Network>, Arc<Pores>, usize) {
-    let geometry = Geometry::new(spec).unwrap().with_wall_sides([false, false, true, true]);
+    let geometry = Geometry::new(spec).unwrap().with_periodic([false, true]);
     let network = extract(&geometry, [true, true, false, false]).unwrap();
     let pores = Pores::merged(&network, 0.95);
     (Arc::new(network), Arc::new(pores), spec.shapes.len() + 4)

@@ -3,7 +3,10 @@
 #[path = "../support/packs.rs"]
 mod packs;
 
-use meniscus::network::extract;
+use meniscus::geometry::spec::{Rectangle, ShapeSpec};
+use meniscus::network::{ExtractError, extract};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use crate::invariants::{assert_distances, violations};
 use crate::scenes::*;
@@ -52,4 +55,56 @@ fn separate_grains_obey_the_formula_of_euler() {
         // On the torus: pores - throats + grains = 0.
         assert_eq!(n.throats.len(), n.regions.len() + pack.shapes().len());
     }
+}
+
+/// Shapes on the sites of a square lattice, which touch along sides, in corners and in points.
+fn lattice(kind: usize, size: usize, share: f64, seed: u64) -> Vec<ShapeSpec> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut shapes = Vec::new();
+    for site in 0..size * size {
+        let center = [(site % size) as f64 + 0.5, (site / size) as f64 + 0.5];
+        let mut halves = || 0.5 + 0.5 * (4.0 * rng.random::<f64>()).floor();
+        let size = [halves(), halves()];
+        if rng.random::<f64>() < share {
+            shapes.push(match kind {
+                0 => rectangle(center, [1.0, 1.0]),
+                1 => rectangle(center, size),
+                2 => disc(center[0], center[1], 0.5),
+                3 => disc(center[0], center[1], 0.4),
+                _ => ShapeSpec::Rectangle(Rectangle { center, size: [0.5_f64.sqrt(); 2], rotation_deg: 45.0 }),
+            });
+        }
+    }
+    shapes
+}
+
+#[test]
+fn grains_on_a_lattice_have_a_network_though_everything_is_level_or_touches() {
+    let mut failures = Vec::new();
+    let mut count = 0;
+    for seed in 0..480_u64 {
+        let kind = |k: u64, of: u64| ((seed / k) % of) as usize;
+        let (size, share) = ([4, 6, 9][kind(1, 3)], [0.1, 0.25, 0.4, 0.6][kind(3, 4)]);
+        let shapes = lattice(kind(12, 5), size, share, seed);
+        if shapes.is_empty() {
+            continue;
+        }
+        let g = grains([size as f64; 2], shapes);
+        let (g, open) = match kind(60, 4) {
+            0 => (g.with_wall_sides([true; 4]), CLOSED),
+            1 => (g.with_periodic([true, true]), CLOSED),
+            2 => (g.with_wall_sides([false, false, true, true]), LEFT_RIGHT),
+            _ => (g, [true; 4]),
+        };
+        match extract(&g, open) {
+            Err(ExtractError::NoWalls { .. }) => {}
+            Err(error) => failures.push(format!("{seed}: {error}")),
+            Ok(network) => {
+                count += 1;
+                failures.extend(violations(&g, &network).into_iter().map(|violation| format!("{seed}: {violation}")));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{} failures: {:#?}", failures.len(), &failures[..failures.len().min(5)]);
+    assert!(count > 400, "{count}");
 }

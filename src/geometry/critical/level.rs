@@ -142,16 +142,7 @@ fn contact(walls: &Walls, along: &Along, x: Vec2) -> Contact {
         Along::Vertex(contact, _) => contact,
         Along::Piece(link) => {
             let curve = walls.curve(link.wall, link.shift);
-            let foot = curve.project(x);
-            // Just within an end counts as the end.
-            let near = |u: f64| !curve.is_closed() && (curve.point(u) - foot.point).norm() <= walls.tolerance;
-            let u = if near(0.0) {
-                0.0
-            } else if near(1.0) {
-                1.0
-            } else {
-                foot.u
-            };
+            let u = walls.snapped(&curve, curve.project(x).u);
             walls.at_vertex(Contact { wall: link.wall, shift: link.shift, u, point: curve.point(u) })
         }
     }

@@ -38,8 +38,7 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
         }
         let (distance, nearest) = walls.nearest(x)?;
         if distance >= radius - slack(walls, radius) {
-            let is_maximum = walls.is_seen(&nearest, x - nearest.point) && surrounded(&feet.map(|foot| foot - x));
-            return is_maximum.then(|| at(walls, x, radius));
+            return found(walls, x, radius, &nearest);
         }
         // The nearer wall takes the place of the one beside it.
         let v = nearest.point - x;
@@ -53,10 +52,19 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
     None
 }
 
+/// The maximum at a place that no wall is nearer to than `radius` (m), if it is one.
+fn found(walls: &Walls, x: Vec2, radius: f64, nearest: &Contact) -> Option<Maximum> {
+    if !walls.is_seen(nearest, x - nearest.point) {
+        return None;
+    }
+    let maximum = at(walls, x, radius);
+    let directions: Vec<Vec2> = maximum.contacts.iter().map(|contact| contact.point - maximum.center).collect();
+    surrounded(&directions).then_some(maximum)
+}
+
 /// A maximum with all its wall points.
 pub(crate) fn at(walls: &Walls, center: Vec2, radius: f64) -> Maximum {
-    let (y, shift) = walls.wrapped(center);
-    let back = walls.offset(shift);
+    let y = walls.wrapped(center).0;
     let mut contacts = walls.contacts(y, radius + slack(walls, radius));
     // Points of the same place are one.
     let mut kept: Vec<Contact> = Vec::new();
@@ -67,7 +75,6 @@ pub(crate) fn at(walls: &Walls, center: Vec2, radius: f64) -> Maximum {
         }
         is_new
     });
-    let _ = back;
     Maximum { center: y, radius, contacts: kept }
 }
 

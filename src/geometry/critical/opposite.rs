@@ -61,8 +61,8 @@ pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) ->
             return;
         }
         let contacts = [
-            Contact { wall: pair.walls[0], shift: [0, 0], u: u[0], point: p },
-            Contact { wall: pair.walls[1], shift: pair.shift, u: u[1], point: q },
+            Contact { wall: pair.walls[0], shift: [0, 0], u: walls.snapped(&curves[0], u[0]), point: p },
+            Contact { wall: pair.walls[1], shift: pair.shift, u: walls.snapped(&curves[1], u[1]), point: q },
         ];
         let opposite = Opposite::between(contacts.map(|contact| walls.at_vertex(contact)));
         let across = opposite.across();

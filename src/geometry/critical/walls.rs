@@ -15,6 +15,9 @@ use crate::math::{Bounds, Vec2, perpendicular};
 /// Periods along x and y.
 pub(crate) type Shift = [i32; 2];
 
+/// Ends within this many tolerances are joined: they come from intersections computed once on each curve.
+const JOINED: f64 = 10.0;
+
 /// The sum of two shifts.
 pub(crate) fn plus(a: Shift, b: Shift) -> Shift {
     [a[0] + b[0], a[1] + b[1]]
@@ -45,6 +48,8 @@ pub(crate) struct Wall {
     pub next: Option<Link>,
     /// The piece that ends where this one begins.
     pub before: Option<Link>,
+    /// The angle in rad by which the wall turns where this piece begins, above 0 where the solid is convex; half a circle in a cusp.
+    pub turn: f64,
 }
 
 /// A point of a wall.
@@ -93,8 +98,15 @@ impl Walls {
         let reach = if sides == Sides::Cut { 0.0 } else { domain.size().norm() };
         let frame = domain.grown(reach);
         let mut pieces = Vec::new();
-        for piece in &geometry.boundary.pieces {
-            for curve in clipped(&piece.curve, frame, periodic, tolerance) {
+        for (k, piece) in geometry.boundary.pieces.iter().enumerate() {
+            // A circle that another wall touches begins there, and has ends.
+            let touches = |x: Vec2| geometry.boundary.within(x, JOINED * tolerance).any(|near| near.piece != k);
+            let parts = if piece.curve.is_closed() && touches(piece.curve.point(0.0)) {
+                vec![piece.curve.part(0.0, 0.5), piece.curve.part(0.5, 1.0)]
+            } else {
+                vec![piece.curve]
+            };
+            for curve in parts.iter().flat_map(|part| clipped(part, frame, periodic, tolerance)) {
                 pieces.push(Piece { curve, shape: piece.shape });
             }
         }
@@ -106,7 +118,7 @@ impl Walls {
         let walls: Vec<Wall> = pieces
             .iter()
             .filter(|piece| cell(&piece.curve) == [0, 0])
-            .map(|piece| Wall { curve: piece.curve, shape: piece.shape, next: None, before: None })
+            .map(|piece| Wall { curve: piece.curve, shape: piece.shape, next: None, before: None, turn: 0.0 })
             .collect();
         let mut all = Self {
             domain,
@@ -239,8 +251,22 @@ impl Walls {
         (largest + 0.5 * cell.norm()).min(0.51 * size.max())
     }
 
+    /// The parameter of an end where a parameter is that up to rounding.
+    pub fn snapped(&self, curve: &Curve, u: f64) -> f64 {
+        // Positions are rounded to about this share of the tolerance.
+        const ROUNDING: f64 = 1e-3;
+        let near = ROUNDING * self.tolerance / curve.length();
+        match u {
+            _ if curve.is_closed() => u,
+            _ if u < near => 0.0,
+            _ if u > 1.0 - near => 1.0,
+            _ => u,
+        }
+    }
+
     fn contact(&self, image: usize, u: f64, point: Vec2, shift: Shift) -> Contact {
         let (wall, own) = self.images[image];
+        let u = self.snapped(&self.walls[wall].curve, u);
         self.at_vertex(Contact { wall, shift: plus(own, shift), u, point: point + self.offset(shift) })
     }
 
@@ -290,8 +316,14 @@ impl Walls {
         match self.tangents(contact) {
             None => self.curve(contact.wall, contact.shift).normal(contact.u).dot(&v) > 0.0,
             Some([arriving, leaving]) => {
+                let is_joined = self.around(contact).iter().all(Option::is_some);
+                let turn = if is_joined {
+                    self.walls[contact.wall].turn
+                } else {
+                    cross(arriving, leaving).atan2(arriving.dot(&leaving))
+                };
                 // A corner of the pore is seen from nowhere; the normal lies on the right of the tangent.
-                cross(arriving, leaving) * v.norm() > -slack
+                turn * v.norm() > -slack
                     && arriving.dot(&v) >= -slack
                     && leaving.dot(&v) <= slack
                     && (perpendicular(arriving).dot(&v) < 0.0 || perpendicular(leaving).dot(&v) < 0.0)
@@ -317,9 +349,7 @@ impl Walls {
     /// Joins the ends of pieces. Where more than two pieces meet, as where solids touch, the wall goes on along the pore: it takes the
     /// sharpest turn to the right.
     fn join(&mut self) {
-        // Ends come from intersections computed once on each curve.
-        const ROUNDING: f64 = 10.0;
-        let near = ROUNDING * self.tolerance;
+        let near = JOINED * self.tolerance;
         for k in 0..self.walls.len() {
             let curve = self.walls[k].curve;
             if curve.is_closed() {
@@ -340,9 +370,11 @@ impl Walls {
             starts.sort_unstable();
             let turn = |&(wall, shift): &(usize, Shift)| turn(&curve, &self.curve(wall, shift), near);
             let follower = starts.iter().min_by(|a, b| turn(a).total_cmp(&turn(b)));
-            if let Some(&(wall, shift)) = follower.filter(|&&(wall, _)| self.walls[wall].before.is_none()) {
+            let Some((&(wall, shift), angle)) = follower.map(|start| (start, turn(start))) else { continue };
+            if self.walls[wall].before.is_none() {
                 self.walls[k].next = Some(Link { wall, shift });
                 self.walls[wall].before = Some(Link { wall: k, shift: minus([0, 0], shift) });
+                self.walls[wall].turn = angle;
             }
         }
     }

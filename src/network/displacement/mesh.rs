@@ -41,6 +41,9 @@ pub(super) struct Mesh {
     pub element_of: Vec<usize>,
     /// The gate of each crossing of each loop with the end that lies there; none at openings and at dissolved throats.
     pub gate_at: Vec<Vec<Option<(usize, usize)>>>,
+    /// For each crossing of each loop: the loop and the crossing on its other side, and what is added to a position in the frame of this
+    /// loop to get that in the frame of the other one, in m; none at openings.
+    pub twins: Vec<Vec<Option<(usize, usize, Vec2)>>>,
     /// The elements.
     pub elements: Vec<Element>,
     /// The gates.
@@ -121,13 +124,16 @@ impl Mesh {
             }
         }
         self.gate_at = self.loops.iter().map(|part| vec![None; part.crossings.len()]).collect();
+        self.twins = self.loops.iter().map(|part| vec![None; part.crossings.len()]).collect();
         for (k, sides) in places.into_iter().enumerate() {
             let throat = (k < throats).then_some(k);
             let [Some(one), Some(other)] = sides else { continue };
+            let shift = throat.map_or_else(Vec2::zeros, |throat| network.throats[throat].shift);
+            self.twins[one.0][one.1] = Some((other.0, other.1, shift));
+            self.twins[other.0][other.1] = Some((one.0, one.1, -shift));
             if throat.is_some_and(|throat| !is_gate(throat)) {
                 continue;
             }
-            let shift = throat.map_or_else(Vec2::zeros, |throat| network.throats[throat].shift);
             let gate = self.gates.len();
             for (end, (index, slot)) in [one, other].into_iter().enumerate() {
                 self.gate_at[index][slot] = Some((gate, end));

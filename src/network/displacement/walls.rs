@@ -1,12 +1,13 @@
 //! The walls along which a meniscus advances through a gate, and the walls ahead that it may touch.
 //!
 //! Behind the gate and ahead of it a contact line can follow the wall up to the next concave corner, where it meets another wall, and up
-//! to the widest place of the pore on a concave arc. On convex walls it can go on beyond the next gate: the piece of wall at the end is
-//! taken whole, a disc all around. Positions are in the frame of the element that the meniscus enters.
+//! to the widest place of the pore on a concave arc. Where the next gate leads to a third wall, a convex wall is followed beyond it by up to half a
+//! turn: menisci above 90 degrees burst with contacts far ahead. Where it leads back to the other wall of the same passage, the next throat of
+//! both begins, and the wall ends for this one. Positions are in the frame of the element that the meniscus enters.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
-use super::loops::{Loop, turn};
+use super::loops::turn;
 use super::mesh::Mesh;
 use crate::geometry::curve::Curve;
 use crate::math::Vec2;
@@ -48,8 +49,8 @@ pub(super) fn gate_walls(mesh: &Mesh, gate: usize, to: usize, centers: &[Vec2]) 
     let (out_of, old_slot) = sides.places[1 - to];
     // From the frame of the loop behind to that of the loop ahead.
     let shift = if to == 1 { sides.shift } else { -sides.shift };
-    let ahead = ends(&mesh.loops[into], slot, centers[mesh.region_of[into]]);
-    let behind = ends(&mesh.loops[out_of], old_slot, centers[mesh.region_of[out_of]]);
+    let ahead = ends(mesh, (into, slot), centers[mesh.region_of[into]]);
+    let behind = ends(mesh, (out_of, old_slot), centers[mesh.region_of[out_of]]);
     let moved = |parts: Vec<WallPiece>| parts.into_iter().map(|part| shifted(part, shift)).collect::<Vec<_>>();
     // The wall that leads to the chord on one side goes on after the chord on the other one.
     let left = Sides { behind: moved(behind.before.parts), ahead: ahead.after.parts };
@@ -73,17 +74,70 @@ struct Ends {
     others: Vec<WallPiece>,
 }
 
-fn ends(part: &Loop, slot: usize, center: Vec2) -> Ends {
+fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
+    let part = &mesh.loops[index];
     let count = part.walls.len();
     let next = (slot + 1) % count;
     let others = (0..count).filter(|&k| k != slot && k != next).flat_map(|k| part.walls[k].iter().copied()).collect();
     if slot != next {
-        let (before, after) = (&part.walls[slot], &part.walls[next]);
-        return Ends { before: follow(before, true, center), after: follow(after, false, center), others };
+        let follow_on = |wall: usize, backwards: bool| {
+            let mut followed = follow(&part.walls[wall], backwards, center);
+            if count > 2 && followed.rest.is_empty() {
+                extend(mesh, (index, wall), backwards, &mut followed.parts);
+            }
+            followed
+        };
+        return Ends { before: follow_on(slot, true), after: follow_on(next, false), others };
     }
     // One wall all around: each side has its half.
     let (first, second) = halves(&part.walls[slot]);
     Ends { before: follow(&second, true, center), after: follow(&first, false, center), others }
+}
+
+/// Follows a wall beyond the gate where its stretch ends, as long as it is convex and until it has turned by half a turn.
+fn extend(mesh: &Mesh, (mut index, mut wall): (usize, usize), backwards: bool, parts: &mut Vec<WallPiece>) {
+    if let Some(last) = parts.last_mut().filter(|last| last.whole.is_closed()) {
+        last.curve = half_around(&last.curve, backwards);
+        return;
+    }
+    let mut turned: f64 = parts.iter().map(|piece| sweep(&piece.curve)).sum();
+    let mut offset = Vec2::zeros();
+    // A wall has no more stretches than there are crossings.
+    for _ in 0..mesh.gates.len() + mesh.loops.len() {
+        let crossing = if backwards { wall + mesh.loops[index].walls.len() - 1 } else { wall };
+        let crossing = crossing % mesh.loops[index].walls.len();
+        let Some(Some((beyond, twin, shift))) = mesh.twins[index].get(crossing).copied() else { return };
+        offset -= shift;
+        wall = if backwards { twin } else { (twin + 1) % mesh.loops[beyond].walls.len() };
+        index = beyond;
+        let pieces = &mesh.loops[index].walls[wall];
+        for k in 0..pieces.len() {
+            let piece = shifted(pieces[if backwards { pieces.len() - 1 - k } else { k }], offset);
+            if let Some(last) = parts.last() {
+                let (one, next) = if backwards { (&piece.curve, &last.curve) } else { (&last.curve, &piece.curve) };
+                turned += turn(one, next);
+                if turn(one, next) < -SMOOTH {
+                    return;
+                }
+            }
+            turned += sweep(&piece.curve);
+            if sweep(&piece.curve) < 0.0 {
+                return;
+            }
+            parts.push(piece);
+            if turned > PI {
+                return;
+            }
+        }
+    }
+}
+
+/// The signed angle by which a curve turns, in rad.
+fn sweep(curve: &Curve) -> f64 {
+    match curve {
+        Curve::Segment { .. } => 0.0,
+        Curve::Arc { sweep, .. } => *sweep,
+    }
 }
 
 /// A stretch of wall cut in its middle.
@@ -137,33 +191,18 @@ fn follow(wall: &[WallPiece], backwards: bool, center: Vec2) -> Followed {
         }
         parts.push(piece);
     }
-    // The wall goes on beyond the next gate.
-    if let Some(last) = parts.last_mut() {
-        last.curve = extended(last, backwards);
-    }
     Followed { parts, rest: Vec::new() }
 }
 
-/// The piece with its far end where the convex piece of wall ends that it is cut from.
-fn extended(piece: &WallPiece, backwards: bool) -> Curve {
-    match (piece.curve, piece.whole) {
-        (Curve::Arc { center, radius, start, sweep }, whole) if whole.is_closed() => {
-            // A disc as far as the point opposite of the chord.
+/// A disc from the near end of an arc of it as far as the opposite point.
+fn half_around(arc: &Curve, backwards: bool) -> Curve {
+    match *arc {
+        Curve::Arc { center, radius, start, sweep } => {
             let half = PI.copysign(sweep);
             let start = if backwards { start + sweep - half } else { start };
             Curve::Arc { center, radius, start, sweep: half }
         }
-        (Curve::Arc { center, radius, start, sweep }, Curve::Arc { start: first, sweep: whole, .. }) if sweep > 0.0 => {
-            // Angles may differ by whole turns.
-            let skipped = (start - first).rem_euclid(TAU);
-            let skipped = if skipped > whole { 0.0 } else { skipped };
-            if backwards {
-                Curve::Arc { center, radius, start: start - skipped, sweep: sweep + skipped }
-            } else {
-                Curve::Arc { center, radius, start, sweep: (whole - skipped).max(sweep) }
-            }
-        }
-        (curve, _) => curve,
+        segment @ Curve::Segment { .. } => segment,
     }
 }
 
