@@ -179,7 +179,7 @@ fn a_mirrored_pack_is_filled_in_the_same_way() {
         let [one, other] = [spec.clone(), mirrored(&spec)].map(|spec| displaced(&spec, angle, true, Events::All));
         assert_eq!(one.events.len(), other.events.len());
         for (a, b) in one.events.iter().zip(&other.events) {
-            assert!((a.curvature - b.curvature).abs() < 1e-9 * a.curvature.abs().max(1.0));
+            assert!((a.curvature - b.curvature).abs() < 1e-9 * a.curvature.abs().max(1.0), "{a:?} {b:?} {angle}");
             assert_eq!(a.kind, b.kind);
         }
         // Where segments that divide regions stand is known to the root of the rounding only.

@@ -39,6 +39,8 @@ pub(super) struct Loop {
     pub walls: Vec<Vec<WallPiece>>,
     /// As many crossings, each after the stretch of the same number.
     pub crossings: Vec<Crossing>,
+    /// Openings along whole sides that meet no wall.
+    pub apart: Vec<Crossing>,
 }
 
 /// A point of a stretch of wall.
@@ -50,6 +52,26 @@ struct WallPoint {
 }
 
 impl Loop {
+    /// What is added to the wall before crossing `k` so that it ends there: a whole period at the seam of a loop that goes around a periodic
+    /// domain, else zero.
+    pub fn wall_before(&self, k: usize) -> Vec2 {
+        let end = self.walls[k].last().map(|piece| piece.curve.point(1.0));
+        self.seam(end, self.crossings[k].from)
+    }
+
+    /// The same of the wall after crossing `k`.
+    pub fn wall_after(&self, k: usize) -> Vec2 {
+        let start = self.walls[(k + 1) % self.walls.len()].first().map(|piece| piece.curve.point(0.0));
+        self.seam(start, self.crossings[k].to)
+    }
+
+    fn seam(&self, end: Option<Vec2>, crossing: Vec2) -> Vec2 {
+        const ROUNDING: f64 = 1e-6;
+        let chord = |c: &Crossing| (c.to - c.from).norm();
+        let shortest = self.crossings.iter().map(chord).filter(|&length| length > 0.0).fold(f64::INFINITY, f64::min);
+        end.map(|end| crossing - end).filter(|gap| gap.norm() > ROUNDING * shortest).unwrap_or_default()
+    }
+
     /// All curves of the loop in order, chords included, and straight connections where one does not begin at the end of the one before:
     /// along the seam of a region that goes around a periodic domain.
     pub fn curves(&self) -> Vec<Curve> {

@@ -72,6 +72,17 @@ pub(super) fn loop_of(region: &Region) -> Loop {
         found.walls.push(std::mem::take(&mut wall));
         found.crossings.push(crossing);
     }
+    // A whole side that no wall meets is no part of the way along the walls, which goes around a periodic domain.
+    for k in (0..found.crossings.len()).rev() {
+        let is_apart = found.wall_before(k).norm() > 0.0 && matches!(found.crossings[k].gate, GateId::Opening(_));
+        if is_apart && found.crossings.len() > 1 {
+            let opening = found.crossings.remove(k);
+            found.apart.push(opening);
+            let before = found.walls.remove(k);
+            let next = k % found.walls.len();
+            found.walls[next].splice(0..0, before);
+        }
+    }
     if found.walls.is_empty() {
         // A closed pore without any throat.
         found.walls.push(wall);
@@ -126,6 +137,13 @@ impl Mesh {
                     GateId::Opening(opening) => {
                         self.elements[element].open[network.openings[opening].side] = true;
                     }
+                }
+            }
+        }
+        for (part, &element) in self.loops.iter().zip(&self.element_of) {
+            for crossing in &part.apart {
+                if let GateId::Opening(opening) = crossing.gate {
+                    self.elements[element].open[network.openings[opening].side] = true;
                 }
             }
         }

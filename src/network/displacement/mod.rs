@@ -14,6 +14,7 @@ mod walls;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
+use self::loops::Loop;
 use self::mesh::Mesh;
 use self::outflow::Outflow;
 use self::walls::{Sides, gate_walls};
@@ -333,6 +334,13 @@ impl Displacement {
         let mut wall = if hand == Hand::Left { next(index, slot) } else { slot };
         let mut found =
             Neighbor { front: (gate, to), shared: 0.0, offset: Vec2::zeros(), passed: vec![mesh.element_of[index]] };
+        let (before_crossing, after_crossing): (fn(&Loop, usize) -> Vec2, fn(&Loop, usize) -> Vec2) =
+            if hand == Hand::Left {
+                (Loop::wall_before, Loop::wall_after)
+            } else {
+                (Loop::wall_after, Loop::wall_before)
+            };
+        found.offset += after_crossing(&mesh.loops[index], slot);
         // A wall has no more stretches than there are loops.
         for _ in 0..mesh.loops.len() {
             found.shared += mesh.loops[index].walls[wall].iter().map(|piece| piece.curve.length()).sum::<f64>();
@@ -341,6 +349,7 @@ impl Displacement {
             if front == (gate, to) {
                 return None;
             }
+            found.offset -= before_crossing(&mesh.loops[index], crossing);
             if self.fronts[front.0][front.1].is_some() {
                 return Some(Neighbor { front, ..found });
             }
@@ -349,7 +358,7 @@ impl Displacement {
             if self.invaded[element] || self.trapped[element] {
                 return None;
             }
-            found.offset -= shift;
+            found.offset += after_crossing(&mesh.loops[beyond], twin) - shift;
             found.passed.push(element);
             index = beyond;
             wall = if hand == Hand::Left { next(index, twin) } else { twin };

@@ -78,12 +78,21 @@ fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
     let part = &mesh.loops[index];
     let count = part.walls.len();
     let next = (slot + 1) % count;
-    let others = (0..count).filter(|&k| k != slot && k != next).flat_map(|k| part.walls[k].iter().copied()).collect();
+    let mut others: Vec<WallPiece> =
+        (0..count).filter(|&k| k != slot && k != next).flat_map(|k| part.walls[k].iter().copied()).collect();
+    let seams = (0..part.crossings.len()).flat_map(|k| [part.wall_before(k), part.wall_after(k)]);
+    if let Some(seam) = seams.into_iter().find(|seam| *seam != Vec2::zeros()) {
+        let beyond = |by: Vec2| others.iter().map(|&piece| shifted(piece, by)).collect::<Vec<_>>();
+        let both = [beyond(seam), beyond(-seam)].concat();
+        others.extend(both);
+    }
     if slot != next {
         let follow_on = |wall: usize, backwards: bool| {
-            let mut followed = follow(&part.walls[wall], backwards, center);
+            let by = if backwards { part.wall_before(slot) } else { part.wall_after(slot) };
+            let stretch: Vec<WallPiece> = part.walls[wall].iter().map(|&piece| shifted(piece, by)).collect();
+            let mut followed = follow(&stretch, backwards, center);
             if count > 2 && followed.rest.is_empty() {
-                extend(mesh, (index, wall), backwards, &mut followed.parts);
+                extend(mesh, (index, wall, by), backwards, &mut followed.parts);
             }
             followed
         };
@@ -95,20 +104,23 @@ fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
 }
 
 /// Follows a wall beyond the gate where its stretch ends, as long as it is convex and until it has turned by half a turn.
-fn extend(mesh: &Mesh, (mut index, mut wall): (usize, usize), backwards: bool, parts: &mut Vec<WallPiece>) {
+fn extend(mesh: &Mesh, (mut index, mut wall, by): (usize, usize, Vec2), backwards: bool, parts: &mut Vec<WallPiece>) {
     if let Some(last) = parts.last_mut().filter(|last| last.whole.is_closed()) {
         last.curve = half_around(&last.curve, backwards);
         return;
     }
     let mut turned: f64 = parts.iter().map(|piece| sweep(&piece.curve)).sum();
-    let mut offset = Vec2::zeros();
+    let mut offset = by;
     // A wall has no more stretches than there are crossings.
     for _ in 0..mesh.gates.len() + mesh.loops.len() {
         let crossing = if backwards { wall + mesh.loops[index].walls.len() - 1 } else { wall };
         let crossing = crossing % mesh.loops[index].walls.len();
         let Some(Some((beyond, twin, shift))) = mesh.twins[index].get(crossing).copied() else { return };
+        let (here, there) = (&mesh.loops[index], &mesh.loops[beyond]);
+        offset -= if backwards { here.wall_after(crossing) } else { here.wall_before(crossing) };
         offset -= shift;
-        wall = if backwards { twin } else { (twin + 1) % mesh.loops[beyond].walls.len() };
+        offset += if backwards { there.wall_before(twin) } else { there.wall_after(twin) };
+        wall = if backwards { twin } else { (twin + 1) % there.walls.len() };
         index = beyond;
         let pieces = &mesh.loops[index].walls[wall];
         for k in 0..pieces.len() {
