@@ -17,11 +17,11 @@ fn a_thousand_random_packs_have_a_network_with_all_its_invariants() {
     let mut failures = Vec::new();
     for seed in 0..1000_u64 {
         let kind = |k: u64, of: u64| ((seed / k) % of) as usize;
-        let grains_of = [Grains::Discs, Grains::Polygons, Grains::Bars, Grains::Mixed][kind(1, 4)];
-        let sides = kind(4, 6);
+        let grains_of = [Grains::Discs, Grains::Polygons, Grains::Curves, Grains::Bars, Grains::Mixed][kind(1, 5)];
+        let sides = kind(5, 6);
         // Overlapping, nearly touching, tight and loose.
-        let gap = [-0.15, 0.001, 0.02, 0.2][kind(24, 4)];
-        let (side, count) = [(3.0, 3), (4.0, 10), (7.0, 30)][kind(96, 3)];
+        let gap = [-0.15, 0.001, 0.02, 0.2][kind(30, 4)];
+        let (side, count) = [(3.0, 3), (4.0, 10), (7.0, 30)][kind(120, 3)];
         let pack = Pack { side, count, radii: [0.2, 0.6], gap, periodic: sides == 1, grains: grains_of, seed };
         let g = grains([side; 2], pack.shapes());
         let (g, open) = match sides {
