@@ -1,7 +1,7 @@
 //! Random packs of every kind of grain and side.
 
 #[path = "../support/packs.rs"]
-mod packs;
+mod grown;
 
 use meniscus::geometry::spec::{Rectangle, ShapeSpec};
 use meniscus::network::{ExtractError, extract};
@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::invariants::{assert_distances, violations};
 use crate::scenes::*;
-use packs::{Grains, Pack};
+use grown::{Grains, Pack};
 
 #[test]
 fn a_thousand_random_packs_have_a_network_with_all_its_invariants() {
