@@ -18,13 +18,15 @@ import pyvista as pv
 import results
 
 # Columns of the series that every record must have; the others are NaN where the quantity does not exist.
-ALWAYS_FINITE = ["time_s", "step"]
+ALWAYS_FINITE = ["time_s", "displaced_pore_volumes", "step"]
 
 
 def measure(path: str | Path) -> dict:
     """What is wrong with the folder (`problems`, empty when nothing is), with the times and counts that were found."""
     directory = Path(path)
     problems: list[str] = []
+    if results.is_network(directory):
+        return measure_network(directory, problems)
     film = results.is_film(directory)
     arrays = results.FILM_PARTICLE_ARRAYS if film else results.PARTICLE_ARRAYS
     columns = results.FILM_SERIES_COLUMNS if film else results.SERIES_COLUMNS
@@ -47,6 +49,26 @@ def measure(path: str | Path) -> dict:
         problems.append("solid.vtp is not poly data")
     problems.extend(f"{left.relative_to(directory)} is a temporary file" for left in directory.rglob("*.tmp"))
     return found
+
+
+def measure_network(directory: Path, problems: list[str]) -> dict:
+    """The same of a network: regions over the displaced volume, tables and texts."""
+    found = {
+        "problems": problems,
+        "times": check_collection(directory, "regions", check_regions, problems),
+        "records": check_series(directory / "series.csv", results.NETWORK_SERIES_COLUMNS, problems),
+        "status": check_report(directory, problems),
+    }
+    problems.extend(f"{name} is missing" for name in results.NETWORK_FILES if not (directory / name).is_file())
+    return found
+
+
+def check_regions(data, place: str, problems: list[str]) -> None:
+    """Polygons with arrays on cells; what was not invaded has no pressure at invasion (NaN)."""
+    if not isinstance(data, pv.PolyData) or data.n_cells == 0:
+        problems.append(f"{place}: no polygons")
+        return
+    problems.extend(f"{place}: no array {name}" for name in results.REGION_ARRAYS if name not in data.cell_data)
 
 
 def check_collection(directory: Path, name: str, check, problems: list[str]) -> list[float]:
@@ -148,7 +170,7 @@ def check_series(path: Path, expected: list[str], problems: list[str]) -> int:
     for name in ALWAYS_FINITE:
         if name in columns and not np.isfinite(columns[name]).all():
             problems.append(f"series.csv: {name} is not finite in every row")
-    times = columns.get("time_s", np.array([]))
+    times = columns.get("time_s", columns.get("displaced_pore_volumes", np.array([])))
     if (np.diff(times) <= 0).any():
         problems.append("series.csv: the times do not ascend")
     if len(times) == 0:

@@ -60,6 +60,28 @@ FILM_SERIES_COLUMNS = [
     "energy_J_per_m",
     "max_speed_m_per_s",
 ]
+# Of networks: regions as polygons with arrays on cells, and columns of a displacement.
+REGION_ARRAYS = {
+    "pore": 1,
+    "phase": 1,
+    "trapped": 1,
+    "sequence": 1,
+    "capillary-pressure-at-invasion": 1,
+    "displaced-saturation-at-invasion": 1,
+}
+NETWORK_SERIES_COLUMNS = [
+    "displaced_pore_volumes",
+    "step",
+    "half_cycle",
+    "saturation",
+    "capillary_pressure_Pa",
+    "trapped_saturation",
+    "invaded_pores",
+    "bursts",
+    "touches",
+    "overlaps",
+]
+NETWORK_FILES = ["pores.csv", "throats.csv", "openpnm.csv", "network.json", "pores.vtp", "throats.vtp"]
 UNITS = {
     "velocity": "m/s",
     "pressure": "Pa",
@@ -108,9 +130,19 @@ def report(directory: Path) -> dict:
 
 def is_film(directory: Path) -> bool:
     """Whether the folder is that of a thin film; one without a report is taken for a flow."""
+    return "thin-film" in models(directory)
+
+
+def is_network(directory: Path) -> bool:
+    """Whether the folder is that of a pore network; one without a report is taken for a flow."""
+    return "network" in models(directory)
+
+
+def models(directory: Path) -> dict:
+    """The model of the case by its name; none without a report."""
     if not (directory / "report.json").is_file():
-        return False
-    return "thin-film" in report(directory).get("case", {}).get("model", {})
+        return {}
+    return report(directory).get("case", {}).get("model", {})
 
 
 def requested_angle(content) -> float | None:

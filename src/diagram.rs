@@ -62,3 +62,47 @@ pub struct Diagram {
     /// The lines.
     pub traces: Vec<Trace>,
 }
+
+/// A color as red, green, blue.
+pub type Color = [u8; 3];
+
+/// How an area is colored.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tone {
+    /// By a number, along the color bar.
+    Value(f64),
+    /// By the class of this index.
+    Class(usize),
+}
+
+/// An area of the plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Area {
+    /// Its closed boundary in m, the first vertex not repeated.
+    pub boundary: Vec<[f64; 2]>,
+    /// Its color.
+    pub tone: Tone,
+}
+
+/// A map of the plane: areas colored by a number, with lines over them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mosaic {
+    /// Its file is `picture-NAME.png`; that of the first one `picture.png`.
+    pub name: &'static str,
+    /// What stands below the title: where the run stands.
+    pub note: String,
+    /// The quantity of the color bar with its unit.
+    pub label: &'static str,
+    /// Both ends of the color bar.
+    pub range: [f64; 2],
+    /// Names and colors of the classes.
+    pub classes: Vec<(&'static str, Color)>,
+    /// Lower left and upper right corner of the drawing in m; what no area covers is solid.
+    pub bounds: [[f64; 2]; 2],
+    /// The areas.
+    pub areas: Vec<Area>,
+    /// Thin dark lines: walls.
+    pub walls: Vec<Vec<[f64; 2]>>,
+    /// Colored lines with their name in the legend: menisci, throats.
+    pub lines: (&'static str, Vec<Vec<[f64; 2]>>),
+}

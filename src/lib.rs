@@ -6,6 +6,7 @@ pub mod diagram;
 pub mod math;
 pub mod snapshot;
 pub mod solver;
+pub mod table;
 
 pub mod input;
 

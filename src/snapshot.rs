@@ -59,6 +59,32 @@ pub struct Lines<'a> {
     pub fields: Vec<Field<'a>>,
 }
 
+/// What the cells of a layer are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CellKind {
+    /// Single points.
+    Points,
+    /// Polylines.
+    Lines,
+    /// Polygons, not closed by repeating the first vertex.
+    Polygons,
+}
+
+/// Cells of one kind with fields on them: pores, throats, regions.
+#[derive(Debug, Clone)]
+pub struct Layer<'a> {
+    /// Name of its files.
+    pub name: &'static str,
+    /// What its cells are.
+    pub kind: CellKind,
+    /// Vertices in m.
+    pub points: Cow<'a, [Vec2]>,
+    /// Each cell as indices into `points`.
+    pub cells: Vec<Vec<u32>>,
+    /// Fields on the cells, each as long as `cells`.
+    pub fields: Vec<Field<'a>>,
+}
+
 /// The state of a solver at one time, as output needs it.
 #[derive(Debug, Clone)]
 pub struct Snapshot<'a> {

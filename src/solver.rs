@@ -2,9 +2,39 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::diagram::Diagram;
+use crate::diagram::{Diagram, Mosaic};
 use crate::math::Vec2;
-use crate::snapshot::{Lines, Snapshot};
+use crate::snapshot::{Layer, Lines, Snapshot};
+use crate::table::{Document, Table};
+
+/// What a run goes along: time, for most solvers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Clock {
+    /// What it counts.
+    pub name: &'static str,
+    /// Its symbol in pictures and lines of progress.
+    pub symbol: &'static str,
+    /// Unit, empty for pure numbers.
+    pub unit: &'static str,
+}
+
+impl Clock {
+    /// Time in s.
+    pub const TIME: Self = Self { name: "time", symbol: "t", unit: "s" };
+}
+
+/// What a solver leaves at its end beside measures and diagrams.
+#[derive(Debug, Clone, Default)]
+pub struct Results<'a> {
+    /// Tables, written as CSV.
+    pub tables: Vec<Table>,
+    /// Layers, written as VTK.
+    pub layers: Vec<Layer<'a>>,
+    /// Texts, written as they are.
+    pub documents: Vec<Document>,
+    /// Maps of the plane; the first one is the picture of the run.
+    pub mosaics: Vec<Mosaic>,
+}
 
 /// One named number of the time series.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,7 +161,7 @@ pub struct StateError(pub String);
 /// The rows of the time series so far, as `series.csv` holds them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Series {
-    /// Column names; the first is `time_s`.
+    /// Column names; the first is the clock of the solver: `time_s` for most.
     pub columns: Vec<String>,
     /// One row per record, each as long as `columns`.
     pub rows: Vec<Vec<f64>>,
@@ -147,13 +177,24 @@ impl Series {
 
 /// A solver that the simulation loop can run. It does no I/O and prints nothing; time advances in `step` only.
 pub trait Solver {
-    /// Time in s.
+    /// Where the run stands on its [`clock`](Self::clock): the time in s, for most solvers.
     fn time(&self) -> f64;
+
+    /// What [`time`](Self::time) counts.
+    fn clock(&self) -> Clock {
+        Clock::TIME
+    }
+
+    /// Whether nothing will happen any more, so that the run ends here.
+    fn is_done(&self) -> bool {
+        false
+    }
 
     /// Number of steps done since time zero (resumed runs go on counting).
     fn steps(&self) -> u64;
 
-    /// Does one step that ends at `until` (s) or before. Landing on `until` is exact: afterwards `time() == until`.
+    /// Does one step that ends at `until` (s) or before. Landing on `until` is exact: afterwards `time() == until`, unless the run
+    /// is done before.
     ///
     /// # Errors
     /// See [`SolverError`]; the state before the step is kept and can still be saved and shown.
@@ -165,7 +206,7 @@ pub trait Solver {
     /// The outline of the solids, which does not move.
     fn outline(&self) -> Lines<'_>;
 
-    /// One row of the time series: `time_s`, `step` and `dt_s` first, always the same names in the same order.
+    /// One row of the time series: the clock (`time_s`) and `step` first, always the same names in the same order.
     fn sample(&self) -> Vec<Sample>;
 
     /// The final results; `series` holds all rows recorded so far.
@@ -174,6 +215,16 @@ pub trait Solver {
     /// Diagrams of the run so far, where the solver kept what they show.
     fn diagrams(&self) -> Vec<Diagram> {
         Vec::new()
+    }
+
+    /// Layers of cells that are recorded over time.
+    fn layers(&self) -> Vec<Layer<'_>> {
+        Vec::new()
+    }
+
+    /// What is left at the end beside measures and diagrams.
+    fn results(&self) -> Results<'_> {
+        Results::default()
     }
 
     /// All that the future depends on, so that `restore` and more steps give the same bits as an unbroken run.

@@ -10,6 +10,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use meniscus::case::{Facts, check_against, load, load_default, load_shapes, starter_case};
+use meniscus::geometry::import::Options;
 use meniscus::input::{InputError, Overrides};
 use proptest::prelude::*;
 
@@ -37,7 +38,11 @@ fn mistakes_of(text: &str, is_shape_file: bool) -> Vec<(usize, String)> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("file.toml");
     std::fs::write(&path, text).unwrap();
-    let error = if is_shape_file { load_shapes(&path).err() } else { load(&path, &Overrides::default()).err() };
+    let error = if is_shape_file {
+        load_shapes(&path, &Options::default()).err()
+    } else {
+        load(&path, &Overrides::default()).err()
+    };
     let mistakes = error.map_or(Vec::new(), |error| error.mistakes);
     let inside = folder.path().display().to_string();
     let place = |place: Option<(usize, usize)>| place.map_or(0, |(line, _)| line - 1);
@@ -257,7 +262,7 @@ fn a_file_of_mistakes_ends_with_a_count_and_a_very_deep_one_does_not_exhaust_the
         (format!("{head}x = {}\n", "[".repeat(100_000)), "cannot recurse further"),
     ] {
         std::fs::write(&path, text).unwrap();
-        let error = load_shapes(&path).unwrap_err();
+        let error = load_shapes(&path, &Options::default()).unwrap_err();
         assert!(error.mistakes.len() <= 51, "{}", error.mistakes.len());
         let message = &error.mistakes.last().unwrap().message;
         assert!(message.contains(last), "{message}");

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use meniscus::case::{load, load_shapes};
+use meniscus::geometry::import::Options;
 use meniscus::input::Overrides;
 
 #[path = "docs/page.rs"]
@@ -174,7 +175,7 @@ fn every_example_file_loads() {
             let problems = meniscus::run::setup::problems(&loaded.case).unwrap();
             assert!(problems.is_empty(), "{name}: {problems:?}");
         } else {
-            load_shapes(&path).unwrap_or_else(|error| panic!("{name}: {error:?}"));
+            load_shapes(&path, &Options::default()).unwrap_or_else(|error| panic!("{name}: {error:?}"));
         }
     }
 }

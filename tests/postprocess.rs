@@ -7,7 +7,7 @@ mod support;
 use std::process::Command;
 
 use program::{folder_with_small_case, meniscus};
-use support::python::{interpreter, root, run};
+use support::python::{interpreter, network_interpreter, root, run};
 
 fn script(name: &str) -> Command {
     let mut command = Command::new(interpreter());
@@ -20,6 +20,13 @@ fn the_scripts_pass_their_own_tests() {
     let mut command = Command::new(interpreter());
     command.args(["-m", "unittest", "discover", "-s"]).arg(root().join("postprocess/tests"));
     run(&mut command, "the tests of the scripts must pass");
+}
+
+#[test]
+fn openpnm_and_porespy_find_the_network_of_the_reference_pack() {
+    let mut command = Command::new(network_interpreter());
+    command.args(["-m", "unittest", "discover", "-s"]).arg(root().join("postprocess/tests/network"));
+    run(&mut command, "the tests of the scripts for networks must pass");
 }
 
 #[test]

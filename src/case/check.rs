@@ -1,6 +1,6 @@
-//! Checks of a case: time, output, expectations; and the tools that all checks share.
+//! Checks of a case: end, output, expectations; and the tools that all checks share.
 
-use super::checked::{Expectation, Output};
+use super::checked::{Expectation, Model, Output};
 use super::raw::{RawCase, RawEvery, RawExpectation};
 use crate::input::Problem;
 
@@ -78,8 +78,21 @@ impl Checker {
     }
 }
 
-/// The end of the simulation in s.
-pub(super) fn end(checker: &mut Checker, raw: &RawCase) -> Option<f64> {
+/// The end of the simulation in s; of a network the most that it can displace, in pore volumes.
+pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -> Option<f64> {
+    if raw.network.is_some() {
+        if raw.time.is_some() {
+            checker.refuse(
+                "time",
+                "a quasi-static displacement has no time: its clock is the displaced pore volume",
+                "leave out [time]; the displacement ends by itself, or where [network.stop] says",
+            );
+        }
+        let Some(Model::Network(network)) = model else { return None };
+        // No half cycle can displace more than the whole pore space.
+        let half_cycles = network.displacement.as_ref().map_or(0, |displacement| displacement.process.half_cycles());
+        return Some(f64::from(half_cycles));
+    }
     let end = raw.time.as_ref().and_then(|time| time.end);
     let end = checker.require_positive("time.end", end, "end = 0.01 # s", "an end time in s");
     checker.within("time.end", end, END_RANGE, "an end time in s")
@@ -88,30 +101,79 @@ pub(super) fn end(checker: &mut Checker, raw: &RawCase) -> Option<f64> {
 /// What is written and when; `end` is missing where it was wrong.
 pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>) -> Output {
     let output = raw.output.clone().unwrap_or_default();
+    let by_volume = raw.network.is_some();
     let ratio = output.grid.as_ref().and_then(|grid| grid.ratio);
+    if by_volume && output.grid.is_some() {
+        checker.refuse("output.grid", "a network has no grid", "leave this out");
+    }
     let ratio = checker.within("output.grid.ratio", ratio, (0.25, 100.0), "grid distance over particle spacing");
+    // Of a network, each half cycle has as many records as another run.
+    let end = if by_volume { end.map(|end| (end, end.max(1.0))) } else { end.map(|end| (end, 1.0)) };
+    let clock = if by_volume { &VOLUME } else { &TIME };
+    let mut every = |table, raw, records| every(checker, clock, (table, raw), end, records);
     Output {
-        vtk_every: every(checker, ("output.vtk", output.vtk.as_ref()), end, VTK_RECORDS),
-        series_every: every(checker, ("output.series", output.series.as_ref()), end, SERIES_RECORDS),
-        restart_every: every(checker, ("output.restart", output.restart.as_ref()), end, RESTART_RECORDS),
+        vtk_every: every("output.vtk", output.vtk.as_ref(), VTK_RECORDS),
+        series_every: every("output.series", output.series.as_ref(), SERIES_RECORDS),
+        restart_every: every("output.restart", output.restart.as_ref(), RESTART_RECORDS),
         grid_ratio: ratio.unwrap_or(1.0),
     }
 }
 
-fn every(checker: &mut Checker, (table, raw): (&str, Option<&RawEvery>), end: Option<f64>, records: f64) -> f64 {
-    let path = format!("{table}.every-time");
-    let default = end.unwrap_or(1.0) / records;
-    let Some(time) = checker.positive(&path, raw.and_then(|raw| raw.every_time), "a time in s") else { return default };
-    let Some(end) = end else { return time };
-    let count = end / time;
+/// How intervals between records are written.
+struct RecordClock {
+    key: &'static str,
+    other: &'static str,
+    value: fn(&RawEvery) -> [Option<f64>; 2],
+    what: &'static str,
+    unit: &'static str,
+}
+
+const TIME: RecordClock = RecordClock {
+    key: "every-time",
+    other: "every-pore-volume",
+    value: |raw| [raw.every_time, raw.every_pore_volume],
+    what: "a time in s",
+    unit: " s",
+};
+
+const VOLUME: RecordClock = RecordClock {
+    key: "every-pore-volume",
+    other: "every-time",
+    value: |raw| [raw.every_pore_volume, raw.every_time],
+    what: "a number of displaced pore volumes",
+    unit: " pore volumes",
+};
+
+/// The interval between records; `end` is that of the run and the number of its parts with `records` each.
+fn every(
+    checker: &mut Checker,
+    clock: &RecordClock,
+    (table, raw): (&str, Option<&RawEvery>),
+    end: Option<(f64, f64)>,
+    records: f64,
+) -> f64 {
+    let path = format!("{table}.{}", clock.key);
+    let (end_or_one, parts) = end.unwrap_or((1.0, 1.0));
+    let default = if end_or_one > 0.0 { end_or_one / (records * parts) } else { 1.0 / records };
+    let [given, other] = raw.map_or([None; 2], clock.value);
+    if other.is_some() {
+        checker.refuse(
+            format!("{table}.{}", clock.other),
+            format!("the records of this case are not counted by `{}`", clock.other),
+            format!("write {} = ... # {}", clock.key, clock.what),
+        );
+    }
+    let Some(interval) = checker.positive(&path, given, clock.what) else { return default };
+    let Some((end, _)) = end else { return interval };
+    let (count, unit) = (end / interval, clock.unit);
     if count > MOST_RECORDS {
         checker.refuse(
             path,
-            format!("{time:?} s would give {count:.0} records until the end at {end:?} s, more than {MOST_RECORDS:.0}"),
-            format!("write every {:.2e} s or less often", end / MOST_RECORDS),
+            format!("{interval:?}{unit} would give {count:.0} records until the end at {end:?}{unit}, more than {MOST_RECORDS:.0}"),
+            format!("write every {:.2e}{unit} or less often", end / MOST_RECORDS),
         );
     }
-    time
+    interval
 }
 
 /// The expectations that are whole.

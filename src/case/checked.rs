@@ -2,6 +2,7 @@
 
 use super::film::checked::ThinFilm;
 pub use super::measures::MeasureSet;
+use super::network::checked::PoreNetwork;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::math::Vec2;
 
@@ -14,7 +15,7 @@ pub struct Case {
     pub geometry: GeometrySpec,
     /// The model that solves it.
     pub model: Model,
-    /// End of the simulation in s.
+    /// End of the simulation in s; of a network the most that it can displace, in pore volumes.
     pub end: f64,
     /// What is written and when.
     pub output: Output,
@@ -30,6 +31,8 @@ pub enum Model {
     Sph(Box<Sph>),
     /// Droplets on a flat wall by a thin-film equation (`[thin-film]`).
     ThinFilm(Box<ThinFilm>),
+    /// A pore network and a quasi-static displacement in it (`[network]`).
+    Network(Box<PoreNetwork>),
 }
 
 /// Direct simulation by incompressible SPH (`[sph]`).
@@ -362,7 +365,7 @@ pub enum ViscousTerm {
 /// What is written and when.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Output {
-    /// Time between records of the series in s.
+    /// Time between records of the series in s; of a network, displaced pore volumes. So are the other intervals.
     pub series_every: f64,
     /// Time between VTK files in s, a whole multiple of nothing: it has its own schedule.
     pub vtk_every: f64,

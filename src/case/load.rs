@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use super::check::{self, Checker};
 use super::checked::{Case, Model};
 use super::raw::{RawCase, RawGeometry, RawShapeFile};
-use super::{film, resolve, shapes, sph};
+use super::{film, network, resolve, shapes, sph};
+use crate::geometry::ShapeFileError;
+use crate::geometry::import::{self, Beyond, Format, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Document, InputError, Mistake, Overrides, Problem};
 
@@ -18,6 +20,8 @@ pub struct Loaded {
     pub resolved: String,
     /// The files that were read.
     pub sources: Vec<PathBuf>,
+    /// What the user should know of how the drawing was read, one sentence each.
+    pub notes: Vec<String>,
     document: Document,
 }
 
@@ -74,11 +78,20 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     };
     let mut elsewhere = Vec::new();
     let geometry = match &raw.geometry {
-        None => checker.require("geometry", None, "[geometry] with file, or min, max and shapes"),
-        Some(raw) => geometry(&mut checker, raw, origin, &mut sources, &mut elsewhere),
+        None => checker.require::<Imported>("geometry", None, "[geometry] with file, or min, max and shapes"),
+        Some(geometry) => read_geometry(&mut checker, geometry, origin, &mut sources, &mut elsewhere),
     };
+    let (geometry, mut notes) = geometry.map_or((None, Vec::new()), |read| (Some(read.spec), read.notes));
+    let geometry = geometry.and_then(|spec| {
+        let has_window = raw.geometry.as_ref().is_some_and(|geometry| geometry.window.is_some());
+        let beyond = raw.network.as_ref().map_or_else(
+            || shapes::beyond(raw.sph.as_ref().and_then(|sph| sph.sides.as_ref())),
+            |network| shapes::beyond_network(network.sides.as_ref()),
+        );
+        if has_window { cut(&mut checker, spec, beyond, &mut notes) } else { Some(spec) }
+    });
     let model = model(&mut checker, raw, geometry.as_ref());
-    let end = check::end(&mut checker, raw);
+    let end = check::end(&mut checker, raw, model.as_ref());
     let output = check::output(&mut checker, raw, end);
     let expect = check::expectations(&mut checker, raw);
     let mut mistakes = reading.refuse(checker.problems);
@@ -90,48 +103,88 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     };
     let case = Case { title, geometry, model, end, output, expect };
     let resolved = resolve::text(&case);
-    Ok(Loaded { case, resolved, sources, document })
+    Ok(Loaded { case, resolved, sources, notes, document })
 }
 
 fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>) -> Option<Model> {
-    match (&raw.sph, &raw.thin_film) {
-        (Some(raw), None) => sph::sph(checker, raw, geometry).map(|sph| Model::Sph(Box::new(sph))),
-        (None, Some(raw)) => film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
-        (Some(_), Some(_)) => {
-            let message = "expected exactly one model, found `sph` and `thin-film`";
-            checker.refuse(
-                "thin-film",
-                message,
-                "use [sph], direct simulation, or [thin-film], a droplet on a flat wall",
-            );
+    match (&raw.sph, &raw.thin_film, &raw.network) {
+        (Some(raw), None, None) => sph::sph(checker, raw, geometry).map(|sph| Model::Sph(Box::new(sph))),
+        (None, Some(raw), None) => film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
+        (None, None, Some(raw)) => {
+            network::network(checker, raw, geometry).map(|network| Model::Network(Box::new(network)))
+        }
+        (None, None, None) => {
+            checker.refuse("sph", "expected a model, found none", "add the table [sph], [thin-film] or [network]");
             None
         }
-        (None, None) => {
-            checker.refuse("sph", "expected a model, found none", "add the table [sph], or [thin-film]");
+        (sph, film, network) => {
+            let given = [("sph", sph.is_some()), ("thin-film", film.is_some()), ("network", network.is_some())];
+            let names: Vec<&str> = given.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
+            checker.refuse(
+                names.last().copied().unwrap_or_default(),
+                format!("expected exactly one model, found `{}`", names.join("` and `")),
+                "use [sph], direct simulation, [thin-film], a droplet on a flat wall, or [network], slow displacement in many pores",
+            );
             None
         }
     }
 }
 
-fn geometry(
+/// Cuts the shapes at the sides of the window that are open or periodic.
+fn cut(
+    checker: &mut Checker,
+    mut spec: GeometrySpec,
+    beyond: [Beyond; 4],
+    notes: &mut Vec<String>,
+) -> Option<GeometrySpec> {
+    let (cut, whole) = import::cut_at_sides(&mut spec, beyond);
+    if cut > 0 {
+        notes.push(format!("cut at open and periodic sides of the window: shapes ({cut})"));
+    }
+    if whole > 0 {
+        notes.push(format!(
+            "left whole at the sides of the window, as their outlines cross themselves there: shapes ({whole})"
+        ));
+    }
+    let problems = if cut > 0 { spec.problems() } else { Vec::new() };
+    for problem in &problems {
+        checker.refuse("geometry.window", problem.message.clone(), "move the window a little");
+    }
+    problems.is_empty().then_some(spec)
+}
+
+fn read_geometry(
     checker: &mut Checker,
     raw: &RawGeometry,
     origin: &Origin,
     sources: &mut Vec<PathBuf>,
     elsewhere: &mut Vec<Mistake>,
-) -> Option<GeometrySpec> {
-    let Some(file) = &raw.file else { return shapes::inline(checker, "geometry", raw) };
+) -> Option<Imported> {
+    let Some(file) = &raw.file else {
+        shapes::refuse_keys_of_import(checker, raw);
+        return shapes::inline(checker, "geometry", raw).map(|spec| Imported { spec, notes: Vec::new() });
+    };
     shapes::refuse_keys_of_file(checker, raw);
+    let options = shapes::options(raw);
     let loaded = match origin {
         Origin::BuiltIn if file == Path::new(DEFAULT_SHAPES) => {
-            shape_text("geometries/four-discs.toml", DEFAULT_SHAPES_TEXT)
+            shape_text("geometries/four-discs.toml", DEFAULT_SHAPES_TEXT, &options)
         }
-        Origin::BuiltIn => shapes_at(file, sources),
-        Origin::Disk(case) => shapes_at(&case.parent().unwrap_or(Path::new("")).join(file), sources),
+        Origin::BuiltIn => shapes_at(file, &options, sources),
+        Origin::Disk(case) => shapes_at(&case.parent().unwrap_or(Path::new("")).join(file), &options, sources),
     };
     match loaded {
-        Ok(spec) => shapes::with_domain(checker, spec, raw),
-        Err(error) => {
+        Ok(read) => {
+            let spec = shapes::with_domain(checker, read.spec, raw)?;
+            Some(Imported { spec, notes: read.notes })
+        }
+        Err(NotRead::Keys(problems)) => {
+            for problem in problems {
+                checker.refuse(format!("geometry.{}", problem.path), problem.message, problem.help);
+            }
+            None
+        }
+        Err(NotRead::File(error)) => {
             for mistake in error.mistakes {
                 // A file that cannot be read is a mistake of the key that names it.
                 match mistake.place {
@@ -144,42 +197,78 @@ fn geometry(
     }
 }
 
-fn shapes_at(path: &Path, sources: &mut Vec<PathBuf>) -> Result<GeometrySpec, InputError> {
+/// Why shapes are not read.
+enum NotRead {
+    /// Keys that tell how the file is read, by name.
+    Keys(Vec<Problem>),
+    /// The file itself.
+    File(InputError),
+}
+
+impl From<InputError> for NotRead {
+    fn from(error: InputError) -> Self {
+        Self::File(error)
+    }
+}
+
+/// Where the user should look for a shape file that is not there.
+const BESIDE: &str = "the shape file is looked for beside the case file";
+
+fn shapes_at(path: &Path, options: &Options, sources: &mut Vec<PathBuf>) -> Result<Imported, NotRead> {
     sources.push(path.to_path_buf());
-    load_shapes(path)
+    read_shapes(path, options)
+}
+
+fn read_shapes(path: &Path, options: &Options) -> Result<Imported, NotRead> {
+    let name = path.display().to_string();
+    if Format::of(path) == Some(Format::Toml) {
+        return shape_text(&name, &read(path, BESIDE)?, options);
+    }
+    crate::geometry::load(path, options).map_err(|error| match error {
+        ShapeFileError::Keys { problems, .. } => NotRead::Keys(problems),
+        ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, BESIDE)),
+        error => NotRead::File(Mistake::of_file(&name, error.to_string(), "").into()),
+    })
 }
 
 /// Loads a shape file; the ending of its name says its format.
 ///
 /// # Errors
-/// All mistakes of the file, or why it cannot be read.
-pub fn load_shapes(path: &Path) -> Result<GeometrySpec, InputError> {
+/// All mistakes of the file or of the options, or why it cannot be read.
+pub fn load_shapes(path: &Path, options: &Options) -> Result<Imported, InputError> {
     let name = path.display().to_string();
-    if path.extension().is_some_and(|extension| extension == "toml") {
-        return shape_text(&name, &read(path, "the shape file is looked for beside the case file")?);
-    }
-    read(path, "the shape file is looked for beside the case file")?;
-    crate::geometry::load(path).map_err(|error| Mistake::of_file(&name, error.to_string(), "").into())
+    let of_key = |problem: Problem| Mistake::of_file(&name, problem.message, &problem.help);
+    read_shapes(path, options).map_err(|error| match error {
+        NotRead::Keys(problems) => InputError { mistakes: problems.into_iter().map(of_key).collect() },
+        NotRead::File(error) => error,
+    })
 }
 
-fn shape_text(name: &str, text: &str) -> Result<GeometrySpec, InputError> {
+fn shape_text(name: &str, text: &str, options: &Options) -> Result<Imported, NotRead> {
+    let problems = options.problems(Format::Toml);
+    if !problems.is_empty() {
+        return Err(NotRead::Keys(problems));
+    }
     let document = Document::parse(name, text, &Overrides::default())?;
     let mut reading = document.read::<RawShapeFile>();
     let mut checker = Checker::default();
     let spec = shapes::shape_file(&mut checker, std::mem::take(&mut reading.value));
     let mistakes = reading.refuse(checker.problems);
-    spec.filter(|_| mistakes.is_empty()).ok_or(InputError { mistakes })
+    let Some(spec) = spec.filter(|_| mistakes.is_empty()) else { return Err(InputError { mistakes }.into()) };
+    import::windowed(spec, options).map_err(NotRead::Keys)
 }
 
 /// The text of a file; `help` tells where the user should look when there is none.
 pub(crate) fn read(path: &Path, help: &str) -> Result<String, InputError> {
-    std::fs::read_to_string(path).map_err(|error| {
-        let resolved = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-        let message = match error.kind() {
-            std::io::ErrorKind::NotFound => format!("there is no file {}", resolved.display()),
-            std::io::ErrorKind::InvalidData => format!("{} is not text in UTF-8", resolved.display()),
-            _ => format!("{} cannot be read: {error}", resolved.display()),
-        };
-        Mistake::of_file(&path.display().to_string(), message, help).into()
-    })
+    std::fs::read_to_string(path).map_err(|error| unreadable(&path.display().to_string(), path, &error, help))
+}
+
+fn unreadable(name: &str, path: &Path, error: &std::io::Error, help: &str) -> InputError {
+    let resolved = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let message = match error.kind() {
+        std::io::ErrorKind::NotFound => format!("there is no file {}", resolved.display()),
+        std::io::ErrorKind::InvalidData => format!("{} is not text in UTF-8", resolved.display()),
+        _ => format!("{} cannot be read: {error}", resolved.display()),
+    };
+    Mistake::of_file(name, message, help).into()
 }

@@ -7,8 +7,10 @@ mod check;
 pub mod checked;
 mod facts;
 pub mod film;
+mod kind;
 mod load;
 mod measures;
+pub mod network;
 mod numerics;
 mod open;
 pub mod preset;
@@ -22,6 +24,7 @@ mod wetting;
 
 pub(crate) use check::Checker;
 pub use facts::{Facts, check_against};
+pub use kind::is_case;
 pub(crate) use load::read;
 pub use load::{Loaded, load, load_default, load_shapes};
 pub use schema::{schema, starter_case};

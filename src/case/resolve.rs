@@ -19,25 +19,27 @@ pub(super) fn text(case: &Case) -> String {
 }
 
 fn raw(case: &Case) -> RawCase {
-    let (sph, thin_film) = match &case.model {
-        Model::Sph(sph) => (Some(raw_sph(sph)), None),
-        Model::ThinFilm(film) => (None, Some(super::film::resolved(film))),
+    let (sph, thin_film, network) = match &case.model {
+        Model::Sph(sph) => (Some(raw_sph(sph)), None, None),
+        Model::ThinFilm(film) => (None, Some(super::film::resolved(film)), None),
+        Model::Network(network) => (None, None, Some(super::network::resolved(network))),
     };
     let geometry = &case.geometry;
     RawCase {
         format: Some(1),
         title: Some(case.title.clone()),
         geometry: Some(RawGeometry {
-            file: None,
             min: Some(geometry.min),
             max: Some(geometry.max),
             solid: Some(geometry.solid),
             shapes: Some(geometry.shapes.clone()),
+            ..RawGeometry::default()
         }),
         sph,
         thin_film,
-        time: Some(RawTime { end: Some(case.end) }),
-        output: Some(raw_output(&case.output)),
+        time: network.is_none().then_some(RawTime { end: Some(case.end) }),
+        output: Some(raw_output(&case.output, network.is_some())),
+        network,
         expect: Some(
             case.expect
                 .iter()
@@ -51,12 +53,20 @@ fn raw(case: &Case) -> RawCase {
     }
 }
 
-fn raw_output(output: &Output) -> RawOutput {
-    let every = |time| Some(RawEvery { every_time: Some(time) });
+fn raw_output(output: &Output, by_volume: bool) -> RawOutput {
+    let every = |interval| {
+        let interval = Some(interval);
+        let none = RawEvery::default();
+        Some(if by_volume {
+            RawEvery { every_pore_volume: interval, ..none }
+        } else {
+            RawEvery { every_time: interval, ..none }
+        })
+    };
     RawOutput {
         vtk: every(output.vtk_every),
         series: every(output.series_every),
-        grid: Some(RawGrid { ratio: Some(output.grid_ratio) }),
+        grid: (!by_volume).then_some(RawGrid { ratio: Some(output.grid_ratio) }),
         restart: every(output.restart_every),
     }
 }
@@ -92,7 +102,7 @@ fn raw_sph(sph: &Sph) -> RawSph {
     }
 }
 
-fn raw_fluid(fluid: &Fluid) -> RawFluid {
+pub(super) fn raw_fluid(fluid: &Fluid) -> RawFluid {
     RawFluid { preset: None, temperature_c: None, density: Some(fluid.density), viscosity: Some(fluid.viscosity) }
 }
 

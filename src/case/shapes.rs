@@ -1,14 +1,17 @@
 //! Domain and solids of a case or of a shape file: which keys go together, and what the shapes themselves say.
 
 use super::check::Checker;
-use super::raw::{RawGeometry, RawShapeFile};
+use super::network::raw::{RawNetworkSide, RawNetworkSides};
+use super::raw::{RawGeometry, RawShapeFile, RawSide, RawSides};
+use crate::geometry::import::{Beyond, Options};
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::input::Problem;
 
 /// The geometry of a shape file.
 pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<GeometrySpec> {
     checker.format(raw.format);
-    let keys = RawGeometry { file: None, min: raw.min, max: raw.max, solid: raw.solid, shapes: raw.shapes };
+    let RawShapeFile { format: _, min, max, solid, shapes } = raw;
+    let keys = RawGeometry { min, max, solid, shapes, ..RawGeometry::default() };
     inline(checker, "", &keys)
 }
 
@@ -25,23 +28,106 @@ pub(super) fn inline(checker: &mut Checker, at: &str, raw: &RawGeometry) -> Opti
         }
         return None;
     };
-    let spec = GeometrySpec { min, max, solid, shapes };
+    let spec = GeometrySpec { min, max, solid, shapes: expanded(checker, at, &shapes) };
+    if checker.problems.len() > before {
+        return None;
+    }
     for problem in spec_problems(&spec) {
         checker.refuse(join(at, &problem.path), problem.message, problem.help);
     }
     (checker.problems.len() == before).then_some(spec)
 }
 
+/// The shapes with generators replaced by the discs that they make.
+fn expanded(checker: &mut Checker, at: &str, shapes: &[ShapeSpec]) -> Vec<ShapeSpec> {
+    let mut plain = Vec::new();
+    for (index, shape) in shapes.iter().enumerate() {
+        match shape.expanded() {
+            Ok(shapes) => plain.extend(shapes),
+            Err(error) => {
+                let path = join(at, &format!("shapes[{index}].{}.{}", shape.key(), error.key));
+                checker.refuse(path, error.message, error.help);
+            }
+        }
+    }
+    plain
+}
+
 /// Refuses keys that belong to the file where a file is named.
 pub(super) fn refuse_keys_of_file(checker: &mut Checker, raw: &RawGeometry) {
-    let given = [("solid", raw.solid.is_some()), ("shapes", raw.shapes.is_some())];
+    let shapes = "put the shapes into the file, or write them all here and leave out `file`";
+    let solid = "set `solid` in a TOML shape file; of other files `invert = true` makes the pore of what is drawn";
+    let given = [("solid", raw.solid.is_some(), solid), ("shapes", raw.shapes.is_some(), shapes)];
+    for (key, _, help) in given.into_iter().filter(|(_, given, _)| *given) {
+        checker.refuse(format!("geometry.{key}"), format!("`file` and `{key}` are both given"), help);
+    }
+    if raw.window.is_some() {
+        for (key, _) in [("min", raw.min), ("max", raw.max)].iter().filter(|(_, corner)| corner.is_some()) {
+            let help = "keep `window`, which cuts the shapes at its sides, or `min` and `max`";
+            checker.refuse(format!("geometry.{key}"), format!("`window` and `{key}` are both given"), help);
+        }
+    }
+}
+
+/// Refuses keys that tell how a file is read where no file is named.
+pub(super) fn refuse_keys_of_import(checker: &mut Checker, raw: &RawGeometry) {
+    let given = [
+        ("unit", raw.unit.is_some()),
+        ("scale", raw.scale.is_some()),
+        ("window", raw.window.is_some()),
+        ("layers", raw.layers.is_some()),
+        ("threshold", raw.threshold.is_some()),
+        ("pixel-size", raw.pixel_size.is_some()),
+        ("invert", raw.invert.is_some()),
+        ("recognize-circles", raw.recognize_circles.is_some()),
+        ("smooth-below-deg", raw.smooth_below_deg.is_some()),
+        ("columns", raw.columns.is_some()),
+        ("separator", raw.separator.is_some()),
+    ];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+        let message = format!("`{key}` tells how a file is read, and no `file` is given");
         checker.refuse(
             format!("geometry.{key}"),
-            format!("`file` and `{key}` are both given"),
-            "put the shapes into the file, or write them all here and leave out `file`",
+            message,
+            "shapes written here are in m: leave it out, or name a `file`",
         );
     }
+}
+
+/// How the file of a case is read.
+pub(super) fn options(raw: &RawGeometry) -> Options {
+    Options {
+        unit: raw.unit.clone(),
+        scale: raw.scale,
+        window: raw.window,
+        layers: raw.layers.clone(),
+        threshold: raw.threshold,
+        pixel_size: raw.pixel_size,
+        invert: raw.invert,
+        recognize_circles: raw.recognize_circles,
+        smooth_below_deg: raw.smooth_below_deg,
+        columns: raw.columns,
+        separator: raw.separator,
+    }
+}
+
+/// What becomes of shapes beyond the sides of a window: left, right, bottom, top.
+pub(super) fn beyond(sides: Option<&RawSides>) -> [Beyond; 4] {
+    let Some(sides) = sides else { return [Beyond::Whole; 4] };
+    [sides.left, sides.right, sides.bottom, sides.top].map(|side| match side {
+        Some(RawSide::Inlet | RawSide::Outlet) => Beyond::Straight,
+        Some(RawSide::Periodic) => Beyond::Nothing,
+        None | Some(RawSide::Wall | RawSide::Image | RawSide::Symmetry) => Beyond::Whole,
+    })
+}
+
+/// The same of a network, which cuts walls at its open sides itself.
+pub(super) fn beyond_network(sides: Option<&RawNetworkSides>) -> [Beyond; 4] {
+    let sides = sides.cloned().unwrap_or_default();
+    [sides.left, sides.right, sides.bottom, sides.top].map(|side| match side {
+        Some(RawNetworkSide::Periodic) => Beyond::Nothing,
+        None | Some(RawNetworkSide::Wall) => Beyond::Whole,
+    })
 }
 
 /// The geometry of a file with the domain that the case puts in its place.

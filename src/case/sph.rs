@@ -43,7 +43,8 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
     }
     let two_phases = other.is_some();
     let (tension, surface_force) = if two_phases { interface(checker, raw) } else { (Some(0.0), None) };
-    let wetting_model = if two_phases { wetting::model(checker, raw.wetting.as_ref(), tension) } else { None };
+    let wetting_model =
+        if two_phases { wetting::model(checker, "sph.wetting", raw.wetting.as_ref(), tension) } else { None };
     if !two_phases {
         refuse_single_phase_keys(checker, raw);
     }
@@ -52,7 +53,7 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
     let open = super::open::open(checker, &raw_sides, two_phases);
     let sides = sides(checker, &raw_sides);
     let patches = match wetting_model {
-        Some(model) => wetting::patches(checker, raw.wetting.as_ref(), model, Some(&sides), geometry),
+        Some(model) => wetting::patches(checker, "sph.wetting", raw.wetting.as_ref(), model, Some(&sides), geometry),
         None => Vec::new(),
     };
     let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
@@ -112,7 +113,7 @@ fn particle_count(checker: &mut Checker, spacing: f64, geometry: &GeometrySpec) 
     }
 }
 
-fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
+pub(super) fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
     let path = format!("{at}.temperature-c");
     let celsius = checker.within(&path, raw.temperature_c, (COLD, WARM), "a temperature in degrees Celsius");
     if raw.temperature_c.is_some() && raw.preset.is_none() {

@@ -18,7 +18,14 @@ const TEMPERATURES: (f64, f64) = (-100.0, 500.0);
 const DEFAULT_TEMPERATURE: f64 = 20.0;
 
 /// The wetting model of a case, none where there is no table or it is wrong.
-pub(super) fn model(checker: &mut Checker, raw: Option<&RawWetting>, tension: Option<f64>) -> Option<WettingModel> {
+///
+/// `table` is where it is written: `sph.wetting` or `network.wetting`.
+pub(super) fn model(
+    checker: &mut Checker,
+    table: &str,
+    raw: Option<&RawWetting>,
+    tension: Option<f64>,
+) -> Option<WettingModel> {
     let raw = raw?;
     let given = [
         ("young", raw.young.is_some()),
@@ -33,13 +40,13 @@ pub(super) fn model(checker: &mut Checker, raw: Option<&RawWetting>, tension: Op
     let given: Vec<&str> = given.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
     let [name] = given[..] else {
         let (found, help) = match given.len() {
-            0 => ("none".to_owned(), "add the table [sph.wetting.young]".to_owned()),
+            0 => ("none".to_owned(), format!("add the table [{table}.young]")),
             count => (count.to_string(), format!("keep one of {}", given.join(", "))),
         };
-        checker.refuse("sph.wetting", format!("expected exactly one wetting model, found {found}"), help);
+        checker.refuse(table, format!("expected exactly one wetting model, found {found}"), help);
         return None;
     };
-    let at = format!("sph.wetting.{name}");
+    let at = format!("{table}.{name}");
     let model = if let Some(raw) = &raw.young {
         let contact_angle = contact_angle(checker, &at, raw.contact_angle_deg)?;
         WettingModel::Young { contact_angle }
@@ -161,6 +168,7 @@ fn molecular_kinetic(checker: &mut Checker, at: &str, raw: &RawMolecularKinetic)
 /// The patches that are whole; `sides` and `geometry` are missing where they were wrong.
 pub(super) fn patches(
     checker: &mut Checker,
+    table: &str,
     raw: Option<&RawWetting>,
     model: WettingModel,
     sides: Option<&Sides>,
@@ -168,7 +176,7 @@ pub(super) fn patches(
 ) -> Vec<WettingPatch> {
     let raw = raw.and_then(|raw| raw.patches.as_ref()).into_iter().flatten().enumerate();
     raw.filter_map(|(index, raw)| {
-        let at = format!("sph.wetting.patches[{index}]");
+        let at = format!("{table}.patches[{index}]");
         let on = patched_wall(checker, &at, raw, sides, geometry);
         let stripes = raw.stripes.as_ref().map(|raw| stripes(checker, &format!("{at}.stripes"), raw));
         let angles = patch_angles(checker, &at, raw, model);

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use crate::geometry::import::Options;
+
 /// Exit codes, as the help tells them.
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 bug, 2 usage or output folder, 3 bad case or shape file, 4 solver failed, \
                           5 expectation failed, 130 interrupted";
@@ -27,7 +29,7 @@ pub enum Command {
     Run(RunArguments),
     /// Tell everything that can be told before a run: mistakes, particles, time step, dimensionless numbers, duration
     Check(CheckArguments),
-    /// Measure a shape file: porosity, specific surface, throats; write its outline and signed distance
+    /// Measure a shape file or the geometry of a case: porosity, specific surface, throats; write its outline and signed distance
     Geometry(GeometryArguments),
     /// Write a commented starter case
     New(NewArguments),
@@ -37,8 +39,8 @@ pub enum Command {
     Schema(SchemaArguments),
     /// Print a completion script for a shell
     Completions(CompletionArguments),
-    /// Pore networks (not yet available)
-    Network(AnyArguments),
+    /// Extract pores and throats of a shape file, and displace one fluid by another in them
+    Network(NetworkArguments),
     /// Parameter studies: many runs from one file, with a table, curves and a page
     #[command(subcommand)]
     Study(StudyCommand),
@@ -80,11 +82,183 @@ pub struct CheckArguments {
 /// `geometry`.
 #[derive(Debug, Args)]
 pub struct GeometryArguments {
-    /// Shape file
+    /// Shape file (TOML, list of discs, SVG, DXF, shapefile, GeoJSON, WKT, or a mask in PNG or TIFF), or a case file, whose geometry is
+    /// measured with the sides of the case
     pub file: PathBuf,
+    #[command(flatten)]
+    pub import: ImportArguments,
+    /// Sides of a shape file that are joined; none where it is not given
+    #[arg(long, value_enum, value_name = "AXES")]
+    pub periodic: Option<PeriodicAxes>,
     /// Folder for outline, signed distance and picture; nothing is written where there is none
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub drawings: WriteArguments,
+}
+
+/// `geometry --write`.
+#[derive(Debug, Default, Args)]
+pub struct WriteArguments {
+    /// Write the shapes as a drawing: .svg, .dxf, .wkt, .geojson, .xyr, .toml, .vtp, or a mask as .png; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub write: Vec<PathBuf>,
+    /// Side of a pixel of a mask in m; where there is none the longer side has 2048
+    #[arg(long, value_name = "M")]
+    pub mask_pixel: Option<f64>,
+}
+
+/// `network`.
+#[derive(Debug, Args)]
+pub struct NetworkArguments {
+    /// Shape file, or a case file
+    pub file: PathBuf,
+    /// Persistence ratio above which two maxima of the wall distance are one pore, 0.5 to 1 (default 0.95)
+    #[arg(long, value_name = "RATIO")]
+    pub persistence: Option<f64>,
+    /// Contact angle through the wetting phase in degrees (default 0)
+    #[arg(long, value_name = "DEGREES")]
+    pub angle_deg: Option<f64>,
+    /// Interfacial tension in N/m (default 1, so that pressures are those per N/m)
+    #[arg(long, value_name = "N_PER_M")]
+    pub tension: Option<f64>,
+    /// Side that the invading phase enters through; where there is none, the network is extracted and nothing is displaced
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub inlet: Option<SideName>,
+    /// Side that the defending phase leaves through
+    #[arg(long, value_enum, value_name = "SIDE")]
+    pub outlet: Option<SideName>,
+    /// What is displaced (default drainage)
+    #[arg(long, value_enum, value_name = "PROCESS")]
+    pub process: Option<NetworkProcess>,
+    /// Number of cycles, with --process cycle (default 1)
+    #[arg(long, value_name = "N")]
+    pub cycles: Option<u32>,
+    /// Whether a defending region without a way to the outlet is trapped (default true)
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
+    pub trapping: Option<bool>,
+    /// Joins opposite sides
+    #[arg(long, value_enum, value_name = "AXES")]
+    pub periodic: Option<PeriodicAxes>,
+    /// Output folder, new or empty; where there is none: out/NAME-network, out/NAME-network-2, ...
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads; all cores where there is none. The results do not depend on it
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
+    #[command(flatten)]
+    pub import: ImportArguments,
+}
+
+impl NetworkArguments {
+    /// Whether menisci matter: something is displaced, or entry pressures are asked for.
+    #[must_use]
+    pub fn has_interface(&self) -> bool {
+        self.inlet.is_some() || self.angle_deg.is_some() || self.tension.is_some()
+    }
+}
+
+/// A side of the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SideName {
+    /// x = min
+    Left,
+    /// x = max
+    Right,
+    /// y = min
+    Bottom,
+    /// y = max
+    Top,
+}
+
+/// What is displaced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum NetworkProcess {
+    /// The wetting phase by the non-wetting one
+    Drainage,
+    /// The non-wetting phase by the wetting one
+    Imbibition,
+    /// Both in turn
+    Cycle,
+}
+
+/// Axes along which opposite sides are joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PeriodicAxes {
+    /// Left and right
+    X,
+    /// Bottom and top
+    Y,
+    /// All four
+    Xy,
+}
+
+impl PeriodicAxes {
+    /// Whether x and y are among them.
+    #[must_use]
+    pub fn along(self) -> [bool; 2] {
+        [self != Self::Y, self != Self::X]
+    }
+}
+
+/// How a drawing is read: the keys of `[geometry]` beside `file`.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "How a drawing is read")]
+pub struct ImportArguments {
+    /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px
+    #[arg(long, value_name = "UNIT")]
+    pub unit: Option<String>,
+    /// Length of the drawing unit in m, in place of --unit
+    #[arg(long, value_name = "M")]
+    pub scale: Option<f64>,
+    /// Corners of the domain in m: shapes outside of it are left out
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_delimiter = ',', num_args = 4, allow_hyphen_values = true)]
+    pub window: Option<Vec<f64>>,
+    /// Layers that are read; all where there is none
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub layers: Option<Vec<String>>,
+    /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white)
+    #[arg(long, value_name = "GRAY")]
+    pub threshold: Option<f64>,
+    /// Side of a pixel of a mask in m
+    #[arg(long, value_name = "M")]
+    pub pixel_size: Option<f64>,
+    /// What is drawn is the pore, and all else is solid
+    #[arg(long)]
+    pub invert: bool,
+    /// Keep polygons whose vertices lie on a circle
+    #[arg(long)]
+    pub no_circles: bool,
+    /// Vertices that turn by less than this many degrees become arcs; 20 where there is none, 0: none
+    #[arg(long, value_name = "DEG")]
+    pub smooth_below_deg: Option<f64>,
+    /// Columns of x, y and radius in a list of discs, the first one being 0
+    #[arg(long, value_name = "X,Y,R", value_delimiter = ',', num_args = 3)]
+    pub columns: Option<Vec<usize>>,
+    /// The character between the columns of a list of discs
+    #[arg(long, value_name = "CHAR")]
+    pub separator: Option<char>,
+}
+
+impl ImportArguments {
+    /// The same as options of the reader.
+    pub fn options(&self) -> Options {
+        // The number of values is known to the parser of the command line.
+        let window = self.window.as_deref().and_then(|window| <[f64; 4]>::try_from(window).ok());
+        Options {
+            unit: self.unit.clone(),
+            scale: self.scale,
+            window: window.map(|[x0, y0, x1, y1]| [[x0, y0], [x1, y1]]),
+            layers: self.layers.clone(),
+            threshold: self.threshold,
+            pixel_size: self.pixel_size,
+            invert: self.invert.then_some(true),
+            recognize_circles: self.no_circles.then_some(false),
+            smooth_below_deg: self.smooth_below_deg,
+            columns: self.columns.as_deref().and_then(|columns| columns.try_into().ok()),
+            separator: self.separator,
+        }
+    }
 }
 
 /// `study`.
@@ -176,9 +350,67 @@ pub struct StudyReportArguments {
 /// `new`.
 #[derive(Debug, Args)]
 pub struct NewArguments {
-    /// File to write, which must not exist
-    #[arg(default_value = "case.toml")]
-    pub file: PathBuf,
+    /// File to write, which must not exist; case.toml, or pack.toml with --pack, where there is none
+    pub file: Option<PathBuf>,
+    #[command(flatten)]
+    pub pack: PackArguments,
+}
+
+/// `new --pack`.
+#[derive(Debug, Args)]
+pub struct PackArguments {
+    /// Write a shape file of generated grains in place of a case
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub pack: Option<PackKind>,
+    /// Chooses the random pack
+    #[arg(long, default_value = "1", requires = "pack")]
+    pub seed: u64,
+    /// Share of a random pack that is not solid
+    #[arg(long, default_value = "0.6", requires = "pack")]
+    pub porosity: f64,
+    /// Radius in m, the mean one of a random pack
+    #[arg(long, value_name = "M", default_value = "1e-4", requires = "pack")]
+    pub radius: f64,
+    /// Standard deviation of the radii of a random pack over their mean, 0 to 0.35
+    #[arg(long, default_value = "0", requires = "pack")]
+    pub radius_deviation: f64,
+    /// Smallest gap between grains in m; of a cosine throat its width
+    #[arg(long, value_name = "M", default_value = "2e-5", requires = "pack")]
+    pub gap: f64,
+    /// Width and height of the pack in m
+    #[arg(long, value_name = "W,H", value_delimiter = ',', num_args = 1, default_values_t = [5e-3, 3e-3], requires = "pack")]
+    pub size: Vec<f64>,
+    /// Axes along which a random pack repeats itself
+    #[arg(long, value_enum, default_value = "none", requires = "pack")]
+    pub periodic: PackPeriodic,
+}
+
+/// What is generated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PackKind {
+    /// Discs at random places
+    Random,
+    /// Discs on the corners of squares
+    Square,
+    /// Discs on the corners of equal triangles
+    Hexagonal,
+    /// A channel with a cosine constriction
+    Cosine,
+    /// A random pack with manifolds, channels and walls
+    Micromodel,
+}
+
+/// Axes of a periodic pack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PackPeriodic {
+    /// Neither
+    None,
+    /// Along x
+    X,
+    /// Along y
+    Y,
+    /// Along both
+    Xy,
 }
 
 /// `schema`.
@@ -194,12 +426,4 @@ pub struct SchemaArguments {
 pub struct CompletionArguments {
     /// The shell
     pub shell: Shell,
-}
-
-/// Arguments of a command that is not yet available.
-#[derive(Debug, Args)]
-pub struct AnyArguments {
-    /// Not read
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    pub rest: Vec<String>,
 }

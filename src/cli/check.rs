@@ -24,6 +24,14 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         return Ok(DONE);
     }
     say(&case.title);
+    if let Model::Network(_) = &case.model {
+        say(format_args!("  pores       {}", found.unknowns));
+        if let Some(memory) = found.memory_bytes {
+            say(format_args!("  memory      {:.0} MiB", memory as f64 / BYTES_PER_MEBIBYTE));
+        }
+        say(format_args!("  run         at most {} events, about {}", found.steps, duration(found.duration_s)));
+        return Ok(DONE);
+    }
     let spacing = spacing(case);
     say(format_args!("  particles   {} at a spacing of {} m", found.unknowns, readable(spacing)));
     match setup::throat(case) {
@@ -64,5 +72,6 @@ fn spacing(case: &Case) -> f64 {
     match &case.model {
         Model::Sph(sph) => sph.spacing,
         Model::ThinFilm(film) => film.spacing,
+        Model::Network(_) => 0.0,
     }
 }

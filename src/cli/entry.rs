@@ -5,9 +5,9 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser};
 
 use super::arguments::{Arguments, Command, RunArguments};
-use super::exit::{BUG, DONE, Failure, USAGE};
+use super::exit::{BUG, DONE, Failure};
 use super::output::{say, tell};
-use super::{check, geometry, list, new, run, source, study};
+use super::{check, geometry, list, network, new, run, source, study};
 
 /// Reads the command line and does what it says.
 #[must_use]
@@ -51,11 +51,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
             say(String::from_utf8_lossy(&script).trim_end());
             Ok(DONE)
         }
-        Some(Command::Network(_)) => Err(not_yet("network")),
+        Some(Command::Network(arguments)) => network::network(&arguments),
         Some(Command::Study(command)) => study::study(&command),
     }
-}
-
-fn not_yet(command: &str) -> Failure {
-    Failure::new(USAGE, &format_args!("`{command}` is not yet available"))
 }

@@ -3,8 +3,12 @@
 use super::output::say;
 
 /// Table of a case file, what it does, where it comes from.
-const MODELS: [[&str; 3]; 17] = [
+const MODELS: [[&str; 3]; 21] = [
     ["[sph]", "direct simulation by incompressible SPH", "Huber et al. 2013"],
+    ["[thin-film]", "droplets on a flat wall", "Pang and O Naraigh 2022"],
+    ["[network]", "quasi-static displacement in a pore network", "Cieplak and Robbins 1988, 1990; docs/numerics"],
+    ["[network.wetting.young]", "static angle; also tadmor, hysteresis, patches", "Young 1805"],
+    ["network.events = \"burst\"", "invasion percolation", "Wilkinson and Willemsen 1983"],
     [
         "[sph.surface-force.pressure-jump]",
         "pressure jump across a sharp interface (default)",

@@ -10,14 +10,18 @@ pub mod exit;
 mod geometry;
 mod interrupt;
 mod list;
+mod network;
 mod new;
+mod new_pack;
 mod opened_study;
 mod output;
 mod progress;
 mod run;
 mod source;
+mod stages;
 mod study;
 mod study_run;
 mod summary;
+mod write_shapes;
 
 pub use entry::main;

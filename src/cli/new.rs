@@ -1,19 +1,29 @@
-//! `meniscus new`: a commented starter case.
+//! `meniscus new`: a commented starter case, or a shape file of generated grains.
+
+use std::path::{Path, PathBuf};
 
 use super::arguments::NewArguments;
 use super::exit::{DONE, Failure, USAGE};
 use super::output::say;
-use super::source;
+use super::{new_pack, source};
 use crate::io::atomic;
 
-/// Writes the starter case to a file that does not exist yet.
+/// Writes the starter case, or the generated grains, to a file that does not exist yet.
 pub fn new(arguments: &NewArguments) -> Result<u8, Failure> {
-    let file = &arguments.file;
+    let default = if arguments.pack.pack.is_some() { "pack.toml" } else { "case.toml" };
+    let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(default));
     if file.exists() {
         return Err(Failure::new(USAGE, &format_args!("{} exists; name another file", file.display())));
     }
-    let text = source::starter_case();
-    atomic::write(file, text.as_bytes()).map_err(|error| Failure::new(USAGE, &error))?;
+    if let Some(kind) = arguments.pack.pack {
+        return new_pack::new_pack(kind, &arguments.pack, &file);
+    }
+    write(&file, source::starter_case().as_bytes())?;
     say(format_args!("wrote {0}; try: meniscus check {0}, then: meniscus run {0}", file.display()));
     Ok(DONE)
+}
+
+/// Writes a file at once or not at all.
+pub(super) fn write(file: &Path, content: &[u8]) -> Result<(), Failure> {
+    atomic::write(file, content).map_err(|error| Failure::new(USAGE, &error))
 }

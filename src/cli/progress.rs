@@ -6,6 +6,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::output::{duration, readable, tell};
 use crate::run::simulation::{Progress, Watcher};
+use crate::solver::Clock;
 
 /// Length of the bar: tenths of a percent.
 const LENGTH: u64 = 1000;
@@ -57,9 +58,10 @@ fn console_bar() -> Option<ProgressBar> {
 
 /// One line that says where a run stands.
 fn line(progress: &Progress, left: Option<f64>) -> String {
+    let Clock { symbol, unit, .. } = progress.clock;
     let left = left.map_or(String::new(), |seconds| format!(", about {} left", duration(seconds)));
     format!(
-        "t = {} of {} s, step {}, dt = {} s ({}){left}",
+        "{symbol} = {} of {} {unit}, step {}, d{symbol} = {} {unit} ({}){left}",
         readable(progress.time),
         readable(progress.end),
         progress.step,
@@ -93,7 +95,8 @@ mod tests {
 
     #[test]
     fn the_line_names_the_limit_and_the_time_left() {
-        let progress = Progress { time: 0.005, end: 0.02, step: 120, dt: 4.1e-5, limit: "surface tension" };
+        let progress =
+            Progress { clock: Clock::TIME, time: 0.005, end: 0.02, step: 120, dt: 4.1e-5, limit: "surface tension" };
         let expected = "t = 5.000e-3 of 0.02000 s, step 120, dt = 4.100e-5 s (surface tension), about 1 min 15 s left";
         assert_eq!(line(&progress, Some(75.0)), expected);
     }

@@ -1,11 +1,13 @@
 //! `meniscus run`.
 
-use std::path::Path;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
 use super::arguments::RunArguments;
 use super::exit::{BAD_INPUT, BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{say, tell};
 use super::progress::ProgressDisplay;
+use super::source::Source;
 use super::summary::summary;
 use super::{interrupt, source};
 use crate::run::execute::{Finished, Job, Mode, RunError, execute};
@@ -16,12 +18,30 @@ use crate::run::{folder, setup};
 pub fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     let source = source::load_case(arguments.case.as_deref(), &arguments.overrides)?;
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
-    let folder = arguments.out.clone().unwrap_or_else(|| {
-        let base = Path::new("out").join(&source.name);
-        if mode == Mode::Resume { folder::last_used(&base) } else { folder::next_free(&base) }
-    });
+    let folder = new_folder(arguments.out.as_deref(), &source.name, mode);
+    finish(&source, folder, mode, arguments.threads)
+}
+
+/// The output folder: the one asked for, or one named for the case.
+pub(super) fn new_folder(asked_for: Option<&Path>, name: &str, mode: Mode) -> PathBuf {
+    asked_for.map_or_else(
+        || {
+            let base = Path::new("out").join(name);
+            if mode == Mode::Resume { folder::last_used(&base) } else { folder::next_free(&base) }
+        },
+        Path::to_path_buf,
+    )
+}
+
+/// Runs a loaded case to its end and prints what came out.
+pub(super) fn finish(
+    source: &Source,
+    folder: PathBuf,
+    mode: Mode,
+    threads: Option<NonZeroUsize>,
+) -> Result<u8, Failure> {
     let job = Job { case: &source.case, resolved: &source.resolved, folder, mode };
-    let finished = pool(arguments)?.install(|| -> Result<Finished, Failure> {
+    let finished = pool(threads)?.install(|| -> Result<Finished, Failure> {
         let mut solver = setup::build(job.case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
         tell(format_args!("{} -> {}", job.case.title, job.folder.display()));
         let flag = interrupt::flag();
@@ -38,8 +58,8 @@ pub fn run(arguments: &RunArguments) -> Result<u8, Failure> {
 }
 
 /// The thread pool that the run works in.
-fn pool(arguments: &RunArguments) -> Result<rayon::ThreadPool, Failure> {
-    let threads = arguments.threads.map_or(0, usize::from);
+fn pool(threads: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, Failure> {
+    let threads = threads.map_or(0, usize::from);
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

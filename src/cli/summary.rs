@@ -7,6 +7,7 @@ use crate::analysis::laws::drops::tadmor;
 use crate::case::checked::{Case, Model, WettingModel};
 use crate::run::execute::Finished;
 use crate::run::report::{Reading, Report, Status};
+use crate::solver::Clock;
 
 /// Name of the measure that stands beside the angle that the case asks for.
 const ANGLE: &str = "contact-angle-deg";
@@ -26,7 +27,10 @@ pub fn summary(finished: &Finished) -> String {
         Err(error) => format!("none: {error}"),
     };
     for (name, value) in [
-        ("ParaView", show("particles.pvd")),
+        (
+            "ParaView",
+            show(if matches!(report.case.model, Model::Network(_)) { "regions.pvd" } else { "particles.pvd" }),
+        ),
         ("picture", picture),
         ("series", show("series.csv")),
         ("report", show("report.json")),
@@ -39,7 +43,8 @@ pub fn summary(finished: &Finished) -> String {
 }
 
 fn ending(report: &Report) -> String {
-    let at = format!("t = {} s, step {}", readable(report.time_s), report.steps);
+    let Clock { symbol, unit, .. } = report.clock.clock;
+    let at = format!("{symbol} = {} {unit}, step {}", readable(report.clock.value), report.steps);
     match report.status {
         Status::Done => format!("done at {at}"),
         Status::ExpectationFailed => format!("done at {at}, but not as expected"),
@@ -56,6 +61,8 @@ fn requested_angle(case: &Case) -> Option<String> {
             model => model.angles(),
         },
         Model::ThinFilm(film) => [film.contact_angle?; 2],
+        // It holds the angle exactly: there is nothing to measure.
+        Model::Network(_) => return None,
     }
     .map(f64::to_degrees);
     Some(if smallest == largest { format!("{smallest:.1}") } else { format!("{smallest:.1} to {largest:.1}") })
@@ -105,6 +112,9 @@ fn push_expectations(text: &mut String, report: &Report) {
 }
 
 fn push_numbers(text: &mut String, report: &Report) {
+    if report.numbers.is_empty() {
+        return;
+    }
     let numbers: Vec<String> =
         report.numbers.iter().map(|number| format!("{} {}", number.symbol, readable(number.value))).collect();
     let length = report.length_of_numbers.name;

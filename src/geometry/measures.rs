@@ -43,7 +43,7 @@ impl Geometry {
     }
 
     /// Closed outline of the solid within the domain: its walls, and the domain's sides where they cut solid.
-    fn solid_outline(&self) -> Vec<Curve> {
+    pub(crate) fn solid_outline(&self) -> Vec<Curve> {
         let tolerance = self.tolerance();
         let frame = Body::of_box(u32::MAX, self.bounds());
         let mut outline = Vec::new();
@@ -58,9 +58,10 @@ impl Geometry {
                 outline.push(piece.curve);
             }
         }
-        let walls: Vec<Curve> = self.boundary.pieces.iter().map(|piece| piece.curve).collect();
-        for side in &frame.curves {
-            for part in split(side, walls.iter(), tolerance) {
+        for side in frame.curves.iter() {
+            let near = self.boundary.tree.near_in_order(side.bounds().grown(tolerance));
+            let walls = near.iter().map(|&piece| &self.boundary.pieces[piece].curve);
+            for part in split(side, walls, tolerance) {
                 if self.signed_distance(part.point(0.5)) < -tolerance {
                     outline.push(part);
                 }

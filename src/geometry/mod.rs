@@ -8,19 +8,24 @@ pub(crate) mod boundary;
 pub(crate) mod cosine;
 pub(crate) mod critical;
 pub mod curve;
-pub(crate) mod disc_list;
+pub(crate) mod curve_set;
+pub mod export;
+#[cfg(test)]
+mod growth;
 pub mod import;
 pub(crate) mod intersect;
 pub mod measures;
 pub mod outline;
+pub mod pack;
+pub(crate) mod rings;
 pub mod shape_file;
-pub mod shape_lines;
 pub mod shells;
 pub mod solid;
 pub mod spec;
 pub mod throats;
+pub(crate) mod tree;
 pub mod validate;
-pub(crate) mod well_known_text;
+pub(crate) mod winding;
 
 pub use shape_file::{ShapeFileError, load};
 pub use solid::{Geometry, GeometryError, Wall};

@@ -1,19 +1,20 @@
-//! Shape files of other tools: disc lists (`.xyr`, `.txt`, `.csv`) and well-known text (`.wkt`).
+//! Shape files of other programs: lists of discs, well-known text, GeoJSON, shapefiles, SVG, DXF, masks.
 //!
 //! Our own TOML shape files are read by the case module, which knows places in TOML.
 
 use std::path::{Path, PathBuf};
 
-use crate::geometry::disc_list;
-use crate::geometry::shape_lines::LineProblem;
-use crate::geometry::spec::GeometrySpec;
-use crate::geometry::well_known_text;
+use crate::geometry::import::build::{Imported, Refused, build};
+use crate::geometry::import::drawing::Refusal;
+use crate::geometry::import::format::Format;
+use crate::geometry::import::options::Options;
+use crate::geometry::import::read::read;
 use crate::input::problem::Problem;
 
 /// Why a shape file was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum ShapeFileError {
-    /// The file cannot be opened or is not text.
+    /// The file cannot be opened or is not a file.
     #[error("cannot read the shape file {}: {source}", path.display())]
     Read {
         /// Absolute path.
@@ -22,7 +23,7 @@ pub enum ShapeFileError {
         source: std::io::Error,
     },
     /// The name's ending is not one of ours.
-    #[error("the shape file {} ends in none of .xyr, .txt, .csv (discs), .wkt (polygons), .toml (shapes)", path.display())]
+    #[error("the shape file {} ends in none of .toml (shapes), .xyr, .discs, .txt, .csv (discs), .wkt, .geojson, .json, .shp, .svg, .dxf (drawings), .png, .tif, .tiff (masks)", path.display())]
     Ending {
         /// Absolute path.
         path: PathBuf,
@@ -33,15 +34,23 @@ pub enum ShapeFileError {
         /// Absolute path.
         path: PathBuf,
     },
-    /// Some lines cannot be read: all of them.
-    #[error("{}: {} bad line(s)\n{}", path.display(), lines.len(), join(lines))]
-    Lines {
+    /// Keys beside the file are missing or wrong.
+    #[error("{}: {}", path.display(), join(problems))]
+    Keys {
         /// Absolute path.
         path: PathBuf,
-        /// The lines in order.
-        lines: Vec<LineProblem>,
+        /// The problems; their paths are keys, such as `unit`.
+        problems: Vec<Problem>,
     },
-    /// Every line reads well, but the shapes make no sense.
+    /// Some parts cannot be read: all of them.
+    #[error("{}: {} mistake(s)\n{}", path.display(), refusals.len(), join(refusals))]
+    Parts {
+        /// Absolute path.
+        path: PathBuf,
+        /// The parts in order.
+        refusals: Vec<Refusal>,
+    },
+    /// Every part reads well, but the shapes make no sense.
     #[error("{}: {} problem(s)\n{}", path.display(), problems.len(), join(problems))]
     Shapes {
         /// Absolute path.
@@ -55,27 +64,32 @@ fn join<T: ToString>(items: &[T]) -> String {
     items.iter().map(|item| format!("  {}", item.to_string())).collect::<Vec<_>>().join("\n")
 }
 
-/// Reads a shape file, chosen by its ending; shapes are solid, and the result has no problems.
+/// Reads a shape file, chosen by its ending; the result has no problems.
 ///
 /// # Errors
-/// See [`ShapeFileError`]; all bad lines are named at once.
-pub fn load(path: &Path) -> Result<GeometrySpec, ShapeFileError> {
+/// See [`ShapeFileError`]; all bad parts are named at once.
+pub fn load(path: &Path, options: &Options) -> Result<Imported, ShapeFileError> {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-    let parse = match ending.as_str() {
-        "xyr" | "txt" | "csv" => disc_list::parse,
-        "wkt" => well_known_text::parse,
-        "toml" => return Err(ShapeFileError::Toml { path }),
-        _ => return Err(ShapeFileError::Ending { path }),
+    let format = match Format::of(&path) {
+        Some(Format::Toml) => return Err(ShapeFileError::Toml { path }),
+        Some(format) => format,
+        None => return Err(ShapeFileError::Ending { path }),
     };
-    let text = match std::fs::read_to_string(&path) {
-        Ok(text) => text,
+    let problems = options.problems(format);
+    if !problems.is_empty() {
+        return Err(ShapeFileError::Keys { path, problems });
+    }
+    let bytes = match std::fs::read(&path) {
+        Ok(bytes) => bytes,
         Err(source) => return Err(ShapeFileError::Read { path, source }),
     };
-    let spec = match parse(text.trim_start_matches('\u{feff}')) {
-        Ok(spec) => spec,
-        Err(lines) => return Err(ShapeFileError::Lines { path, lines }),
+    let drawing = match read(&bytes, &path, format, options) {
+        Ok(drawing) => drawing,
+        Err(refusals) => return Err(ShapeFileError::Parts { path, refusals }),
     };
-    let problems = spec.problems();
-    if problems.is_empty() { Ok(spec) } else { Err(ShapeFileError::Shapes { path, problems }) }
+    build(drawing, format, options).map_err(|refused| match refused {
+        Refused::Keys(problems) => ShapeFileError::Keys { path, problems },
+        Refused::Parts(refusals) => ShapeFileError::Parts { path, refusals },
+        Refused::Shapes(problems) => ShapeFileError::Shapes { path, problems },
+    })
 }

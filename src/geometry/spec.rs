@@ -25,6 +25,10 @@ pub enum ShapeSpec {
     ThroatDiscs(ThroatDiscs),
     /// A channel with a cosine constriction.
     ThroatCosine(ThroatCosine),
+    /// Discs at random places, made from a seed when the file is read.
+    RandomPack(RandomPack),
+    /// Discs in a regular array, made when the file is read.
+    Array(Array),
 }
 
 /// The half-plane below the line through `point`; `rotation-deg` turns it counter-clockwise about `point`.
@@ -149,6 +153,80 @@ pub struct ThroatCosine {
     /// Turn about the center in degrees; 0: axis along x.
     #[serde(default)]
     pub rotation_deg: f64,
+}
+
+/// Discs at random places with a given porosity; read as so many discs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct RandomPack {
+    /// Chooses the pack; the same on every machine.
+    #[serde(default = "first_seed")]
+    pub seed: u64,
+    /// Share of the region that is not solid, 0 to 1.
+    pub porosity: f64,
+    /// Mean radius in m; all radii are scaled together by some percent at most to meet the porosity.
+    pub radius: f64,
+    /// Standard deviation of the radii over their mean, 0 to 0.35.
+    #[serde(default)]
+    pub radius_deviation: f64,
+    /// Smallest distance of two discs, and of a disc from the region's sides, in m.
+    pub gap: f64,
+    /// Lower left and upper right corner in m.
+    pub region: [[f64; 2]; 2],
+    /// Axes along which the region repeats itself: discs may cross these sides.
+    #[serde(default)]
+    pub periodic: PackAxes,
+}
+
+fn first_seed() -> u64 {
+    1
+}
+
+/// Axes along which a pack repeats itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PackAxes {
+    /// Neither.
+    #[default]
+    None,
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+    /// Along both.
+    Xy,
+}
+
+impl PackAxes {
+    /// Along x and y.
+    #[must_use]
+    pub fn axes(self) -> [bool; 2] {
+        [matches!(self, Self::X | Self::Xy), matches!(self, Self::Y | Self::Xy)]
+    }
+}
+
+/// Equal discs in a regular array, as many as fit wholly into the region; read as so many discs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Array {
+    /// Square or hexagonal.
+    pub arrangement: Arrangement,
+    /// Radius in m.
+    pub radius: f64,
+    /// Smallest distance of two discs in m.
+    pub gap: f64,
+    /// Lower left and upper right corner in m.
+    pub region: [[f64; 2]; 2],
+}
+
+/// How the discs of an array lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Arrangement {
+    /// On the corners of squares.
+    Square,
+    /// On the corners of equal triangles, rows along x.
+    Hexagonal,
 }
 
 /// What the shapes of a file are: grains in a fluid, or the pore itself.

@@ -11,6 +11,7 @@ pub mod picture;
 pub mod pvd;
 pub mod restart;
 pub mod series;
+pub mod table;
 pub mod vtk;
 
 pub use atomic::FileError;

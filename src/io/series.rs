@@ -76,7 +76,7 @@ impl SeriesFile {
 }
 
 /// The shortest text that reads back as `value`; empty for NaN.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     if value.is_nan() {
         String::new()
     } else if value.fract() == 0.0 && value.abs() < LARGEST_WHOLE {

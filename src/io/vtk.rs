@@ -1,4 +1,4 @@
-//! Snapshots as VTK XML files: particles `.vtu`, grid `.vti`, lines `.vtp`, written by `vtkio`.
+//! Snapshots as VTK XML files: particles `.vtu`, grid `.vti`, lines and layers of cells `.vtp`, written by `vtkio`.
 //!
 //! Points of the plane get z = 0 and vectors three components. Arrays are compressed by LZ4, which ParaView and pyvista read.
 //! `vtkio` knows neither field data nor double-precision grids, so the time and the grid's origin and spacing are put into
@@ -12,7 +12,7 @@ use vtkio::model::{
 use vtkio::xml::Compressor;
 
 use crate::math::Vec2;
-use crate::snapshot::{Cloud, Field, Grid, Lines, Values};
+use crate::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines, Values};
 
 /// Fastest level of LZ4.
 const COMPRESSION_LEVEL: u32 = 1;
@@ -104,6 +104,35 @@ pub fn lines(lines: &Lines<'_>, time: f64) -> Result<Vec<u8>, VtkError> {
         lines: Some(VertexNumbers::XML { connectivity, offsets }),
         data: attributes(&lines.fields, lines.points.len())?,
         ..PolyDataPiece::default()
+    };
+    file(DataSet::inline(piece), time, "<PolyData>")
+}
+
+/// Cells with fields on them as a `.vtp` file; `time` in s, or where the clock of the run stands.
+///
+/// # Errors
+/// [`VtkError`].
+pub fn layer(layer: &Layer<'_>, time: f64) -> Result<Vec<u8>, VtkError> {
+    if layer.points.is_empty() {
+        return Ok(empty("PolyData", "Lines", &[], time));
+    }
+    let connectivity = layer.cells.iter().flatten().map(|&index| u64::from(index)).collect();
+    let offsets = layer
+        .cells
+        .iter()
+        .scan(0, |end, cell| {
+            *end += cell.len() as u64;
+            Some(*end)
+        })
+        .collect();
+    let topology = Some(VertexNumbers::XML { connectivity, offsets });
+    let data = Attributes { point: Vec::new(), cell: attributes(&layer.fields, layer.cells.len())?.point };
+    let points = IOBuffer::F64(spatial(&layer.points));
+    let piece = PolyDataPiece { points, data, ..PolyDataPiece::default() };
+    let piece = match layer.kind {
+        CellKind::Points => PolyDataPiece { verts: topology, ..piece },
+        CellKind::Lines => PolyDataPiece { lines: topology, ..piece },
+        CellKind::Polygons => PolyDataPiece { polys: topology, ..piece },
     };
     file(DataSet::inline(piece), time, "<PolyData>")
 }

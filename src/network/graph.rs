@@ -10,8 +10,10 @@ use crate::math::Vec2;
 /// A piece of wall with the shape that it belongs to; the solid lies on its left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallPiece {
-    /// Where it runs, in the frame of its region.
+    /// Where it runs, in the frame of its region; cut at chords.
     pub curve: Curve,
+    /// The piece of wall that it is a part of, before chords cut it; a full circle for a disc.
+    pub whole: Curve,
     /// Index of the written shape; walls at the left, right, bottom and top side follow after the last shape.
     pub shape: u32,
 }

@@ -7,15 +7,15 @@ use std::time::Instant;
 use super::folder::{self, FolderError};
 use super::numbers::{self, Length};
 use super::processor_time::ProcessorTime;
-use super::report::{self, Machine, Report, SolverReport, Status, readings, verdicts, wall_time};
+use super::report::{self, Machine, Reached, Report, SolverReport, Status, readings, verdicts, wall_time};
 use super::schedule::Schedule;
 use super::simulation::{Outcome, Records, Simulation, Watcher};
 use super::sink::Start;
 use crate::case::checked::Case;
 use crate::io::checksum::fnv1a;
-use crate::io::picture::{PictureError, picture};
-use crate::io::{FileError, atomic, diagram};
-use crate::solver::{Solver, StateError};
+use crate::io::picture::{PictureError, mosaic_picture, picture};
+use crate::io::{FileError, atomic, diagram, table, vtk};
+use crate::solver::{Clock, Results, Solver, StateError};
 
 /// Whether a run is new or goes on with one that stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,7 +91,7 @@ pub fn execute(
     let (clock, mut processor_time) = (Instant::now(), ProcessorTime::start());
     let hash = case_hash(job.case)?;
     let start = prepare(job, solver, hash)?;
-    let was_at_end = start != Start::New && solver.time() >= job.case.end;
+    let was_at_end = start != Start::New && (solver.time() >= job.case.end || solver.is_done());
     if start != Start::New {
         processor_time = processor_time.after_that_in(&job.folder);
     }
@@ -116,7 +116,9 @@ pub fn execute(
     // The record that could not be written is the error to tell, not the report after it.
     ended?;
     written?;
-    let picture = draw(job, solver)?;
+    let results = solver.results();
+    let picture = draw(job, solver, &results)?;
+    write_results(&job.folder, &results, solver.time())?;
     draw_diagrams(job, solver)?;
     Ok(Finished { report, folder: job.folder.clone(), picture, was_at_end })
 }
@@ -149,7 +151,8 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
         version: env!("CARGO_PKG_VERSION"),
         status,
         error: None,
-        time_s: solver.time(),
+        time_s: (solver.clock() == Clock::TIME).then(|| solver.time()),
+        clock: Reached { clock: solver.clock(), value: solver.time() },
         steps: solver.steps(),
         measures,
         expectations,
@@ -165,12 +168,32 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
 }
 
 /// Draws the state at the end. A picture that cannot be drawn does not spoil a run; one that cannot be written does.
-fn draw(job: &Job<'_>, solver: &dyn Solver) -> Result<Result<PathBuf, PictureError>, FileError> {
+fn draw(job: &Job<'_>, solver: &dyn Solver, results: &Results<'_>) -> Result<Result<PathBuf, PictureError>, FileError> {
     let path: &Path = &job.folder.join("picture.png");
-    match picture(&solver.snapshot(), &solver.outline(), &job.case.title) {
+    let title = &job.case.title;
+    let drawn = match results.mosaics.first() {
+        Some(mosaic) => mosaic_picture(mosaic, title),
+        None => picture(&solver.snapshot(), &solver.outline(), title),
+    };
+    match drawn {
         Ok(png) => atomic::write(path, &png).map(|()| Ok(path.to_path_buf())),
         Err(error) => Ok(Err(error)),
     }
+}
+
+/// Writes tables, layers, texts and further maps.
+fn write_results(folder: &Path, results: &Results<'_>, time: f64) -> Result<(), FileError> {
+    results.tables.iter().try_for_each(|one| table::write(folder, one))?;
+    for layer in &results.layers {
+        let path = folder.join(format!("{}.vtp", layer.name));
+        let content = vtk::layer(layer, time)
+            .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
+        atomic::write(&path, &content)?;
+    }
+    for document in &results.documents {
+        atomic::write(&folder.join(document.name), document.text.as_bytes())?;
+    }
+    Ok(())
 }
 
 /// Draws the diagrams of the run; one that cannot be drawn is left out.

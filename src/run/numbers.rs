@@ -52,6 +52,7 @@ pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
     let sph = match &case.model {
         Model::Sph(sph) => sph,
         Model::ThinFilm(film) => return (spreading_speed(film), "sigma (H / r)^3 / 3 mu"),
+        Model::Network(_) => return (0.0, "quasi-static"),
     };
     let (rho, mu, g, l) = (sph.wetting.density, sph.wetting.viscosity, sph.gravity.norm(), length.value);
     let initial = match sph.initial.velocity {
@@ -76,6 +77,8 @@ pub fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
     let sph = match &case.model {
         Model::Sph(sph) => sph,
         Model::ThinFilm(film) => return of_thin_film(film, speed),
+        // Infinitely slow and without gravity: all numbers are zero.
+        Model::Network(_) => return Vec::new(),
     };
     let (rho, mu, sigma) = (sph.wetting.density, sph.wetting.viscosity, sph.tension);
     let length = length.value;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::numbers::{Length, Number};
 use crate::case::checked::{Case, Expectation};
 use crate::io::{FileError, atomic};
-use crate::solver::{Measure, PartTime, Statistics};
+use crate::solver::{Clock, Measure, PartTime, Statistics};
 
 /// Name of the file.
 pub const REPORT: &str = "report.json";
@@ -87,6 +87,16 @@ pub struct WallTime {
     pub parts: BTreeMap<&'static str, f64>,
 }
 
+/// Where a run stands on its clock.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Reached {
+    /// What is counted.
+    #[serde(flatten)]
+    pub clock: Clock,
+    /// How far it went, in the unit of the clock.
+    pub value: f64,
+}
+
 /// The report of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -97,8 +107,10 @@ pub struct Report {
     pub status: Status,
     /// What went wrong, where something did.
     pub error: Option<String>,
-    /// Time reached in s.
-    pub time_s: f64,
+    /// Time reached in s; absent where the run goes along something else.
+    pub time_s: Option<f64>,
+    /// What the run went along, and how far.
+    pub clock: Reached,
     /// Steps since time zero.
     pub steps: u64,
     /// The final measures by name.

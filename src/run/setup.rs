@@ -2,9 +2,10 @@
 
 use crate::case::checked::{Case, Model};
 use crate::case::{Facts, check_against};
+use crate::geometry::Geometry;
 use crate::input::Problem;
 use crate::solver::Solver;
-use crate::{sph, thin_film};
+use crate::{network, sph, thin_film};
 
 /// A case that no solver can be made for.
 #[derive(Debug, thiserror::Error)]
@@ -15,6 +16,9 @@ pub enum SetupError {
     /// The thin film cannot be set up.
     #[error("{0}")]
     ThinFilm(#[from] thin_film::setup::SetupError),
+    /// The network cannot be set up.
+    #[error("{0}")]
+    Network(#[from] network::setup::SetupError),
 }
 
 /// The solver of a case, in its initial state.
@@ -25,6 +29,7 @@ pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => Ok(Box::new(sph::setup::build(case, sph)?)),
         Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
+        Model::Network(network) => Ok(Box::new(network::setup::build(case, network)?)),
     }
 }
 
@@ -43,6 +48,18 @@ pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
         in_initial_shape: &|index, x| regions[index].signed_distance(x) < 0.0,
     };
     Ok(check_against(case, &facts))
+}
+
+/// The geometry of a case with its sides, as its solver sees it; a thin film has the shapes of its case alone.
+///
+/// # Errors
+/// [`SetupError`] where the shapes are not usable.
+pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
+    match &case.model {
+        Model::Sph(sph) => Ok(sph::setup::geometry(case, sph)?),
+        Model::Network(network) => Ok(network::setup::geometry(case, network)?),
+        Model::ThinFilm(_) => Ok(Geometry::new(&case.geometry).map_err(sph::setup::SetupError::from)?),
+    }
 }
 
 /// Width of the narrowest throat of a case in m; none where there is no throat, or no usable geometry.

@@ -8,7 +8,7 @@ use super::processor_time::ProcessorTime;
 use super::schedule::{Due, Schedule};
 use super::sink::{Frame, RestartSink, SeriesSink, Sink, Start, vtk_sinks};
 use crate::io::{FileError, atomic, vtk};
-use crate::solver::{PartTime, Series, Solver, SolverError};
+use crate::solver::{Clock, PartTime, Series, Solver, SolverError};
 
 /// How a run ended.
 #[derive(Debug)]
@@ -24,6 +24,8 @@ pub enum Outcome {
 /// Where a run stands after a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
+    /// What `time`, `end` and `dt` count.
+    pub clock: Clock,
     /// Time in s.
     pub time: f64,
     /// End of the run in s.
@@ -148,7 +150,9 @@ impl Simulation<'_> {
     /// # Errors
     /// [`FileError`] where a record cannot be written.
     pub fn run(&mut self) -> Result<Outcome, FileError> {
-        while let Some(stop) = self.schedule.next_after(self.solver.time()) {
+        while let Some(stop) = self.schedule.next_after(self.solver.time())
+            && !self.solver.is_done()
+        {
             while self.solver.time() < stop.time {
                 if self.interrupt.load(Ordering::Relaxed) {
                     self.records.record(self.solver, Due::TO_RESUME)?;
@@ -156,6 +160,7 @@ impl Simulation<'_> {
                 }
                 match self.solver.step(stop.time) {
                     Ok(info) => self.watcher.stepped(&Progress {
+                        clock: self.solver.clock(),
                         time: self.solver.time(),
                         end: self.schedule.end(),
                         step: self.solver.steps(),
@@ -166,6 +171,10 @@ impl Simulation<'_> {
                         self.records.record(self.solver, Due::LAST_GOOD_STATE)?;
                         return Ok(Outcome::Failed(error));
                     }
+                }
+                if self.solver.is_done() {
+                    self.records.record(self.solver, Due::ALL)?;
+                    return Ok(Outcome::Done);
                 }
             }
             self.records.record(self.solver, stop.due)?;

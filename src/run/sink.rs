@@ -9,7 +9,7 @@ use crate::io::restart::{self, Saved};
 use crate::io::series::SeriesFile;
 use crate::io::vtk::{self, VtkError};
 use crate::io::{FileError, atomic};
-use crate::snapshot::Snapshot;
+use crate::snapshot::{Layer, Snapshot};
 use crate::solver::{Series, Solver};
 
 /// The solver between two steps.
@@ -17,18 +17,24 @@ pub struct Frame<'a> {
     /// The solver.
     pub solver: &'a dyn Solver,
     snapshot: OnceCell<Snapshot<'a>>,
+    layers: OnceCell<Vec<Layer<'a>>>,
 }
 
 impl<'a> Frame<'a> {
     /// A frame of the solver's present state.
     #[must_use]
     pub fn new(solver: &'a dyn Solver) -> Self {
-        Self { solver, snapshot: OnceCell::new() }
+        Self { solver, snapshot: OnceCell::new(), layers: OnceCell::new() }
     }
 
     /// The snapshot; computed when first asked for.
     pub fn snapshot(&self) -> &Snapshot<'a> {
         self.snapshot.get_or_init(|| self.solver.snapshot())
+    }
+
+    /// The layers of cells; computed when first asked for.
+    pub fn layers(&self) -> &[Layer<'a>] {
+        self.layers.get_or_init(|| self.solver.layers())
     }
 }
 
@@ -75,6 +81,13 @@ pub struct GridFiles(Collection);
 /// `interface.pvd` and its files, where there is an interface.
 pub struct InterfaceFiles(Collection);
 
+/// `NAME.pvd` and its files for each layer of cells that the solver offers.
+pub struct LayerFiles {
+    folder: PathBuf,
+    start: Start,
+    collections: Vec<(&'static str, Collection)>,
+}
+
 /// `units.json`: the unit of each field by file series and name.
 pub struct UnitFile(PathBuf);
 
@@ -88,12 +101,17 @@ pub fn vtk_sinks(folder: &Path, start: Start) -> Result<Vec<Box<dyn Sink>>, File
         Box::new(ParticleFiles(collection(folder, "particles", "vtu", start)?)),
         Box::new(GridFiles(collection(folder, "grid", "vti", start)?)),
         Box::new(InterfaceFiles(collection(folder, "interface", "vtp", start)?)),
+        Box::new(LayerFiles { folder: folder.to_path_buf(), start, collections: Vec::new() }),
     ])
 }
 
 impl Sink for ParticleFiles {
     fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
         let snapshot = frame.snapshot();
+        // A solver without particles has no fields of them either.
+        if snapshot.particles.fields.is_empty() && snapshot.particles.points.is_empty() {
+            return Ok(());
+        }
         let content = vtk::points(&snapshot.particles, snapshot.time).map_err(format_error(self.0.path()))?;
         self.0.record(snapshot.time, &content)
     }
@@ -117,16 +135,38 @@ impl Sink for InterfaceFiles {
     }
 }
 
+impl Sink for LayerFiles {
+    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
+        let time = frame.solver.time();
+        for layer in frame.layers() {
+            let place = match self.collections.iter().position(|(name, _)| *name == layer.name) {
+                Some(place) => place,
+                None => {
+                    let files = collection(&self.folder, layer.name, "vtp", self.start)?;
+                    self.collections.push((layer.name, files));
+                    self.collections.len() - 1
+                }
+            };
+            let files = &mut self.collections[place].1;
+            let content = vtk::layer(layer, time).map_err(format_error(files.path()))?;
+            files.record(time, &content)?;
+        }
+        Ok(())
+    }
+}
+
 impl Sink for UnitFile {
     fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
         let snapshot = frame.snapshot();
         let groups = [
-            ("particles", Some(&snapshot.particles.fields)),
+            ("particles", Some(&snapshot.particles.fields).filter(|fields| !fields.is_empty())),
             ("grid", snapshot.grid.as_ref().map(|grid| &grid.fields)),
             ("interface", snapshot.interface.as_ref().map(|lines| &lines.fields)),
         ];
+        let layers = frame.layers().iter().map(|layer| (layer.name, Some(&layer.fields)));
         let units: BTreeMap<&str, BTreeMap<&str, &str>> = groups
             .into_iter()
+            .chain(layers)
             .filter_map(|(name, fields)| Some((name, fields?.iter().map(|field| (field.name, field.unit)).collect())))
             .collect();
         let text = serde_json::to_string_pretty(&units)

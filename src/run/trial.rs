@@ -36,7 +36,7 @@ pub fn trial(case: &Case, solver: &mut dyn Solver) -> Result<Trial, SolverError>
     let clock = Instant::now();
     let mut info = solver.step(case.end)?;
     for _ in 1..TRIAL_STEPS {
-        if solver.time() >= case.end {
+        if solver.time() >= case.end || solver.is_done() {
             break;
         }
         info = solver.step(case.end)?;

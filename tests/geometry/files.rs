@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use meniscus::geometry::import::Options;
 use meniscus::geometry::spec::{Capsule, Channel, GeometrySpec, ShapeSpec, SolidSide, ThroatCosine, ThroatDiscs};
-use meniscus::geometry::{Geometry, ShapeFileError, load};
+use meniscus::geometry::{Geometry, ShapeFileError};
 use meniscus::math::Vec2;
 
 use crate::shapes::*;
@@ -19,7 +20,8 @@ fn every_geometry_in_the_repository_is_sound() {
         let path = entry.unwrap().path();
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.starts_with('#'), "{} has no first comment", path.display());
-        let spec = meniscus::case::load_shapes(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let read = meniscus::case::load_shapes(&path, &Options::default());
+        let spec = read.unwrap_or_else(|error| panic!("{}: {error}", path.display())).spec;
         let g = Geometry::new(&spec).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         assert!((0.2..1.0).contains(&g.porosity().value), "{}", path.display());
         assert!(g.porosity().uncertainty < 1e-9);
@@ -40,7 +42,8 @@ fn narrowest_throats_of_the_shipped_geometries_are_as_their_comments_say() {
     for (file, width) in
         [("four-discs", None), ("two-discs", None), ("throat", Some(5.0e-4)), ("cosine-throat", Some(3.0e-4))]
     {
-        let spec = meniscus::case::load_shapes(&repository(&format!("geometries/{file}.toml"))).unwrap();
+        let path = repository(&format!("geometries/{file}.toml"));
+        let spec = meniscus::case::load_shapes(&path, &Options::default()).unwrap().spec;
         let width = width.unwrap_or_else(|| gap(&spec.shapes));
         let g = Geometry::new(&spec).unwrap();
         let found = g.narrowest_throat().unwrap().width;
@@ -50,11 +53,16 @@ fn narrowest_throats_of_the_shipped_geometries_are_as_their_comments_say() {
 
 #[test]
 fn bad_shape_files_are_refused_with_all_their_lines() {
-    let Err(ShapeFileError::Lines { lines, .. }) = load(&repository("tests/shapes/bad.xyr")) else {
+    let load = |path: &Path| meniscus::geometry::load(path, &Options::default());
+    let Err(ShapeFileError::Parts { refusals, .. }) = load(&repository("tests/shapes/bad.xyr")) else {
         panic!("accepted")
     };
-    assert_eq!(lines.iter().map(|l| l.line).collect::<Vec<_>>(), [4, 5, 6, 7]);
-    assert!(matches!(load(&repository("tests/shapes/overlapping-rings.wkt")), Err(ShapeFileError::Shapes { .. })));
+    let places: Vec<_> = refusals.iter().map(|refusal| refusal.place.as_str()).collect();
+    assert_eq!(places, ["line 4", "line 5", "line 6", "line 7"]);
+    let Err(ShapeFileError::Shapes { problems, .. }) = load(&repository("tests/shapes/overlapping-rings.wkt")) else {
+        panic!("accepted")
+    };
+    assert!(problems[0].path.starts_with("line "), "{}", problems[0]);
     let missing = load(Path::new("no-such-file.wkt")).unwrap_err().to_string();
     assert!(missing.contains(&std::env::current_dir().unwrap().display().to_string()), "{missing}");
     assert!(matches!(load(Path::new("a.stl")), Err(ShapeFileError::Ending { .. })));

@@ -1,9 +1,14 @@
 //! The geometry module against closed forms and brute force.
 
 mod corners;
+mod curved;
 mod distance;
 mod files;
+mod masks;
 mod measures;
+mod packs;
+mod round_trip;
 mod shapes;
 mod shells;
 mod sides;
+mod written;

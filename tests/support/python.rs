@@ -1,4 +1,4 @@
-//! A Python environment for the scripts in `postprocess`, made once from its requirements and kept under `target`.
+//! Python environments for the scripts in `postprocess`, made once from their requirements and kept under `target`.
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -12,10 +12,21 @@ pub fn root() -> &'static Path {
 
 /// The interpreter of the environment in `target/postprocess-venv`, which is made anew when the requirements change.
 ///
-/// Fails the test with what to install where Python 3.10 or later with venv is missing.
+/// Fails the test with what to install where Python 3.11 or later with venv is missing.
 pub fn interpreter() -> PathBuf {
-    let requirements = root().join("postprocess/requirements.txt");
-    let text = fs::read_to_string(&requirements).expect("postprocess/requirements.txt is readable");
+    environment("postprocess-venv", "requirements.txt", &[])
+}
+
+/// The same with OpenPNM and PoreSpy, in `target/postprocess-network-venv`. Its requirements name all that is needed: what they
+/// depend on beside that, a solver of 1 GB, is left out.
+#[allow(dead_code, reason = "each test binary has its own copy of this module")]
+pub fn network_interpreter() -> PathBuf {
+    environment("postprocess-network-venv", "requirements-network.txt", &["--no-deps"])
+}
+
+fn environment(name: &str, requirements: &str, options: &[&str]) -> PathBuf {
+    let file = root().join("postprocess").join(requirements);
+    let text = fs::read_to_string(&file).unwrap_or_else(|error| panic!("postprocess/{requirements}: {error}"));
     let mut hasher = DefaultHasher::new();
     text.hash(&mut hasher);
     let wanted = format!("{:016x}", hasher.finish());
@@ -23,10 +34,10 @@ pub fn interpreter() -> PathBuf {
     let target = root().join("target");
     fs::create_dir_all(&target).expect("target can be made");
     // Two tests, or two test commands, may come here at once: the second one waits until the environment is made.
-    let lock = fs::File::create(target.join("postprocess-venv.lock")).expect("target is writable");
+    let lock = fs::File::create(target.join(format!("{name}.lock"))).expect("target is writable");
     lock.lock().expect("the lock of the Python environment");
 
-    let environment = target.join("postprocess-venv");
+    let environment = target.join(name);
     let stamp = environment.join("requirements.hash");
     let python = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     if fs::read_to_string(&stamp).is_ok_and(|found| found == wanted) && python.is_file() {
@@ -39,15 +50,19 @@ pub fn interpreter() -> PathBuf {
     make.args(["-m", "venv"]).arg(&environment);
     run(
         &mut make,
-        "python3 with venv is needed: install it (Debian, Ubuntu: apt install python3 python3-venv), 3.10 or later",
+        "python3 with venv is needed: install it (Debian, Ubuntu: apt install python3 python3-venv), 3.11 or later",
     );
     let mut install = Command::new(&python);
     install
-        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"])
-        .arg(&requirements);
+        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"])
+        .args(options)
+        .arg("--requirement")
+        .arg(&file);
     run(
         &mut install,
-        "the packages of postprocess/requirements.txt could not be installed: is the package index reachable?",
+        &format!(
+            "the packages of postprocess/{requirements} could not be installed: is the package index reachable, is Python 3.11 or later?"
+        ),
     );
     fs::write(&stamp, wanted).expect("the Python environment is writable");
     python

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::film::raw::RawThinFilm;
+use super::network::raw::RawNetwork;
 use crate::geometry::spec::{ShapeSpec, SolidSide};
 
 /// Derives and attributes of every table of a case file or another input file.
@@ -52,7 +53,9 @@ tables! {
         pub sph: RawSph,
         /// Droplets on a flat wall, by a thin-film equation.
         pub thin_film: RawThinFilm,
-        /// How long the simulation runs.
+        /// A pore network and a quasi-static displacement in it.
+        pub network: RawNetwork,
+        /// How long the simulation runs; not with `[network]`.
         pub time: RawTime,
         /// What is written and when.
         pub output: RawOutput,
@@ -78,11 +81,33 @@ tables! {
     pub struct RawGeometry {
         /// Shape file, relative to the case file.
         pub file: PathBuf,
+        /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px; needed where the file names none.
+        pub unit: String,
+        /// Length of the drawing unit in m, in place of `unit`.
+        pub scale: f64,
+        /// Part of the drawing that becomes the domain, lower left and upper right corner in m; shapes are cut at open and periodic sides.
+        pub window: [[f64; 2]; 2],
+        /// Layers of the drawing that are read (default: all).
+        pub layers: Vec<String>,
+        /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white).
+        pub threshold: f64,
+        /// Side of a pixel of a mask in m.
+        pub pixel_size: f64,
+        /// Whether solid and pore of the file change places (default: no).
+        pub invert: bool,
+        /// Whether polygons whose vertices lie on a circle are read as discs (default: yes).
+        pub recognize_circles: bool,
+        /// Vertices of drawings that turn by less than this many degrees become arcs (default 20; 0: none).
+        pub smooth_below_deg: f64,
+        /// Columns of x, y and radius in a list of discs, the first one being 0.
+        pub columns: [usize; 3],
+        /// The character between the columns of a list of discs.
+        pub separator: char,
         /// Lower left corner of the domain in m; with `file`, in place of the file's.
         pub min: [f64; 2],
         /// Upper right corner of the domain in m; with `file`, in place of the file's.
         pub max: [f64; 2],
-        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`); not with `file`.
+        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`); not with `file`, see `invert`.
         pub solid: SolidSide,
         /// The shapes; overlaps are united; not with `file`.
         pub shapes: Vec<ShapeSpec>,
@@ -96,9 +121,9 @@ tables! {
 
     /// What is written and when.
     pub struct RawOutput {
-        /// Particle, grid and interface files (default: 50 records).
+        /// Particle, grid and interface files (default: 50 records; with `[network]`: 50 in each half cycle).
         pub vtk: RawEvery,
-        /// Rows of series.csv (default: 200 records).
+        /// Rows of series.csv (default: 200 records; with `[network]`: 200 in each half cycle).
         pub series: RawEvery,
         /// The regular grid.
         pub grid: RawGrid,
@@ -110,6 +135,8 @@ tables! {
     pub struct RawEvery {
         /// Time between records in s.
         pub every_time: f64,
+        /// Displaced pore volumes between records, with `[network]`.
+        pub every_pore_volume: f64,
     }
 
     /// The regular grid of the output.

@@ -74,3 +74,27 @@ pub struct Drawing {
     /// What the user should know beside that, one sentence each.
     pub notes: Vec<String>,
 }
+
+/// What a reader refuses in a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refusal {
+    /// Where it stands: `line 12`, `LWPOLYLINE 2F`, `pixel (3, 4)`.
+    pub place: String,
+    /// What was found there.
+    pub found: String,
+    /// What was expected instead, or a way out.
+    pub expected: String,
+}
+
+impl Refusal {
+    /// A refusal of its three parts.
+    pub fn new(place: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self { place: place.into(), found: found.into(), expected: expected.into() }
+    }
+}
+
+impl std::fmt::Display for Refusal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: found {}, expected {}", self.place, self.found, self.expected)
+    }
+}

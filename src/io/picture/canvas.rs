@@ -68,6 +68,28 @@ impl Canvas {
         }
     }
 
+    /// A filled polygon.
+    pub fn polygon(&mut self, vertices: impl Iterator<Item = [f32; 2]>, color: Rgb) {
+        let mut builder = PathBuilder::new();
+        for [x, y] in vertices {
+            if builder.is_empty() { builder.move_to(x, y) } else { builder.line_to(x, y) }
+        }
+        builder.close();
+        if let Some(path) = builder.finish() {
+            self.pixels.fill_path(&path, &paint(color), FillRule::Winding, Transform::identity(), None);
+        }
+    }
+
+    /// Makes all white that is outside of a rectangle with the given upper left corner.
+    pub fn wipe_outside(&mut self, [x, y]: [f32; 2], [width, tall]: [f32; 2]) {
+        const WHITE: Rgb = [255, 255, 255];
+        let (all, height) = (self.pixels.width() as f32, self.pixels.height() as f32);
+        self.rectangle([0.0, 0.0], [all, y], WHITE);
+        self.rectangle([0.0, y + tall], [all, height - y - tall], WHITE);
+        self.rectangle([0.0, 0.0], [x, height], WHITE);
+        self.rectangle([x + width, 0.0], [all - x - width, height], WHITE);
+    }
+
     /// A polyline with round joins.
     pub fn polyline(&mut self, vertices: impl Iterator<Item = [f32; 2]>, width: f32, color: Rgb) {
         let mut builder = PathBuilder::new();

@@ -1,11 +1,13 @@
-//! `picture.png`: particles of a pore, or the profile of a film.
+//! `picture.png`: particles of a pore, the profile of a film, or a map of areas.
 
 mod canvas;
 mod film;
+mod mosaic;
 mod particles;
 mod style;
 
 pub use canvas::PictureError;
+pub use mosaic::mosaic_picture;
 pub use style::PORE;
 
 use self::film::{film_picture, is_film};

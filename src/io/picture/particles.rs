@@ -64,7 +64,7 @@ pub(super) fn particle_picture(
     if let Some(interface) = &snapshot.interface {
         strokes(&mut canvas, &view, interface, 3.5, INTERFACE);
     }
-    frame(&mut canvas, &view, height as f32);
+    frame(&mut canvas, &view);
     let title = canvas.fitted(title, TITLE_SIZE, WIDTH as f32 - 2.0 * RIM);
     canvas.text(&title, [RIM, 44.0], TITLE_SIZE);
     canvas.text(&time_text(snapshot.time), [RIM, 82.0], TEXT_SIZE);
@@ -124,14 +124,9 @@ fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, width: f32, colo
 }
 
 /// Wipes what reached over the drawing's edge and draws the edge.
-fn frame(canvas: &mut Canvas, view: &View, height: f32) {
-    const WHITE: Rgb = [255, 255, 255];
+fn frame(canvas: &mut Canvas, view: &View) {
+    canvas.wipe_outside(view.corner, view.size);
     let ([x, y], [width, tall]) = (view.corner, view.size);
-    let all = WIDTH as f32;
-    canvas.rectangle([0.0, 0.0], [all, y], WHITE);
-    canvas.rectangle([0.0, y + tall], [all, height - y - tall], WHITE);
-    canvas.rectangle([0.0, 0.0], [x, height], WHITE);
-    canvas.rectangle([x + width, 0.0], [all - x - width, height], WHITE);
     let corners = [[x, y], [x + width, y], [x + width, y + tall], [x, y + tall], [x, y]];
     canvas.polyline(corners.into_iter(), 1.5, OUTLINE);
 }

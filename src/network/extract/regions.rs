@@ -141,7 +141,11 @@ fn build(
                 let part = if (from, to) == (0.0, 1.0) { curve } else { curve.part(from, to) };
                 moments.curve(&part);
                 wall_length += part.length();
-                stretch.get_or_insert_default().push(WallPiece { curve: part, shape: walls.walls[wall].shape });
+                stretch.get_or_insert_default().push(WallPiece {
+                    curve: part,
+                    whole: curve,
+                    shape: walls.walls[wall].shape,
+                });
                 continue;
             }
             Step::Chord { throat, end, shift } => {

@@ -1,0 +1,239 @@
+//! Checks of `[network]`: ranges of every value, which values go together, and what a quasi-static displacement cannot do.
+
+use super::checked::{NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use super::raw::{RawEvents, RawNetwork, RawNetworkSide, RawProcess};
+use crate::case::check::Checker;
+use crate::case::checked::{Side, Sides, WettingModel};
+use crate::case::raw::RawSideName;
+use crate::case::sph::fluid;
+use crate::case::wetting;
+use crate::geometry::spec::GeometrySpec;
+
+/// Persistence ratio where the case says nothing.
+pub(crate) const DEFAULT_PERSISTENCE: f64 = 0.95;
+/// Below this ratio pores that no one would take for one are joined.
+const PERSISTENCE: (f64, f64) = (0.5, 1.0);
+/// Most cycles: the loop closes after two or three.
+const MOST_CYCLES: f64 = 100.0;
+
+const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+
+/// Checks `[network]`; `geometry` is missing where it was wrong.
+pub(in crate::case) fn network(
+    checker: &mut Checker,
+    raw: &RawNetwork,
+    geometry: Option<&GeometrySpec>,
+) -> Option<PoreNetwork> {
+    let sides = sides(checker, raw);
+    let phases = raw.phases.clone().unwrap_or_default();
+    let [wetting, non_wetting] =
+        [("wetting", phases.wetting), ("non-wetting", phases.non_wetting)].map(|(name, raw)| match raw {
+            Some(raw) => fluid(checker, &format!("network.phases.{name}"), &raw).map(Some),
+            None => Some(None),
+        });
+    let persistence = checker.within("network.persistence", raw.persistence, PERSISTENCE, "a persistence ratio");
+    let interface = interface(checker, raw, sides.as_ref(), geometry);
+    let displacement = if raw.inlet.is_some() {
+        Some(displacement(checker, raw))
+    } else {
+        refuse_without_inlet(checker, raw);
+        None
+    };
+    Some(PoreNetwork {
+        sides: sides?,
+        wetting: wetting?,
+        non_wetting: non_wetting?,
+        interface: interface?,
+        persistence: persistence.unwrap_or(DEFAULT_PERSISTENCE),
+        displacement,
+    })
+}
+
+fn number(side: RawSideName) -> usize {
+    match side {
+        RawSideName::Left => 0,
+        RawSideName::Right => 1,
+        RawSideName::Bottom => 2,
+        RawSideName::Top => 3,
+    }
+}
+
+/// The kinds of all four sides; none where they do not go together.
+fn sides(checker: &mut Checker, raw: &RawNetwork) -> Option<Sides> {
+    let before = checker.problems.len();
+    let given = raw.sides.clone().unwrap_or_default();
+    let given = [given.left, given.right, given.bottom, given.top];
+    let mut kinds = given.map(|side| match side {
+        Some(RawNetworkSide::Periodic) => Side::Periodic,
+        Some(RawNetworkSide::Wall) | None => Side::Wall,
+    });
+    let open = [("inlet", raw.inlet, Side::Inlet), ("outlet", raw.outlet, Side::Outlet)];
+    for (key, side, kind) in open.into_iter().filter_map(|(key, side, kind)| Some((key, number(side?), kind))) {
+        if given[side].is_some() {
+            checker.refuse(
+                format!("network.sides.{}", SIDES[side]),
+                format!("the side `{}` is the {key}, and a kind of side is given for it too", SIDES[side]),
+                format!("leave it out of [network.sides], or choose another {key}"),
+            );
+        }
+        kinds[side] = kind;
+    }
+    if let (Some(inlet), Some(outlet)) = (raw.inlet.map(number), raw.outlet.map(number)) {
+        if inlet == outlet {
+            let message = format!("`{}` is both inlet and outlet", SIDES[inlet]);
+            checker.refuse("network.outlet", message, format!("take the opposite side, `{}`", SIDES[inlet ^ 1]));
+        } else if inlet / 2 != outlet / 2 {
+            checker.refuse(
+                "network.outlet",
+                format!("the inlet `{}` and the outlet `{}` meet in a corner", SIDES[inlet], SIDES[outlet]),
+                format!("take the opposite side, `{}`", SIDES[inlet ^ 1]),
+            );
+        }
+    }
+    for [a, b] in [[0, 1], [2, 3]] {
+        for (one, other) in [(a, b), (b, a)] {
+            if kinds[one] == Side::Periodic && kinds[other] != Side::Periodic {
+                let found = match kinds[other] {
+                    Side::Wall => "a wall",
+                    Side::Inlet => "the inlet",
+                    _ => "the outlet",
+                };
+                checker.refuse(
+                    format!("network.sides.{}", SIDES[one]),
+                    format!(
+                        "the side `{}` is periodic and the opposite side `{}` is {found}",
+                        SIDES[one], SIDES[other]
+                    ),
+                    "periodic sides come in pairs: make both periodic, or none",
+                );
+            }
+        }
+    }
+    let [left, right, bottom, top] = kinds;
+    (checker.problems.len() == before).then_some(Sides { left, right, bottom, top })
+}
+
+/// Tension and angles: both, or neither where nothing is displaced. The outer option is missing where a mistake was found.
+fn interface(
+    checker: &mut Checker,
+    raw: &RawNetwork,
+    sides: Option<&Sides>,
+    geometry: Option<&GeometrySpec>,
+) -> Option<Option<NetworkInterface>> {
+    let tension = raw.interface.as_ref().and_then(|interface| interface.tension);
+    if raw.inlet.is_none() && raw.interface.is_none() && raw.wetting.is_none() {
+        return Some(None);
+    }
+    let tension =
+        checker.require_positive("network.interface.tension", tension, "tension = 0.0276 # N/m", "a tension in N/m");
+    if raw.wetting.is_none() {
+        checker.require::<()>("network.wetting", None, "[network.wetting.young] with contact-angle-deg");
+    }
+    let model = wetting::model(checker, "network.wetting", raw.wetting.as_ref(), tension)?;
+    let model = static_model(checker, model);
+    let patches = match model {
+        Some(model) => wetting::patches(checker, "network.wetting", raw.wetting.as_ref(), model, sides, geometry),
+        None => Vec::new(),
+    };
+    for (index, patch) in raw.wetting.iter().flat_map(|raw| &raw.patches).flatten().enumerate() {
+        if patch.stripes.is_some() {
+            checker.refuse(
+                format!("network.wetting.patches[{index}].stripes"),
+                "menisci of a network stand between whole walls, and stripes divide a wall",
+                "give the patch a shape or a side; a striped wall can be written as several shapes side by side",
+            );
+        }
+    }
+    Some(Some(NetworkInterface { tension: tension?, wetting_model: model?, patches }))
+}
+
+/// The model, where it is one of lines at rest.
+fn static_model(checker: &mut Checker, model: WettingModel) -> Option<WettingModel> {
+    let name = match model {
+        WettingModel::Young { .. } | WettingModel::Tadmor { .. } | WettingModel::Hysteresis { .. } => {
+            return Some(model);
+        }
+        WettingModel::LineFriction { .. } => "line-friction",
+        WettingModel::MolecularKinetic { .. } => "molecular-kinetic",
+        WettingModel::CoxVoinov { .. } => "cox-voinov",
+        WettingModel::Kistler { .. } => "kistler",
+        WettingModel::Jiang { .. } => "jiang",
+    };
+    let [receding, advancing] = model.angles().map(f64::to_degrees);
+    let angle = 0.5 * (receding + advancing);
+    checker.refuse(
+        format!("network.wetting.{name}"),
+        format!("`{name}` is a law of the speed of contact lines, and a quasi-static displacement has no speed"),
+        format!("take [network.wetting.young] with the static angle, contact-angle-deg = {angle:.1}"),
+    );
+    None
+}
+
+fn displacement(checker: &mut Checker, raw: &RawNetwork) -> NetworkDisplacement {
+    let cycles = checker.within("network.cycles", raw.cycles.map(f64::from), (1.0, MOST_CYCLES), "a number of cycles");
+    let process = match raw.process {
+        None | Some(RawProcess::Drainage) => Process::Drainage,
+        Some(RawProcess::Imbibition) => Process::Imbibition,
+        Some(RawProcess::Cycle) => Process::Cycle(cycles.map_or(1, |_| raw.cycles.unwrap_or(1))),
+    };
+    if raw.cycles.is_some() && !matches!(process, Process::Cycle(_)) {
+        checker.refuse(
+            "network.cycles",
+            "only cycles are counted, and the process is none",
+            "set process = \"cycle\", or leave this out",
+        );
+    }
+    if matches!(process, Process::Cycle(_)) && raw.outlet.is_none() {
+        checker.refuse(
+            "network.process",
+            "a cycle needs an outlet: the wetting phase comes back through it",
+            "add outlet = \"right\", say",
+        );
+    }
+    NetworkDisplacement {
+        process,
+        trapping: raw.trapping.unwrap_or(true),
+        events: match raw.events {
+            None | Some(RawEvents::All) => NetworkEvents::All,
+            Some(RawEvents::Burst) => NetworkEvents::Burst,
+        },
+        stop: stop(checker, raw),
+    }
+}
+
+fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
+    let given = raw.stop.clone().unwrap_or_default();
+    if given.breakthrough == Some(true) && raw.outlet.is_none() {
+        checker.refuse(
+            "network.stop.breakthrough",
+            "there is no outlet to break through at",
+            "add outlet = \"right\", say, or leave this out",
+        );
+    }
+    let saturation =
+        checker.within("network.stop.saturation", given.saturation, (0.0, 1.0), "a saturation of the wetting phase");
+    Stop {
+        breakthrough: given.breakthrough.unwrap_or_default(),
+        saturation,
+        capillary_pressure: given.capillary_pressure,
+    }
+}
+
+/// Keys that say how something is displaced, where nothing comes in.
+fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
+    let given = [
+        ("outlet", raw.outlet.is_some()),
+        ("process", raw.process.is_some()),
+        ("cycles", raw.cycles.is_some()),
+        ("trapping", raw.trapping.is_some()),
+        ("events", raw.events.is_some()),
+        ("stop", raw.stop.is_some()),
+    ];
+    for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+        checker.refuse(
+            format!("network.{key}"),
+            format!("`{key}` belongs to a displacement, and there is no inlet"),
+            "add inlet = \"left\", say; without an inlet the network is extracted and nothing is displaced",
+        );
+    }
+}

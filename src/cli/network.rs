@@ -1,0 +1,119 @@
+//! `meniscus network`: pores and throats of a shape file, and a displacement in them, without a case file.
+
+use super::arguments::{NetworkArguments, NetworkProcess, PeriodicAxes, SideName};
+use super::exit::{BAD_INPUT, Failure};
+use super::output::tell;
+use super::run::{finish, new_folder};
+use super::source::{self, Source};
+use crate::case::network::quick as network_case;
+use crate::case::network::raw::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
+use crate::case::raw::{RawContactAngle, RawInterface, RawSideName, RawWetting};
+use crate::geometry::spec::GeometrySpec;
+use crate::run::execute::Mode;
+
+/// Tension in N/m where none is given: pressures are then those per N/m of tension.
+const UNIT_TENSION: f64 = 1.0;
+/// Contact angle in degrees where none is given: the wetting phase wets wholly.
+const WHOLLY_WETTING: f64 = 0.0;
+
+/// Extracts the network of a shape file, or of the geometry of a case file, and displaces what the options say.
+pub fn network(arguments: &NetworkArguments) -> Result<u8, Failure> {
+    let source = load(arguments)?;
+    let folder = new_folder(arguments.out.as_deref(), &source.name, Mode::New);
+    finish(&source, folder, Mode::New, arguments.threads)
+}
+
+fn load(arguments: &NetworkArguments) -> Result<Source, Failure> {
+    let path = &arguments.file;
+    if !source::is_case_file(path) {
+        let geometry = source::geometry_of_file(path, &arguments.import.options())?;
+        return quick(arguments, geometry);
+    }
+    let overrides = overrides(arguments);
+    let case = source::load_case(Some(path), &[])?;
+    if source::is_network(&case.case) {
+        return source::load_case(Some(path), &overrides);
+    }
+    quick(arguments, case.case.geometry)
+}
+
+fn quick(arguments: &NetworkArguments, geometry: GeometrySpec) -> Result<Source, Failure> {
+    let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    if arguments.has_interface() && arguments.tension.is_none() {
+        tell("no --tension: pressures are those of a tension of 1 N/m; multiply them by yours");
+    }
+    let title = format!("Network of {name}");
+    let (case, resolved) = network_case(&title, geometry, &raw(arguments)).map_err(|problems| {
+        let option = |path: &str| path.trim_start_matches("network.").replace(['.', '_'], "-");
+        let lines: Vec<String> = problems
+            .iter()
+            .map(|problem| format!("{}: {}; {}", option(&problem.path), problem.message, problem.help))
+            .collect();
+        Failure::new(BAD_INPUT, &lines.join("\n"))
+    })?;
+    Ok(Source { case, resolved, name: format!("{name}-network") })
+}
+
+fn side(name: SideName) -> RawSideName {
+    match name {
+        SideName::Left => RawSideName::Left,
+        SideName::Right => RawSideName::Right,
+        SideName::Bottom => RawSideName::Bottom,
+        SideName::Top => RawSideName::Top,
+    }
+}
+
+/// The keys of `[network]` that the options stand for.
+fn raw(arguments: &NetworkArguments) -> RawNetwork {
+    let along = |axes: &[PeriodicAxes]| {
+        arguments.periodic.filter(|given| axes.contains(given)).map(|_| RawNetworkSide::Periodic)
+    };
+    let x = along(&[PeriodicAxes::X, PeriodicAxes::Xy]);
+    let y = along(&[PeriodicAxes::Y, PeriodicAxes::Xy]);
+    let angle = arguments.angle_deg.unwrap_or(WHOLLY_WETTING);
+    RawNetwork {
+        inlet: arguments.inlet.map(side),
+        outlet: arguments.outlet.map(side),
+        sides: Some(RawNetworkSides { left: x, right: x, bottom: y, top: y }),
+        interface: arguments
+            .has_interface()
+            .then(|| RawInterface { tension: Some(arguments.tension.unwrap_or(UNIT_TENSION)) }),
+        wetting: arguments.has_interface().then(|| RawWetting {
+            young: Some(RawContactAngle { contact_angle_deg: Some(angle) }),
+            ..RawWetting::default()
+        }),
+        process: arguments.process.map(|process| match process {
+            NetworkProcess::Drainage => RawProcess::Drainage,
+            NetworkProcess::Imbibition => RawProcess::Imbibition,
+            NetworkProcess::Cycle => RawProcess::Cycle,
+        }),
+        cycles: arguments.cycles,
+        trapping: arguments.trapping,
+        persistence: arguments.persistence,
+        ..RawNetwork::default()
+    }
+}
+
+/// The options as changes of a case file with `[network]`.
+fn overrides(arguments: &NetworkArguments) -> Vec<String> {
+    let name = |side: SideName| format!("\"{}\"", format!("{side:?}").to_lowercase());
+    let axes = |axes: PeriodicAxes| match axes {
+        PeriodicAxes::X => &["left", "right"][..],
+        PeriodicAxes::Y => &["bottom", "top"],
+        PeriodicAxes::Xy => &["left", "right", "bottom", "top"],
+    };
+    let process = |process: NetworkProcess| format!("\"{}\"", format!("{process:?}").to_lowercase());
+    let given = [
+        ("persistence", arguments.persistence.map(|value| value.to_string())),
+        ("wetting.young.contact-angle-deg", arguments.angle_deg.map(|value| value.to_string())),
+        ("interface.tension", arguments.tension.map(|value| value.to_string())),
+        ("inlet", arguments.inlet.map(name)),
+        ("outlet", arguments.outlet.map(name)),
+        ("process", arguments.process.map(process)),
+        ("cycles", arguments.cycles.map(|value| value.to_string())),
+        ("trapping", arguments.trapping.map(|value| value.to_string())),
+    ];
+    let given = given.into_iter().filter_map(|(key, value)| Some(format!("network.{key}={}", value?)));
+    let periodic = arguments.periodic.map_or(&[][..], axes).iter();
+    given.chain(periodic.map(|side| format!("network.sides.{side}=\"periodic\""))).collect()
+}

@@ -1,0 +1,102 @@
+//! `meniscus new --pack`: generated grains as a shape file that needs no generator, and what they are like.
+
+use std::path::Path;
+
+use super::arguments::{PackArguments, PackKind, PackPeriodic};
+use super::exit::{BAD_INPUT, DONE, Failure};
+use super::new::write;
+use super::output::{readable, say};
+use crate::geometry::Geometry;
+use crate::geometry::export::{self, Format};
+use crate::geometry::pack::{Micromodel, array, micromodel, random_pack, smallest_gap};
+use crate::geometry::spec::{
+    Arrangement, Array, Disc, GeometrySpec, PackAxes, RandomPack, ShapeSpec, SolidSide, ThroatCosine,
+};
+
+/// Shares of the pack's size that a micromodel adds, and of a cosine throat's.
+const MANIFOLD: f64 = 0.1;
+const CHANNEL_WIDTH: f64 = 0.2;
+const CHANNEL_LENGTH: f64 = 0.2;
+const WALL: f64 = 0.05;
+const THROAT_WALLS: f64 = 0.8;
+const THROAT_LENGTH: f64 = 0.5;
+
+/// Makes the grains, writes them, and tells porosity, smallest gap and whether fluid can pass.
+pub fn new_pack(kind: PackKind, arguments: &PackArguments, file: &Path) -> Result<u8, Failure> {
+    let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
+    // The command line asks for two numbers.
+    let size = [arguments.size.first().copied().unwrap_or(0.0), arguments.size.get(1).copied().unwrap_or(0.0)];
+    let region = [[0.0; 2], size];
+    let (spec, discs, periodic) = shapes(kind, arguments, region).map_err(|error| bad(&error))?;
+    let geometry = Geometry::new(&spec).map_err(|error| bad(&error))?.with_periodic(periodic);
+    let comment = format!("# {}\n", std::env::args().skip(1).collect::<Vec<_>>().join(" "));
+    let mut text = comment.into_bytes();
+    text.extend(export::write(&spec, Format::Toml, None).map_err(|error| bad(&error))?);
+    write(file, &text)?;
+    say(format_args!("wrote {} with {} discs, {} shapes", file.display(), discs.len(), spec.shapes.len()));
+    say(format_args!("porosity      {}", readable(geometry.porosity().value)));
+    let gap = smallest_gap(&discs, region, periodic);
+    if gap.is_finite() {
+        say(format_args!("smallest gap  {} m", readable(gap)));
+    }
+    // Generators leave a gap around every disc, so that only grains that touch could close the way.
+    say(format_args!("percolates    {}", if gap > 0.0 { "yes" } else { "no" }));
+    Ok(DONE)
+}
+
+type Made = (GeometrySpec, Vec<Disc>, [bool; 2]);
+
+fn shapes(
+    kind: PackKind,
+    arguments: &PackArguments,
+    region: [[f64; 2]; 2],
+) -> Result<Made, crate::geometry::pack::PackError> {
+    let [min, max] = region;
+    let plain = |discs: &[Disc]| GeometrySpec {
+        min,
+        max,
+        solid: SolidSide::Inside,
+        shapes: discs.iter().cloned().map(ShapeSpec::Disc).collect(),
+    };
+    let periodic = match arguments.periodic {
+        PackPeriodic::None => PackAxes::None,
+        PackPeriodic::X => PackAxes::X,
+        PackPeriodic::Y => PackAxes::Y,
+        PackPeriodic::Xy => PackAxes::Xy,
+    };
+    let PackArguments { seed, porosity, radius, radius_deviation, gap, .. } = *arguments;
+    let pack = RandomPack { seed, porosity, radius, radius_deviation, gap, region, periodic };
+    let lattice = |arrangement| array(&Array { arrangement, radius, gap, region });
+    Ok(match kind {
+        PackKind::Random => {
+            let discs = random_pack(&pack)?;
+            (plain(&discs), discs, periodic.axes())
+        }
+        PackKind::Square | PackKind::Hexagonal => {
+            let is_square = kind == PackKind::Square;
+            let discs = lattice(if is_square { Arrangement::Square } else { Arrangement::Hexagonal })?;
+            (plain(&discs), discs, [false; 2])
+        }
+        PackKind::Cosine => {
+            let throat = ThroatCosine {
+                center: [0.5 * max[0], 0.5 * max[1]],
+                width: THROAT_WALLS * max[1],
+                throat: gap,
+                length: THROAT_LENGTH * max[0],
+                rotation_deg: 0.0,
+            };
+            (GeometrySpec { shapes: vec![ShapeSpec::ThroatCosine(throat)], ..plain(&[]) }, Vec::new(), [false; 2])
+        }
+        PackKind::Micromodel => {
+            let model = Micromodel {
+                pack: RandomPack { periodic: PackAxes::None, ..pack },
+                manifold: MANIFOLD * max[0],
+                channel_width: CHANNEL_WIDTH * max[1],
+                channel_length: CHANNEL_LENGTH * max[0],
+                wall: WALL * max[1],
+            };
+            let (spec, discs) = micromodel(&model)?;
+            (spec, discs, [false; 2])
+        }
+    })
+}

@@ -1,0 +1,130 @@
+//! Drawings for other programs: the solid of a geometry as SVG, DXF, well-known text, GeoJSON, a list of discs, a TOML shape file or a
+//! PNG mask, chosen by the ending of the name.
+//!
+//! Discs stay circles and arcs stay arcs where the format knows them. Where it does not (well-known text, GeoJSON) vertices lie on the
+//! arc, so that chords leave it by less than 5e-4 of its radius. Shapes are written whole, also where they cross the sides of the
+//! domain; endless ones are cut half a domain outside of it. Where the shapes are the pore, the solid within the domain is written.
+
+mod dxf;
+mod mask;
+mod sheet;
+mod svg;
+mod text;
+
+use std::path::Path;
+
+use crate::geometry::spec::{GeometrySpec, ShapeSpec};
+
+pub use sheet::Sheet;
+
+/// A file format.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// SVG in mm.
+    Svg,
+    /// DXF of AutoCAD 2000 in mm.
+    Dxf,
+    /// Well-known text in m.
+    Wkt,
+    /// GeoJSON in m, with the unit as a member of its own.
+    GeoJson,
+    /// Discs as `x y r` in m.
+    Discs,
+    /// A TOML shape file.
+    Toml,
+    /// A PNG mask: solid black, pore white, partly covered pixels gray.
+    Png,
+}
+
+/// Endings and their formats.
+const ENDINGS: [(&str, Format); 9] = [
+    ("svg", Format::Svg),
+    ("dxf", Format::Dxf),
+    ("wkt", Format::Wkt),
+    ("geojson", Format::GeoJson),
+    ("json", Format::GeoJson),
+    ("xyr", Format::Discs),
+    ("discs", Format::Discs),
+    ("toml", Format::Toml),
+    ("png", Format::Png),
+];
+
+impl Format {
+    /// The format of a file name.
+    ///
+    /// # Errors
+    /// [`ExportError::Ending`].
+    pub fn of(path: &Path) -> Result<Self, ExportError> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        let found = ENDINGS.iter().find(|(known, _)| *known == ending);
+        found.map(|&(_, format)| format).ok_or(ExportError::Ending { ending })
+    }
+}
+
+/// Why a drawing cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// The name's ending is none of ours.
+    #[error(
+        "`.{ending}` names no format that can be written; use .svg, .dxf, .wkt, .geojson, .xyr, .toml, .png or .vtp"
+    )]
+    Ending {
+        /// The ending.
+        ending: String,
+    },
+    /// A list holds discs only.
+    #[error("{others} of {all} shapes are no discs, and a list holds discs only; write .toml, .svg or .dxf")]
+    NoDisc {
+        /// Shapes that are none.
+        others: usize,
+        /// All shapes.
+        all: usize,
+    },
+    /// The mask would be too large, or has no pixel.
+    #[error(
+        "a pixel of {pixel:e} m makes {width:.0} x {height:.0} pixels; a mask has 4 to 8192 a side: choose another --pixel-size"
+    )]
+    Pixels {
+        /// Side of a pixel in m.
+        pixel: f64,
+        /// Pixels along x.
+        width: f64,
+        /// Pixels along y.
+        height: f64,
+    },
+    /// A library refused the data.
+    #[error("{0}")]
+    Library(String),
+}
+
+/// Pixels along the longer side of a mask whose pixel size is not given.
+const MASK_PIXELS: f64 = 2048.0;
+
+/// The bytes of a drawing of a specification without problems. `pixel` is the side of a pixel of a mask in m.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn write(spec: &GeometrySpec, format: Format, pixel: Option<f64>) -> Result<Vec<u8>, ExportError> {
+    let spec = &plain(spec)?;
+    Ok(match format {
+        Format::Toml => text::toml(spec)?.into_bytes(),
+        Format::Svg => svg::svg(&Sheet::of(spec)).into_bytes(),
+        Format::Dxf => dxf::dxf(&Sheet::of(spec))?,
+        Format::Wkt => text::well_known_text(&Sheet::of(spec)).into_bytes(),
+        Format::GeoJson => text::geojson(&Sheet::of(spec))?.into_bytes(),
+        Format::Discs => text::discs(&Sheet::of(spec))?.into_bytes(),
+        Format::Png => {
+            let sheet = Sheet::of(spec);
+            mask::png(&sheet, pixel.unwrap_or(sheet.frame.size().max() / MASK_PIXELS))?
+        }
+    })
+}
+
+/// The specification with generators expanded.
+fn plain(spec: &GeometrySpec) -> Result<GeometrySpec, ExportError> {
+    let mut shapes = Vec::new();
+    for shape in &spec.shapes {
+        shapes.extend(ShapeSpec::expanded(shape).map_err(|error| ExportError::Library(error.to_string()))?);
+    }
+    Ok(GeometrySpec { shapes, ..spec.clone() })
+}

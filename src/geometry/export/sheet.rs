@@ -1,0 +1,107 @@
+//! The solid as closed outlines of segments and arcs, before a format is chosen.
+
+use crate::geometry::body::Body;
+use crate::geometry::boundary::{Piece, chains, clip_body, followers};
+use crate::geometry::curve::Curve;
+use crate::geometry::import::drawing::{FillRule, Outline, Ring};
+use crate::geometry::solid::Geometry;
+use crate::geometry::spec::{GeometrySpec, SolidSide};
+use crate::math::{Bounds, Vec2};
+
+/// Outlines of the solid in m; those of different shapes may overlap.
+#[derive(Debug, Clone)]
+pub struct Sheet {
+    /// The outlines in the order of the shapes.
+    pub outlines: Vec<Outline>,
+    /// The domain.
+    pub frame: Bounds,
+}
+
+/// Ends of curves closer than this share of the domain's larger side are one.
+const JOINED: f64 = 1e-8;
+
+impl Sheet {
+    /// The outlines of a specification without problems.
+    pub(crate) fn of(spec: &GeometrySpec) -> Self {
+        let frame = Bounds { min: Vec2::from(spec.min), max: Vec2::from(spec.max) };
+        let tolerance = JOINED * frame.size().max();
+        let outlines = match spec.solid {
+            SolidSide::Outside => {
+                let rings = rings(&Geometry::unchecked(spec).solid_outline(), tolerance);
+                if rings.is_empty() { Vec::new() } else { vec![Outline::Area { rings, rule: FillRule::EvenOdd }] }
+            }
+            SolidSide::Inside => {
+                let paper = frame.grown(0.5 * frame.size().max());
+                let bodies = spec.shapes.iter().zip(0..).flat_map(|(shape, i)| Body::of(shape, i, frame));
+                bodies.filter_map(|body| outline(&body, paper, tolerance)).collect()
+            }
+        };
+        Self { outlines, frame }
+    }
+}
+
+fn outline(body: &Body, paper: Bounds, tolerance: f64) -> Option<Outline> {
+    if let [Curve::Arc { center, radius, .. }] = body.curves[..]
+        && body.curves[0].is_closed()
+    {
+        return Some(Outline::Disc { center, radius });
+    }
+    let rings = if body.is_endless() {
+        rings(&clip_body(body, paper, 0.1 * tolerance).curves, tolerance)
+    } else {
+        rings(&body.curves, tolerance)
+    };
+    (!rings.is_empty()).then_some(Outline::Area { rings, rule: FillRule::EvenOdd })
+}
+
+/// Closed chains of curves as rings of vertices with bulges.
+fn rings(curves: &[Curve], tolerance: f64) -> Vec<Ring> {
+    let pieces: Vec<Piece> = curves.iter().map(|&curve| Piece { curve, shape: 0 }).collect();
+    let next = followers(&pieces, tolerance);
+    let chains = chains(&pieces, &next).into_iter().filter(|(_, is_closed)| *is_closed);
+    chains.map(|(chain, _)| Ring { vertices: chain.iter().flat_map(|&i| vertices(&curves[i])).collect() }).collect()
+}
+
+/// The start of a curve with its bulge; a circle, and an arc of more than three quarters of one, in two halves.
+fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
+    const LARGE: f64 = 1.5 * std::f64::consts::PI;
+    let vertex = |curve: &Curve| {
+        let p = curve.point(0.0);
+        let bulge = if let Curve::Arc { sweep, .. } = curve { (0.25 * sweep).tan() } else { 0.0 };
+        [p.x, p.y, bulge]
+    };
+    match curve {
+        Curve::Arc { sweep, .. } if sweep.abs() > LARGE => {
+            vec![vertex(&curve.part(0.0, 0.5)), vertex(&curve.part(0.5, 1.0))]
+        }
+        _ => vec![vertex(curve)],
+    }
+}
+
+/// The edges of a ring.
+pub(super) fn edges(ring: &Ring) -> impl Iterator<Item = Curve> + '_ {
+    crate::geometry::body::bulged_ring(&ring.vertices)
+}
+
+/// The points of a ring, arcs by chords that leave them by at most `error` times their radius.
+pub(super) fn sampled(ring: &Ring, error: f64) -> Vec<Vec2> {
+    let step = 2.0 * (1.0 - error).acos();
+    let count = |curve: &Curve| match curve {
+        Curve::Segment { .. } => 1,
+        Curve::Arc { sweep, .. } => (sweep.abs() / step).ceil().max(1.0) as usize,
+    };
+    edges(ring)
+        .flat_map(|curve| (0..count(&curve)).map(move |k| curve.point(k as f64 / count(&curve) as f64)))
+        .collect()
+}
+
+/// The rings of an outline; a disc as two half circles.
+pub(super) fn rings_of(outline: &Outline) -> Vec<Ring> {
+    match outline {
+        Outline::Disc { center, radius } => {
+            let vertices = vec![[center.x + radius, center.y, 1.0], [center.x - radius, center.y, 1.0]];
+            vec![Ring { vertices }]
+        }
+        Outline::Area { rings, .. } => rings.clone(),
+    }
+}

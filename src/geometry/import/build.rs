@@ -1,0 +1,275 @@
+//! From a drawing to shapes in m: unit, repairs, fills and holes, circles and arcs recognized, domain, and what is said about all this.
+
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring};
+use crate::geometry::import::fill::{Region, filled, regions};
+use crate::geometry::import::format::Format;
+use crate::geometry::import::notes::{Counts, Notes};
+use crate::geometry::import::options::Options;
+use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
+use crate::geometry::import::{recognize, smooth, units, window};
+use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
+use crate::input::problem::Problem;
+use crate::math::{Bounds, Vec2};
+
+/// Margin around the shapes where nothing names a domain, over the longer side of the box around them: fluid can pass between the
+/// shapes and the sides.
+const MARGIN: f64 = 0.1;
+
+/// Shapes read from a drawing, and what the user should know of how they were read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Imported {
+    /// Domain and shapes in m.
+    pub spec: GeometrySpec,
+    /// One sentence each: unit, what was read, recognized, repaired, not used.
+    pub notes: Vec<String>,
+}
+
+/// Why a drawing gives no shapes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Refused {
+    /// Keys beside the file are missing or wrong.
+    Keys(Vec<Problem>),
+    /// Parts of the file.
+    Parts(Vec<Refusal>),
+    /// The shapes make no sense; paths name places in the file.
+    Shapes(Vec<Problem>),
+}
+
+/// A shape and where it stands in the file.
+struct Placed {
+    shape: ShapeSpec,
+    place: String,
+}
+
+/// The shapes of a drawing in m.
+pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Result<Imported, Refused> {
+    let (scale, unit) = units::scale(options, drawing.unit.as_ref(), format).map_err(|p| Refused::Keys(vec![p]))?;
+    let mut notes = Notes::new(unit, &drawing);
+    let mut refusals = Vec::new();
+    let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
+    let outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
+    let mut shapes = Vec::new();
+    for (region, place) in grouped(outlines, format, &mut refusals) {
+        shapes.push(Placed { shape: recognized(region, format, options, &mut notes.counts), place });
+    }
+    if !refusals.is_empty() {
+        return Err(Refused::Parts(refusals));
+    }
+    let (domain, from) = domain(&shapes, frame, options);
+    notes.domain(domain, from);
+    if options.window.is_some() || (frame.is_some() && format.has_page()) {
+        let before = shapes.len();
+        shapes.retain(|placed| window::reaches(&placed.shape, domain));
+        notes.counts.outside = before - shapes.len();
+    }
+    notes.counts.shapes(shapes.iter().map(|placed| &placed.shape));
+    let (places, shapes): (Vec<_>, Vec<_>) = shapes.into_iter().map(|placed| (placed.place, placed.shape)).unzip();
+    let solid = if options.is_inverted() && format != Format::Mask { SolidSide::Outside } else { SolidSide::Inside };
+    let spec = GeometrySpec { min: domain.min.into(), max: domain.max.into(), solid, shapes };
+    let problems = spec.problems();
+    if problems.is_empty() {
+        Ok(Imported { spec, notes: notes.lines(options) })
+    } else {
+        Err(Refused::Shapes(problems.into_iter().map(|problem| placed(problem, &places)).collect()))
+    }
+}
+
+/// The problem with the place in the file in front of its path.
+fn placed(problem: Problem, places: &[String]) -> Problem {
+    let index = problem.path.strip_prefix("shapes[").and_then(|rest| rest.split(']').next()?.parse::<usize>().ok());
+    match index.and_then(|index| places.get(index)) {
+        Some(place) => Problem { path: format!("{place}, {}", problem.path), ..problem },
+        None => problem,
+    }
+}
+
+/// The outlines in m, without doubled vertices and without rings that enclose nothing.
+fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mut Vec<Refusal>) -> Vec<Entity> {
+    let corner = |entity: &Entity| -> Vec<Vec2> {
+        match &entity.outline {
+            Outline::Disc { center, radius } => vec![center.add_scalar(-radius), center.add_scalar(*radius)],
+            Outline::Area { rings, .. } => {
+                rings.iter().flat_map(|ring| ring.vertices.iter().map(|v| Vec2::new(v[0], v[1]))).collect()
+            }
+        }
+    };
+    let size = scale * bounds_of_points(entities.iter().flat_map(corner)).size().max();
+    let tolerance = DOUBLED * size;
+    let mut found = Vec::with_capacity(entities.len());
+    for Entity { outline, place } in entities {
+        let is_finite = match &outline {
+            Outline::Disc { center, radius } => center.iter().chain([radius]).all(|v| (v * scale).is_finite()),
+            Outline::Area { rings, .. } => {
+                rings.iter().flat_map(|ring| ring.vertices.iter().flatten()).all(|v| (v * scale).is_finite())
+            }
+        };
+        if !is_finite {
+            let found = "a coordinate that is not a finite number".to_owned();
+            refusals.push(Refusal { place, found, expected: "finite numbers".into() });
+            continue;
+        }
+        match outline {
+            Outline::Disc { radius, .. } if !(radius * scale > tolerance) => {
+                let found = format!("a disc of radius {radius:e}");
+                refusals.push(Refusal { place, found, expected: "a radius above 0".into() });
+            }
+            Outline::Disc { center, radius } => {
+                found.push(Entity { outline: Outline::Disc { center: center * scale, radius: radius * scale }, place });
+            }
+            Outline::Area { rings, rule } => {
+                let mut kept = Vec::with_capacity(rings.len());
+                for ring in rings {
+                    let (ring, doubled) = ring.scaled(scale).without_doubled(tolerance);
+                    counts.doubled += doubled;
+                    if ring.vertices.len() >= 2 && ring.area().abs() > tolerance * ring.bounds().size().max() {
+                        kept.push(ring);
+                    } else {
+                        counts.without_area += 1;
+                    }
+                }
+                if !kept.is_empty() {
+                    found.push(Entity { outline: Outline::Area { rings: kept, rule }, place });
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The regions that the outlines fill, each entity by itself, or all together in formats without fills.
+fn grouped(entities: Vec<Entity>, format: Format, refusals: &mut Vec<Refusal>) -> Vec<(Region, String)> {
+    if format.nests_entities() {
+        return nested_entities(entities);
+    }
+    let mut found = Vec::with_capacity(entities.len());
+    for Entity { outline, place } in entities {
+        match outline {
+            Outline::Disc { center, radius } => found.push(((circle(center, radius), Vec::new()), place)),
+            Outline::Area { mut rings, .. } if rings.len() == 1 && !format.has_fill_rules() => {
+                found.extend(rings.pop().map(|ring| ((ring, Vec::new()), place)));
+            }
+            Outline::Area { rings, .. } if !format.has_fill_rules() => {
+                found.extend(regions(&rings, FillRule::EvenOdd).into_iter().map(|region| (region, place.clone())));
+            }
+            Outline::Area { rings, rule } => {
+                let size = bounds_of_points(rings.iter().flat_map(|r| [r.bounds().min, r.bounds().max])).size().max();
+                match filled(&rings, rule, DOUBLED * size) {
+                    Ok(regions) => found.extend(regions.into_iter().map(|region| (region, place.clone()))),
+                    Err(found) => refusals.push(Refusal {
+                        place,
+                        found,
+                        expected: "outlines that do not cross: unite or subtract them in the drawing program".into(),
+                    }),
+                }
+            }
+        }
+    }
+    found
+}
+
+/// All rings of a drawing without fills: those within others are holes, those within holes islands.
+fn nested_entities(entities: Vec<Entity>) -> Vec<(Region, String)> {
+    let (mut rings, mut places) = (Vec::new(), Vec::new());
+    for Entity { outline, place } in entities {
+        let own = match outline {
+            Outline::Disc { center, radius } => vec![circle(center, radius)],
+            Outline::Area { rings, .. } => rings,
+        };
+        places.extend(std::iter::repeat_n(place, own.len()));
+        rings.extend(own);
+    }
+    crate::geometry::import::nest::nested(&rings, FillRule::EvenOdd)
+        .into_iter()
+        .map(|nested| {
+            let holes = nested.holes.iter().map(|&i| rings[i].clone()).collect();
+            ((rings[nested.outer].clone(), holes), places[nested.outer].clone())
+        })
+        .collect()
+}
+
+/// A circle as a ring of two half circles.
+fn circle(center: Vec2, radius: f64) -> Ring {
+    Ring { vertices: vec![[center.x - radius, center.y, 1.0], [center.x + radius, center.y, 1.0]] }
+}
+
+/// The shape of a region: circles behind polygons and arcs behind runs of vertices are recognized where the user wants it.
+fn recognized((outer, holes): Region, format: Format, options: &Options, counts: &mut Counts) -> ShapeSpec {
+    let is_exact_circle = |ring: &Ring| ring.vertices.len() == 2;
+    let find = |ring: &Ring, counts: &mut Counts| -> Option<(Vec2, f64)> {
+        if !(options.recognizes_circles() || is_exact_circle(ring)) {
+            return None;
+        }
+        let found = recognize::circle(ring)?;
+        counts.recognized += usize::from(!is_exact_circle(ring));
+        Some(found)
+    };
+    if holes.is_empty()
+        && let Some((center, radius)) = find(&outer, counts)
+    {
+        return ShapeSpec::Disc(Disc { center: center.into(), radius });
+    }
+    let mut refine = |ring: Ring| {
+        if let Some((center, radius)) = find(&ring, counts) {
+            return circle(center, radius);
+        }
+        let below = options.smooth_below();
+        if !(format.samples_curves() && below > 0.0) {
+            return ring;
+        }
+        match smooth::smoothed(&ring, below) {
+            Some(smoothed) => {
+                counts.smooth(ring.area(), smoothed.area());
+                smoothed
+            }
+            None => ring,
+        }
+    };
+    let outer = refine(outer);
+    let holes = holes.into_iter().map(refine).collect();
+    shape_of(outer, holes)
+}
+
+/// The polygon of these rings, turned as polygons want them, with arcs where it has some.
+pub(crate) fn shape_of(outer: Ring, holes: Vec<Ring>) -> ShapeSpec {
+    let turned = |ring: Ring, ccw: bool| if (ring.area() > 0.0) == ccw { ring } else { ring.reversed() };
+    let outer = turned(outer, true);
+    let holes: Vec<Ring> = holes.into_iter().map(|hole| turned(hole, false)).collect();
+    let (position, rotation_deg) = ([0.0; 2], 0.0);
+    if outer.is_straight() && holes.iter().all(Ring::is_straight) {
+        let points = |ring: Ring| ring.vertices.into_iter().map(|[x, y, _]| [x, y]).collect();
+        let holes = holes.into_iter().map(points).collect();
+        return ShapeSpec::Polygon(Polygon { outer: points(outer), holes, position, rotation_deg });
+    }
+    let holes = holes.into_iter().map(|hole| hole.vertices).collect();
+    ShapeSpec::CurvedPolygon(CurvedPolygon { outer: outer.vertices, holes, position, rotation_deg })
+}
+
+/// The domain and where it comes from.
+fn domain(shapes: &[Placed], frame: Option<Bounds>, options: &Options) -> (Bounds, &'static str) {
+    if let Some([min, max]) = options.window {
+        return (Bounds { min: min.into(), max: max.into() }, "the window");
+    }
+    if let Some(frame) = frame {
+        return (frame, "the domain of the file");
+    }
+    let corners = shapes.iter().flat_map(|placed| corners_of(&placed.shape));
+    let around = bounds_of_points(corners);
+    (around.grown(MARGIN * around.size().max()), "the box around the shapes with a margin of a tenth")
+}
+
+/// Corners of the box around a shape of a drawing.
+fn corners_of(shape: &ShapeSpec) -> Vec<Vec2> {
+    let ring = |vertices: &[[f64; 3]]| {
+        let bounds = Ring { vertices: vertices.to_vec() }.bounds();
+        vec![bounds.min, bounds.max]
+    };
+    match shape {
+        ShapeSpec::Disc(disc) => {
+            let center = Vec2::from(disc.center);
+            vec![center.add_scalar(-disc.radius), center.add_scalar(disc.radius)]
+        }
+        ShapeSpec::Polygon(polygon) => polygon.outer.iter().map(|&p| Vec2::from(p)).collect(),
+        ShapeSpec::CurvedPolygon(polygon) => ring(&polygon.outer),
+        _ => Vec::new(),
+    }
+}

@@ -1,0 +1,242 @@
+//! From the entities of a DXF file to filled shapes: blocks expanded, layers chosen, lines put together.
+
+use std::collections::BTreeMap;
+
+use super::chain::chains;
+use super::entity::{self, CLOSING_GAP, Content, Insert};
+use super::header::{File, Layer, Record};
+use crate::geometry::import::affine::Affine;
+use crate::geometry::import::contour::{Closed, Piece, close};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal};
+use crate::geometry::import::limits::Budget;
+use crate::math::Vec2;
+
+/// Blocks within blocks.
+const DEEPEST: usize = 64;
+/// Groups that an entity may have for each item of the budget.
+const GROUPS_PER_ITEM: usize = 32;
+/// Messages after which the rest of a file is not looked at.
+const MOST_REFUSALS: usize = 20;
+
+/// The drawing of a file.
+pub fn drawing(file: &File, bytes: usize, layers: Option<&[String]>) -> Result<Drawing, Vec<Refusal>> {
+    let mut reader = Reader {
+        file,
+        layers,
+        budget: Budget::of_file(bytes),
+        inserting: Vec::new(),
+        drawing: Drawing { unit: file.unit.clone(), ..Drawing::default() },
+        open: BTreeMap::new(),
+        refusals: Vec::new(),
+        is_over: false,
+    };
+    for name in file.layers.keys() {
+        reader.drawing.layers.insert(name.clone(), 0);
+    }
+    reader.records(&file.records, &Affine::identity(), None);
+    reader.check_layers();
+    reader.join();
+    if reader.refusals.is_empty() { Ok(reader.drawing) } else { Err(reader.refusals) }
+}
+
+struct Reader<'a> {
+    file: &'a File<'a>,
+    layers: Option<&'a [String]>,
+    budget: Budget,
+    /// The blocks that are being inserted, against insertions into themselves.
+    inserting: Vec<String>,
+    drawing: Drawing,
+    /// Pieces with free ends and their places, by layer.
+    open: BTreeMap<String, Vec<(Piece, String)>>,
+    refusals: Vec<Refusal>,
+    /// Whether the rest of the file is no longer looked at.
+    is_over: bool,
+}
+
+impl Reader<'_> {
+    fn count(&mut self, kind: &str, number: usize) {
+        if number > 0 {
+            *self.drawing.unused.entry(kind.to_owned()).or_default() += number;
+        }
+    }
+
+    fn refuse(&mut self, refusal: Refusal) {
+        self.refusals.push(refusal);
+        self.is_over |= self.refusals.len() >= MOST_REFUSALS;
+    }
+
+    /// Takes from the budget; false, and told, where it is used up.
+    fn spend(&mut self, items: usize, place: impl Fn() -> String) -> bool {
+        let has_room = self.budget.spend(items);
+        if !has_room && !self.is_over {
+            let found = format!("blocks that unfold into more than {} entities and vertices", self.budget.total());
+            self.refuse(Refusal::new(place(), found, "a drawing with fewer copies of copies (INSERT)"));
+            self.is_over = true;
+        }
+        has_room
+    }
+
+    /// Reads entities; `around` is the layer of the insertion that they belong to.
+    fn records(&mut self, records: &[Record], map: &Affine, around: Option<&str>) {
+        let mut at = 0;
+        while at < records.len() && !self.is_over {
+            let record = &records[at];
+            // Long entities without vertices, as long texts, cost time alone.
+            if !self.spend(1 + record.groups.len() / GROUPS_PER_ITEM, || record.place()) {
+                return;
+            }
+            match entity::read(&records[at..]) {
+                Ok((content, taken)) => {
+                    at += taken;
+                    self.content(content, record, map, around);
+                }
+                Err(refusal) => {
+                    at += 1;
+                    let place = if refusal.place == record.place() {
+                        refusal.place
+                    } else {
+                        format!("{}, {}", refusal.place, record.place())
+                    };
+                    self.refuse(Refusal { place, ..refusal });
+                }
+            }
+        }
+    }
+
+    fn content(&mut self, content: Content, record: &Record, map: &Affine, around: Option<&str>) {
+        let flag = |code: i32| {
+            let group = record.groups.iter().find(|group| group.code == code);
+            group.and_then(|group| group.whole().ok()).is_some_and(|value| value != 0)
+        };
+        // What a block holds on layer 0 is on the layer of the insertion.
+        let own = record.layer();
+        let layer = if own == "0" { around.unwrap_or("0") } else { &own };
+        let state = self.file.layers.get(layer).copied().unwrap_or_default();
+        if flag(67) {
+            return self.count("entities in paper space", 1);
+        }
+        if flag(60) {
+            return self.count("invisible entities", 1);
+        }
+        match content {
+            Content::Unused(kind) => self.count(&kind, 1),
+            // A frozen insertion takes along what it holds on other layers, one that is off does not.
+            Content::Insert(_) if state.is_frozen && self.layers.is_none() => {
+                self.count("entities on layers that are off or frozen", 1)
+            }
+            Content::Insert(insert) => self.insert(&insert, record, map, layer),
+            Content::Contour { pieces, is_closed } => {
+                *self.drawing.layers.entry(layer.to_owned()).or_default() += 1;
+                let is_chosen = self.layers.map(|layers| layers.iter().any(|name| name == layer));
+                match (is_chosen, state) {
+                    (Some(false), _) => self.count("entities on other layers", 1),
+                    (None, Layer { is_frozen: true, .. } | Layer { is_off: true, .. }) => {
+                        self.count("entities on layers that are off or frozen", 1)
+                    }
+                    _ => self.contour(pieces, is_closed, record, (map, layer)),
+                }
+            }
+        }
+    }
+
+    fn contour(&mut self, pieces: Vec<Piece>, is_closed: bool, record: &Record, (map, layer): (&Affine, &str)) {
+        let pieces: Vec<Piece> = pieces.iter().map(|piece| piece.mapped(map)).collect();
+        if !self.spend(pieces.len(), || record.place()) {
+            return;
+        }
+        if !pieces.iter().all(Piece::is_in_range) {
+            let expected = "coordinates below 1e38 in the unit of the drawing";
+            return self.refuse(Refusal::new(record.place(), "a coordinate out of range", expected));
+        }
+        if is_closed {
+            let size = extent(&pieces);
+            self.closed(&pieces, CLOSING_GAP * size, record.place());
+        } else {
+            let open = self.open.entry(layer.to_owned()).or_default();
+            let place = record.place();
+            open.extend(pieces.into_iter().map(|piece| (piece, place.clone())));
+        }
+    }
+
+    fn closed(&mut self, pieces: &[Piece], gap: f64, place: String) {
+        let outline = match close(pieces, gap) {
+            Closed::Circle { center, radius, .. } => Outline::Disc { center, radius },
+            Closed::Ring(ring) => {
+                if !self.spend(ring.vertices.len(), || place.clone()) {
+                    return;
+                }
+                Outline::Area { rings: vec![ring], rule: FillRule::EvenOdd }
+            }
+            Closed::Empty => return self.count("outlines without area", 1),
+        };
+        self.drawing.entities.push(Entity { outline, place });
+    }
+
+    fn insert(&mut self, insert: &Insert, record: &Record, map: &Affine, layer: &str) {
+        let file = self.file;
+        let Some(block) = file.blocks.get(&insert.block) else {
+            let found = format!("the block `{}`, which is not in the file", insert.block);
+            return self.refuse(Refusal::new(
+                record.place(),
+                found,
+                "the name of a block; bind external references first",
+            ));
+        };
+        if self.inserting.contains(&insert.block) || self.inserting.len() >= DEEPEST {
+            let found = format!("the block `{}` within itself, or within {DEEPEST} others", insert.block);
+            return self.refuse(Refusal::new(record.place(), found, "blocks that end somewhere"));
+        }
+        self.inserting.push(insert.block.clone());
+        let [columns, rows] = insert.number;
+        'copies: for row in 0..rows {
+            for column in 0..columns {
+                if self.is_over || !self.spend(1, || record.place()) {
+                    break 'copies;
+                }
+                let step = insert.steps[0] * column as f64 + insert.steps[1] * row as f64;
+                let copy = Affine::translation(step).after(&insert.map).after(&Affine::translation(-block.base));
+                self.records(&block.records, &map.after(&copy), Some(layer));
+            }
+        }
+        self.inserting.pop();
+    }
+
+    fn check_layers(&mut self) {
+        let known: Vec<String> = self.drawing.layers.keys().map(|name| format!("`{name}`")).collect();
+        for layer in self.layers.unwrap_or_default() {
+            if !self.drawing.layers.contains_key(layer) {
+                let found = format!("`{layer}`, which is not in the file");
+                self.refusals.push(Refusal::new("layers", found, format!("one of {}", known.join(", "))));
+            }
+        }
+    }
+
+    /// Puts lines and arcs of each layer together.
+    fn join(&mut self) {
+        let mut branches = 0;
+        for open in std::mem::take(&mut self.open).into_values() {
+            let pieces: Vec<Piece> = open.iter().map(|(piece, _)| piece.clone()).collect();
+            let gap = CLOSING_GAP * extent(&pieces);
+            let chains = chains(&pieces, gap);
+            for (first, ring) in chains.rings {
+                self.closed(&ring, gap, open[first].1.clone());
+            }
+            self.count("open lines", chains.open);
+            self.count("lines drawn twice", chains.doubled);
+            branches += chains.branches;
+        }
+        if branches > 0 {
+            self.drawing.notes.push(format!(
+                "At {branches} points more than two lines meet; rings there follow the order of the file and may be others than meant."
+            ));
+        }
+    }
+}
+
+/// The diagonal of the box around ends and middles of pieces.
+fn extent(pieces: &[Piece]) -> f64 {
+    let mut points = pieces.iter().flat_map(|piece| piece.ends().into_iter().chain([piece.middle()]));
+    let Some(first): Option<Vec2> = points.next() else { return 0.0 };
+    let (low, high) = points.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)));
+    (high - low).norm()
+}

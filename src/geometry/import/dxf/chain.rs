@@ -1,0 +1,165 @@
+//! Lines and arcs that meet at their ends, put together to closed rings.
+//!
+//! Ends within a gap are one point. Pieces drawn twice count once. What leads to a dead end is open. Where more than two pieces meet,
+//! they are followed in the order of the file.
+
+use std::collections::BTreeMap;
+
+use crate::geometry::import::contour::Piece;
+use crate::math::Vec2;
+
+/// What became of the pieces.
+#[derive(Debug, Default)]
+pub struct Chains {
+    /// Rings, each by its pieces in order, all run through the same way, with the index of its first piece.
+    pub rings: Vec<(usize, Vec<Piece>)>,
+    /// Pieces that belong to no ring.
+    pub open: usize,
+    /// Pieces that lie on another one.
+    pub doubled: usize,
+    /// Points where more than two pieces meet.
+    pub branches: usize,
+}
+
+/// Points that are the same within a gap, numbered in the order in which they come.
+struct Nodes {
+    gap: f64,
+    points: Vec<Vec2>,
+    cells: BTreeMap<[i64; 2], Vec<usize>>,
+}
+
+impl Nodes {
+    fn new(gap: f64) -> Self {
+        // Any positive width keeps equal points together where all lie in one.
+        Self { gap: gap.max(f64::MIN_POSITIVE), points: Vec::new(), cells: BTreeMap::new() }
+    }
+
+    fn number(&mut self, x: Vec2) -> usize {
+        // Cells of twice the gap: a point within it lies in the same cell or in one beside it. The cast saturates.
+        let cell = |v: f64| (v / (2.0 * self.gap)).floor() as i64;
+        let [i, j] = [cell(x.x), cell(x.y)];
+        for di in -1..=1 {
+            for dj in -1..=1 {
+                let near = self.cells.get(&[i.saturating_add(di), j.saturating_add(dj)]);
+                let same = near.into_iter().flatten().find(|&&node| (self.points[node] - x).norm() <= self.gap);
+                if let Some(&node) = same {
+                    return node;
+                }
+            }
+        }
+        self.points.push(x);
+        self.cells.entry([i, j]).or_default().push(self.points.len() - 1);
+        self.points.len() - 1
+    }
+}
+
+/// The chains of pieces; ends within `gap` meet.
+pub fn chains(pieces: &[Piece], gap: f64) -> Chains {
+    let mut chains = Chains::default();
+    let mut nodes = Nodes::new(gap);
+    let mut middles = Nodes::new(gap);
+    let mut seen = BTreeMap::new();
+    // The ends of each piece that takes part.
+    let mut ends: Vec<Option<[usize; 2]>> = Vec::with_capacity(pieces.len());
+    for piece in pieces {
+        let [a, b] = piece.ends().map(|end| nodes.number(end));
+        let is_new = seen.insert([a.min(b), a.max(b), middles.number(piece.middle())], ()).is_none();
+        chains.doubled += usize::from(!is_new);
+        chains.open += usize::from(is_new && a == b);
+        ends.push((is_new && a != b).then_some([a, b]));
+    }
+    let mut at_node: Vec<Vec<usize>> = vec![Vec::new(); nodes.points.len()];
+    for (piece, [a, b]) in ends.iter().enumerate().filter_map(|(piece, ends)| Some((piece, (*ends)?))) {
+        at_node[a].push(piece);
+        at_node[b].push(piece);
+    }
+    chains.open += prune(&mut ends, &at_node);
+    chains.branches =
+        at_node.iter().filter(|here| here.iter().filter(|&&piece| ends[piece].is_some()).count() > 2).count();
+    let mut cursor = vec![0; at_node.len()];
+    for first in 0..pieces.len() {
+        let Some([start, mut at]) = ends[first].take() else { continue };
+        let mut ring = vec![pieces[first].clone()];
+        while at != start {
+            // Pieces before the cursor are used up.
+            while at_node[at].get(cursor[at]).is_some_and(|&piece| ends[piece].is_none()) {
+                cursor[at] += 1;
+            }
+            let Some(&piece) = at_node[at].get(cursor[at]) else { break };
+            let Some([a, b]) = ends[piece].take() else { break };
+            ring.push(if a == at { pieces[piece].clone() } else { pieces[piece].reversed() });
+            at = if a == at { b } else { a };
+        }
+        if at == start {
+            chains.rings.push((first, ring));
+        } else {
+            chains.open += ring.len();
+        }
+    }
+    chains
+}
+
+/// Takes out pieces with a free end until there are none; how many they were.
+fn prune(ends: &mut [Option<[usize; 2]>], at_node: &[Vec<usize>]) -> usize {
+    let mut degree: Vec<usize> = at_node.iter().map(Vec::len).collect();
+    let mut free: Vec<usize> = (0..degree.len()).filter(|&node| degree[node] == 1).collect();
+    let mut number = 0;
+    while let Some(node) = free.pop() {
+        for &piece in &at_node[node] {
+            let Some([a, b]) = ends[piece].take_if(|_| degree[node] == 1) else { continue };
+            number += 1;
+            for end in [a, b] {
+                degree[end] -= 1;
+                if degree[end] == 1 {
+                    free.push(end);
+                }
+            }
+        }
+    }
+    number
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(a: [f64; 2], b: [f64; 2]) -> Piece {
+        Piece::Line([a.into(), b.into()])
+    }
+
+    #[test]
+    fn lines_in_any_order_and_direction_close_to_a_ring_and_the_rest_is_counted() {
+        let pieces = [
+            line([0.0, 0.0], [1.0, 0.0]),
+            line([1.0, 1.0], [1.0, 1e-9]),
+            line([1.0, 1.0], [0.0, 1.0]),
+            line([0.0, 0.0], [0.0, 1.0]),
+            // Twice the same, backwards; a tail of two; one far away.
+            line([1.0, 0.0], [0.0, 0.0]),
+            line([1.0, 1.0], [2.0, 2.0]),
+            line([2.0, 2.0], [3.0, 2.0]),
+            line([8.0, 8.0], [9.0, 8.0]),
+        ];
+        let chains = chains(&pieces, 1e-6);
+        assert_eq!((chains.rings.len(), chains.open, chains.doubled, chains.branches), (1, 3, 1, 0));
+        let (first, ring) = &chains.rings[0];
+        assert_eq!((*first, ring.len()), (0, 4));
+        for (piece, next) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+            assert!((piece.ends()[1] - next.ends()[0]).norm() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn rings_that_touch_in_a_point_stay_two_and_are_told() {
+        let triangle = |s: f64| [line([0.0, 0.0], [s, 0.0]), line([s, 0.0], [s, s]), line([s, s], [0.0, 0.0])];
+        let chains = chains(&[triangle(1.0), triangle(-1.0)].concat(), 1e-6);
+        assert_eq!((chains.rings.len(), chains.open, chains.branches), (2, 0, 1));
+    }
+
+    #[test]
+    fn a_long_tail_is_pruned_without_recursion() {
+        let pieces: Vec<Piece> = (0..10_000).map(|i| line([f64::from(i), 0.0], [f64::from(i + 1), 0.0])).collect();
+        let chains = chains(&pieces, 1e-6);
+        assert_eq!((chains.rings.len(), chains.open), (0, 10_000));
+    }
+}

@@ -1,0 +1,26 @@
+//! DXF drawings: closed outlines of model space as circles and rings of segments and arcs, blocks expanded.
+//!
+//! Source: Autodesk, DXF Reference (group codes; object coordinate systems by the arbitrary axis algorithm). Text and binary files of
+//! all releases. Each closed ring is an area of its own: DXF outlines have no fill, what lies within what is decided later. What is left
+//! out, and counted: HATCH, text, dimensions, points, solids in space, paper space, and lines that close to no ring.
+//!
+//! The groups are read here and not by the crate `dxf`: that one ends a section without a word at the first value that it cannot read,
+//! drops HATCH and MPOLYGON, and nests without a limit.
+
+mod block;
+mod chain;
+mod entity;
+mod group;
+mod header;
+
+use super::drawing::{Drawing, Refusal};
+
+/// Reads a drawing. With `layers`, only entities on these.
+pub fn read(bytes: &[u8], layers: Option<&[String]>) -> Result<Drawing, Vec<Refusal>> {
+    let groups = group::groups(bytes).map_err(|refusal| vec![refusal])?;
+    let file = header::File::of(&groups).map_err(|refusal| vec![refusal])?;
+    block::drawing(&file, bytes.len(), layers)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,153 @@
+//! What a set of rings fills where they cross: their union by the fill rule, for straight edges by the boolean operations of crate `geo`.
+//!
+//! Those work on integers inside, so that rings that do not cross are not sent there and keep every bit.
+
+use geo::algorithm::bool_ops::{self, BooleanOps, OpType};
+use geo::{Area, LineString, MultiPolygon, Polygon};
+
+use crate::geometry::body::bulged_ring;
+use crate::geometry::curve::Curve;
+use crate::geometry::import::drawing::{FillRule, Ring};
+use crate::geometry::import::nest::nested;
+use crate::geometry::intersect::meeting_places;
+use crate::math::{Bounds, Vec2};
+
+/// An outer ring with its holes.
+pub(crate) type Region = (Ring, Vec<Ring>);
+
+/// The regions that rings fill which may cross each other and themselves.
+///
+/// # Errors
+/// A message where arcs cross and no union says what is filled.
+pub(crate) fn filled(rings: &[Ring], rule: FillRule, tolerance: f64) -> Result<Vec<Region>, String> {
+    let Some((ring, at)) = crossing(rings, tolerance) else { return Ok(regions(rings, rule)) };
+    if rings.iter().all(Ring::is_straight) {
+        return united(rings, rule);
+    }
+    let turns_alike = rings.iter().all(|r| (r.area() > 0.0) == (rings[0].area() > 0.0));
+    let each_is_simple = rings.iter().all(|r| crossing(std::slice::from_ref(r), tolerance).is_none());
+    if rule == FillRule::NonZero && turns_alike && each_is_simple {
+        // Shapes of a file are united later, arcs and all.
+        return Ok(rings.iter().map(|ring| (ring.clone(), Vec::new())).collect());
+    }
+    Err(format!("curved outlines that cross: ring {ring} at ({:e}, {:e})", at.x, at.y))
+}
+
+/// The regions of rings that do not cross.
+pub(crate) fn regions(rings: &[Ring], rule: FillRule) -> Vec<Region> {
+    let take = |i: usize| rings[i].clone();
+    nested(rings, rule).into_iter().map(|n| (take(n.outer), n.holes.into_iter().map(take).collect())).collect()
+}
+
+/// The first edge, by ring, that meets another one away from a shared vertex.
+fn crossing(rings: &[Ring], tolerance: f64) -> Option<(usize, Vec2)> {
+    struct Edge {
+        ring: usize,
+        number: usize,
+        curve: Curve,
+        bounds: Bounds,
+    }
+    let mut edges: Vec<Edge> = Vec::new();
+    for (ring, one) in rings.iter().enumerate() {
+        edges.extend(bulged_ring(&one.vertices).enumerate().map(|(number, curve)| Edge {
+            ring,
+            number,
+            curve,
+            bounds: curve.bounds().grown(tolerance),
+        }));
+    }
+    edges.sort_by(|a, b| a.bounds.min.x.total_cmp(&b.bounds.min.x).then((a.ring, a.number).cmp(&(b.ring, b.number))));
+    let mut found: Option<(usize, usize, Vec2)> = None;
+    for (i, a) in edges.iter().enumerate() {
+        let near = edges[i + 1..].iter().take_while(|b| b.bounds.min.x <= a.bounds.max.x);
+        for b in near.filter(|b| a.bounds.min.y <= b.bounds.max.y && b.bounds.min.y <= a.bounds.max.y) {
+            let count = rings[a.ring].vertices.len();
+            let are_neighbors = a.ring == b.ring && [1, count - 1].contains(&a.number.abs_diff(b.number));
+            if are_neighbors {
+                continue;
+            }
+            for (one, other) in [(a, b), (b, a)] {
+                let mut places = Vec::new();
+                meeting_places(&one.curve, &other.curve, tolerance, &mut places);
+                let end = tolerance / one.curve.length();
+                if let Some(&u) = places.iter().find(|u| end < **u && **u < 1.0 - end) {
+                    let here = (one.ring, one.number, one.curve.point(u));
+                    if found.is_none_or(|known| (here.0, here.1) < (known.0, known.1)) {
+                        found = Some(here);
+                    }
+                }
+            }
+        }
+    }
+    found.map(|(ring, _, at)| (ring, at))
+}
+
+/// The union of straight rings.
+fn united(rings: &[Ring], rule: FillRule) -> Result<Vec<Region>, String> {
+    let line = |ring: &Ring| LineString::from(ring.vertices.iter().map(|v| (v[0], v[1])).collect::<Vec<_>>());
+    let all = MultiPolygon::new(rings.iter().map(|ring| Polygon::new(line(ring), Vec::new())).collect());
+    let rule = match rule {
+        FillRule::EvenOdd => bool_ops::FillRule::EvenOdd,
+        FillRule::NonZero => bool_ops::FillRule::NonZero,
+    };
+    let union = all.boolean_op_with_fill_rule(&MultiPolygon::<f64>::new(Vec::new()), OpType::Union, rule);
+    let (area, most) = (union.unsigned_area(), rings.iter().map(|ring| bounding_area(ring)).sum::<f64>());
+    // Integers inside: what they make of coordinates must not be more than there was.
+    if !(area.is_finite() && area <= most * (1.0 + 1e-9)) {
+        return Err(format!("outlines that cross, whose union comes out with the area {area:e}"));
+    }
+    let ring = |line: &LineString<f64>| {
+        let closed: Vec<_> = line.coords().collect();
+        Ring { vertices: closed.iter().take(closed.len().saturating_sub(1)).map(|c| [c.x, c.y, 0.0]).collect() }
+    };
+    Ok(union.iter().map(|p| (ring(p.exterior()), p.interiors().iter().map(ring).collect())).collect())
+}
+
+fn bounding_area(ring: &Ring) -> f64 {
+    ring.bounds().area()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(x: f64, y: f64) -> Ring {
+        Ring { vertices: vec![[x, y, 0.0], [x + 2.0, y, 0.0], [x + 2.0, y + 2.0, 0.0], [x, y + 2.0, 0.0]] }
+    }
+
+    fn area(regions: &[Region]) -> f64 {
+        regions.iter().map(|(o, h)| o.area().abs() - h.iter().map(|h| h.area().abs()).sum::<f64>()).sum()
+    }
+
+    #[test]
+    fn crossing_squares_fill_their_union_or_leave_out_what_both_cover() {
+        let rings = [square(0.0, 0.0), square(1.0, 1.0)];
+        let of = |rule| area(&filled(&rings, rule, 1e-9).unwrap());
+        assert!((of(FillRule::NonZero) - 7.0).abs() < 1e-7);
+        assert!((of(FillRule::EvenOdd) - 6.0).abs() < 1e-7);
+    }
+
+    #[test]
+    fn a_pentagram_has_a_hole_by_one_rule_only() {
+        let point = |k: i32| crate::geometry::curve::unit(std::f64::consts::TAU * 0.4 * f64::from(k));
+        let star = Ring { vertices: (0..5).map(|k| [point(k).x, point(k).y, 0.0]).collect() };
+        let of = |rule| area(&filled(std::slice::from_ref(&star), rule, 1e-9).unwrap());
+        // The inner pentagon of the star of circumradius 1 has the circumradius cos 72°/cos 36°.
+        let inner = (72_f64.to_radians().cos() / 36_f64.to_radians().cos()).powi(2) * 2.5 * 72_f64.to_radians().sin();
+        assert!((of(FillRule::NonZero) - of(FillRule::EvenOdd) - inner).abs() < 1e-7);
+    }
+
+    #[test]
+    fn rings_that_do_not_cross_keep_every_bit() {
+        let rings = [square(0.1, 0.3), square(3.7, 0.0)];
+        assert_eq!(filled(&rings, FillRule::EvenOdd, 1e-9).unwrap()[1].0, rings[1]);
+    }
+
+    #[test]
+    fn crossing_circles_are_united_and_not_taken_apart() {
+        let disc = |x: f64| Ring { vertices: vec![[x, 0.0, 1.0], [x + 2.0, 0.0, 1.0]] };
+        let rings = [disc(0.0), disc(1.0)];
+        assert_eq!(filled(&rings, FillRule::NonZero, 1e-9).unwrap().len(), 2);
+        assert!(filled(&rings, FillRule::EvenOdd, 1e-9).unwrap_err().contains("cross"));
+    }
+}

@@ -1,0 +1,153 @@
+//! GeoJSON: polygons, multipolygons and collections of these; points with a property `radius` are discs.
+//!
+//! RFC 7946 gives coordinates in degrees of longitude and latitude. A pore is not measured in degrees: the unit must be said, and what
+//! names another coordinate reference system is told.
+
+use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
+
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal};
+use crate::geometry::import::rings;
+use crate::geometry::import::text::quoted;
+use crate::math::Vec2;
+
+const EXPECTED: &str = "a FeatureCollection, a Feature or a geometry with polygons, or points with a property `radius`";
+
+/// Reads GeoJSON.
+pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
+    let mut reader = Reader::default();
+    match text.parse::<GeoJson>() {
+        Err(reason) => reader.refuse("file", quoted(text.trim()), format!("{EXPECTED} ({reason})")),
+        Ok(GeoJson::Geometry(geometry)) => reader.geometry(&geometry, "geometry", None),
+        Ok(GeoJson::Feature(feature)) => reader.feature(&feature, 1),
+        Ok(GeoJson::FeatureCollection(collection)) => {
+            for (feature, number) in collection.features.iter().zip(1..) {
+                reader.feature(feature, number);
+            }
+            if let Some(system) = collection.foreign_members.as_ref().and_then(|members| members.get("crs")) {
+                let name = system.pointer("/properties/name").and_then(|name| name.as_str()).unwrap_or("without name");
+                reader.drawing.notes.push(format!("the file names the coordinate reference system {name}"));
+            }
+        }
+    }
+    if reader.bad.is_empty() && reader.drawing.entities.is_empty() {
+        reader.refuse("file", "no polygon at all".into(), EXPECTED.into());
+    }
+    if reader.bad.is_empty() { Ok(reader.drawing) } else { Err(reader.bad) }
+}
+
+#[derive(Default)]
+struct Reader {
+    drawing: Drawing,
+    bad: Vec<Refusal>,
+}
+
+impl Reader {
+    fn refuse(&mut self, place: &str, found: String, expected: String) {
+        self.bad.push(Refusal { place: place.into(), found, expected });
+    }
+
+    fn feature(&mut self, feature: &Feature, number: usize) {
+        let place = format!("feature {number}");
+        match &feature.geometry {
+            Some(geometry) => self.geometry(geometry, &place, feature.property("radius")),
+            None => self.count("features without geometry", 1),
+        }
+    }
+
+    fn count(&mut self, kind: &str, number: usize) {
+        *self.drawing.unused.entry(kind.to_owned()).or_default() += number;
+    }
+
+    fn geometry(&mut self, geometry: &Geometry, place: &str, radius: Option<&serde_json::Value>) {
+        match &geometry.value {
+            GeometryValue::Polygon { coordinates } => self.polygon(coordinates, place),
+            GeometryValue::MultiPolygon { coordinates } => {
+                for polygon in coordinates {
+                    self.polygon(polygon, place);
+                }
+            }
+            GeometryValue::GeometryCollection { geometries } => {
+                for one in geometries {
+                    self.geometry(one, place, radius);
+                }
+            }
+            GeometryValue::Point { coordinates } => self.points(std::slice::from_ref(coordinates), place, radius),
+            GeometryValue::MultiPoint { coordinates } => self.points(coordinates, place, radius),
+            GeometryValue::LineString { .. } => self.count("lines", 1),
+            GeometryValue::MultiLineString { coordinates } => self.count("lines", coordinates.len()),
+        }
+    }
+
+    fn points(&mut self, points: &[Position], place: &str, radius: Option<&serde_json::Value>) {
+        let Some(value) = radius else { return self.count("points", points.len()) };
+        let Some(radius) = value.as_f64().filter(|radius| radius.is_finite() && *radius > 0.0) else {
+            return self.refuse(place, format!("the radius {value}"), "a radius above 0".into());
+        };
+        for point in points {
+            match xy(point) {
+                Some([x, y]) => {
+                    let outline = Outline::Disc { center: Vec2::new(x, y), radius };
+                    self.drawing.entities.push(Entity { outline, place: place.into() });
+                }
+                None => self.refuse(place, "a point without x and y".into(), "[x, y]".into()),
+            }
+        }
+    }
+
+    fn polygon(&mut self, coordinates: &[Vec<Position>], place: &str) {
+        let mut found = Vec::new();
+        for (k, ring) in coordinates.iter().enumerate() {
+            let points: Option<Vec<[f64; 2]>> = ring.iter().map(xy).collect();
+            let Some(points) = points else {
+                self.refuse(place, format!("ring {k}: a point without x and y"), "points [x, y]".into());
+                continue;
+            };
+            match rings::of_closed_line(&points) {
+                Ok(ring) => found.push(ring),
+                Err(refused) => self.refuse(place, format!("ring {k}: {}", refused.found), refused.expected),
+            }
+        }
+        if !found.is_empty() {
+            let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
+            self.drawing.entities.push(Entity { outline, place: place.into() });
+        }
+    }
+}
+
+fn xy(position: &Position) -> Option<[f64; 2]> {
+    match *position.as_slice() {
+        [x, y, ..] => Some([x, y]),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polygons_points_with_a_radius_and_collections_are_read() {
+        let text = r#"{"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"radius": 2}, "geometry": {"type": "Point", "coordinates": [1, 5]}},
+            {"type": "Feature", "properties": null, "geometry": {"type": "GeometryCollection", "geometries": [
+                {"type": "Polygon", "coordinates": [[[0, 0], [1, 0, 7], [0, 1], [0, 0]]]},
+                {"type": "Point", "coordinates": [1, 1]}, {"type": "LineString", "coordinates": [[1, 1], [2, 2]]}]}}]}"#;
+        let drawing = read(text).unwrap();
+        assert_eq!(drawing.entities[0].outline, Outline::Disc { center: Vec2::new(1.0, 5.0), radius: 2.0 });
+        assert_eq!(drawing.entities[1].place, "feature 2");
+        assert_eq!((drawing.unused["points"], drawing.unused["lines"]), (1, 1));
+    }
+
+    #[test]
+    fn what_cannot_be_a_shape_is_refused_with_its_feature() {
+        let of = |geometry: &str| {
+            read(&format!(r#"{{"type": "Feature", "properties": {{"radius": -1}}, "geometry": {geometry}}}"#))
+                .unwrap_err()
+        };
+        let ring = of(r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 1]]]}"#);
+        assert!(ring[0].place == "feature 1" && ring[0].expected.contains("first point"), "{}", ring[0]);
+        assert!(of(r#"{"type": "Point", "coordinates": [1, 2]}"#)[0].found.contains("-1"));
+        assert!(read("{}").is_err() && read("[1, 2").is_err());
+        assert!(read(&format!("{}1", "[".repeat(100_000))).is_err(), "a deep file must not exhaust the stack");
+    }
+}

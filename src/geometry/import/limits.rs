@@ -1,0 +1,66 @@
+//! What keeps a small file from becoming a huge drawing: copies of copies, declared counts, coordinates out of all bounds.
+
+use crate::math::Vec2;
+
+/// The largest coordinate in size, in any unit: a hundred times the diameter of the observable universe in nm. Its square is still a
+/// number, so that no length derived from it overflows.
+const LARGEST_COORDINATE: f64 = 1e38;
+/// Items that a file of any size may hold; each takes about 100 bytes.
+const FREE_ITEMS: usize = 500_000;
+
+/// How many more items, shapes and vertices alike, a file may unfold into.
+#[derive(Debug)]
+pub struct Budget {
+    left: usize,
+    total: usize,
+}
+
+impl Budget {
+    /// The budget of a file of `bytes` bytes: 500,000 items and one more for each byte.
+    pub fn of_file(bytes: usize) -> Self {
+        let total = FREE_ITEMS.saturating_add(bytes);
+        Self { left: total, total }
+    }
+
+    /// Takes `items` away; false once there are not that many.
+    pub fn spend(&mut self, items: usize) -> bool {
+        match self.left.checked_sub(items) {
+            Some(left) => {
+                self.left = left;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// All items that the file could unfold into.
+    pub fn total(&self) -> usize {
+        self.total
+    }
+}
+
+/// Whether a point can be computed with.
+pub fn is_in_range(x: Vec2) -> bool {
+    x.x.abs() <= LARGEST_COORDINATE && x.y.abs() <= LARGEST_COORDINATE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_budget_is_spent_to_its_end_and_not_beyond() {
+        let mut budget = Budget::of_file(10);
+        assert_eq!(budget.total(), FREE_ITEMS + 10);
+        assert!(budget.spend(FREE_ITEMS) && budget.spend(10));
+        assert!(!budget.spend(1) && budget.spend(0));
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_out_of_range() {
+        assert!(is_in_range(Vec2::new(1e38, -1e38)));
+        for bad in [f64::NAN, f64::INFINITY, 1e39] {
+            assert!(!is_in_range(Vec2::new(bad, 0.0)) && !is_in_range(Vec2::new(0.0, bad)));
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Lists of discs: `x y r` per line, separated by spaces, tabs, commas or semicolons; one header line is allowed.
+//!
+//! `columns` picks x, y and radius out of longer lines, and `separator` names the one character that separates them, so that empty
+//! columns and names with spaces keep their places.
+
+use crate::geometry::import::drawing::{Drawing, Entity, Outline, Refusal};
+use crate::geometry::import::options::Options;
+use crate::geometry::import::text::{Lines, place, words};
+use crate::math::Vec2;
+
+const EXPECTED: &str = "three numbers `x y r`, the radius above 0, separated by spaces, tabs, commas or semicolons";
+
+/// Reads the text of a list of discs.
+pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal>> {
+    let (mut drawing, mut lines) = (Drawing::default(), Lines::default());
+    let mut may_be_header = true;
+    for (line, row) in (1..).zip(text.lines()) {
+        if lines.take_comment(line, row.trim()) {
+            continue;
+        }
+        let data = row.split('#').next().unwrap_or_default();
+        if words(data).next().is_none() {
+            continue;
+        }
+        let columns = Columns::of(data, options);
+        let is_header = may_be_header && columns.are_words();
+        may_be_header = false;
+        if is_header {
+            continue;
+        }
+        match columns.disc() {
+            Some(outline) => drawing.entities.push(Entity { outline, place: place(line) }),
+            None => lines.refuse(line, row.trim(), expected(options)),
+        }
+    }
+    if lines.bad.is_empty() && drawing.entities.is_empty() {
+        lines.bad.push(Refusal { place: place(1), found: "no disc at all".to_owned(), expected: EXPECTED.to_owned() });
+    }
+    drawing.frame = lines.domain;
+    if lines.bad.is_empty() { Ok(drawing) } else { Err(lines.bad) }
+}
+
+/// The columns of a line that hold x, y and radius; `None` where the line has others beside the three and nobody picks.
+struct Columns<'t>(Option<[&'t str; 3]>);
+
+impl<'t> Columns<'t> {
+    fn of(data: &'t str, options: &Options) -> Self {
+        let all: Vec<&str> = match options.separator {
+            Some(separator) => data.split(separator).map(str::trim).collect(),
+            None => words(data).collect(),
+        };
+        match options.columns {
+            Some([x, y, r]) => Self(all.get(x).zip(all.get(y)).zip(all.get(r)).map(|((x, y), r)| [*x, *y, *r])),
+            None => Self(all.try_into().ok()),
+        }
+    }
+
+    fn are_words(&self) -> bool {
+        self.0.is_some_and(|columns| columns.iter().all(|word| word.parse::<f64>().is_err()))
+    }
+
+    fn disc(&self) -> Option<Outline> {
+        let numbers: Vec<f64> = self.0?.iter().map(|word| word.parse()).collect::<Result<_, _>>().ok()?;
+        let [x, y, radius] = numbers.try_into().ok()?;
+        let is_good = [x, y, radius].iter().all(|v: &f64| v.is_finite()) && radius > 0.0;
+        is_good.then_some(Outline::Disc { center: Vec2::new(x, y), radius })
+    }
+}
+
+fn expected(options: &Options) -> String {
+    match options.columns {
+        Some([x, y, r]) => format!("numbers x, y and r > 0 in the columns {x}, {y} and {r}, the first one being 0"),
+        None => format!("{EXPECTED}; of longer lines `columns` picks three"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Drawing, Vec<Refusal>> {
+        read(text, &Options::default())
+    }
+
+    #[test]
+    fn all_separators_a_header_and_comments_are_read() {
+        let drawing = parse("x,y,r\n# a comment\n0 0 1 # first\n3,0,1\n\t0;3;\t1\n").unwrap();
+        assert_eq!(drawing.entities.len(), 3);
+        assert_eq!(drawing.entities[0].place, "line 3");
+    }
+
+    #[test]
+    fn a_domain_comment_sets_the_domain() {
+        let frame = parse("# domain -5 -6 7 8\n0 0 1\n").unwrap().frame.unwrap();
+        assert_eq!((frame.min, frame.max), (Vec2::new(-5.0, -6.0), Vec2::new(7.0, 8.0)));
+    }
+
+    #[test]
+    fn all_bad_lines_are_named_at_once_with_their_text() {
+        let bad = parse("0 0 1\n1 2\n1 2 -3\n1 2 x\nnan 0 1\n").unwrap_err();
+        assert_eq!(bad.iter().map(|b| b.place.as_str()).collect::<Vec<_>>(), ["line 2", "line 3", "line 4", "line 5"]);
+        assert_eq!(bad[2].found, "`1 2 x`");
+    }
+
+    #[test]
+    fn an_empty_list_is_refused() {
+        assert_eq!(parse("# nothing\n").unwrap_err().len(), 1);
+    }
+
+    #[test]
+    fn columns_are_picked_from_longer_lines_with_a_separator_of_their_own() {
+        let options = Options { columns: Some([3, 1, 2]), separator: Some('|'), ..Options::default() };
+        let drawing = read("name|y|r|x\npost a|2|0.5|1\n|4|0.25|3\n", &options).unwrap();
+        let outlines: Vec<_> = drawing.entities.into_iter().map(|entity| entity.outline).collect();
+        let disc = |x, y, radius| Outline::Disc { center: Vec2::new(x, y), radius };
+        assert_eq!(outlines, [disc(1.0, 2.0, 0.5), disc(3.0, 4.0, 0.25)]);
+        let bad = read("a|b|1|2\n", &Options { columns: Some([0, 2, 9]), ..options }).unwrap_err();
+        assert!(bad[0].expected.contains("columns 0, 2 and 9"), "{}", bad[0]);
+    }
+}

@@ -1,0 +1,140 @@
+//! A smooth curve as few arcs: pairs of arcs with a common tangent (biarcs) through chosen points.
+
+use super::super::drawing::Ring;
+use crate::geometry::curve::{Curve, cross};
+use crate::math::{Vec2, perpendicular};
+
+/// Arcs stay this near to the smooth curve, over the root mean square of the noise: they add nothing to it that is seen.
+const TOLERANCE: f64 = 0.5;
+
+/// A vertex of a chain of arcs: position, bulge of the arc that begins there, and the tangent there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Vertex {
+    pub point: Vec2,
+    pub bulge: f64,
+    pub tangent: Vec2,
+}
+
+/// The two arcs between two points with given tangents, as the joint and both bulges; none where they turn by more than a half turn.
+fn biarc((p, t): (Vec2, Vec2), (q, s): (Vec2, Vec2)) -> Option<(Vec2, f64, f64)> {
+    let (v, sum, bend) = (q - p, t + s, 2.0 * (1.0 - t.dot(&s)));
+    let along = v.dot(&sum);
+    // The positive root of bend d² + 2 along d = v², written so that it holds for parallel tangents.
+    let reach = v.norm_squared() / (along + (along * along + bend * v.norm_squared()).sqrt());
+    if !(reach > 0.0 && reach.is_finite()) {
+        return None;
+    }
+    let joint = 0.5 * (p + t * reach + q - s * reach);
+    let (first, last) = (joint - p, q - joint);
+    // Between a tangent and the chord lies half of the angle of the arc.
+    let from = cross(t, first).atan2(t.dot(&first));
+    let to = cross(last, s).atan2(last.dot(&s));
+    let is_small = from.abs().max(to.abs()) < std::f64::consts::FRAC_PI_4;
+    is_small.then(|| (joint, (0.5 * from).tan(), (0.5 * to).tan()))
+}
+
+/// Few arcs through the points, near to all of them as the `noise` (rms, in pixels) allows. Closed: the last arc ends in the first
+/// vertex. Open: the last vertex ends the line and has no arc.
+pub(super) fn arcs((points, tangents): (&[Vec2], &[Vec2]), is_closed: bool, noise: f64) -> Vec<Vertex> {
+    let n = points.len();
+    let last = if is_closed { n } else { n - 1 };
+    let at = |k: usize| (points[k % n], tangents[k % n]);
+    let fits = |i: usize, j: usize| {
+        if j == i + 1 {
+            return true;
+        }
+        let Some((joint, a, b)) = biarc(at(i), at(j)) else { return false };
+        let (first, second) = (Curve::from_bulge(at(i).0, joint, a), Curve::from_bulge(joint, at(j).0, b));
+        let across = second.tangent(0.0);
+        (i + 1..j).all(|k| {
+            let x = at(k).0;
+            let curve = if (x - joint).dot(&across) < 0.0 { &first } else { &second };
+            (curve.project(x).point - x).norm() <= TOLERANCE * noise
+        })
+    };
+    let mut vertices = Vec::new();
+    let mut i = 0;
+    while i < last {
+        // Double the span while it fits, then halve between the last that fits and the first that does not.
+        let (mut good, mut bad) = (i + 1, i + 2);
+        while bad <= last && fits(i, bad) {
+            (good, bad) = (bad, i + 2 * (bad - i));
+        }
+        let mut bad = bad.min(last + 1);
+        while bad - good > 1 {
+            let middle = good + (bad - good) / 2;
+            if fits(i, middle) {
+                good = middle;
+            } else {
+                bad = middle;
+            }
+        }
+        match biarc(at(i), at(good)) {
+            Some((joint, a, b)) => {
+                let tangent = Curve::from_bulge(joint, at(good).0, b).tangent(0.0);
+                vertices.push(Vertex { point: at(i).0, bulge: a, tangent: at(i).1 });
+                vertices.push(Vertex { point: joint, bulge: b, tangent });
+            }
+            None => vertices.push(Vertex { point: at(i).0, bulge: 0.0, tangent: at(i).1 }),
+        }
+        i = good;
+    }
+    if !is_closed {
+        vertices.push(Vertex { point: at(last).0, bulge: 0.0, tangent: at(last).1 });
+    }
+    vertices
+}
+
+/// The curves of a chain of vertices.
+fn curves(vertices: &[Vertex], is_closed: bool) -> impl Iterator<Item = Curve> {
+    let n = vertices.len();
+    (0..if is_closed { n } else { n.saturating_sub(1) })
+        .filter(move |&i| vertices[i].point != vertices[(i + 1) % n].point)
+        .map(move |i| Curve::from_bulge(vertices[i].point, vertices[(i + 1) % n].point, vertices[i].bulge))
+}
+
+/// ½ ∫ (x dy − y dx) about the origin: of a closed chain its area.
+pub(super) fn area(vertices: &[Vertex], is_closed: bool) -> f64 {
+    curves(vertices, is_closed).map(|curve| curve.area_about(Vec2::zeros())).sum()
+}
+
+/// The length of a chain.
+pub(super) fn length(vertices: &[Vertex], is_closed: bool) -> f64 {
+    curves(vertices, is_closed).map(|curve| curve.length()).sum()
+}
+
+/// Moves a chain of arcs out of the solid: arcs about the same centers.
+pub(super) fn move_out(vertices: &mut [Vertex], by: f64) {
+    for vertex in vertices {
+        vertex.point -= perpendicular(vertex.tangent) * by;
+    }
+}
+
+/// The chain as a ring of a drawing.
+pub(super) fn ring(vertices: &[Vertex]) -> Ring {
+    Ring { vertices: vertices.iter().map(|v| [v.point.x, v.point.y, v.bulge]).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::curve::unit;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn points_of_an_ellipse_become_few_arcs_that_keep_near_and_keep_the_area() {
+        let (a, b, count, noise) = (40.0, 25.0, 300, 0.1);
+        let at = |k: usize| TAU * k as f64 / count as f64;
+        let points: Vec<Vec2> = (0..count).map(|k| unit(at(k)).component_mul(&Vec2::new(a, b))).collect();
+        let tangents: Vec<Vec2> =
+            (0..count).map(|k| perpendicular(unit(at(k))).component_mul(&Vec2::new(a, b)).normalize()).collect();
+        let vertices = arcs((&points, &tangents), true, noise);
+        assert!(vertices.len() < 40, "{} arcs", vertices.len());
+        // The arcs may lie anywhere within the tolerance along the whole ellipse; in truth they alternate about it.
+        assert!((area(&vertices, true) - 0.5 * TAU * a * b).abs() < TOLERANCE * noise * length(&vertices, true));
+        let mut out = vertices.clone();
+        move_out(&mut out, 1.0);
+        let grown = area(&vertices, true) + length(&vertices, true) + 0.5 * TAU;
+        assert!((area(&out, true) - grown).abs() < 1e-9, "Steiner: a convex area grows by perimeter and a circle");
+    }
+}

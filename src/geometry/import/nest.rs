@@ -1,0 +1,192 @@
+//! Which rings are outer ones and which are holes: told by what contains what, never by direction alone.
+//!
+//! A ring bounds the filled points where the fill rule says otherwise on its two sides. Containment is that of one vertex: rings are
+//! taken not to cross. A vertical ray from each ring's first vertex meets edges sorted by x, so that the cost is that of the edges
+//! near in x.
+
+use crate::geometry::body::bulged_ring;
+use crate::geometry::curve::Curve;
+use crate::geometry::import::drawing::{FillRule, Ring};
+use crate::math::{Bounds, Vec2};
+
+/// An outer ring and its holes, as indices into the rings.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Nested {
+    /// The outer ring.
+    pub outer: usize,
+    /// The holes, by index.
+    pub holes: Vec<usize>,
+}
+
+/// Groups rings that do not cross; rings within a filled area are left out under [`FillRule::NonZero`]. Ordered by outer ring.
+pub(crate) fn nested(rings: &[Ring], rule: FillRule) -> Vec<Nested> {
+    let containing = containing(rings);
+    let sign = |i: usize| if rings[i].area() > 0.0 { 1 } else { -1 };
+    let signs: Vec<i64> = (0..rings.len()).map(sign).collect();
+    let is_filled = |around: &[usize], own: Option<usize>| {
+        let all = around.iter().copied().chain(own);
+        match rule {
+            FillRule::EvenOdd => all.count() % 2 == 1,
+            FillRule::NonZero => all.map(|i| signs[i]).sum::<i64>() != 0,
+        }
+    };
+    // Filled outside and inside of each ring.
+    let sides: Vec<(bool, bool)> =
+        (0..rings.len()).map(|i| (is_filled(&containing[i], None), is_filled(&containing[i], Some(i)))).collect();
+    let mut found: Vec<Nested> = Vec::new();
+    let mut place = vec![usize::MAX; rings.len()];
+    for i in (0..rings.len()).filter(|&i| sides[i] == (false, true)) {
+        place[i] = found.len();
+        found.push(Nested { outer: i, holes: Vec::new() });
+    }
+    for i in (0..rings.len()).filter(|&i| sides[i] == (true, false)) {
+        // The innermost outer ring around it: the one that most others contain.
+        let parent =
+            containing[i].iter().copied().filter(|&j| place[j] != usize::MAX).max_by_key(|&j| containing[j].len());
+        if let Some(parent) = parent {
+            found[place[parent]].holes.push(i);
+        }
+    }
+    found
+}
+
+/// For each ring those that contain it, by index.
+fn containing(rings: &[Ring]) -> Vec<Vec<usize>> {
+    let mut around = vec![Vec::new(); rings.len()];
+    if rings.len() < 2 {
+        return around;
+    }
+    let boxes: Vec<Bounds> = rings.iter().map(Ring::bounds).collect();
+    let mut starts: Vec<(Vec2, usize)> = rings
+        .iter()
+        .enumerate()
+        .filter_map(|(i, ring)| ring.vertices.first().map(|v| (Vec2::new(v[0], v[1]), i)))
+        .collect();
+    starts.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.1.cmp(&b.1)));
+    for (j, ring) in rings.iter().enumerate() {
+        // Whether each start lies above an odd number of edges of this ring: toggled edge by edge.
+        let mut toggled: Vec<usize> = Vec::new();
+        let next = ring.vertices.iter().cycle().skip(1);
+        for ((curve, a), b) in bulged_ring(&ring.vertices).zip(&ring.vertices).zip(next) {
+            for span in spans(&curve, [a[0], b[0]]) {
+                let from = starts.partition_point(|start| start.0.x < span.x.0);
+                let near = starts[from..].iter().take_while(|start| start.0.x < span.x.1);
+                let above = near.filter(|(p, i)| *i != j && encloses(&boxes[j], &boxes[*i]) && span.height(p.x) < p.y);
+                toggled.extend(above.map(|(_, i)| *i));
+            }
+        }
+        toggled.sort_unstable();
+        for same in toggled.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1) {
+            around[same[0]].push(j);
+        }
+    }
+    around
+}
+
+fn encloses(outer: &Bounds, inner: &Bounds) -> bool {
+    (0..2).all(|i| outer.min[i] <= inner.min[i] && inner.max[i] <= outer.max[i])
+}
+
+/// A piece of an edge over an interval of x, open on the right.
+struct Span {
+    x: (f64, f64),
+    kind: Kind,
+}
+
+enum Kind {
+    Line { from: Vec2, slope: f64 },
+    Arc { center: Vec2, radius: f64, side: f64 },
+}
+
+impl Span {
+    fn height(&self, x: f64) -> f64 {
+        match self.kind {
+            Kind::Line { from, slope } => from.y + slope * (x - from.x),
+            Kind::Arc { center, radius, side } => {
+                let dx = x - center.x;
+                center.y + side * (radius * radius - dx * dx).max(0.0).sqrt()
+            }
+        }
+    }
+}
+
+/// The pieces of a curve that have one height over each x. It begins and ends at `ends`, equal to those of its neighbors to the last
+/// bit, so that no gap is left between them.
+fn spans(curve: &Curve, ends: [f64; 2]) -> Vec<Span> {
+    match *curve {
+        Curve::Segment { a, b } => {
+            let x = (a.x.min(b.x), a.x.max(b.x));
+            vec![Span { x, kind: Kind::Line { from: a, slope: (b.y - a.y) / (b.x - a.x) } }]
+        }
+        Curve::Arc { center, radius, start, sweep } => {
+            use std::f64::consts::PI;
+            // Cut at the leftmost and rightmost points, the angles k π.
+            let (from, to) = (start.min(start + sweep), start.max(start + sweep));
+            let mut cuts = vec![from];
+            let mut k = (from / PI).floor() + 1.0;
+            while k * PI < to {
+                cuts.push(k * PI);
+                k += 1.0;
+            }
+            cuts.push(to);
+            let [first, last] = if sweep > 0.0 { ends } else { [ends[1], ends[0]] };
+            let count = cuts.len() - 1;
+            let x_of = |i: usize| match i {
+                0 => first,
+                i if i == count => last,
+                i => center.x + radius * (cuts[i] / PI).round().rem_euclid(2.0).mul_add(-2.0, 1.0),
+            };
+            (0..count)
+                .map(|i| {
+                    let (a, b) = (x_of(i), x_of(i + 1));
+                    let side = (0.5 * (cuts[i] + cuts[i + 1])).sin().signum();
+                    Span { x: (a.min(b), a.max(b)), kind: Kind::Arc { center, radius, side } }
+                })
+                .collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(center: [f64; 2], half: f64) -> Ring {
+        let corner = |x: f64, y: f64| [center[0] + x * half, center[1] + y * half, 0.0];
+        Ring { vertices: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)] }
+    }
+
+    fn disc(center: [f64; 2], radius: f64) -> Ring {
+        Ring { vertices: vec![[center[0] - radius, center[1], 1.0], [center[0] + radius, center[1], 1.0]] }
+    }
+
+    #[test]
+    fn holes_and_islands_are_told_by_containment_whatever_the_direction() {
+        for flip in 0..16 {
+            let rings: Vec<Ring> =
+                [square([0.0; 2], 4.0), disc([0.0; 2], 3.0), square([0.0; 2], 1.0), disc([9.0, 0.0], 1.0)]
+                    .into_iter()
+                    .enumerate()
+                    .map(|(i, ring)| if flip >> i & 1 == 1 { ring.reversed() } else { ring })
+                    .collect();
+            let expected = [(0, vec![1]), (2, vec![]), (3, vec![])];
+            let found = nested(&rings, FillRule::EvenOdd);
+            assert_eq!(found, expected.map(|(outer, holes)| Nested { outer, holes }), "{flip:04b}");
+        }
+    }
+
+    #[test]
+    fn by_the_rule_of_winding_only_rings_that_run_the_other_way_are_holes() {
+        let rings = [square([0.0; 2], 4.0), disc([-2.0, 0.0], 1.0).reversed(), disc([2.0, 0.0], 1.0)];
+        assert_eq!(nested(&rings, FillRule::NonZero), [Nested { outer: 0, holes: vec![1] }]);
+        assert_eq!(nested(&rings, FillRule::EvenOdd), [Nested { outer: 0, holes: vec![1, 2] }]);
+    }
+
+    #[test]
+    fn a_small_ring_in_the_dent_of_an_arc_is_not_inside() {
+        // The right side is a half circle that comes in.
+        let dented = Ring { vertices: vec![[0.0, 0.0, 0.0], [4.0, 0.0, -1.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]] };
+        assert_eq!(nested(&[dented.clone(), disc([3.0, 2.0], 0.1)], FillRule::EvenOdd).len(), 2);
+        assert_eq!(nested(&[dented, disc([1.0, 2.0], 0.1)], FillRule::EvenOdd).len(), 1);
+    }
+}

@@ -1,0 +1,134 @@
+//! What is said of a drawing that was read, in few lines: unit, counts, repairs, what was not used, domain.
+
+use std::fmt::Display;
+
+use crate::geometry::import::drawing::Drawing;
+use crate::geometry::import::options::Options;
+use crate::geometry::spec::ShapeSpec;
+use crate::math::Bounds;
+
+/// What happened to the shapes of a drawing.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Counts {
+    discs: usize,
+    polygons: usize,
+    curved: usize,
+    /// Rings recognized as circles.
+    pub recognized: usize,
+    smoothed: usize,
+    /// Areas of the smoothed rings before and after.
+    areas: [f64; 2],
+    /// Doubled vertices taken out.
+    pub doubled: usize,
+    /// Rings that enclose nothing.
+    pub without_area: usize,
+    /// Shapes outside of the window.
+    pub outside: usize,
+}
+
+impl Counts {
+    /// Counts a smoothed ring by its areas before and after.
+    pub fn smooth(&mut self, before: f64, after: f64) {
+        self.smoothed += 1;
+        self.areas[0] += before.abs();
+        self.areas[1] += after.abs();
+    }
+
+    /// Counts the shapes that are left in the end.
+    pub fn shapes<'s>(&mut self, shapes: impl Iterator<Item = &'s ShapeSpec>) {
+        for shape in shapes {
+            match shape {
+                ShapeSpec::Disc(_) => self.discs += 1,
+                ShapeSpec::Polygon(_) => self.polygons += 1,
+                _ => self.curved += 1,
+            }
+        }
+    }
+}
+
+/// The notes of a drawing as they come together.
+#[derive(Debug)]
+pub(crate) struct Notes {
+    /// What happened to its shapes.
+    pub counts: Counts,
+    first: Vec<String>,
+    unused: Vec<String>,
+    of_reader: Vec<String>,
+    domain: String,
+}
+
+impl Notes {
+    /// Begins with the unit and what the reader says.
+    pub fn new(unit: String, drawing: &Drawing) -> Self {
+        let count = |(kind, number): (&String, &usize)| format!("{kind} ({number})");
+        let mut first = vec![unit];
+        if !drawing.layers.is_empty() {
+            first.push(format!("layers: {}", drawing.layers.iter().map(count).collect::<Vec<_>>().join(", ")));
+        }
+        let unused = drawing.unused.iter().filter(|(_, number)| **number > 0).map(count).collect();
+        Self { counts: Counts::default(), first, unused, of_reader: drawing.notes.clone(), domain: String::new() }
+    }
+
+    /// Tells the domain, and where it comes from.
+    pub fn domain(&mut self, domain: Bounds, from: &str) {
+        let size = domain.size();
+        self.domain = format!("domain {:.4e} x {:.4e} m, {from}", size.x, size.y);
+    }
+
+    /// All notes, one sentence each.
+    pub fn lines(self, options: &Options) -> Vec<String> {
+        let counts = &self.counts;
+        let mut read: Vec<String> =
+            [("disc", counts.discs), ("polygon", counts.polygons), ("curved polygon", counts.curved)]
+                .into_iter()
+                .filter(|(_, number)| *number > 0)
+                .map(|(kind, number)| of(number, kind))
+                .collect();
+        if read.is_empty() {
+            read.push("no shape".into());
+        }
+        let mut line = format!("read: {}", read.join(", "));
+        if counts.recognized > 0 {
+            line += &format!(" ({} recognized in polygons)", of(counts.recognized, "circle"));
+        }
+        if counts.outside > 0 {
+            line += &format!("; outside of the domain: {}", of(counts.outside, "shape"));
+        }
+        let mut unused = self.unused;
+        if counts.without_area > 0 {
+            unused.push(format!("rings without area ({})", counts.without_area));
+        }
+        if !unused.is_empty() {
+            line += &format!("; not used: {}", unused.join(", "));
+        }
+        let mut lines = self.first;
+        lines.push(line);
+        if counts.smoothed > 0 {
+            let change = 100.0 * (counts.areas[1] / counts.areas[0] - 1.0);
+            let below = options.smooth_below().to_degrees();
+            lines.push(format!(
+                "smoothed: vertices of {} that turn less than {below:.0} degrees became arcs, area {change:+.3} % \
+                 (off by smooth-below-deg = 0)",
+                of(counts.smoothed, "ring")
+            ));
+        }
+        if counts.doubled > 0 {
+            lines.push(format!("repaired: {} taken out", of(counts.doubled, "doubled vertex")));
+        }
+        lines.extend(self.of_reader);
+        lines.push(self.domain);
+        lines
+    }
+}
+
+/// `1 disc`, `2 discs`, `2 vertices`.
+fn of(number: usize, noun: impl Display) -> String {
+    let noun = noun.to_string();
+    match number {
+        1 => format!("1 {noun}"),
+        _ => match noun.strip_suffix("ex") {
+            Some(stem) => format!("{number} {stem}ices"),
+            None => format!("{number} {noun}s"),
+        },
+    }
+}

@@ -1,0 +1,133 @@
+//! What a user says of a drawing beside its name: unit, window, layers, how masks and lists are read. All keys are optional.
+
+use crate::geometry::import::format::Format;
+use crate::geometry::import::units;
+use crate::input::problem::Problem;
+
+/// Vertices that turn by less than this many degrees belong to a smooth curve.
+pub const SMOOTH_BELOW_DEG: f64 = 20.0;
+
+/// Keys of `[geometry]` beside `file`, and options of the command line.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Options {
+    /// Name of the drawing unit, as in `mm`.
+    pub unit: Option<String>,
+    /// Length of the drawing unit in m, in place of `unit`.
+    pub scale: Option<f64>,
+    /// Lower left and upper right corner of the domain in m.
+    pub window: Option<[[f64; 2]; 2]>,
+    /// Layers to read; all where there is none.
+    pub layers: Option<Vec<String>>,
+    /// Gray value between solid and pore, 0 (black) to 1 (white).
+    pub threshold: Option<f64>,
+    /// Side of a pixel in m.
+    pub pixel_size: Option<f64>,
+    /// Whether what is drawn is the pore and all else solid.
+    pub invert: Option<bool>,
+    /// Whether polygons whose vertices lie on a circle become discs (default yes).
+    pub recognize_circles: Option<bool>,
+    /// Vertices that turn by less than this many degrees are taken for points of a smooth curve; 0: none.
+    pub smooth_below_deg: Option<f64>,
+    /// Columns of x, y and radius in a list, counted from 0.
+    pub columns: Option<[usize; 3]>,
+    /// What separates the columns of a list.
+    pub separator: Option<char>,
+}
+
+impl Options {
+    /// Whether what is drawn is the pore.
+    #[must_use]
+    pub fn is_inverted(&self) -> bool {
+        self.invert.unwrap_or(false)
+    }
+
+    /// Whether polygons whose vertices lie on a circle become discs.
+    #[must_use]
+    pub fn recognizes_circles(&self) -> bool {
+        self.recognize_circles.unwrap_or(true)
+    }
+
+    /// The largest turn of a smooth vertex in rad.
+    #[must_use]
+    pub fn smooth_below(&self) -> f64 {
+        self.smooth_below_deg.unwrap_or(SMOOTH_BELOW_DEG).to_radians()
+    }
+
+    /// All that is wrong with the options for a file of this format; the paths are keys, such as `unit`.
+    #[must_use]
+    pub fn problems(&self, format: Format) -> Vec<Problem> {
+        let mut found = self.problems_of_values();
+        let mut misplaced = |key: &str, is_given: bool, belongs: &[Format], of: &str| {
+            if is_given && !belongs.contains(&format) {
+                let help = format!("leave `{key}` out: it belongs to {of}");
+                found.push(Problem::new(key, format!("`{key}` says nothing of {}", format.name()), help));
+            }
+        };
+        misplaced("layers", self.layers.is_some(), &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
+        misplaced("threshold", self.threshold.is_some(), &[Format::Mask], "masks (PNG, TIFF)");
+        misplaced("pixel-size", self.pixel_size.is_some(), &[Format::Mask], "masks (PNG, TIFF)");
+        misplaced("columns", self.columns.is_some(), &[Format::List], "lists of discs");
+        misplaced("separator", self.separator.is_some(), &[Format::List], "lists of discs");
+        let drawn = [Format::Wkt, Format::GeoJson, Format::Shapefile, Format::Svg, Format::Dxf, Format::Mask];
+        misplaced("recognize-circles", self.recognize_circles.is_some(), &drawn, "drawings with polygons");
+        misplaced("smooth-below-deg", self.smooth_below_deg.is_some(), &drawn, "drawings with polygons");
+        if format == Format::Toml {
+            for (key, is_given) in [("unit", self.unit.is_some()), ("scale", self.scale.is_some())] {
+                if is_given {
+                    let message = format!("`{key}` says nothing of a TOML shape file");
+                    found.push(Problem::new(key, message, "shape files in TOML are in m"));
+                }
+            }
+        }
+        if format == Format::Mask {
+            if let Some(key) = self.unit.as_ref().map(|_| "unit").or(self.scale.map(|_| "scale")) {
+                found.push(Problem::new(key, format!("`{key}` says nothing of a mask"), "give `pixel-size` in m"));
+            }
+            if self.pixel_size.is_none() {
+                let message = "the side of a pixel is not known: an image has no unit";
+                found.push(Problem::new("pixel-size", message, "add `pixel-size = 1.0e-6` (m)"));
+            }
+        }
+        found
+    }
+
+    fn problems_of_values(&self) -> Vec<Problem> {
+        let mut found = Vec::new();
+        let mut refuse = |key: &str, message: String, help: &str| found.push(Problem::new(key, message, help));
+        for (key, value) in [("scale", self.scale), ("pixel-size", self.pixel_size)] {
+            if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
+                refuse(key, format!("expected a length in m above 0, found {value:?}"), "");
+            }
+        }
+        if let Some(name) = &self.unit {
+            if self.scale.is_some() {
+                refuse("scale", "`unit` and `scale` are both given".into(), "keep one of them");
+            }
+            if units::by_name(name).is_none() {
+                refuse("unit", format!("there is no unit `{name}`"), &units::way_out());
+            }
+        }
+        if let Some([min, max]) = self.window {
+            let is_good = (0..2).all(|i| min[i].is_finite() && max[i].is_finite() && min[i] < max[i]);
+            if !is_good {
+                let message = format!("expected the lower left and the upper right corner, found {min:?} and {max:?}");
+                refuse("window", message, "write window = [[x0, y0], [x1, y1]] in m with x0 < x1 and y0 < y1");
+            }
+        }
+        if let Some(value) = self.threshold.filter(|v| !(0.0 < *v && *v < 1.0)) {
+            refuse("threshold", format!("expected a gray value between 0 and 1, found {value:?}"), "0.5 is the middle");
+        }
+        if let Some(value) = self.smooth_below_deg.filter(|v| !(0.0..=90.0).contains(v)) {
+            refuse("smooth-below-deg", format!("expected an angle from 0 to 90 degrees, found {value:?}"), "0: none");
+        }
+        if let Some(columns @ [x, y, r]) = self.columns
+            && (x == y || y == r || x == r)
+        {
+            refuse("columns", format!("expected three different columns, found {columns:?}"), "the first one is 0");
+        }
+        if self.layers.as_ref().is_some_and(Vec::is_empty) {
+            refuse("layers", "expected names of layers, found none".into(), "leave `layers` out to read all");
+        }
+        found
+    }
+}

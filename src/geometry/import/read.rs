@@ -1,0 +1,46 @@
+//! The reader of each format.
+
+use std::path::Path;
+
+use crate::geometry::import::drawing::{Drawing, Refusal};
+use crate::geometry::import::format::Format;
+use crate::geometry::import::mask::{self, MaskOptions};
+use crate::geometry::import::options::Options;
+use crate::geometry::import::{dxf, esri, geojson, list, svg, wkt};
+
+/// Reads the bytes of a file; `path` tells where files beside it are looked for.
+pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options) -> Result<Drawing, Vec<Refusal>> {
+    match format {
+        Format::List => list::read(text(bytes)?, options),
+        Format::Wkt => wkt::read(text(bytes)?),
+        Format::GeoJson => geojson::read(text(bytes)?),
+        Format::Shapefile => {
+            // A projection that is not text is a damaged one, which the reader of its text refuses.
+            let projection = std::fs::read(path.with_extension("prj")).ok();
+            esri::read(bytes, projection.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).as_deref())
+        }
+        // The case reader, which knows places in TOML, reads these.
+        Format::Toml => Err(one("a TOML shape file", "a drawing")),
+        Format::Svg => svg::read(text(bytes)?, options.layers.as_deref()),
+        Format::Dxf => dxf::read(bytes, options.layers.as_deref()),
+        Format::Mask => {
+            let (threshold, pixel_size) = (options.threshold, options.pixel_size);
+            mask::read(bytes, &MaskOptions { threshold, invert: options.invert.unwrap_or(false), pixel_size })
+        }
+    }
+}
+
+fn one(found: &str, expected: &str) -> Vec<Refusal> {
+    vec![Refusal { place: "file".into(), found: found.into(), expected: expected.into() }]
+}
+
+/// The text of a file in UTF-8, without byte order mark.
+fn text(bytes: &[u8]) -> Result<&str, Vec<Refusal>> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(text.trim_start_matches('\u{feff}')),
+        Err(error) => {
+            let place = format!("byte {}", error.valid_up_to());
+            Err(vec![Refusal { place, found: "no letter of UTF-8".into(), expected: "text in UTF-8".into() }])
+        }
+    }
+}

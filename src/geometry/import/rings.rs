@@ -1,0 +1,142 @@
+//! Rings as files give them, and what is repaired in them: a small gap where they close, doubled vertices.
+
+use crate::geometry::body::bulged_ring;
+use crate::geometry::import::drawing::Ring;
+use crate::math::{Bounds, Vec2};
+
+/// A gap between the first and last point below this share of the ring's larger side is closed.
+const GAP: f64 = 1e-6;
+
+/// Vertices nearer than this share of the drawing's larger side are one.
+pub(crate) const DOUBLED: f64 = 1e-9;
+
+/// Why a line of points is no ring.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NoRing {
+    /// What was found.
+    pub found: String,
+    /// What was expected.
+    pub expected: String,
+}
+
+/// The ring of a line whose last point repeats its first one, as WKT, GeoJSON and shapefiles write it.
+pub(crate) fn of_closed_line(points: &[[f64; 2]]) -> Result<Ring, NoRing> {
+    if let Some((i, point)) = points.iter().enumerate().find(|(_, p)| !p.iter().all(|v| v.is_finite())) {
+        let found = format!("point {i} at {point:?}");
+        return Err(NoRing { found, expected: "finite numbers".into() });
+    }
+    let [first, middle @ .., last] = points else {
+        return Err(too_few(points.len()));
+    };
+    if middle.len() < 2 {
+        return Err(too_few(points.len()));
+    }
+    let bounds = bounds_of_points(points.iter().map(|&p| Vec2::from(p)));
+    let gap = (Vec2::from(*last) - Vec2::from(*first)).norm();
+    if !(gap <= GAP * bounds.size().max()) {
+        let ([x, y], [u, v]) = (first, last);
+        return Err(NoRing {
+            found: format!("a line from ({x:e}, {y:e}) to ({u:e}, {v:e})"),
+            expected: "a closed ring, whose last point repeats the first point".into(),
+        });
+    }
+    let vertices = std::iter::once(first).chain(middle).map(|&[x, y]| [x, y, 0.0]).collect();
+    Ok(Ring { vertices })
+}
+
+fn too_few(count: usize) -> NoRing {
+    NoRing { found: format!("{count} point(s)"), expected: "three points or more, and the first point again".into() }
+}
+
+/// The smallest box around points; empty where there is none.
+pub(crate) fn bounds_of_points(points: impl Iterator<Item = Vec2>) -> Bounds {
+    let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
+    points.fold(none, |b, p| Bounds { min: b.min.inf(&p), max: b.max.sup(&p) })
+}
+
+impl Ring {
+    /// The box around the ring, its arcs included.
+    pub(crate) fn bounds(&self) -> Bounds {
+        let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
+        bulged_ring(&self.vertices)
+            .map(|curve| curve.bounds())
+            .fold(none, |a, b| Bounds { min: a.min.inf(&b.min), max: a.max.sup(&b.max) })
+    }
+
+    /// Signed area, above 0 where the ring runs counter-clockwise.
+    pub(crate) fn area(&self) -> f64 {
+        let Some(&[x, y, _]) = self.vertices.first() else { return 0.0 };
+        bulged_ring(&self.vertices).map(|curve| curve.area_about(Vec2::new(x, y))).sum()
+    }
+
+    /// Whether every edge is straight.
+    pub(crate) fn is_straight(&self) -> bool {
+        self.vertices.iter().all(|vertex| vertex[2] == 0.0)
+    }
+
+    /// The ring run through backwards.
+    pub(crate) fn reversed(&self) -> Self {
+        let n = self.vertices.len();
+        // The edge that begins at a vertex is now the one that ended there.
+        let vertices = (0..n).rev().map(|i| {
+            let ([x, y, _], [_, _, bulge]) = (self.vertices[i], self.vertices[(i + n - 1) % n]);
+            [x, y, if bulge == 0.0 { 0.0 } else { -bulge }]
+        });
+        Self { vertices: vertices.collect() }
+    }
+
+    /// The ring with all lengths multiplied by `scale`.
+    pub(crate) fn scaled(&self, scale: f64) -> Self {
+        Self { vertices: self.vertices.iter().map(|&[x, y, bulge]| [x * scale, y * scale, bulge]).collect() }
+    }
+
+    /// The ring without doubled vertices, and how many there were.
+    pub(crate) fn without_doubled(&self, tolerance: f64) -> (Self, usize) {
+        let mut vertices: Vec<[f64; 3]> = Vec::with_capacity(self.vertices.len());
+        let far = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]) > tolerance;
+        for vertex in &self.vertices {
+            match vertices.last_mut() {
+                // The edge between the two vanishes, with its bulge.
+                Some(last) if !far(last, vertex) => last[2] = vertex[2],
+                _ => vertices.push(*vertex),
+            }
+        }
+        while vertices.len() > 1 && !far(&vertices[0], &vertices[vertices.len() - 1]) {
+            vertices.pop();
+        }
+        let doubled = self.vertices.len() - vertices.len();
+        (Self { vertices }, doubled)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ring_turned_round_has_the_opposite_area_and_the_same_box() {
+        let ring = Ring { vertices: vec![[0.0, 0.0, 0.3], [2.0, 0.0, -0.1], [2.0, 1.0, 0.0], [0.0, 1.0, 0.7]] };
+        let back = ring.reversed();
+        assert!((ring.area() + back.area()).abs() < 1e-14);
+        assert!((ring.bounds().size() - back.bounds().size()).norm() < 1e-14);
+        assert!((back.reversed().area() - ring.area()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_small_gap_is_closed_and_a_large_one_is_not() {
+        let line = |gap: f64| [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [gap, 0.0]];
+        assert_eq!(of_closed_line(&line(1e-7)).unwrap().vertices.len(), 3);
+        assert!(of_closed_line(&line(1e-5)).unwrap_err().found.contains("1e-5"));
+        assert!(of_closed_line(&[[0.0; 2], [1.0, 0.0], [0.0; 2]]).is_err());
+        assert!(of_closed_line(&[[0.0; 2], [f64::NAN, 0.0], [0.0, 1.0], [0.0; 2]]).is_err());
+    }
+
+    #[test]
+    fn doubled_vertices_go_with_the_edge_between_them() {
+        let ring = Ring {
+            vertices: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.5], [0.0, 1.0, 0.0], [0.0, 1e-12, 0.0]],
+        };
+        let (clean, doubled) = ring.without_doubled(1e-9);
+        assert_eq!((clean.vertices, doubled), (vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.5], [0.0, 1.0, 0.0]], 2));
+    }
+}

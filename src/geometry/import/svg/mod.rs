@@ -1,0 +1,75 @@
+//! SVG drawings: basic shapes and paths with their nested transforms, as filled areas in the unit of the page, y up.
+//!
+//! Source: Scalable Vector Graphics 1.1, 2nd ed., W3C 2011, chapters 5 to 11 and appendix F.6. The lower left corner of the page becomes
+//! the origin. Circles stay exact under all maps that keep circles. What is left out: text, images, filters, clips and masks (told in
+//! notes), the width of strokes, and the order of painting: a shape is solid wherever it is filled, and white ones are
+//! paper where others are not white.
+
+mod page;
+mod path;
+mod shape;
+mod style;
+mod walk;
+
+use roxmltree::{Document, Node, ParsingOptions};
+
+use super::drawing::{Drawing, Refusal};
+
+/// Bytes of entities, as a multiple of the file, that references may unfold into.
+const LARGEST_ENTITIES: usize = 10;
+
+/// Reads a drawing. With `layers`, only groups of these names, or within one of them.
+pub fn read(text: &str, layers: Option<&[String]>) -> Result<Drawing, Vec<Refusal>> {
+    check_entities(text).map_err(|refusal| vec![refusal])?;
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|error| {
+        let place = format!("line {}", error.pos().row);
+        vec![Refusal::new(place, error.to_string(), "an SVG document (well-formed XML)")]
+    })?;
+    let lines = Lines::of(text);
+    let root = document.root_element();
+    if root.tag_name().name() != "svg" {
+        let found = format!("the element `{}`", root.tag_name().name());
+        return Err(vec![Refusal::new(lines.place(root), found, "`svg` as the outermost element")]);
+    }
+    walk::drawing(&document, &lines, text.len(), layers)
+}
+
+/// Refuses files whose entities stand for far more text than the file holds.
+fn check_entities(text: &str) -> Result<(), Refusal> {
+    if !text.contains("<!ENTITY") {
+        return Ok(());
+    }
+    let Some((declared, rest)) = text.split_once("<!DOCTYPE").and_then(|(_, rest)| rest.split_once("]>")) else {
+        return Ok(());
+    };
+    let refusal = |found: &str| Refusal::new("DOCTYPE", found, "entities written out: save the drawing as plain SVG");
+    // Entities within entities are not needed by any drawing program, and grow with a power of their depth.
+    let is_nested = declared.split("<!ENTITY").skip(1).any(|entity| entity.contains('&') && !entity.contains("&#"));
+    if is_nested {
+        return Err(refusal("entities made of entities"));
+    }
+    let longest = declared.split("<!ENTITY").map(str::len).max().unwrap_or(0);
+    let references = rest.matches('&').count();
+    if references.saturating_mul(longest) > LARGEST_ENTITIES * text.len() {
+        return Err(refusal("entities that stand for more than ten times the text of the file"));
+    }
+    Ok(())
+}
+
+/// Where the lines of a text begin.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn of(text: &str) -> Self {
+        Self(std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect())
+    }
+
+    /// `line 12`.
+    fn place(&self, node: Node) -> String {
+        format!("line {}", self.0.partition_point(|&start| start <= node.range().start))
+    }
+}
+
+#[cfg(test)]
+mod tests;

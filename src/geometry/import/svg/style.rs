@@ -1,0 +1,306 @@
+//! What of the style of an SVG element decides whether it is a shape: `display`, `visibility`, fill, stroke and fill rule, from
+//! attributes, `style` and style sheets.
+//!
+//! Selectors may name an element, an id and classes (`circle.grain`, `#a`, `*`); those with combinators or conditions are counted and
+//! left out. Media rules are left out.
+
+use std::collections::BTreeMap;
+
+use roxmltree::{Document, Node};
+use svgtypes::{Color, Paint};
+
+use crate::geometry::import::drawing::FillRule;
+
+/// The properties that matter here.
+const PROPERTIES: [&str; 9] = [
+    "display",
+    "visibility",
+    "fill",
+    "fill-rule",
+    "fill-opacity",
+    "stroke",
+    "stroke-width",
+    "stroke-opacity",
+    "opacity",
+];
+
+/// Rules for one class, id or kind of element; each is tried at each of its elements.
+pub const MOST_RULES: usize = 200;
+
+/// With what a shape is filled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fill {
+    /// Nothing.
+    None,
+    /// White.
+    White,
+    /// Any other color, a gradient or a pattern.
+    Other,
+}
+
+/// The style of an element, what it inherits included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Style {
+    /// `display="none"` or no opacity: nor are its children drawn.
+    pub is_removed: bool,
+    /// Whether `visibility` lets it be seen.
+    pub is_visible: bool,
+    /// With what it is filled.
+    pub fill: Fill,
+    /// By which rule.
+    pub rule: FillRule,
+    /// Whether its outline is drawn.
+    pub has_stroke: bool,
+    paint: [Fill; 2],
+    opacity: [f64; 2],
+    stroke_width: f64,
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Self {
+            is_removed: false,
+            is_visible: true,
+            fill: Fill::Other,
+            rule: FillRule::NonZero,
+            has_stroke: false,
+            paint: [Fill::Other, Fill::None],
+            opacity: [1.0; 2],
+            stroke_width: 1.0,
+        }
+    }
+}
+
+impl Style {
+    /// The style of an element within one of this style.
+    pub fn of_child(&self, node: Node, sheet: &StyleSheet) -> Self {
+        let mut style = Self { is_removed: false, ..*self };
+        sheet.for_each(node, |name, value| style.set(name, value, self));
+        style.fill = if style.opacity[0] > 0.0 { style.paint[0] } else { Fill::None };
+        style.has_stroke = style.paint[1] != Fill::None && style.opacity[1] > 0.0 && style.stroke_width > 0.0;
+        style
+    }
+
+    fn set(&mut self, name: &str, value: &str, parent: &Self) {
+        let inherits = value == "inherit";
+        match name {
+            "display" => self.is_removed |= value == "none",
+            "opacity" => self.is_removed |= number(value) == Some(0.0),
+            "visibility" if inherits => self.is_visible = parent.is_visible,
+            "visibility" => self.is_visible = value == "visible",
+            "fill" => self.paint[0] = if inherits { parent.paint[0] } else { paint(value) },
+            "stroke" => self.paint[1] = if inherits { parent.paint[1] } else { paint(value) },
+            "fill-rule" if inherits => self.rule = parent.rule,
+            "fill-rule" => self.rule = if value == "evenodd" { FillRule::EvenOdd } else { FillRule::NonZero },
+            "fill-opacity" => self.opacity[0] = number(value).unwrap_or(parent.opacity[0]),
+            "stroke-opacity" => self.opacity[1] = number(value).unwrap_or(parent.opacity[1]),
+            "stroke-width" => self.stroke_width = number(value).unwrap_or(parent.stroke_width),
+            _ => {}
+        }
+    }
+}
+
+/// The number at the beginning of a value: any unit may follow, as only zero matters.
+fn number(value: &str) -> Option<f64> {
+    let end = value.find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+'))).unwrap_or(value.len());
+    value[..end].parse().ok()
+}
+
+fn paint(value: &str) -> Fill {
+    match Paint::from_str(value) {
+        Ok(Paint::None) => Fill::None,
+        Ok(Paint::Color(Color { alpha: 0, .. })) => Fill::None,
+        Ok(Paint::Color(Color { red: 255, green: 255, blue: 255, .. })) => Fill::White,
+        _ => Fill::Other,
+    }
+}
+
+/// The rules of all `style` elements.
+#[derive(Debug, Default)]
+pub struct StyleSheet {
+    /// Property and value by the last simple selector's key (`*`, `circle`, `.grain`, `#a`), with specificity and order.
+    rules: BTreeMap<String, Vec<Rule>>,
+    /// Number of rules.
+    number: usize,
+    /// Selectors that are not understood.
+    pub left_out: usize,
+}
+
+#[derive(Debug, Clone)]
+struct Rule {
+    selector: Selector,
+    /// Specificity, then order in the file.
+    rank: (usize, usize),
+    properties: Vec<(String, String)>,
+}
+
+/// A compound selector.
+#[derive(Debug, Clone, Default)]
+struct Selector {
+    element: Option<String>,
+    id: Option<String>,
+    classes: Vec<String>,
+}
+
+impl StyleSheet {
+    /// The rules of a document.
+    pub fn of(document: &Document) -> Self {
+        let mut sheet = Self::default();
+        for node in document.descendants().filter(|node| node.tag_name().name() == "style") {
+            let text: String = node.children().filter_map(|child| child.text()).collect();
+            sheet.read(&without_comments(&text));
+        }
+        sheet
+    }
+
+    /// A selector that has more rules than are tried.
+    pub fn overfull(&self) -> Option<&str> {
+        self.rules.iter().find(|(_, rules)| rules.len() > MOST_RULES).map(|(key, _)| key.as_str())
+    }
+
+    fn read(&mut self, text: &str) {
+        let mut rest = text;
+        while let Some((selectors, after)) = rest.split_once('{') {
+            if selectors.trim_start().starts_with('@') {
+                rest = after_block(after);
+                continue;
+            }
+            let (body, after) = after.split_once('}').unwrap_or((after, ""));
+            let properties = declarations(body);
+            rest = after;
+            if properties.is_empty() {
+                continue;
+            }
+            for text in selectors.split(',') {
+                let Some(selector) = Selector::parse(text.trim()) else {
+                    self.left_out += 1;
+                    continue;
+                };
+                let rank = (selector.specificity(), self.number);
+                self.number += 1;
+                self.rules.entry(selector.key()).or_default().push(Rule {
+                    selector,
+                    rank,
+                    properties: properties.clone(),
+                });
+            }
+        }
+    }
+
+    /// Gives each property of an element to `set`, the strongest last.
+    fn for_each(&self, node: Node, mut set: impl FnMut(&str, &str)) {
+        for name in PROPERTIES {
+            if let Some(value) = node.attribute(name) {
+                set(name, value.trim());
+            }
+        }
+        if !self.rules.is_empty() {
+            let classes = node.attribute("class").unwrap_or_default();
+            let keys = classes.split_whitespace().map(|class| format!(".{class}"));
+            let keys = keys
+                .chain(node.attribute("id").map(|id| format!("#{id}")))
+                .chain([node.tag_name().name().to_owned(), "*".to_owned()]);
+            let rules = keys.filter_map(|key| self.rules.get(&key)).flatten();
+            let mut rules: Vec<&Rule> = rules.filter(|rule| rule.selector.matches(node)).collect();
+            rules.sort_by_key(|rule| rule.rank);
+            for (name, value) in rules.iter().flat_map(|rule| &rule.properties) {
+                set(name, value);
+            }
+        }
+        if let Some(text) = node.attribute("style") {
+            for (name, value) in pairs(text) {
+                set(name, value);
+            }
+        }
+    }
+}
+
+impl Selector {
+    fn parse(text: &str) -> Option<Self> {
+        let mut selector = Self::default();
+        let is_name = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_') || !c.is_ascii();
+        let mut rest = text.strip_prefix('*').unwrap_or(text);
+        if rest.is_empty() && text.is_empty() {
+            return None;
+        }
+        while !rest.is_empty() {
+            let (mark, tail) = match rest.strip_prefix(['.', '#']) {
+                Some(tail) => (rest.as_bytes()[0], tail),
+                None => (b' ', rest),
+            };
+            let end = tail.find(|c| !is_name(c)).unwrap_or(tail.len());
+            let (name, after) = tail.split_at(end);
+            if name.is_empty() {
+                return None;
+            }
+            match mark {
+                b'.' => selector.classes.push(name.to_owned()),
+                b'#' => selector.id = Some(name.to_owned()),
+                _ => selector.element = Some(name.to_owned()),
+            }
+            rest = after;
+        }
+        Some(selector)
+    }
+
+    fn specificity(&self) -> usize {
+        let classes = self.classes.len().min(99);
+        10_000 * usize::from(self.id.is_some()) + 100 * classes + usize::from(self.element.is_some())
+    }
+
+    /// One word without which it matches nothing.
+    fn key(&self) -> String {
+        match (&self.id, self.classes.first(), &self.element) {
+            (Some(id), ..) => format!("#{id}"),
+            (None, Some(class), _) => format!(".{class}"),
+            (None, None, Some(element)) => element.clone(),
+            (None, None, None) => "*".to_owned(),
+        }
+    }
+
+    fn matches(&self, node: Node) -> bool {
+        let classes = node.attribute("class").unwrap_or_default();
+        self.element.as_deref().is_none_or(|element| element == node.tag_name().name())
+            && self.id.as_deref().is_none_or(|id| node.attribute("id") == Some(id))
+            && self.classes.iter().all(|class| classes.split_whitespace().any(|own| own == class))
+    }
+}
+
+/// `name: value` pairs that matter here.
+fn pairs(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    text.split(';').filter_map(|declaration| {
+        let (name, value) = declaration.split_once(':')?;
+        let value = value.split('!').next().unwrap_or_default().trim();
+        PROPERTIES.contains(&name.trim()).then_some((name.trim(), value))
+    })
+}
+
+fn declarations(body: &str) -> Vec<(String, String)> {
+    pairs(body).map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
+}
+
+fn without_comments(text: &str) -> String {
+    let mut kept = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once("/*") {
+        kept.push_str(before);
+        rest = after.split_once("*/").map_or("", |(_, after)| after);
+    }
+    kept + rest
+}
+
+/// What follows the closing brace of a block that has begun.
+fn after_block(text: &str) -> &str {
+    let mut depth = 1;
+    for (at, c) in text.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return &text[at + 1..];
+        }
+    }
+    ""
+}

@@ -1,0 +1,416 @@
+//! From the tree of SVG elements to filled areas: groups, copies (`use`), nested pages, what is visible and on which layer.
+
+use std::collections::BTreeMap;
+
+use roxmltree::{Document, Node};
+
+use super::Lines;
+use super::page::{self, Along, Page, Viewport};
+use super::shape;
+use super::style::{self, Fill, Style, StyleSheet};
+use crate::geometry::import::affine::Affine;
+use crate::geometry::import::contour::{Closed, close};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring};
+use crate::geometry::import::limits::Budget;
+use crate::math::Vec2;
+
+/// Elements within elements, copies included; drawing programs stay below twenty.
+const DEEPEST: usize = 200;
+/// Messages after which the rest of a file is not looked at.
+const MOST_REFUSALS: usize = 20;
+const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+const SVG: &str = "http://www.w3.org/2000/svg";
+const XLINK: &str = "http://www.w3.org/1999/xlink";
+/// Elements whose content is drawn only where another element names it.
+const NOT_DRAWN: [&str; 14] = [
+    "defs",
+    "clipPath",
+    "mask",
+    "pattern",
+    "marker",
+    "symbol",
+    "linearGradient",
+    "radialGradient",
+    "filter",
+    "style",
+    "title",
+    "desc",
+    "metadata",
+    "script",
+];
+
+/// The drawing of a document.
+pub fn drawing(
+    document: &Document,
+    lines: &Lines,
+    bytes: usize,
+    layers: Option<&[String]>,
+) -> Result<Drawing, Vec<Refusal>> {
+    let root = document.root_element();
+    let page = Page::of(root).map_err(|found| {
+        let expected = "lengths above 0 with one of the units mm, cm, in, pt, pc, px or none";
+        vec![Refusal::new(lines.place(root), found, expected)]
+    })?;
+    let sheet = StyleSheet::of(document);
+    if let Some(selector) = sheet.overfull() {
+        let found = format!("more than {} rules for `{selector}`", style::MOST_RULES);
+        return Err(vec![Refusal::new("style sheet", found, "a plain style sheet")]);
+    }
+    let mut ids = BTreeMap::new();
+    for node in document.descendants() {
+        if let Some(id) = node.attribute("id") {
+            ids.entry(id).or_insert(node);
+        }
+    }
+    let mut walk = Walk {
+        lines,
+        sheet: &sheet,
+        ids,
+        layers,
+        found_layers: vec![false; layers.map_or(0, <[String]>::len)],
+        budget: Budget::of_file(bytes),
+        copying: Vec::new(),
+        drawing: Drawing { unit: page.unit.clone(), frame: page.frame, ..Drawing::default() },
+        whites: Vec::new(),
+        tally: Tally::default(),
+        refusals: Vec::new(),
+        is_over: false,
+    };
+    let start = Place {
+        map: page.map,
+        viewport: page.viewport,
+        style: Style::default(),
+        layer: None,
+        is_chosen: layers.is_none(),
+        depth: 0,
+    };
+    let style = start.style.of_child(root, &sheet);
+    walk.children(root, &Place { style, ..start.clone() });
+    walk.finish()
+}
+
+/// What an element inherits from those around it.
+#[derive(Clone)]
+struct Place<'a> {
+    map: Affine,
+    viewport: Viewport,
+    style: Style,
+    layer: Option<&'a str>,
+    is_chosen: bool,
+    depth: usize,
+}
+
+/// What is told in notes.
+#[derive(Default)]
+struct Tally {
+    outlines: usize,
+    strokes: usize,
+    clipped: usize,
+    not_closed: usize,
+}
+
+struct Walk<'a, 'input> {
+    lines: &'a Lines,
+    sheet: &'a StyleSheet,
+    ids: BTreeMap<&'a str, Node<'a, 'input>>,
+    layers: Option<&'a [String]>,
+    found_layers: Vec<bool>,
+    budget: Budget,
+    /// The elements that are being copied, against copies of themselves.
+    copying: Vec<Node<'a, 'input>>,
+    drawing: Drawing,
+    /// Which of the entities are white.
+    whites: Vec<bool>,
+    tally: Tally,
+    refusals: Vec<Refusal>,
+    /// Whether the rest of the file is no longer looked at.
+    is_over: bool,
+}
+
+impl<'a, 'input> Walk<'a, 'input> {
+    fn refuse(&mut self, node: Node, found: impl Into<String>, expected: &str) {
+        self.refusals.push(Refusal::new(self.lines.place(node), found, expected));
+    }
+
+    fn count(&mut self, kind: &str) {
+        *self.drawing.unused.entry(kind.to_owned()).or_default() += 1;
+    }
+
+    fn children(&mut self, node: Node<'a, 'input>, place: &Place<'a>) {
+        for child in node.children().filter(Node::is_element) {
+            self.element(child, place);
+        }
+    }
+
+    fn element(&mut self, node: Node<'a, 'input>, parent: &Place<'a>) {
+        self.is_over |= self.refusals.len() >= MOST_REFUSALS;
+        let is_foreign = node.tag_name().namespace().is_some_and(|space| space != SVG);
+        if self.is_over || is_foreign {
+            return;
+        }
+        let name = node.tag_name().name();
+        if NOT_DRAWN.contains(&name) {
+            return;
+        }
+        if parent.depth >= DEEPEST {
+            let found = format!("an element within {DEEPEST} others, copies included");
+            return self.refuse(node, found, "groups that are not nested that deep");
+        }
+        if !self.budget.spend(1) {
+            return self.refuse_size(node);
+        }
+        let own = match page::transform(node, "transform") {
+            Ok(own) => own,
+            Err(found) => return self.refuse(node, found, "matrix, translate, scale, rotate, skewX or skewY"),
+        };
+        let style = parent.style.of_child(node, self.sheet);
+        let mut place = Place { map: parent.map.after(&own), style, depth: parent.depth + 1, ..parent.clone() };
+        if style.is_removed {
+            return self.count("hidden elements");
+        }
+        self.tally.clipped += usize::from(
+            ["clip-path", "mask"].iter().any(|name| node.attribute(*name).is_some_and(|value| value != "none")),
+        );
+        match name {
+            "g" | "a" => {
+                self.enter_layer(node, parent, &mut place);
+                self.children(node, &place);
+            }
+            "switch" => {
+                let is_shown = |child: &Node| child.is_element() && child.attribute("requiredExtensions").is_none();
+                if let Some(child) =
+                    node.children().find(|child| is_shown(child) && child.tag_name().name() != "foreignObject")
+                {
+                    self.element(child, &place);
+                }
+            }
+            "svg" => self.nested_page(node, place),
+            "use" => self.copy(node, place),
+            "text" | "image" | "foreignObject" => self.count(name),
+            _ if shape::SHAPES.contains(&name) => {
+                self.choose(node, &mut place);
+                self.shape(node, &place);
+            }
+            _ => {}
+        }
+    }
+
+    fn refuse_size(&mut self, node: Node) {
+        let found = format!("copies that unfold into more than {} elements and vertices", self.budget.total());
+        self.refuse(node, found, "a drawing with fewer copies of copies (`use`)");
+        self.is_over = true;
+    }
+
+    /// The name of a group: the label of Inkscape or the id.
+    fn names(node: Node<'a, 'input>) -> [Option<&'a str>; 2] {
+        [node.attribute((INKSCAPE, "label")), node.attribute("id")]
+    }
+
+    fn choose(&mut self, node: Node<'a, 'input>, place: &mut Place) {
+        for (i, layer) in self.layers.unwrap_or_default().iter().enumerate() {
+            if Self::names(node).contains(&Some(layer.as_str())) {
+                self.found_layers[i] = true;
+                place.is_chosen = true;
+            }
+        }
+    }
+
+    fn enter_layer(&mut self, node: Node<'a, 'input>, parent: &Place<'a>, place: &mut Place<'a>) {
+        self.choose(node, place);
+        let is_layer = node.attribute((INKSCAPE, "groupmode")) == Some("layer");
+        if is_layer || parent.layer.is_none() {
+            let [label, id] = Self::names(node);
+            place.layer = label.or(id).or(parent.layer);
+        }
+    }
+
+    fn nested_page(&mut self, node: Node<'a, 'input>, mut place: Place<'a>) {
+        let size = self.viewport(node, node, &mut place);
+        if size.is_some() {
+            self.children(node, &place);
+        }
+    }
+
+    /// Places the viewport of `node`; width and height may be those of the `use` that copies it.
+    fn viewport(&mut self, node: Node<'a, 'input>, sized: Node<'a, 'input>, place: &mut Place) -> Option<()> {
+        let side = |name: &str, along| match place.viewport.length(sized, name, along)? {
+            Some(length) => Ok(Some(length)),
+            None => place.viewport.length(node, name, along),
+        };
+        let read = || {
+            let corner =
+                [("x", Along::X), ("y", Along::Y)].map(|(name, along)| place.viewport.length(node, name, along));
+            let [x, y] = corner;
+            let corner = Vec2::new(x?.unwrap_or(0.0), y?.unwrap_or(0.0));
+            let size = [side("width", Along::X)?, side("height", Along::Y)?];
+            let view_box = page::view_box(node)?;
+            let outer = place.viewport.size.or(view_box.map(|view_box| Vec2::new(view_box.w, view_box.h)));
+            let size = outer.map(|outer| Vec2::new(size[0].unwrap_or(outer.x), size[1].unwrap_or(outer.y)));
+            let inner = match (view_box, size) {
+                (Some(view_box), Some(size)) => {
+                    let inner = Viewport { size: Some(Vec2::new(view_box.w, view_box.h)) };
+                    (page::fit(node, view_box, size)?, inner)
+                }
+                _ => (Affine::identity(), Viewport { size }),
+            };
+            Ok::<_, String>((Affine::translation(corner).after(&inner.0), inner.1))
+        };
+        match read() {
+            Ok((map, viewport)) => {
+                place.map = place.map.after(&map);
+                place.viewport = viewport;
+                Some(())
+            }
+            Err(found) => {
+                self.refuse(node, found, "a length and a view box of four numbers");
+                None
+            }
+        }
+    }
+
+    fn copy(&mut self, node: Node<'a, 'input>, mut place: Place<'a>) {
+        self.choose(node, &mut place);
+        let href = node.attribute("href").or_else(|| node.attribute((XLINK, "href"))).unwrap_or_default().trim();
+        let Some(&target) = href.strip_prefix('#').and_then(|id| self.ids.get(id)) else {
+            let found = format!("use of `{}`", page::shortened(href));
+            return self.refuse(node, found, "`#` and the id of an element of this file");
+        };
+        if self.copying.contains(&target) || node.ancestors().any(|around| around == target) {
+            let found = format!("`{}` copies itself", page::shortened(href));
+            return self.refuse(node, found, "copies (`use`) of other elements");
+        }
+        let corner = [("x", Along::X), ("y", Along::Y)].map(|(name, along)| place.viewport.length(node, name, along));
+        let [Ok(x), Ok(y)] = corner else {
+            return self.refuse(node, "x or y that is no length", "a length");
+        };
+        place.map = place.map.after(&Affine::translation(Vec2::new(x.unwrap_or(0.0), y.unwrap_or(0.0))));
+        self.copying.push(target);
+        if matches!(target.tag_name().name(), "symbol" | "svg") {
+            place.style = place.style.of_child(target, self.sheet);
+            if self.viewport(target, node, &mut place).is_some() {
+                self.children(target, &place);
+            }
+        } else {
+            self.element(target, &place);
+        }
+        self.copying.pop();
+    }
+
+    fn shape(&mut self, node: Node<'a, 'input>, place: &Place<'a>) {
+        let style = place.style;
+        if !style.is_visible || (style.fill == Fill::None && !style.has_stroke) {
+            return self.count("hidden elements");
+        }
+        if let Some(layer) = place.layer {
+            *self.drawing.layers.entry(layer.to_owned()).or_default() += 1;
+        }
+        if !place.is_chosen {
+            return self.count("elements on other layers");
+        }
+        let subpaths = match shape::contours(node, place.viewport) {
+            Ok(subpaths) => subpaths,
+            Err(found) => {
+                return self.refuse(
+                    node,
+                    found,
+                    "numbers as SVG has them, lengths with a unit or none, sizes of 0 or more",
+                );
+            }
+        };
+        let mut rings = Vec::new();
+        let mut circles = Vec::new();
+        for subpath in subpaths {
+            let pieces: Vec<_> = subpath.pieces.iter().map(|piece| piece.mapped(&place.map)).collect();
+            if !pieces.iter().all(|piece| piece.is_in_range()) {
+                return self.refuse(node, "a coordinate out of range", "coordinates below 1e38 after all transforms");
+            }
+            // An outline that is only drawn and left open encloses nothing; a fill closes it.
+            if style.fill == Fill::None && !subpath.is_closed {
+                self.count("open lines");
+                continue;
+            }
+            if !self.budget.spend(pieces.len()) {
+                return self.refuse_size(node);
+            }
+            let closed = close(&pieces, 0.0);
+            let vertices = if let Closed::Ring(ring) = &closed { ring.vertices.len() } else { 1 };
+            if !self.budget.spend(vertices) {
+                return self.refuse_size(node);
+            }
+            match closed {
+                Closed::Circle { center, radius, is_clockwise } => {
+                    circles.push((center, radius));
+                    rings.push(full_circle(center, radius, is_clockwise));
+                }
+                Closed::Ring(ring) => rings.push(ring),
+                Closed::Empty if !subpath.is_closed => {
+                    self.count("open lines");
+                    continue;
+                }
+                Closed::Empty => {
+                    self.count("shapes without area");
+                    continue;
+                }
+            }
+            self.tally.not_closed += usize::from(!subpath.is_closed);
+        }
+        let rule = if style.fill == Fill::None { FillRule::NonZero } else { style.rule };
+        let outline = match (&circles[..], rings.len()) {
+            (_, 0) => return,
+            (&[(center, radius)], 1) => Outline::Disc { center, radius },
+            _ => Outline::Area { rings, rule },
+        };
+        self.tally.outlines += usize::from(style.fill == Fill::None);
+        self.tally.strokes += usize::from(style.fill != Fill::None && style.has_stroke);
+        self.whites.push(style.fill == Fill::White);
+        self.drawing.entities.push(Entity { outline, place: self.lines.place(node) });
+    }
+
+    fn finish(mut self) -> Result<Drawing, Vec<Refusal>> {
+        self.refusals.dedup();
+        for (i, layer) in self.layers.unwrap_or_default().iter().enumerate() {
+            if !self.found_layers[i] {
+                let known = self.drawing.layers.keys().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+                let known = if known.is_empty() { "no groups with a name".to_owned() } else { known };
+                let expected = format!("the label or id of a group: {}", page::shortened(&known));
+                self.refusals.push(Refusal::new("layers", format!("`{layer}`, which is not in the file"), expected));
+            }
+        }
+        if !self.refusals.is_empty() {
+            return Err(self.refusals);
+        }
+        let drawing = &mut self.drawing;
+        let whites = self.whites.iter().filter(|is_white| **is_white).count();
+        if whites > 0 && whites < self.whites.len() {
+            let mut is_white = self.whites.iter();
+            drawing.entities.retain(|_| is_white.next() == Some(&false));
+            drawing.unused.insert("white shapes".to_owned(), whites);
+            drawing.notes.push(format!(
+                "{whites} white shapes are taken for paper, as others are not white; give what is pore no fill, or choose layers."
+            ));
+        }
+        let Tally { outlines, strokes, clipped, not_closed } = self.tally;
+        let told = [
+            (outlines, "closed outlines without fill are taken for shapes"),
+            (not_closed, "open outlines with a fill are closed by a straight line, as they are drawn"),
+            (strokes, "shapes have a stroke beside the fill; its width is not part of them"),
+            (clipped, "elements have a clip or a mask, which is not applied"),
+            (self.sheet.left_out, "selectors of style sheets are not understood and left out"),
+        ];
+        for (number, sentence) in told.into_iter().filter(|(number, _)| *number > 0) {
+            drawing.notes.push(format!("{number} {sentence}."));
+        }
+        if drawing.unit.as_ref().is_some_and(|unit| unit.name == "px") {
+            drawing.notes.push(
+                "The unit is the px, 1/96 in; where the drawing means another one, give the key `unit`.".to_owned(),
+            );
+        }
+        Ok(self.drawing)
+    }
+}
+
+/// A circle as a ring of two half circles, for areas of several rings.
+fn full_circle(center: Vec2, radius: f64, is_clockwise: bool) -> Ring {
+    let bulge = if is_clockwise { -1.0 } else { 1.0 };
+    Ring { vertices: vec![[center.x + radius, center.y, bulge], [center.x - radius, center.y, bulge]] }
+}

@@ -1,0 +1,58 @@
+//! What the lines of text files have in common: words, comments, the domain, and lines that cannot be read.
+//!
+//! Comment lines begin with `#`; `# domain xmin ymin xmax ymax` (in the unit of the file) sets the domain.
+
+use crate::geometry::import::drawing::Refusal;
+use crate::math::{Bounds, Vec2};
+
+/// What stands beside the shapes in a text file.
+#[derive(Debug, Default)]
+pub(crate) struct Lines {
+    /// The box of a `# domain` comment.
+    pub domain: Option<Bounds>,
+    /// Lines that cannot be read.
+    pub bad: Vec<Refusal>,
+}
+
+impl Lines {
+    /// Takes in a comment, which may set the domain; false where the line is none.
+    pub fn take_comment(&mut self, line: usize, text: &str) -> bool {
+        let Some(comment) = text.strip_prefix('#') else { return false };
+        let mut words = words(comment.trim_start_matches('#'));
+        if words.next().is_some_and(|word| word.trim_end_matches(':').eq_ignore_ascii_case("domain")) {
+            let numbers: Result<Vec<f64>, _> = words.map(str::parse).collect();
+            match numbers.ok().and_then(|n| <[f64; 4]>::try_from(n).ok()) {
+                Some([x0, y0, x1, y1]) => {
+                    self.domain = Some(Bounds { min: Vec2::new(x0, y0), max: Vec2::new(x1, y1) });
+                }
+                None => self.refuse(line, text, "`# domain xmin ymin xmax ymax`".to_owned()),
+            }
+        }
+        true
+    }
+
+    /// Notes a line that cannot be read.
+    pub fn refuse(&mut self, line: usize, text: &str, expected: String) {
+        self.bad.push(Refusal { place: place(line), found: quoted(text), expected });
+    }
+}
+
+/// How messages call a line.
+pub(crate) fn place(line: usize) -> String {
+    format!("line {line}")
+}
+
+/// The words of a line, separated by spaces, tabs, commas or semicolons.
+pub(crate) fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| c.is_whitespace() || c == ',' || c == ';').filter(|word| !word.is_empty())
+}
+
+/// A text between back quotes, shortened for a message.
+pub(crate) fn quoted(text: &str) -> String {
+    const LONGEST: usize = 60;
+    if text.chars().count() <= LONGEST {
+        format!("`{text}`")
+    } else {
+        format!("`{}...`", text.chars().take(LONGEST).collect::<String>())
+    }
+}

@@ -1,0 +1,127 @@
+//! Polygons in well-known text: `POLYGON`, `MULTIPOLYGON` and `GEOMETRYCOLLECTION` of these.
+//!
+//! A file may hold several geometries one after the other. Separate polygons may overlap: they are united. Points and lines are
+//! counted and not used.
+
+use std::str::FromStr;
+
+use wkt::Wkt;
+
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal};
+use crate::geometry::import::rings;
+use crate::geometry::import::text::{Lines, place};
+
+const EXPECTED: &str =
+    "POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION of polygons, such as `POLYGON ((0 0, 1 0, 0 1, 0 0))`";
+
+/// Deepest parentheses of a geometry: collections within collections beyond this are no drawing.
+const DEEPEST: i64 = 32;
+
+/// Reads well-known text.
+pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
+    let (mut drawing, mut lines) = (Drawing::default(), Lines::default());
+    let (mut chunk, mut first, mut depth, mut deepest) = (String::new(), 1, 0_i64, 0_i64);
+    for (line, row) in (1..).zip(text.lines().map(str::trim)) {
+        if lines.take_comment(line, row) || row.is_empty() {
+            continue;
+        }
+        if chunk.is_empty() {
+            (first, depth, deepest) = (line, 0, 0);
+        }
+        chunk.push_str(row);
+        chunk.push(' ');
+        for c in row.chars() {
+            depth += i64::from(c == '(') - i64::from(c == ')');
+            deepest = deepest.max(depth);
+        }
+        // A geometry ends where its parentheses close; a bare keyword goes on on the next line.
+        let is_empty = row.split_whitespace().next_back().is_some_and(|word| word.eq_ignore_ascii_case("empty"));
+        if depth <= 0 && (chunk.contains('(') || is_empty) {
+            take(&chunk, (first, deepest), &mut drawing, &mut lines);
+            chunk.clear();
+        }
+    }
+    if !chunk.is_empty() {
+        take(&chunk, (first, deepest), &mut drawing, &mut lines);
+    }
+    if lines.bad.is_empty() && drawing.entities.is_empty() {
+        lines.bad.push(Refusal { place: place(1), found: "no polygon at all".into(), expected: EXPECTED.into() });
+    }
+    drawing.frame = lines.domain;
+    if lines.bad.is_empty() { Ok(drawing) } else { Err(lines.bad) }
+}
+
+fn take(chunk: &str, (line, depth): (usize, i64), drawing: &mut Drawing, lines: &mut Lines) {
+    if depth > DEEPEST {
+        lines.refuse(line, chunk.trim(), format!("parentheses at most {DEEPEST} deep, not {depth}"));
+        return;
+    }
+    match Wkt::<f64>::from_str(chunk) {
+        Err(reason) => lines.refuse(line, chunk.trim(), format!("{EXPECTED} ({reason})")),
+        Ok(geometry) => collect(&geometry, line, drawing, lines),
+    }
+}
+
+fn collect(geometry: &Wkt<f64>, line: usize, drawing: &mut Drawing, lines: &mut Lines) {
+    let mut count = |kind: &str, number: usize| *drawing.unused.entry(kind.to_owned()).or_default() += number;
+    match geometry {
+        Wkt::Polygon(polygon) => add(polygon, line, drawing, lines),
+        Wkt::MultiPolygon(many) => many.polygons().iter().for_each(|polygon| add(polygon, line, drawing, lines)),
+        Wkt::GeometryCollection(many) => {
+            many.geometries().iter().for_each(|one| collect(one, line, drawing, lines));
+        }
+        Wkt::Point(_) => count("points", 1),
+        Wkt::MultiPoint(many) => count("points", many.points().len()),
+        Wkt::LineString(_) => count("lines", 1),
+        Wkt::MultiLineString(many) => count("lines", many.line_strings().len()),
+    }
+}
+
+fn add(polygon: &wkt::types::Polygon<f64>, line: usize, drawing: &mut Drawing, lines: &mut Lines) {
+    let mut found = Vec::new();
+    for (k, ring) in polygon.rings().iter().enumerate() {
+        let points: Vec<[f64; 2]> = ring.coords().iter().map(|c| [c.x, c.y]).collect();
+        match rings::of_closed_line(&points) {
+            Ok(ring) => found.push(ring),
+            Err(refused) => lines.bad.push(Refusal {
+                place: place(line),
+                found: format!("ring {k}: {}", refused.found),
+                expected: refused.expected,
+            }),
+        }
+    }
+    if !found.is_empty() {
+        let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
+        drawing.entities.push(Entity { outline, place: place(line) });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn collections_over_several_lines_and_a_domain_are_read() {
+        let text = "# domain -1 -1 9 9\nPOLYGON EMPTY\nGEOMETRYCOLLECTION (\n POLYGON ((0 0, 1 0, 0 1, 0 0)), POINT (1 2),\n\
+                    MULTIPOLYGON (((3 3, 4 3, 3 4, 3 3)), ((6 6, 7 6, 6 7, 6 6))))\nPOLYGON ((0 5, 1 5, 0 6, 0 5))\n";
+        let drawing = read(text).unwrap();
+        assert_eq!(drawing.entities.len(), 4);
+        assert_eq!(drawing.entities[3].place, "line 6");
+        assert_eq!(drawing.frame.unwrap().max.x, 9.0);
+        assert_eq!(drawing.unused["points"], 1);
+    }
+
+    #[test]
+    fn open_rings_and_files_without_polygons_are_refused_with_their_line() {
+        let bad = read("\nPOLYGON ((0 0, 1 0, 0 1))\nPOLYGON ((0 0, 1 0, nan 1, 0 0))\nPOLYGON 3\n").unwrap_err();
+        assert_eq!(bad.iter().map(|b| b.place.as_str()).collect::<Vec<_>>(), ["line 2", "line 3", "line 4"]);
+        assert!(bad[0].expected.contains("first point"), "{}", bad[0]);
+        assert_eq!(read("POINT (1 2)").unwrap_err()[0].found, "no polygon at all");
+    }
+
+    #[test]
+    fn nested_collections_do_not_exhaust_the_stack() {
+        let text = format!("{}POINT (1 2){}", "GEOMETRYCOLLECTION (".repeat(100_000), ")".repeat(100_000));
+        assert!(read(&text).unwrap_err()[0].expected.contains("32 deep"));
+    }
+}

@@ -1,0 +1,191 @@
+//! A map of the plane: areas colored along a bar or by class, walls and lines over them, scale bar and legend.
+
+use super::canvas::{Canvas, PictureError, Rgb};
+use super::style::{
+    BAR_SHARE, BLACK, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, TITLE_SIZE, WIDTH, length_text, round_length,
+};
+use crate::diagram::{Mosaic, Tone};
+use crate::io::axes::short;
+
+/// Largest height of the drawing in pixels.
+const TALLEST: f32 = 1400.0;
+/// Room below the drawing in pixels: color bar with its numbers, scale bar and legend.
+const FOOT: f32 = 190.0;
+/// Height of the color bar in pixels.
+const BAR: f32 = 26.0;
+
+/// Colors that rise evenly in lightness, for color-blind eyes and gray prints too: viridis (van der Walt and Smith 2015) at eighths.
+const VIRIDIS: [Rgb; 9] = [
+    [68, 1, 84],
+    [71, 44, 122],
+    [59, 81, 139],
+    [44, 113, 142],
+    [33, 144, 141],
+    [39, 173, 129],
+    [92, 200, 99],
+    [170, 220, 50],
+    [253, 231, 37],
+];
+
+/// The color at a share of the bar; what comes first is bright, what comes last dark.
+fn color_at(share: f64) -> Rgb {
+    let place = (1.0 - share.clamp(0.0, 1.0)) * (VIRIDIS.len() - 1) as f64;
+    let below = (place.floor() as usize).min(VIRIDIS.len() - 2);
+    let rest = place - below as f64;
+    let mix = |i: usize| {
+        let (a, b) = (f64::from(VIRIDIS[below][i]), f64::from(VIRIDIS[below + 1][i]));
+        (a + rest * (b - a)).round() as u8
+    };
+    [mix(0), mix(1), mix(2)]
+}
+
+/// From meters to pixels.
+struct View {
+    min: [f64; 2],
+    scale: f64,
+    corner: [f32; 2],
+    size: [f32; 2],
+}
+
+impl View {
+    fn new([min, max]: [[f64; 2]; 2]) -> Self {
+        let size = [0, 1].map(|i| max[i] - min[i]);
+        let room = f64::from(WIDTH as f32 - 2.0 * RIM);
+        let scale = (room / size[0]).min(f64::from(TALLEST) / size[1]);
+        let pixels = size.map(|length| (scale * length) as f32);
+        Self { min, scale, corner: [0.5 * (WIDTH as f32 - pixels[0]), HEAD], size: pixels }
+    }
+
+    fn place(&self, x: [f64; 2]) -> [f32; 2] {
+        let [right, up] = [0, 1].map(|i| (self.scale * (x[i] - self.min[i])) as f32);
+        [self.corner[0] + right, self.corner[1] + self.size[1] - up]
+    }
+}
+
+/// Draws a map as a PNG file.
+///
+/// # Errors
+/// [`PictureError`].
+pub fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, PictureError> {
+    let view = View::new(mosaic.bounds);
+    if !(view.scale.is_finite() && view.scale > 0.0) || mosaic.areas.is_empty() {
+        return Err(PictureError::Empty);
+    }
+    let bottom = view.corner[1] + view.size[1];
+    let mut canvas = Canvas::new(WIDTH, (bottom + FOOT).ceil() as u32)?;
+    canvas.rectangle(view.corner, view.size, SOLID);
+    let [low, high] = mosaic.range;
+    for area in &mosaic.areas {
+        let color = match area.tone {
+            Tone::Value(value) => color_at((value - low) / (high - low)),
+            Tone::Class(class) => mosaic.classes.get(class).map_or(SOLID, |(_, color)| *color),
+        };
+        canvas.polygon(area.boundary.iter().map(|&x| view.place(x)), color);
+    }
+    // Thousands of grains leave no room for thick lines.
+    const FEW: usize = 500;
+    let thin = if mosaic.walls.len() < FEW { 1.0 } else { 0.4 };
+    for wall in &mosaic.walls {
+        canvas.polyline(wall.iter().map(|&x| view.place(x)), 1.5 * thin, OUTLINE);
+    }
+    for line in &mosaic.lines.1 {
+        canvas.polyline(line.iter().map(|&x| view.place(x)), 3.0 * thin, INTERFACE);
+    }
+    canvas.wipe_outside(view.corner, view.size);
+    let ([x, y], [width, tall]) = (view.corner, view.size);
+    let corners = [[x, y], [x + width, y], [x + width, y + tall], [x, y + tall], [x, y]];
+    canvas.polyline(corners.into_iter(), 1.5, OUTLINE);
+    let title = canvas.fitted(title, TITLE_SIZE, WIDTH as f32 - 2.0 * RIM);
+    canvas.text(&title, [RIM, 44.0], TITLE_SIZE);
+    canvas.text(&mosaic.note, [RIM, 82.0], TEXT_SIZE);
+    color_bar(&mut canvas, mosaic, bottom + 24.0);
+    scale_bar(&mut canvas, &view, bottom + 130.0);
+    legend(&mut canvas, mosaic, bottom + 168.0);
+    canvas.png()
+}
+
+fn color_bar(canvas: &mut Canvas, mosaic: &Mosaic, top: f32) {
+    /// Numbers below the bar.
+    const NUMBERS: u32 = 5;
+    let width = WIDTH as f32 - 2.0 * RIM;
+    let label = format!("{}:", mosaic.label);
+    // Whole pixels: columns between two would let the ground shine through.
+    let from = (RIM + canvas.text_width(&label, TEXT_SIZE) + 20.0).round();
+    canvas.text(&label, [RIM, top + 22.0], TEXT_SIZE);
+    let length = RIM + width - from;
+    for column in 0..length as u32 {
+        let share = f64::from(column) / f64::from(length);
+        canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(share));
+    }
+    let [low, high] = mosaic.range;
+    for number in 0..NUMBERS {
+        let share = f64::from(number) / f64::from(NUMBERS - 1);
+        let value = low + share * (high - low);
+        let text = short(format!("{value:.2e}").parse().unwrap_or(value));
+        let wide = canvas.text_width(&text, TEXT_SIZE);
+        let x = (from + share as f32 * length - 0.5 * wide).min(RIM + width - wide);
+        canvas.text(&text, [x, top + BAR + 28.0], TEXT_SIZE);
+    }
+}
+
+fn scale_bar(canvas: &mut Canvas, view: &View, y: f32) {
+    let size = view.size.map(|pixels| f64::from(pixels) / view.scale);
+    let length = round_length(BAR_SHARE * size[0].max(0.5 * size[1]));
+    canvas.rectangle([RIM, y - 4.0], [(length * view.scale) as f32, 8.0], BLACK);
+    canvas.text(&length_text(length), [RIM, y + 38.0], TEXT_SIZE);
+}
+
+/// Names what is in the drawing, from the right.
+fn legend(canvas: &mut Canvas, mosaic: &Mosaic, y: f32) {
+    let is_there = |class: usize| mosaic.areas.iter().any(|area| area.tone == Tone::Class(class));
+    let classes = mosaic.classes.iter().enumerate().filter(|(class, _)| is_there(*class)).map(|(_, entry)| *entry);
+    let lines = Some((mosaic.lines.0, INTERFACE)).filter(|_| !mosaic.lines.1.is_empty());
+    let entries: Vec<(&str, Rgb)> = classes.chain([("solid", SOLID)]).chain(lines).collect();
+    let mut x = WIDTH as f32 - RIM;
+    for (name, color) in entries.into_iter().rev() {
+        x -= canvas.text_width(name, TEXT_SIZE);
+        canvas.text(name, [x, y], TEXT_SIZE);
+        x -= 22.0;
+        canvas.circles([[x, y - 8.0]].into_iter(), 11.0, color);
+        x -= 40.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagram::Area;
+
+    fn mosaic() -> Mosaic {
+        let square = |x: f64, tone| Area { boundary: vec![[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]], tone };
+        Mosaic {
+            name: "test",
+            note: "a note".into(),
+            label: "share",
+            range: [0.0, 2.0],
+            classes: vec![("trapped", [204, 121, 167])],
+            bounds: [[0.0, 0.0], [4.0, 1.0]],
+            areas: vec![square(0.0, Tone::Value(2.0)), square(1.0, Tone::Class(0)), square(2.0, Tone::Value(0.0))],
+            walls: vec![vec![[3.0, 0.0], [3.0, 1.0]]],
+            lines: ("menisci", vec![vec![[1.0, 0.0], [1.0, 1.0]]]),
+        }
+    }
+
+    #[test]
+    fn areas_fill_their_share_of_the_drawing_in_their_colors() {
+        let png = mosaic_picture(&mosaic(), "Squares").unwrap();
+        let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
+        let square = f64::from(WIDTH as f32 - 2.0 * RIM).powi(2) / 16.0;
+        for color in [VIRIDIS[0], VIRIDIS[VIRIDIS.len() - 1], [204, 121, 167], SOLID] {
+            let count = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == color).count() as f64;
+            // Lines take a few columns of each square, the legend adds a dot.
+            assert!((count / square - 1.0).abs() < 0.03, "{color:?}: {}", count / square);
+        }
+    }
+
+    #[test]
+    fn nothing_to_draw_is_an_error() {
+        let nothing = Mosaic { areas: Vec::new(), ..mosaic() };
+        assert!(matches!(mosaic_picture(&nothing, ""), Err(PictureError::Empty)));
+    }
+}

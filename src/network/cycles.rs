@@ -1,0 +1,362 @@
+//! A displacement through its half cycles: what invades, where each ends, and what happened so far.
+//!
+//! The invading phase of the first half cycle enters a pore space full of the other one. Each further half cycle begins with the state
+//! that the one before left, with the phases, the inlet and the outlet exchanged.
+
+use std::sync::Arc;
+
+use super::displacement::{Conditions, Displacement, EventKind, Phase};
+use super::graph::{Network, Pores};
+use super::tables::kind_name;
+
+/// The fluids.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fluid {
+    /// The phase through which contact angles are measured.
+    Wetting,
+    /// The other one.
+    NonWetting,
+}
+
+impl Fluid {
+    /// Its name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wetting => "wetting",
+            Self::NonWetting => "non-wetting",
+        }
+    }
+
+    /// The other fluid.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Wetting => Self::NonWetting,
+            Self::NonWetting => Self::Wetting,
+        }
+    }
+}
+
+/// Where a half cycle ends before it comes to rest.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct End {
+    /// When the invading phase reaches the outlet.
+    pub at_breakthrough: bool,
+    /// When the invading phase fills this share of the pore space.
+    pub at_saturation: Option<f64>,
+}
+
+/// One drainage or imbibition.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HalfCycle {
+    /// The phase that invades.
+    pub invading: Fluid,
+    /// Angles, open sides and the largest applied curvature.
+    pub conditions: Conditions,
+    /// Where it ends early.
+    pub end: End,
+}
+
+impl HalfCycle {
+    /// `drainage` or `imbibition`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self.invading {
+            Fluid::NonWetting => "drainage",
+            Fluid::Wetting => "imbibition",
+        }
+    }
+
+    /// Curvature of menisci bulging into the wetting phase for one that bulges into the defending phase by `curvature`, so that
+    /// tension times it is p_n - p_w.
+    #[must_use]
+    pub fn towards_wetting(&self, curvature: f64) -> f64 {
+        match self.invading {
+            Fluid::NonWetting => curvature,
+            Fluid::Wetting => -curvature,
+        }
+    }
+}
+
+/// One event that took place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Entry {
+    /// Index of its half cycle.
+    pub half_cycle: usize,
+    /// What happened.
+    pub kind: EventKind,
+    /// The throat that was passed, an index into those of the network.
+    pub throat: Option<usize>,
+    /// Curvature of the meniscus towards the wetting phase in 1/m.
+    pub curvature: f64,
+    /// Applied curvature towards the wetting phase in 1/m: the capillary pressure p_n - p_w over the tension.
+    pub applied: f64,
+    /// Saturation of the wetting phase afterwards.
+    pub saturation: f64,
+}
+
+/// When an element was filled in the present half cycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Invasion {
+    /// Number of the event within its half cycle, from 1 on; 0 for what is filled at the beginning, through an opening of the inlet.
+    pub sequence: usize,
+    /// Applied curvature towards the wetting phase in 1/m; NaN at the beginning.
+    pub applied: f64,
+    /// Share of the pore space that was displaced in this half cycle, this event included.
+    pub displaced: f64,
+}
+
+/// How a half cycle went.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Outcome {
+    /// Number of its events.
+    pub events: usize,
+    /// At the event by which the invading phase reached the outlet: applied curvature in 1/m and share of the invading phase.
+    pub breakthrough: Option<(f64, f64)>,
+    /// Saturation of the wetting phase at its beginning, before and after what is open at the inlet is filled.
+    pub first_saturation: [f64; 2],
+}
+
+/// A displacement through its half cycles.
+#[derive(Debug, Clone)]
+pub struct Cycles {
+    network: Arc<Network>,
+    pores: Arc<Pores>,
+    half_cycles: Vec<HalfCycle>,
+    displacement: Displacement,
+    pore_area: f64,
+    half_cycle: usize,
+    is_done: bool,
+    steps: u64,
+    wetting_area: f64,
+    displaced_area: f64,
+    history: Vec<Entry>,
+    invasions: Vec<Option<Invasion>>,
+    outcomes: Vec<Outcome>,
+    /// Displaced area at the beginning of the present half cycle.
+    displaced_before: f64,
+}
+
+/// A saturation this near to 0 or 1 differs from it by the rounding of a sum of areas.
+const ROUNDING: f64 = 1.0e-12;
+
+fn tidy(saturation: f64) -> f64 {
+    if saturation < ROUNDING {
+        0.0
+    } else if saturation > 1.0 - ROUNDING {
+        1.0
+    } else {
+        saturation
+    }
+}
+
+impl Cycles {
+    /// The beginning of the first of the half cycles; none where there is no half cycle.
+    #[must_use]
+    pub fn new(network: Arc<Network>, pores: Arc<Pores>, half_cycles: Vec<HalfCycle>) -> Option<Self> {
+        let first = half_cycles.first()?;
+        let displacement = Displacement::new(&network, &pores, first.conditions.clone());
+        let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
+        let wetting_area = if first.invading == Fluid::Wetting { 0.0 } else { pore_area };
+        let elements = displacement.elements().len();
+        let mut cycles = Self {
+            network,
+            pores,
+            displacement,
+            pore_area,
+            half_cycle: 0,
+            is_done: false,
+            steps: 0,
+            wetting_area,
+            displaced_area: 0.0,
+            history: Vec::new(),
+            invasions: vec![None; elements],
+            outcomes: Vec::new(),
+            displaced_before: 0.0,
+            half_cycles,
+        };
+        cycles.begin(&vec![Phase::Defending; elements]);
+        Some(cycles)
+    }
+
+    /// Takes account of what a half cycle fills at its beginning; `before` are the phases that the elements would have without that.
+    fn begin(&mut self, before: &[Phase]) {
+        let saturation = self.saturation();
+        self.displaced_before = self.displaced_area;
+        self.invasions.iter_mut().for_each(|invasion| *invasion = None);
+        let filled: Vec<usize> = (0..before.len())
+            .filter(|&element| {
+                before[element] == Phase::Defending && self.displacement.phase(element) == Phase::Invading
+            })
+            .collect();
+        self.displace(&filled);
+        let displaced = (self.displaced_area - self.displaced_before) / self.pore_area;
+        for element in filled {
+            self.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
+        }
+        let first_saturation = [saturation, self.saturation()];
+        // No pressure holds back what enters through an opening, so that there is none to tell.
+        let breakthrough = self.displacement.reached_outlet().then(|| (f64::NAN, self.invading_saturation()));
+        self.outcomes.push(Outcome { first_saturation, breakthrough, ..Outcome::default() });
+    }
+
+    /// Share of the pore space that the invading phase holds.
+    fn invading_saturation(&self) -> f64 {
+        match self.half_cycle().invading {
+            Fluid::Wetting => self.saturation(),
+            Fluid::NonWetting => 1.0 - self.saturation(),
+        }
+    }
+
+    /// Counts the areas of elements that the invading phase filled.
+    fn displace(&mut self, elements: &[usize]) {
+        let area: f64 = elements.iter().map(|&element| self.displacement.elements()[element].area).sum();
+        self.displaced_area += area;
+        self.wetting_area += if self.half_cycle().invading == Fluid::Wetting { area } else { -area };
+    }
+
+    /// The same displacement at its beginning.
+    #[must_use]
+    pub fn restarted(&self) -> Option<Self> {
+        Self::new(Arc::clone(&self.network), Arc::clone(&self.pores), self.half_cycles.clone())
+    }
+
+    /// Does the next event, or turns to the next half cycle; none where the displacement is over.
+    pub fn advance(&mut self) -> Option<&'static str> {
+        if self.is_done {
+            return None;
+        }
+        self.steps += 1;
+        let event = if self.has_ended_early() { None } else { self.displacement.next() };
+        let Some(event) = event else { return self.turn() };
+        self.displace(&event.elements);
+        let half = &self.half_cycles[self.half_cycle];
+        let (curvature, half_cycle) = (half.towards_wetting(event.curvature), self.half_cycle);
+        let (saturation, applied) = (self.saturation(), half.towards_wetting(event.applied));
+        let displaced = (self.displaced_area - self.displaced_before) / self.pore_area;
+        self.outcomes[self.half_cycle].events += 1;
+        let sequence = self.outcomes[self.half_cycle].events;
+        for &element in &event.elements {
+            self.invasions[element] = Some(Invasion { sequence, applied, displaced });
+        }
+        if self.outcomes[self.half_cycle].breakthrough.is_none() && self.displacement.reached_outlet() {
+            self.outcomes[self.half_cycle].breakthrough = Some((applied, self.invading_saturation()));
+        }
+        self.history.push(Entry { half_cycle, kind: event.kind, throat: event.throat, curvature, applied, saturation });
+        Some(kind_name(event.kind))
+    }
+
+    fn has_ended_early(&self) -> bool {
+        let half = self.half_cycle();
+        let share = self.invading_saturation();
+        let has_broken_through = self.outcomes[self.half_cycle].breakthrough.is_some();
+        (half.end.at_breakthrough && has_broken_through) || half.end.at_saturation.is_some_and(|end| share >= end)
+    }
+
+    fn turn(&mut self) -> Option<&'static str> {
+        let Some(next) = self.half_cycles.get(self.half_cycle + 1) else {
+            self.is_done = true;
+            return None;
+        };
+        let reversed = |element: usize| match self.displacement.phase(element) {
+            Phase::Defending => Phase::Invading,
+            Phase::Invading => Phase::Defending,
+        };
+        let before: Vec<Phase> = (0..self.invasions.len()).map(reversed).collect();
+        self.half_cycle += 1;
+        self.displacement = self.displacement.clone().reverse(next.conditions.clone());
+        self.begin(&before);
+        Some("reversal")
+    }
+
+    /// The half cycle that goes on or has ended last.
+    #[must_use]
+    pub fn half_cycle(&self) -> &HalfCycle {
+        &self.half_cycles[self.half_cycle]
+    }
+
+    /// Its index.
+    #[must_use]
+    pub fn half_cycle_index(&self) -> usize {
+        self.half_cycle
+    }
+
+    /// All half cycles.
+    #[must_use]
+    pub fn half_cycles(&self) -> &[HalfCycle] {
+        &self.half_cycles
+    }
+
+    /// Those that have begun: how they went.
+    #[must_use]
+    pub fn outcomes(&self) -> &[Outcome] {
+        &self.outcomes
+    }
+
+    /// Whether nothing will happen any more.
+    #[must_use]
+    pub fn is_done(&self) -> bool {
+        self.is_done
+    }
+
+    /// Number of calls of [`advance`](Self::advance) that this state is the result of.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The displaced pore volumes of all half cycles, a sum of areas over the pore area.
+    #[must_use]
+    pub fn displaced(&self) -> f64 {
+        self.displaced_area / self.pore_area
+    }
+
+    /// Saturation of the wetting phase.
+    #[must_use]
+    pub fn saturation(&self) -> f64 {
+        tidy(self.wetting_area / self.pore_area)
+    }
+
+    /// Share of the pore space that holds the defending phase and cannot let it go.
+    #[must_use]
+    pub fn trapped_saturation(&self) -> f64 {
+        let elements = self.displacement.elements().iter().enumerate();
+        let trapped = elements.filter(|(index, _)| self.displacement.is_trapped(*index));
+        trapped.map(|(_, element)| element.area).sum::<f64>() / self.pore_area
+    }
+
+    /// All events so far.
+    #[must_use]
+    pub fn history(&self) -> &[Entry] {
+        &self.history
+    }
+
+    /// The applied curvature towards the wetting phase in 1/m; none before the first event of a half cycle.
+    #[must_use]
+    pub fn applied(&self) -> Option<f64> {
+        self.history.last().filter(|entry| entry.half_cycle == self.half_cycle).map(|entry| entry.applied)
+    }
+
+    /// The displacement of the present half cycle.
+    #[must_use]
+    pub fn displacement(&self) -> &Displacement {
+        &self.displacement
+    }
+
+    /// When the elements were filled in the present half cycle.
+    #[must_use]
+    pub fn invasions(&self) -> &[Option<Invasion>] {
+        &self.invasions
+    }
+
+    /// The fluid in an element.
+    #[must_use]
+    pub fn fluid(&self, element: usize) -> Fluid {
+        let invading = self.half_cycle().invading;
+        match self.displacement.phase(element) {
+            Phase::Invading => invading,
+            Phase::Defending => invading.other(),
+        }
+    }
+}

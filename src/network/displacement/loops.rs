@@ -1,0 +1,237 @@
+//! Closed loops of walls and gates, and how a loop between more than three walls is divided.
+//!
+//! A meniscus that advances through a gate moves along two walls and may touch a third one. So that each such event has one place, a pore
+//! region with more than three stretches of wall on its loop is divided by the shortest segments from wall to wall that lie in it
+//! (for discs mostly the Delaunay edges of neighbors that no throat joins), until each part has three stretches of wall or no segment
+//! is left. The parts tile the region.
+
+use crate::geometry::curve::{Curve, cross};
+use crate::geometry::intersect::meeting_places;
+use crate::math::Vec2;
+use crate::network::graph::WallPiece;
+
+/// What follows a stretch of wall on a loop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Crossing {
+    /// The gate.
+    pub gate: GateId,
+    /// Where its chord begins in m: the stretch of wall before it ends there.
+    pub from: Vec2,
+    /// Where its chord ends in m.
+    pub to: Vec2,
+}
+
+/// A place where fluid passes from one element to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum GateId {
+    /// A throat of the network, seen from its first (0) or second (1) region.
+    Throat(usize, usize),
+    /// An opening of an open side.
+    Opening(usize),
+    /// A segment that divides a region, with the number of its side.
+    Segment(usize, usize),
+}
+
+/// A closed loop: each stretch of wall is followed by a crossing; the pore lies on the right.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Loop {
+    /// Stretches of wall; one is empty where two crossings share a point.
+    pub walls: Vec<Vec<WallPiece>>,
+    /// As many crossings, each after the stretch of the same number.
+    pub crossings: Vec<Crossing>,
+}
+
+/// A point of a stretch of wall.
+#[derive(Debug, Clone, Copy)]
+struct WallPoint {
+    piece: usize,
+    u: f64,
+    point: Vec2,
+}
+
+impl Loop {
+    /// All curves of the loop in order, chords included.
+    pub fn curves(&self) -> impl Iterator<Item = Curve> {
+        (0..self.walls.len()).flat_map(|k| {
+            let chord = self.crossings.get(k).map(|c| Curve::Segment { a: c.from, b: c.to });
+            self.walls[k].iter().map(|piece| piece.curve).chain(chord.filter(|chord| chord.length() > 0.0))
+        })
+    }
+
+    /// Whether it closes in the plane; one that goes once around a periodic domain does not.
+    fn is_closed(&self) -> bool {
+        const ROUNDING: f64 = 1e-6;
+        let (mut gap, mut length) = (Vec2::zeros(), 0.0);
+        for curve in self.curves() {
+            gap += curve.point(1.0) - curve.point(0.0);
+            length += curve.length();
+        }
+        gap.norm() <= ROUNDING * length
+    }
+
+    /// Area in m², closed form (Green).
+    pub fn area(&self) -> f64 {
+        let Some(origin) = self.curves().next().map(|curve| curve.point(0.0)) else { return 0.0 };
+        -self.curves().map(|curve| curve.area_about(origin)).sum::<f64>()
+    }
+
+    /// The loop as a polygon in m, arcs as chords of a few degrees.
+    pub fn outline(&self) -> Vec<Vec2> {
+        const LARGEST_ANGLE: f64 = 0.1;
+        let mut points = Vec::new();
+        for curve in self.curves() {
+            let count = match curve {
+                Curve::Segment { .. } => 1,
+                Curve::Arc { sweep, .. } => (sweep.abs() / LARGEST_ANGLE).ceil().max(1.0) as usize,
+            };
+            points.extend((0..count).map(|k| curve.point(k as f64 / count as f64)));
+        }
+        points
+    }
+
+    /// The two parts of the loop on both sides of the shortest segment that divides it; none where there is no such segment.
+    fn divided(&self, segment: usize) -> Option<[Self; 2]> {
+        let count = self.walls.len();
+        let mut candidates: Vec<(f64, usize, usize, WallPoint, WallPoint)> = Vec::new();
+        for a in 0..count {
+            for b in a + 2..count {
+                if a == 0 && b == count - 1 {
+                    continue;
+                }
+                if let Some((p, q)) = closest_points(&self.walls[a], &self.walls[b]) {
+                    candidates.push(((p.point - q.point).norm(), a, b, p, q));
+                }
+            }
+        }
+        candidates.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
+        let found = candidates.into_iter().find(|(_, _, _, p, q)| self.holds_segment(p.point, q.point));
+        found.map(|(_, a, b, p, q)| self.cut((a, p), (b, q), segment))
+    }
+
+    /// Whether the segment between two wall points lies in the loop without meeting any of its curves in between.
+    fn holds_segment(&self, p: Vec2, q: Vec2) -> bool {
+        // Share of the segment at both ends that may meet the walls it stands on.
+        const AT_ENDS: f64 = 1e-6;
+        let segment = Curve::Segment { a: p, b: q };
+        let length = segment.length();
+        if !(length > 0.0) {
+            return false;
+        }
+        let mut places = Vec::new();
+        for curve in self.curves() {
+            meeting_places(&segment, &curve, 1e-9 * length, &mut places);
+        }
+        places.iter().all(|&u| !(AT_ENDS..=1.0 - AT_ENDS).contains(&u)) && self.winds_around(0.5 * (p + q))
+    }
+
+    /// Whether the loop winds around `x`, the pore on its right.
+    fn winds_around(&self, x: Vec2) -> bool {
+        self.curves().map(|curve| curve.winding(x)).sum::<f64>() < -std::f64::consts::PI
+    }
+
+    fn cut(&self, (a, p): (usize, WallPoint), (b, q): (usize, WallPoint), segment: usize) -> [Self; 2] {
+        let count = self.walls.len();
+        // From the point on wall `from` around to the point on wall `to`, and back along the segment.
+        let part = |(from, start): (usize, WallPoint), (to, end): (usize, WallPoint), side: usize| {
+            let mut part = Self::default();
+            let mut k = from;
+            while k != to {
+                let wall = &self.walls[k];
+                part.walls.push(if k == from { after(wall, start) } else { wall.clone() });
+                part.crossings.push(self.crossings[k]);
+                k = (k + 1) % count;
+            }
+            part.walls.push(before(&self.walls[to], end));
+            part.crossings.push(Crossing { gate: GateId::Segment(segment, side), from: end.point, to: start.point });
+            part
+        };
+        [part((a, p), (b, q), 0), part((b, q), (a, p), 1)]
+    }
+}
+
+/// Divides a loop until each part has at most three stretches of wall, or no segment divides it any more. Segments are numbered from
+/// `segments` on, which counts them.
+pub(super) fn divide(whole: Loop, segments: &mut usize) -> Vec<Loop> {
+    if !whole.is_closed() {
+        return vec![whole];
+    }
+    let (mut open, mut done) = (vec![whole], Vec::new());
+    while let Some(part) = open.pop() {
+        match if part.walls.len() > 3 { part.divided(*segments) } else { None } {
+            Some(parts) => {
+                *segments += 1;
+                open.extend(parts);
+            }
+            None => done.push(part),
+        }
+    }
+    done
+}
+
+fn before(wall: &[WallPiece], end: WallPoint) -> Vec<WallPiece> {
+    let mut kept = wall[..end.piece].to_vec();
+    if end.u > 0.0 {
+        kept.push(WallPiece { curve: wall[end.piece].curve.part(0.0, end.u), ..wall[end.piece] });
+    }
+    kept
+}
+
+fn after(wall: &[WallPiece], start: WallPoint) -> Vec<WallPiece> {
+    let mut kept = Vec::new();
+    if start.u < 1.0 {
+        kept.push(WallPiece { curve: wall[start.piece].curve.part(start.u, 1.0), ..wall[start.piece] });
+    }
+    kept.extend_from_slice(&wall[start.piece + 1..]);
+    kept
+}
+
+fn project(wall: &[WallPiece], x: Vec2) -> Option<WallPoint> {
+    let closest = wall.iter().enumerate().map(|(piece, wall)| (piece, wall.curve.project(x)));
+    let distance = |point: Vec2| (point - x).norm_squared();
+    closest.min_by(|a, b| distance(a.1.point).total_cmp(&distance(b.1.point))).map(|(piece, closest)| WallPoint {
+        piece,
+        u: closest.u,
+        point: closest.point,
+    })
+}
+
+/// The closest points of two stretches of wall: from samples, then back and forth until they rest.
+fn closest_points(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, WallPoint)> {
+    const SAMPLES: usize = 16;
+    const MOST_STEPS: usize = 60;
+    let stride = one.len().div_ceil(SAMPLES).max(1);
+    let per_piece = (SAMPLES / one.len().max(1)).max(1);
+    let mut best: Option<(f64, WallPoint, WallPoint)> = None;
+    for piece in one.iter().step_by(stride) {
+        for k in 0..=per_piece {
+            let p = piece.curve.point(k as f64 / per_piece as f64);
+            let (Some(q), Some(p)) = (project(other, p), project(one, p)) else { continue };
+            let distance = (p.point - q.point).norm();
+            if best.is_none_or(|(least, ..)| distance < least) {
+                best = Some((distance, p, q));
+            }
+        }
+    }
+    let (mut distance, mut p, mut q) = best?;
+    for _ in 0..MOST_STEPS {
+        let Some(next) = project(one, q.point) else { break };
+        let Some(facing) = project(other, next.point) else { break };
+        let closer = (next.point - facing.point).norm();
+        if closer >= distance {
+            break;
+        }
+        let rests = distance - closer <= 1e-15 * distance;
+        (distance, p, q) = (closer, next, facing);
+        if rests {
+            break;
+        }
+    }
+    Some((p, q))
+}
+
+/// Whether the wall turns away from the pore by more than rounding where two pieces of it meet (a concave corner of the pore's wall turns
+/// towards it): the sine of the turn, above 0 to the left.
+pub(super) fn turn(one: &Curve, next: &Curve) -> f64 {
+    let (t, s) = (one.tangent(1.0), next.tangent(0.0));
+    cross(t, s).atan2(t.dot(&s))
+}

@@ -1,0 +1,163 @@
+//! Elements and gates: what displacement fills, and through what.
+//!
+//! Where touch and overlap act, an element is a part of a pore region between at most three walls where such a division exists
+//! (`loops`), and each throat and each dividing segment is a gate. Where bursts alone act, an element is a pore of the network with its
+//! merged regions, and only the throats that are left are gates.
+
+use super::loops::{Crossing, GateId, Loop, divide};
+use crate::math::Vec2;
+use crate::network::graph::{Edge, Network, Pores, Region};
+
+/// A part of the pore space that is filled at once.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Element {
+    /// Its loops.
+    pub loops: Vec<usize>,
+    /// Sides of the domain at which it is open: left, right, bottom, top.
+    pub open: [bool; 4],
+    /// Its gates with the end that lies in it, in order.
+    pub gates: Vec<(usize, usize)>,
+}
+
+/// A gate between two elements.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Gate {
+    /// On each side the loop and the number of the crossing in it.
+    pub places: [(usize, usize); 2],
+    /// What is added to a position in the frame of the first loop to get that in the frame of the second, in m.
+    pub shift: Vec2,
+    /// The throat, where it is one.
+    pub throat: Option<usize>,
+}
+
+/// All elements and gates.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Mesh {
+    /// The loops.
+    pub loops: Vec<Loop>,
+    /// The region of each loop.
+    pub region_of: Vec<usize>,
+    /// Area of each loop in m².
+    pub area: Vec<f64>,
+    /// The element of each loop.
+    pub element_of: Vec<usize>,
+    /// The gate of each crossing of each loop with the end that lies there; none at openings and at dissolved throats.
+    pub gate_at: Vec<Vec<Option<(usize, usize)>>>,
+    /// For each crossing of each loop: the loop and the crossing on its other side, and what is added to a position in the frame of this
+    /// loop to get that in the frame of the other one, in m; none at openings.
+    pub twins: Vec<Vec<Option<(usize, usize, Vec2)>>>,
+    /// The elements.
+    pub elements: Vec<Element>,
+    /// The gates.
+    pub gates: Vec<Gate>,
+}
+
+/// The loop of a region.
+pub(super) fn loop_of(region: &Region) -> Loop {
+    let mut found = Loop::default();
+    let mut wall = Vec::new();
+    // Beginning after a crossing, so that no stretch of wall is split where the list of edges begins.
+    let first = region.edges.iter().position(|edge| !matches!(edge, Edge::Wall(_))).map_or(0, |k| k + 1);
+    for k in 0..region.edges.len() {
+        let crossing = match &region.edges[(first + k) % region.edges.len()] {
+            Edge::Wall(pieces) => {
+                wall.extend_from_slice(pieces);
+                continue;
+            }
+            Edge::Throat { throat, end, from, to } => {
+                Crossing { gate: GateId::Throat(*throat, *end), from: *from, to: *to }
+            }
+            Edge::Opening { opening, from, to } => Crossing { gate: GateId::Opening(*opening), from: *from, to: *to },
+        };
+        found.walls.push(std::mem::take(&mut wall));
+        found.crossings.push(crossing);
+    }
+    if found.walls.is_empty() {
+        // A closed pore without any throat.
+        found.walls.push(wall);
+    }
+    found
+}
+
+impl Mesh {
+    /// Elements between at most three walls, where segments divide the regions so.
+    pub fn divided(network: &Network) -> Self {
+        let (mut mesh, mut segments) = (Self::default(), 0);
+        for (index, region) in network.regions.iter().enumerate() {
+            let parts = divide(loop_of(region), &mut segments);
+            let is_whole = parts.len() == 1;
+            for part in parts {
+                mesh.area.push(if is_whole { region.area } else { part.area() });
+                mesh.element_of.push(mesh.elements.len());
+                mesh.region_of.push(index);
+                mesh.elements.push(Element { loops: vec![mesh.loops.len()], ..Element::default() });
+                mesh.loops.push(part);
+            }
+        }
+        mesh.joined(network, segments, &|_| true)
+    }
+
+    /// The pores of the network as elements.
+    pub fn of_pores(network: &Network, pores: &Pores) -> Self {
+        let mut mesh = Self { elements: vec![Element::default(); pores.area.len()], ..Self::default() };
+        for (index, region) in network.regions.iter().enumerate() {
+            let pore = pores.pore_of[index];
+            mesh.elements[pore].loops.push(index);
+            mesh.element_of.push(pore);
+            mesh.region_of.push(index);
+            mesh.area.push(region.area);
+            mesh.loops.push(loop_of(region));
+        }
+        let mut is_left = vec![false; network.throats.len()];
+        pores.throats.iter().for_each(|&throat| is_left[throat] = true);
+        mesh.joined(network, 0, &|throat| is_left[throat])
+    }
+
+    /// Finds both sides of each gate.
+    fn joined(mut self, network: &Network, segments: usize, is_gate: &dyn Fn(usize) -> bool) -> Self {
+        let throats = network.throats.len();
+        let mut places = vec![[None; 2]; throats + segments];
+        for (index, part) in self.loops.iter().enumerate() {
+            let element = self.element_of[index];
+            for (slot, crossing) in part.crossings.iter().enumerate() {
+                match crossing.gate {
+                    GateId::Throat(throat, end) => places[throat][end] = Some((index, slot)),
+                    GateId::Segment(segment, side) => places[throats + segment][side] = Some((index, slot)),
+                    GateId::Opening(opening) => {
+                        self.elements[element].open[network.openings[opening].side] = true;
+                    }
+                }
+            }
+        }
+        self.gate_at = self.loops.iter().map(|part| vec![None; part.crossings.len()]).collect();
+        self.twins = self.loops.iter().map(|part| vec![None; part.crossings.len()]).collect();
+        for (k, sides) in places.into_iter().enumerate() {
+            let throat = (k < throats).then_some(k);
+            let [Some(one), Some(other)] = sides else { continue };
+            let shift = throat.map_or_else(Vec2::zeros, |throat| network.throats[throat].shift);
+            self.twins[one.0][one.1] = Some((other.0, other.1, shift));
+            self.twins[other.0][other.1] = Some((one.0, one.1, -shift));
+            if throat.is_some_and(|throat| !is_gate(throat)) {
+                continue;
+            }
+            let gate = self.gates.len();
+            for (end, (index, slot)) in [one, other].into_iter().enumerate() {
+                self.gate_at[index][slot] = Some((gate, end));
+                self.elements[self.element_of[index]].gates.push((gate, end));
+            }
+            self.gates.push(Gate { places: [one, other], shift, throat });
+        }
+        self
+    }
+
+    /// The element on side `end` of a gate.
+    pub fn element(&self, gate: usize, end: usize) -> usize {
+        self.element_of[self.gates[gate].places[end].0]
+    }
+
+    /// The elements beside an element, one for each of its gates that leads to another one.
+    pub fn neighbors(&self, element: usize) -> impl Iterator<Item = usize> + '_ {
+        let gates = self.elements[element].gates.iter();
+        gates.map(|&(gate, end)| self.element(gate, 1 - end)).filter(move |&other| other != element)
+    }
+}

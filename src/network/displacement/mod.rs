@@ -1,0 +1,390 @@
+//! Quasi-static displacement of one fluid by another: which part of the pore space is filled at which pressure.
+//!
+//! The applied pressure rises. Each meniscus advances through its gate until one of three events \[CieplakRobbins1988;
+//! CieplakRobbins1990\]: it passes the place of largest curvature (burst), it touches a wall ahead (touch), or it meets the meniscus
+//! in the neighboring gate on the wall between them (overlap). The event of the lowest curvature comes first; ties go to the lower
+//! number of the gate. An event fills the whole element ahead. Pressures are curvatures here: times the tension they are
+//! p_invading − p_defending. Areas swept by menisci between events are left out, and so are films and corner flow.
+
+mod loops;
+mod mesh;
+mod outflow;
+mod walls;
+
+use std::collections::BinaryHeap;
+use std::sync::Arc;
+
+use self::mesh::Mesh;
+use self::outflow::Outflow;
+use self::walls::{Sides, gate_walls};
+use super::graph::{Network, Pores, Region, WallPiece};
+use super::menisci::{Passage, Wall, WallPart, overlap};
+use crate::geometry::curve::Curve;
+use crate::math::Vec2;
+
+/// Which events move a meniscus.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Events {
+    /// Burst, touch and overlap.
+    #[default]
+    All,
+    /// Bursts of throats between whole pores, as in invasion percolation.
+    BurstOnly,
+}
+
+/// What displaces what.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conditions {
+    /// Contact angle in rad through the defending phase, one for each written shape and then for the walls at the left, right, bottom
+    /// and top side.
+    pub angle: Vec<f64>,
+    /// Sides through which the invading phase comes: left, right, bottom, top.
+    pub inlet: [bool; 4],
+    /// Sides through which the defending phase leaves.
+    pub outlet: [bool; 4],
+    /// Whether a defending element without a way to an outlet stays. Without trapping, films drain it; where no outlet opens, nothing is
+    /// trapped either.
+    pub trapping: bool,
+    /// Which events there are.
+    pub events: Events,
+    /// No event takes place above this curvature in 1/m.
+    pub largest_curvature: f64,
+}
+
+/// The phases of a displacement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// The one that is displaced.
+    Defending,
+    /// The one that comes in.
+    Invading,
+}
+
+/// What let a meniscus go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EventKind {
+    /// It passed the largest curvature of its gate.
+    Burst,
+    /// It touched a wall ahead.
+    Touch,
+    /// It met its neighbor on the wall between them.
+    Overlap,
+}
+
+/// One event.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Event {
+    /// What happened.
+    pub kind: EventKind,
+    /// The throat through which elements were filled; none for a segment within a region.
+    pub throat: Option<usize>,
+    /// The elements that were filled.
+    pub elements: Vec<usize>,
+    /// Curvature of the meniscus at the event in 1/m.
+    pub curvature: f64,
+    /// The applied curvature in 1/m: the largest so far.
+    pub applied: f64,
+}
+
+/// A part of the pore space between walls and gates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// The region that it is part of.
+    pub region: usize,
+    /// Area in m².
+    pub area: f64,
+    /// Its boundary in m, arcs as chords, for pictures; the last point is not repeated.
+    pub outline: Vec<Vec2>,
+}
+
+/// A meniscus that waits in a gate, entering the element on one side of it.
+#[derive(Debug, Clone)]
+struct Front {
+    passage: Passage,
+    /// Curvature of its own event in 1/m.
+    own: f64,
+}
+
+/// An event that will come unless another comes before it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Candidate {
+    curvature: f64,
+    kind: EventKind,
+    gate: usize,
+    to: usize,
+    partner: Option<(usize, usize)>,
+}
+
+impl Eq for Candidate {}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Candidate {
+    /// The greatest is the one that comes first.
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let by_number = (other.gate, other.to, other.partner).cmp(&(self.gate, self.to, self.partner));
+        other.curvature.total_cmp(&self.curvature).then(by_number)
+    }
+}
+
+/// A displacement in progress.
+#[derive(Debug, Clone)]
+pub struct Displacement {
+    mesh: Arc<Mesh>,
+    elements: Arc<Vec<Element>>,
+    centers: Arc<Vec<Vec2>>,
+    conditions: Conditions,
+    invaded: Vec<bool>,
+    connected: Vec<bool>,
+    outflow: Option<Outflow>,
+    trapped: Vec<bool>,
+    fronts: Vec<[Option<Front>; 2]>,
+    queue: BinaryHeap<Candidate>,
+    applied: f64,
+    is_outlet: Vec<bool>,
+    has_reached_outlet: bool,
+}
+
+impl Displacement {
+    /// The pore space full of the defending phase, except the elements that are open at an inlet: openings hold nothing back.
+    #[must_use]
+    pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
+        let mesh = match conditions.events {
+            Events::All => Mesh::divided(network),
+            Events::BurstOnly => Mesh::of_pores(network, pores),
+        };
+        let invaded = vec![false; mesh.elements.len()];
+        let centers = Arc::new(network.regions.iter().map(|region| region.center).collect());
+        let element =
+            |k: usize| Element { region: mesh.region_of[k], area: mesh.area[k], outline: mesh.loops[k].outline() };
+        let elements = Arc::new((0..mesh.loops.len()).map(element).collect());
+        Self::begun(Arc::new(mesh), elements, centers, conditions, invaded)
+    }
+
+    /// The other phase invades from the state that is left. What it holds and is not connected to an inlet takes no part until it is
+    /// reached, or, without trapping, takes part from the start.
+    #[must_use]
+    pub fn reverse(self, conditions: Conditions) -> Self {
+        let invaded = self.invaded.iter().map(|invaded| !invaded).collect();
+        let conditions = Conditions { events: self.conditions.events, ..conditions };
+        Self::begun(self.mesh, self.elements, self.centers, conditions, invaded)
+    }
+
+    fn begun(
+        mesh: Arc<Mesh>,
+        elements: Arc<Vec<Element>>,
+        centers: Arc<Vec<Vec2>>,
+        conditions: Conditions,
+        mut invaded: Vec<bool>,
+    ) -> Self {
+        let count = mesh.elements.len();
+        let opens = |sides: [bool; 4]| -> Vec<bool> {
+            mesh.elements.iter().map(|element| (0..4).any(|side| element.open[side] && sides[side])).collect()
+        };
+        let (inlets, outlets) = (opens(conditions.inlet), opens(conditions.outlet));
+        inlets.iter().zip(&mut invaded).for_each(|(&inlet, invaded)| *invaded |= inlet);
+        let defends: Vec<bool> = invaded.iter().map(|invaded| !invaded).collect();
+        let has_outlet = outlets.iter().any(|&outlet| outlet);
+        let outflow = (conditions.trapping && has_outlet).then(|| Outflow::new(&mesh, &defends, &outlets));
+        let trapped = (0..count).map(|e| defends[e] && outflow.as_ref().is_some_and(|o| !o.is_open(e))).collect();
+        let connected: Vec<bool> = if conditions.trapping { vec![false; count] } else { invaded.clone() };
+        let fronts = vec![const { [None, None] }; mesh.gates.len()];
+        let mut begun = Self {
+            mesh: mesh.clone(),
+            elements,
+            centers,
+            conditions,
+            invaded,
+            connected,
+            outflow,
+            trapped,
+            fronts,
+            queue: BinaryHeap::new(),
+            applied: f64::NEG_INFINITY,
+            is_outlet: outlets,
+            has_reached_outlet: false,
+        };
+        if begun.conditions.trapping {
+            (0..count).filter(|&element| inlets[element]).for_each(|element| begun.connect(&mesh, element));
+        } else {
+            let starts: Vec<usize> = (0..count).filter(|&element| begun.invaded[element]).collect();
+            for element in starts {
+                begun.has_reached_outlet |= begun.is_outlet[element];
+                begun.advance_from(&mesh, element);
+            }
+        }
+        begun
+    }
+
+    fn fill(&mut self, mesh: &Mesh, element: usize) {
+        self.invaded[element] = true;
+        self.stop_fronts_into(mesh, element);
+        let lost = self.outflow.as_mut().map(|outflow| outflow.remove(mesh, element)).unwrap_or_default();
+        for lost in lost {
+            self.trapped[lost] = true;
+            self.stop_fronts_into(mesh, lost);
+        }
+        self.connect(mesh, element);
+    }
+
+    fn stop_fronts_into(&mut self, mesh: &Mesh, element: usize) {
+        for &(gate, end) in &mesh.elements[element].gates {
+            self.fronts[gate][end] = None;
+        }
+    }
+
+    /// Joins an element of the invading phase to the inlet, with all that is joined to it.
+    fn connect(&mut self, mesh: &Mesh, element: usize) {
+        let mut open = vec![element];
+        while let Some(element) = open.pop() {
+            if std::mem::replace(&mut self.connected[element], true) {
+                continue;
+            }
+            self.has_reached_outlet |= self.is_outlet[element];
+            open.extend(mesh.neighbors(element).filter(|&other| self.invaded[other] && !self.connected[other]));
+            self.advance_from(mesh, element);
+        }
+    }
+
+    /// Lets menisci advance from an element into those beside it that defend and can flow out.
+    fn advance_from(&mut self, mesh: &Mesh, element: usize) {
+        for &(gate, end) in &mesh.elements[element].gates {
+            let (to, target) = (1 - end, mesh.element(gate, 1 - end));
+            if !self.invaded[target] && !self.trapped[target] && self.fronts[gate][to].is_none() {
+                self.advance_through(mesh, gate, to);
+            }
+        }
+    }
+
+    /// The passage of a gate for a meniscus that enters it at its end `to`, and the walls ahead.
+    fn passage(&self, mesh: &Mesh, gate: usize, to: usize) -> (Passage, Vec<Curve>) {
+        let walls = gate_walls(mesh, gate, to, &self.centers);
+        let wall = |sides: &Sides| {
+            let part = |piece: &WallPiece| WallPart { curve: piece.curve, angle: self.angle(piece.shape) };
+            let parts = sides.behind.iter().rev().chain(&sides.ahead).map(part).collect();
+            Wall { parts, behind: sides.behind.len() }
+        };
+        let obstacles = walls.ahead.iter().map(|piece| piece.curve).collect();
+        (Passage::new(wall(&walls.left), wall(&walls.right)), obstacles)
+    }
+
+    fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
+        let (passage, obstacles) = self.passage(mesh, gate, to);
+        let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
+        let mut kind = EventKind::Burst;
+        let mut own = burst;
+        if self.conditions.events == Events::All {
+            if let Some(touch) = passage.touch(&obstacles, burst) {
+                (kind, own) = (EventKind::Touch, touch);
+            }
+        }
+        self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None });
+        if self.conditions.events == Events::All {
+            self.meet_neighbors(mesh, (gate, to), &passage, own);
+        }
+        self.fronts[gate][to] = Some(Front { passage, own });
+    }
+
+    /// Overlaps of a new meniscus with those in the gates beside it.
+    fn meet_neighbors(&mut self, mesh: &Mesh, (gate, to): (usize, usize), passage: &Passage, own: f64) {
+        let (index, slot) = mesh.gates[gate].places[to];
+        let count = mesh.loops[index].crossings.len();
+        if count < 2 {
+            return;
+        }
+        // The wall on the left ahead leads to the next crossing, the one on the right to that before.
+        for (beside, is_left) in [((slot + 1) % count, true), ((slot + count - 1) % count, false)] {
+            let Some((other, end)) = mesh.gate_at[index][beside] else { continue };
+            let Some(front) = &self.fronts[other][end] else { continue };
+            let (a, b) = if is_left { (passage, &front.passage) } else { (&front.passage, passage) };
+            let between = if is_left { (slot + 1) % count } else { slot };
+            let shared: f64 = mesh.loops[index].walls[between].iter().map(|piece| piece.curve.length()).sum();
+            if let Some(curvature) = overlap(a, b, shared, own.min(front.own)) {
+                let partner = Some((other, end));
+                self.queue.push(Candidate { curvature, kind: EventKind::Overlap, gate, to, partner });
+            }
+        }
+    }
+
+    fn angle(&self, shape: u32) -> f64 {
+        self.conditions.angle.get(shape as usize).copied().unwrap_or(std::f64::consts::FRAC_PI_2)
+    }
+
+    /// The elements; they tile the pore space.
+    #[must_use]
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// The phase that an element holds.
+    #[must_use]
+    pub fn phase(&self, element: usize) -> Phase {
+        if self.invaded[self.mesh.element_of[element]] { Phase::Invading } else { Phase::Defending }
+    }
+
+    /// Whether an element holds the defending phase and cannot let it go.
+    #[must_use]
+    pub fn is_trapped(&self, element: usize) -> bool {
+        self.trapped[self.mesh.element_of[element]]
+    }
+
+    /// Whether the invading phase, joined to the inlet, has come to an outlet.
+    #[must_use]
+    pub fn reached_outlet(&self) -> bool {
+        self.has_reached_outlet
+    }
+
+    /// The menisci at the applied curvature in 1/m, each a polyline in m.
+    #[must_use]
+    pub fn menisci(&self, applied: f64) -> Vec<Vec<Vec2>> {
+        const POINTS: usize = 17;
+        let fronts = self.fronts.iter().flatten().flatten();
+        fronts.filter_map(|front| front.passage.at(applied.min(front.own))).map(|m| m.points(POINTS)).collect()
+    }
+
+    /// Curvature in 1/m at which menisci burst through each throat, the larger one of both directions; NaN for throats that are no gates.
+    #[must_use]
+    pub fn entry_curvatures(&self, throats: usize) -> Vec<f64> {
+        let mut found = vec![f64::NAN; throats];
+        for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
+            let burst =
+                |to| self.passage(&self.mesh, gate, to).0.burst().map_or(f64::NAN, |meniscus| meniscus.curvature);
+            found[throat] = burst(0).max(burst(1));
+        }
+        found
+    }
+}
+
+/// The boundary of a region as a polygon in m, arcs as chords, for pictures.
+#[must_use]
+pub fn outline(region: &Region) -> Vec<Vec2> {
+    mesh::loop_of(region).outline()
+}
+
+/// The next event, which is done; none where no meniscus can move any more.
+impl Iterator for Displacement {
+    type Item = Event;
+
+    fn next(&mut self) -> Option<Event> {
+        let candidate = loop {
+            let candidate =
+                self.queue.peek().copied().filter(|next| next.curvature <= self.conditions.largest_curvature)?;
+            self.queue.pop();
+            let is_live = |(gate, to): (usize, usize)| self.fronts[gate][to].is_some();
+            if is_live((candidate.gate, candidate.to)) && candidate.partner.is_none_or(is_live) {
+                break candidate;
+            }
+        };
+        let Candidate { kind, curvature, gate, to, .. } = candidate;
+        self.applied = self.applied.max(curvature);
+        let (mesh, element) = (self.mesh.clone(), self.mesh.element(gate, to));
+        self.fill(&mesh, element);
+        let (throat, elements) = (mesh.gates[gate].throat, mesh.elements[element].loops.clone());
+        Some(Event { kind, throat, elements, curvature, applied: self.applied })
+    }
+}

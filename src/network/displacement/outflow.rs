@@ -1,0 +1,84 @@
+//! Which elements of the defending phase can still flow out: a forest of paths to the outlets, mended after each event.
+//!
+//! Every element that can flow out knows the next one on its way. Where an element is lost, those whose way led through it look for
+//! another way; what finds none is trapped. Only they are visited, so that an event costs as much as it cuts off or redirects.
+//!
+//! An element that is open at an outlet lets both phases out: the invading one leaves through it without closing it. Otherwise the first
+//! finger that reached a manifold along a whole side would trap all that is left behind.
+
+use super::mesh::Mesh;
+
+/// Ways of the defending phase to the outlets.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Outflow {
+    /// The next element on the way; an outlet element leads to itself. None: no way.
+    next: Vec<Option<usize>>,
+}
+
+impl Outflow {
+    /// Ways to the elements marked as outlets, whatever they hold, through the elements marked as defending.
+    pub fn new(mesh: &Mesh, defends: &[bool], is_outlet: &[bool]) -> Self {
+        let mut next = vec![None; defends.len()];
+        let mut queue: Vec<usize> = (0..defends.len()).filter(|&e| is_outlet[e]).collect();
+        queue.iter().for_each(|&e| next[e] = Some(e));
+        let mut at = 0;
+        while let Some(&element) = queue.get(at) {
+            at += 1;
+            for other in mesh.neighbors(element) {
+                if defends[other] && next[other].is_none() {
+                    next[other] = Some(element);
+                    queue.push(other);
+                }
+            }
+        }
+        Self { next }
+    }
+
+    /// Whether the element has a way out.
+    pub fn is_open(&self, element: usize) -> bool {
+        self.next[element].is_some()
+    }
+
+    /// Takes an element out, and returns those that have lost their way for good.
+    pub fn remove(&mut self, mesh: &Mesh, element: usize) -> Vec<usize> {
+        if self.next[element] == Some(element) {
+            return Vec::new();
+        }
+        self.next[element] = None;
+        // All whose way led through the element, the nearest first.
+        let (mut lost, mut through) = (Vec::new(), Some(element));
+        let mut at = 0;
+        while let Some(cut) = through {
+            for other in mesh.neighbors(cut) {
+                if other != cut && self.next[other] == Some(cut) {
+                    self.next[other] = None;
+                    lost.push(other);
+                }
+            }
+            through = lost.get(at).copied();
+            at += 1;
+        }
+        // New ways begin where one of them lies beside an element that has a way, and spread among the others.
+        let mut queue = Vec::new();
+        for &cut in &lost {
+            if let Some(way) = mesh.neighbors(cut).find(|&other| self.next[other].is_some()) {
+                self.next[cut] = Some(way);
+                queue.push(cut);
+            }
+        }
+        let mut is_lost = lost.clone();
+        is_lost.sort_unstable();
+        let mut at = 0;
+        while let Some(&found) = queue.get(at) {
+            at += 1;
+            for other in mesh.neighbors(found) {
+                if self.next[other].is_none() && is_lost.binary_search(&other).is_ok() {
+                    self.next[other] = Some(found);
+                    queue.push(other);
+                }
+            }
+        }
+        lost.retain(|&cut| self.next[cut].is_none());
+        lost
+    }
+}

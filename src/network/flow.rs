@@ -1,0 +1,101 @@
+//! Flow through a network: permeability of the pore space, and relative permeabilities of both phases along a displacement.
+//!
+//! A phase flows through the throats between two regions that it holds: menisci are closed, and films are left out.
+
+use super::cycles::{Cycles, Fluid};
+use super::displacement::Phase;
+use super::permeability::{Drive, FlowError, Paths, permeability};
+use super::solver::{NetworkSolver, Setting};
+use super::tables::numbers;
+use crate::table::Table;
+
+/// States of a half cycle, its beginning and its end among them, at which relative permeabilities are found.
+const STATES: u32 = 9;
+
+/// The conductances are good to some ten percent above this solid fraction.
+pub const LEAST_SOLID: f64 = 0.3;
+
+/// What can drive a flow along an axis; none where its sides are closed.
+pub fn drive(setting: &Setting, axis: usize) -> Option<Drive> {
+    let opens = |side: usize| setting.network.openings.iter().any(|opening| opening.side == side);
+    if setting.periodic[axis] {
+        Some(Drive::Periodic(axis))
+    } else {
+        (opens(2 * axis) && opens(2 * axis + 1)).then_some(Drive::Sides(axis))
+    }
+}
+
+/// Permeability in m2 for a phase that holds the regions of which `holds` is true.
+fn of_phase(solver: &NetworkSolver, drive: Drive, holds: &[bool]) -> Result<f64, FlowError> {
+    let setting = solver.setting();
+    let is_open = |regions: [usize; 2]| regions.iter().all(|&region| holds[region]);
+    let conductance: Vec<f64> = setting
+        .network
+        .throats
+        .iter()
+        .zip(solver.conductances())
+        .map(|(throat, conductance)| if is_open(throat.regions) { conductance.value } else { 0.0 })
+        .collect();
+    permeability(&setting.network, Paths { conductance: &conductance, holds }, setting.bounds, drive)
+}
+
+/// Permeability of the whole pore space along an axis in m2; NaN where its sides are closed or the flow cannot be solved.
+pub fn along(solver: &NetworkSolver, axis: usize) -> f64 {
+    let everywhere = vec![true; solver.setting().network.regions.len()];
+    drive(solver.setting(), axis).and_then(|drive| of_phase(solver, drive, &everywhere).ok()).unwrap_or(f64::NAN)
+}
+
+/// For each region whether the wetting phase held most of it when a share of the pore space was displaced in the last half cycle.
+fn wetting_regions(setting: &Setting, cycles: &Cycles, displaced: f64) -> (Vec<bool>, f64) {
+    let invading = cycles.half_cycle().invading;
+    let regions = setting.network.regions.len();
+    let (mut wetting, mut all) = (vec![0.0; regions], vec![0.0; regions]);
+    for (index, element) in cycles.displacement().elements().iter().enumerate() {
+        let is_invaded = match cycles.invasions()[index] {
+            Some(invasion) => invasion.displaced <= displaced,
+            None => cycles.displacement().phase(index) == Phase::Invading,
+        };
+        all[element.region] += element.area;
+        if is_invaded == (invading == Fluid::Wetting) {
+            wetting[element.region] += element.area;
+        }
+    }
+    let saturation = wetting.iter().sum::<f64>() / all.iter().sum::<f64>();
+    (wetting.iter().zip(&all).map(|(wetting, all)| *wetting > 0.5 * all).collect(), saturation)
+}
+
+/// Relative permeabilities from inlet to outlet along the last half cycle: rows of wetting saturation, wetting and non-wetting phase.
+pub fn relative(solver: &NetworkSolver, states: &[f64]) -> Vec<[f64; 3]> {
+    let setting = solver.setting();
+    let drive = setting.inlet.and_then(|inlet| drive(setting, inlet / 2));
+    let (Some(cycles), Some(drive)) = (solver.cycles(), drive) else { return Vec::new() };
+    let whole = along(solver, setting.inlet.unwrap_or_default() / 2);
+    let displaced = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
+    let state = |share: &f64| {
+        // What the beginning fills is counted as displaced; before it, nothing is.
+        let at = if *share > 0.0 { share * displaced } else { -1.0 };
+        let (wetting, saturation) = wetting_regions(setting, cycles, at);
+        let other: Vec<bool> = wetting.iter().map(|wetting| !wetting).collect();
+        // What a phase carries that is not joined from side to side is rounding.
+        const ROUNDING: f64 = 1.0e-12;
+        let ratio = |holds: Vec<bool>| of_phase(solver, drive, &holds).unwrap_or(f64::NAN) / whole;
+        let [wetting, other] = [wetting, other].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
+        [saturation, wetting, other]
+    };
+    states.iter().map(state).collect()
+}
+
+/// `relative_permeability.csv`; none where nothing flows from side to side.
+pub fn table(solver: &NetworkSolver) -> Option<Table> {
+    let states: Vec<f64> = (0..STATES).map(|state| f64::from(state) / f64::from(STATES - 1)).collect();
+    let rows = relative(solver, &states);
+    let column = |side: usize| rows.iter().map(move |row| row[side]);
+    (!rows.is_empty()).then(|| Table {
+        name: "relative_permeability",
+        columns: vec![
+            numbers("saturation", column(0)),
+            numbers("relative_permeability_wetting", column(1)),
+            numbers("relative_permeability_non_wetting", column(2)),
+        ],
+    })
+}

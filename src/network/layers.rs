@@ -1,0 +1,128 @@
+//! The network as VTK sees it: pores as points, throats as lines, regions as polygons, menisci as lines.
+
+use super::cycles::{Cycles, Fluid};
+use super::solver::{NetworkSolver, Setting};
+use super::summary::PoreStates;
+use super::tables::{arms, center, kept, length, middle, pores_of, radius};
+use crate::math::Vec2;
+use crate::snapshot::{CellKind, Field, Layer, Lines, Values};
+
+/// Sequence number of what no event filled.
+const NOT_INVADED: i64 = -1;
+
+fn scalar(name: &'static str, unit: &'static str, values: impl IntoIterator<Item = f64>) -> Field<'static> {
+    Field { name, unit, values: Values::Scalar(values.into_iter().collect::<Vec<_>>().into()) }
+}
+
+fn integer(name: &'static str, values: impl IntoIterator<Item = i64>) -> Field<'static> {
+    Field { name, unit: "", values: Values::Integer(values.into_iter().collect::<Vec<_>>().into()) }
+}
+
+/// Numbers as in all other files: 0 wetting, 1 non-wetting.
+fn phase(fluid: Fluid) -> i64 {
+    i64::from(fluid == Fluid::NonWetting)
+}
+
+/// Polylines or polygons from their vertices.
+fn joined(parts: impl IntoIterator<Item = Vec<Vec2>>) -> (Vec<Vec2>, Vec<Vec<u32>>) {
+    let (mut points, mut cells) = (Vec::new(), Vec::new());
+    for part in parts {
+        let first = points.len() as u32;
+        cells.push((first..first + part.len() as u32).collect());
+        points.extend(part);
+    }
+    (points, cells)
+}
+
+/// The menisci at the applied pressure.
+pub fn menisci(cycles: &Cycles) -> Lines<'static> {
+    let applied = cycles.applied().map_or(0.0, |applied| cycles.half_cycle().towards_wetting(applied));
+    let (points, lines) = joined(cycles.displacement().menisci(applied));
+    Lines { points: points.into(), lines, fields: Vec::new() }
+}
+
+/// The parts of the pore space that events fill, with pore, phase, sequence and capillary pressure at invasion.
+pub fn regions(solver: &NetworkSolver) -> Layer<'static> {
+    let setting = solver.setting();
+    let pores = &setting.pores;
+    let Some(cycles) = solver.cycles() else { return plain_regions(setting) };
+    let displacement = cycles.displacement();
+    let elements = displacement.elements();
+    let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
+    let tension = setting.tension.unwrap_or(f64::NAN);
+    let invasions = || cycles.invasions().iter();
+    let fields = vec![
+        integer("pore", elements.iter().map(|element| pores.pore_of[element.region] as i64)),
+        integer("phase", (0..elements.len()).map(|element| phase(cycles.fluid(element)))),
+        integer("trapped", (0..elements.len()).map(|element| i64::from(displacement.is_trapped(element)))),
+        integer("sequence", invasions().map(|it| it.map_or(NOT_INVADED, |invasion| invasion.sequence as i64))),
+        scalar(
+            "capillary-pressure-at-invasion",
+            "Pa",
+            invasions().map(|it| it.map_or(f64::NAN, |invasion| tension * invasion.applied)),
+        ),
+        scalar(
+            "displaced-saturation-at-invasion",
+            "",
+            invasions().map(|it| it.map_or(f64::NAN, |invasion| invasion.displaced)),
+        ),
+    ];
+    Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
+}
+
+fn plain_regions(setting: &Setting) -> Layer<'static> {
+    let (points, cells) = joined(setting.network.regions.iter().map(super::displacement::outline));
+    let pores = &setting.pores.pore_of;
+    let fields = vec![
+        integer("pore", pores.iter().map(|&pore| pore as i64)),
+        scalar("inscribed-radius", "m", pores.iter().map(|&pore| radius(setting, pore))),
+    ];
+    Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
+}
+
+/// `pores.vtp` and `throats.vtp`.
+pub fn pores_and_throats(solver: &NetworkSolver) -> Vec<Layer<'static>> {
+    let setting = solver.setting();
+    let count = setting.pores.main_region.len();
+    let centers: Vec<Vec2> = (0..count).map(|pore| center(setting, pore)).collect();
+    let mut fields = vec![
+        integer("pore", 0..count as i64),
+        scalar("inscribed-radius", "m", (0..count).map(|pore| radius(setting, pore))),
+        scalar("area", "m2", setting.pores.area.iter().copied()),
+    ];
+    if let Some(cycles) = solver.cycles() {
+        let states = PoreStates::new(setting, cycles).0;
+        fields.extend([
+            integer("phase", states.iter().map(|state| phase(state.fluid))),
+            integer("trapped", states.iter().map(|state| i64::from(state.is_trapped))),
+            integer(
+                "sequence",
+                states.iter().map(|state| state.invasion.map_or(NOT_INVADED, |invasion| invasion.sequence as i64)),
+            ),
+        ]);
+    }
+    let cells = (0..count as u32).map(|pore| vec![pore]).collect();
+    let pores = Layer { name: "pores", kind: CellKind::Points, points: centers.into(), cells, fields };
+    vec![pores, throats(solver)]
+}
+
+/// Lines from pore center to pore center by way of the middle of the throat.
+fn throats(solver: &NetworkSolver) -> Layer<'static> {
+    let setting = solver.setting();
+    let (points, cells) = joined(kept(setting).map(|throat| {
+        let [to_first, to_second] = arms(setting, throat);
+        vec![middle(throat) + to_first, middle(throat), middle(throat) + to_second]
+    }));
+    let mut fields = vec![
+        integer("throat", 0..setting.pores.throats.len() as i64),
+        integer("pore-1", kept(setting).map(|throat| pores_of(setting, throat)[0] as i64)),
+        integer("pore-2", kept(setting).map(|throat| pores_of(setting, throat)[1] as i64)),
+        scalar("width", "m", kept(setting).map(|throat| throat.width)),
+        scalar("length", "m", kept(setting).map(|throat| length(setting, throat))),
+    ];
+    if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
+        let pressures = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]);
+        fields.push(scalar("entry-pressure", "Pa", pressures));
+    }
+    Layer { name: "throats", kind: CellKind::Lines, points: points.into(), cells, fields }
+}

@@ -1,0 +1,185 @@
+//! The measures of a network.
+
+use super::cycles::{Cycles, Fluid};
+use super::flow::{LEAST_SOLID, along, drive, relative};
+use super::permeability::Drive;
+use super::solver::{NetworkSolver, Setting};
+use super::tables::kept;
+use crate::solver::Measure;
+
+fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
+    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into() }
+}
+
+/// All measures.
+pub fn all(solver: &NetworkSolver) -> Vec<Measure> {
+    let setting = solver.setting();
+    let mut found = of_network(setting);
+    found.extend(permeabilities(solver));
+    found.extend(entry_pressures(solver));
+    if let Some(cycles) = solver.cycles() {
+        found.extend(of_displacement(setting, cycles));
+    }
+    found
+}
+
+fn of_network(setting: &Setting) -> Vec<Measure> {
+    let pores = &setting.pores;
+    let ratio = pores.persistence;
+    let widths = || kept(setting).map(|throat| throat.width);
+    let (narrowest, widest) =
+        widths().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), width| (low.min(width), high.max(width)));
+    let number = |value: f64| if value.is_finite() { value } else { f64::NAN };
+    vec![
+        measure("porosity", setting.porosity, "", "sum of the pore areas in closed form over the area of the domain"),
+        measure(
+            "pores",
+            pores.main_region.len() as f64,
+            "",
+            format!("maxima of the wall distance, joined at a persistence ratio above {ratio}"),
+        ),
+        measure(
+            "throats",
+            pores.throats.len() as f64,
+            "",
+            "saddles of the wall distance between pores, openings not counted",
+        ),
+        measure("narrowest-throat-m", number(narrowest), "m", "width of the narrowest throat that the merge left"),
+        measure("widest-throat-m", number(widest), "m", "width of the widest throat that the merge left"),
+    ]
+}
+
+fn permeabilities(solver: &NetworkSolver) -> Vec<Measure> {
+    let setting = solver.setting();
+    let solid = 1.0 - setting.porosity;
+    let range = if solid < LEAST_SOLID {
+        format!(
+            " (WARNING: the solid fraction is {solid:.2}, and conductances of throats are too high below {LEAST_SOLID})"
+        )
+    } else {
+        String::new()
+    };
+    let of_axis = |axis: usize, name| {
+        let method = match drive(setting, axis) {
+            Some(Drive::Periodic(_)) => "flow through all throats under a mean gradient, periodic sides joined",
+            Some(Drive::Sides(_)) => "flow through all throats between the open sides",
+            None => "both sides along this axis would have to be open or periodic",
+        };
+        measure(name, along(solver, axis), "m2", format!("{method}{range}"))
+    };
+    let mut found = vec![of_axis(0, "permeability-x-m2"), of_axis(1, "permeability-y-m2")];
+    if let [[_, wetting, other]] = relative(solver, &[1.0])[..] {
+        let method = "permeability of the throats between regions that the phase holds, over that of all, at the end of the last half cycle";
+        found.push(measure("relative-permeability-wetting", wetting, "", method));
+        found.push(measure("relative-permeability-non-wetting", other, "", method));
+    }
+    found
+}
+
+fn entry_pressures(solver: &NetworkSolver) -> Vec<Measure> {
+    let setting = solver.setting();
+    let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) else { return Vec::new() };
+    let mut pressures: Vec<f64> = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]).collect();
+    pressures.sort_by(f64::total_cmp);
+    let at = |index: Option<usize>| index.and_then(|index| pressures.get(index)).copied().unwrap_or(f64::NAN);
+    let last = pressures.len().checked_sub(1);
+    let method = "entry pressures of all throats in drainage, at the receding angle";
+    vec![
+        measure("smallest-entry-pressure-Pa", at(Some(0)), "Pa", format!("the smallest of the {method}")),
+        measure("median-entry-pressure-Pa", at(last.map(|last| last / 2)), "Pa", format!("the median of the {method}")),
+        measure("largest-entry-pressure-Pa", at(last), "Pa", format!("the largest of the {method}")),
+    ]
+}
+
+fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
+    let tension = setting.tension.unwrap_or(f64::NAN);
+    let first = &cycles.half_cycles()[0];
+    let (pressure, saturation) = cycles.outcomes()[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
+    let reached = if setting.outlet.is_none() {
+        "there is no outlet"
+    } else if saturation.is_nan() {
+        "the invading phase did not reach the outlet"
+    } else if pressure.is_nan() {
+        "the outlet is reached through openings alone, which hold nothing back"
+    } else {
+        "at the event by which the invading phase reached the outlet"
+    };
+    let name = first.name();
+    let invading = cycles.half_cycle().invading;
+    let wetting = cycles.saturation();
+    let (left, of) = match invading {
+        Fluid::NonWetting => (wetting, "wetting"),
+        Fluid::Wetting => (1.0 - wetting, "non-wetting"),
+    };
+    let ending = if cycles.is_done() { "at the end" } else { "so far, the displacement goes on" };
+    let largest = cycles.history().iter().filter(|entry| entry.half_cycle == 0).map(|entry| entry.applied);
+    let largest = largest.fold(f64::NAN, |a, b| if a.abs() > b.abs() { a } else { b });
+    let mut found = vec![
+        measure(
+            "breakthrough-pressure-Pa",
+            tension * pressure,
+            "Pa",
+            format!("capillary pressure p_n - p_w of the first {name}, {reached}"),
+        ),
+        measure(
+            "saturation-at-breakthrough",
+            saturation,
+            "",
+            format!("share of the pore space that the invading phase of the first {name} holds, {reached}"),
+        ),
+        measure(
+            "residual-saturation",
+            left,
+            "",
+            format!("share of the pore space that the {of} phase, the displaced one, holds {ending}"),
+        ),
+        measure(
+            "trapped-saturation",
+            cycles.trapped_saturation(),
+            "",
+            format!("share of the pore space where the {of} phase has no way to the outlet, {ending}"),
+        ),
+        measure(
+            "final-wetting-saturation",
+            wetting,
+            "",
+            format!("share of the pore space that the wetting phase holds, {ending}"),
+        ),
+        measure(
+            "largest-capillary-pressure-Pa",
+            tension * largest,
+            "Pa",
+            format!("p_n - p_w applied at the end of the first {name}"),
+        ),
+        measure(
+            "events",
+            cycles.history().len() as f64,
+            "",
+            "bursts, touches, overlaps and reconnections of all half cycles",
+        ),
+    ];
+    if let Some(loss) = hysteresis(setting, cycles) {
+        found.push(loss);
+    }
+    found
+}
+
+/// What a cycle of drainage and imbibition dissipates.
+fn hysteresis(setting: &Setting, cycles: &Cycles) -> Option<Measure> {
+    if cycles.half_cycles().len() < 2 || !cycles.is_done() {
+        return None;
+    }
+    let last = cycles.half_cycles().len() - 2;
+    let (mut before, mut work) = (cycles.outcomes()[last].first_saturation[1], 0.0);
+    for entry in cycles.history().iter().filter(|entry| entry.half_cycle >= last) {
+        work -= entry.applied * (entry.saturation - before);
+        before = entry.saturation;
+    }
+    let value = setting.tension? * work;
+    Some(measure(
+        "hysteresis-work-J-per-m3",
+        value,
+        "J/m3",
+        "integral of p_n - p_w over the displaced saturation along the last drainage and imbibition: work per pore volume",
+    ))
+}

@@ -1,0 +1,155 @@
+//! `openpnm.csv`: the network as `openpnm.io.network_from_csv` loads it (OpenPNM 3): pore and throat columns side by side, labels as
+//! the words True and False, no units in headers, SI for a depth of 1 m.
+//!
+//! Each opening of an open side is a boundary pore of volume zero with a throat to the pore behind it. Leaves out throats from a
+//! pore to itself, which connect nothing.
+
+use super::graph::{Opening, Throat};
+use super::setup::SIDES;
+use super::solver::{NetworkSolver, Setting};
+use super::tables::{center, finite, flags, kept, length, numbers, openings, pores_of, radius, wall_lengths};
+use crate::math::Vec2;
+use crate::table::{Cells, Column, Table};
+
+/// A connection of two pores: a throat, or an opening.
+enum Link<'a> {
+    Throat { index: usize, throat: &'a Throat },
+    Opening(&'a Opening),
+}
+
+struct Connection<'a> {
+    ends: [usize; 2],
+    link: Link<'a>,
+}
+
+fn connections(setting: &Setting) -> Vec<Connection<'_>> {
+    let pores = setting.pores.main_region.len();
+    let throats = setting.pores.throats.iter().zip(kept(setting)).filter_map(|(&index, throat)| {
+        let [a, b] = pores_of(setting, throat);
+        (a != b).then_some(Connection { ends: [a.min(b), a.max(b)], link: Link::Throat { index, throat } })
+    });
+    let openings = openings(setting)
+        .enumerate()
+        .map(|(index, (opening, pore))| Connection { ends: [pore, pores + index], link: Link::Opening(opening) });
+    throats.chain(openings).collect()
+}
+
+impl Connection<'_> {
+    fn width(&self) -> f64 {
+        match &self.link {
+            Link::Throat { throat, .. } => throat.width,
+            Link::Opening(opening) => (opening.ends[1] - opening.ends[0]).norm(),
+        }
+    }
+
+    fn length(&self, setting: &Setting) -> f64 {
+        match &self.link {
+            Link::Throat { throat, .. } => length(setting, throat),
+            Link::Opening(opening) => (center(setting, self.ends[0]) - place(opening)).norm(),
+        }
+    }
+
+    fn of_throat(&self, value: impl Fn(&Throat) -> f64, of_opening: f64) -> f64 {
+        match &self.link {
+            Link::Throat { throat, .. } => value(throat),
+            Link::Opening(_) => of_opening,
+        }
+    }
+}
+
+/// Conductance in m2 of a channel of the width of an opening up to the center of the region behind it.
+fn channel(setting: &Setting, opening: &Opening) -> f64 {
+    /// A center on the side itself: next to no resistance, and still a number.
+    const SHORTEST: f64 = 1.0e-6;
+    let width = (opening.ends[1] - opening.ends[0]).norm();
+    let axis = opening.side / 2;
+    let length = (setting.network.regions[opening.region].center - opening.ends[0])[axis].abs();
+    width.powi(3) / (12.0 * length.max(SHORTEST * width))
+}
+
+fn place(opening: &Opening) -> Vec2 {
+    0.5 * (opening.ends[0] + opening.ends[1])
+}
+
+/// The table.
+pub fn table(solver: &NetworkSolver) -> Table {
+    let setting = solver.setting();
+    let mut columns = pore_columns(setting);
+    columns.extend(throat_columns(solver));
+    Table { name: "openpnm", columns }
+}
+
+fn pore_columns(setting: &Setting) -> Vec<Column> {
+    let inner = || 0..setting.pores.main_region.len();
+    let outer = || setting.network.openings.iter();
+    let all = |name, of_pore: &dyn Fn(usize) -> f64, of_opening: &dyn Fn(&Opening) -> f64| {
+        numbers(name, inner().map(of_pore).chain(outer().map(of_opening)))
+    };
+    let area = |pore: usize| setting.pores.area[pore];
+    let diameter = |pore: usize| 2.0 * radius(setting, pore);
+    let width = |opening: &Opening| (opening.ends[1] - opening.ends[0]).norm();
+    let walls = wall_lengths(setting);
+    let zero = |_: &Opening| 0.0;
+    let round = |pore: usize| (4.0 * area(pore) / std::f64::consts::PI).sqrt();
+    let mut columns = vec![
+        all("pore.coords[0]", &|pore| center(setting, pore).x, &|opening| place(opening).x),
+        all("pore.coords[1]", &|pore| center(setting, pore).y, &|opening| place(opening).y),
+        all("pore.coords[2]", &|_| 0.0, &zero),
+        all("pore.diameter", &diameter, &width),
+        all("pore.inscribed_diameter", &diameter, &width),
+        all("pore.equivalent_diameter", &round, &zero),
+        all("pore.region_area", &area, &zero),
+        all("pore.region_volume", &area, &zero),
+        all("pore.volume", &area, &zero),
+        all("pore.surface_area", &|pore| walls[pore], &zero),
+    ];
+    let label = |name, holds: &dyn Fn(&Opening) -> bool| flags(name, inner().map(|_| false).chain(outer().map(holds)));
+    columns.push(label("pore.boundary", &|_| true));
+    columns.push(label("pore.inlet", &|opening| Some(opening.side) == setting.inlet));
+    columns.push(label("pore.outlet", &|opening| Some(opening.side) == setting.outlet));
+    for (side, name) in ["pore.left", "pore.right", "pore.bottom", "pore.top"].into_iter().enumerate().take(SIDES.len())
+    {
+        columns.push(label(name, &|opening| opening.side == side));
+    }
+    columns
+}
+
+fn throat_columns(solver: &NetworkSolver) -> Vec<Column> {
+    let setting = solver.setting();
+    let all = connections(setting);
+    let column = |name, value: &dyn Fn(&Connection<'_>) -> f64| numbers(name, all.iter().map(value));
+    let end = |name, side: usize| Column { name, cells: Cells::Counts(all.iter().map(|it| it.ends[side]).collect()) };
+    let direct = |it: &Connection<'_>| it.length(setting);
+    let mut columns = vec![
+        end("throat.conns[0]", 0),
+        end("throat.conns[1]", 1),
+        column("throat.diameter", &|it| it.width()),
+        column("throat.inscribed_diameter", &|it| it.width()),
+        column("throat.equivalent_diameter", &|it| it.width()),
+        column("throat.length", &direct),
+        column("throat.total_length", &direct),
+        column("throat.spacing", &direct),
+        column("throat.cross_sectional_area", &|it| it.width()),
+        column("throat.perimeter", &|it| 2.0 * it.width()),
+        column("throat.volume", &|_| 0.0),
+        column("throat.curvature_1", &|it| it.of_throat(|throat| finite(throat.curvatures[0]), f64::NAN)),
+        column("throat.curvature_2", &|it| it.of_throat(|throat| finite(throat.curvatures[1]), f64::NAN)),
+        column("throat.wall_1", &|it| it.of_throat(|throat| f64::from(throat.shapes[0]), f64::NAN)),
+        column("throat.wall_2", &|it| it.of_throat(|throat| f64::from(throat.shapes[1]), f64::NAN)),
+    ];
+    let conductances = solver.conductances();
+    let viscosity = setting.viscosities[0].unwrap_or(1.0);
+    columns.push(column("throat.hydraulic_conductance", &|it| match it.link {
+        Link::Throat { index, .. } => conductances[index].value / viscosity,
+        Link::Opening(opening) => channel(setting, opening) / viscosity,
+    }));
+    if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
+        // The meniscus at an opening is that of a reservoir: it has no entry pressure.
+        columns.push(column("throat.entry_pressure", &|it| match it.link {
+            Link::Throat { index, .. } => tension * curvatures[index],
+            Link::Opening(_) => 0.0,
+        }));
+    }
+    columns.push(flags("throat.boundary", all.iter().map(|it| matches!(it.link, Link::Opening(_)))));
+    columns
+}

@@ -1,0 +1,186 @@
+//! The capillary pressure curve and the maps of a network, as data.
+
+use super::cycles::{Cycles, Fluid};
+use super::solver::{NetworkSolver, Setting};
+use super::tables::{kept, radius};
+use crate::diagram::{Area, Axis, Color, Diagram, Mosaic, Stroke, Tone, Trace};
+use crate::math::Vec2;
+
+/// Steps of the curve shorter than this share of an axis are not drawn.
+const FINEST: f64 = 1.0e-3;
+
+/// Above this pressure in Pa axes count in kPa.
+const KILO: f64 = 2.0e3;
+
+const NOT_INVADED: Color = [214, 228, 240];
+const INVADED_BEFORE: Color = [248, 232, 176];
+const TRAPPED: Color = [204, 121, 167];
+
+/// The diagrams of a displacement.
+pub fn diagrams(solver: &NetworkSolver) -> Vec<Diagram> {
+    solver.cycles().and_then(|cycles| capillary_pressure(solver.setting(), cycles)).into_iter().collect()
+}
+
+/// Capillary pressure over the saturation of the wetting phase, a line for each half cycle: the pressure rises at constant saturation
+/// and the saturation changes at constant pressure.
+fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
+    let tension = setting.tension?;
+    let applied = cycles.history().iter().map(|entry| (tension * entry.applied).abs());
+    let (label, unit) = if applied.fold(0.0, f64::max) > KILO {
+        ("capillary pressure p_n - p_w in kPa", 1.0e-3)
+    } else {
+        ("capillary pressure p_n - p_w in Pa", 1.0)
+    };
+    let mut traces = Vec::new();
+    for (index, (half, outcome)) in cycles.half_cycles().iter().zip(cycles.outcomes()).enumerate() {
+        let entries = cycles.history().iter().filter(|entry| entry.half_cycle == index);
+        let mut saturation = outcome.first_saturation[1];
+        let mut points: Vec<[f64; 2]> = Vec::new();
+        for entry in entries {
+            let pressure = unit * tension * entry.applied;
+            points.push([saturation, pressure]);
+            points.push([entry.saturation, pressure]);
+            saturation = entry.saturation;
+        }
+        let name = if cycles.half_cycles().len() > 2 {
+            format!("{} {}", half.name(), index / 2 + 1)
+        } else {
+            half.name().to_owned()
+        };
+        traces.push(Trace { name, stroke: Stroke::Full, points });
+    }
+    let ends = |side: usize| {
+        let values = traces.iter().flat_map(|trace| trace.points.iter().map(move |point| point[side]));
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+    };
+    let finest = [0, 1].map(|side| FINEST * (ends(side)[1] - ends(side)[0]));
+    traces.iter_mut().for_each(|trace| trace.points = thinned(&trace.points, finest));
+    let axis = |label| Axis { label, logarithmic: false };
+    Some(Diagram {
+        name: "capillary-pressure",
+        title: "Capillary pressure over saturation",
+        x: axis("saturation of the wetting phase"),
+        y: axis(label),
+        map: None,
+        traces,
+    })
+}
+
+/// A staircase without its middle points and without steps that are too short to be seen; first and last point stay.
+fn thinned(points: &[[f64; 2]], finest: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    for (index, &point) in points.iter().enumerate() {
+        let is_end = index + 1 == points.len();
+        let seen = |last: &[f64; 2]| (0..2).any(|side| (point[side] - last[side]).abs() > finest[side]);
+        if kept.last().is_none_or(seen) || is_end {
+            // The corner of the staircase, where both coordinates differ.
+            if let Some(&last) = kept.last()
+                && last[0] != point[0]
+                && last[1] != point[1]
+            {
+                kept.push([last[0], point[1]]);
+            }
+            kept.push(point);
+        }
+    }
+    let mut corners: Vec<[f64; 2]> = Vec::new();
+    for point in kept {
+        if let [.., a, b] = corners[..]
+            && (0..2).any(|side| a[side] == b[side] && b[side] == point[side])
+        {
+            corners.pop();
+        }
+        corners.push(point);
+    }
+    corners
+}
+
+fn pair(point: Vec2) -> [f64; 2] {
+    point.into()
+}
+
+fn boundary(outline: &[Vec2]) -> Vec<[f64; 2]> {
+    outline.iter().copied().map(pair).collect()
+}
+
+/// The maps: the order of invasion, or the pores by their size where nothing is displaced.
+pub fn mosaics(solver: &NetworkSolver) -> Vec<Mosaic> {
+    let setting = solver.setting();
+    vec![solver.cycles().map_or_else(|| sizes(setting), |cycles| order(setting, cycles))]
+}
+
+fn empty(setting: &Setting) -> Mosaic {
+    let outline = &setting.outline;
+    let wall =
+        |line: &Vec<u32>| line.iter().filter_map(|&i| outline.points.get(i as usize)).copied().map(pair).collect();
+    Mosaic {
+        name: "network",
+        note: String::new(),
+        label: "",
+        range: [0.0, 1.0],
+        classes: Vec::new(),
+        bounds: [pair(setting.bounds.min), pair(setting.bounds.max)],
+        areas: Vec::new(),
+        walls: outline.lines.iter().map(wall).collect(),
+        lines: ("", Vec::new()),
+    }
+}
+
+fn order(setting: &Setting, cycles: &Cycles) -> Mosaic {
+    let displacement = cycles.displacement();
+    let half = cycles.half_cycle();
+    let areas = displacement.elements().iter().enumerate().map(|(index, element)| {
+        let tone = match cycles.invasions()[index] {
+            Some(invasion) => Tone::Value(invasion.displaced),
+            None if displacement.is_trapped(index) => Tone::Class(1),
+            None if cycles.fluid(index) == half.invading => Tone::Class(2),
+            None => Tone::Class(0),
+        };
+        Area { boundary: boundary(&element.outline), tone }
+    });
+    let areas: Vec<Area> = areas.collect();
+    let largest = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
+    let invaded_before = match half.invading {
+        Fluid::NonWetting => "non-wetting before",
+        Fluid::Wetting => "wetting before",
+    };
+    let defending = match half.invading {
+        Fluid::NonWetting => "wetting",
+        Fluid::Wetting => "non-wetting",
+    };
+    let applied = cycles.applied().map_or(0.0, |applied| half.towards_wetting(applied));
+    let menisci = displacement.menisci(applied).iter().map(|line| boundary(line)).collect();
+    Mosaic {
+        name: "invasion",
+        note: format!(
+            "{} {}: wetting saturation {:.3}",
+            half.name(),
+            cycles.half_cycle_index() / 2 + 1,
+            cycles.saturation()
+        ),
+        label: "displaced share at invasion",
+        range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
+        classes: vec![(defending, NOT_INVADED), ("trapped", TRAPPED), (invaded_before, INVADED_BEFORE)],
+        areas,
+        lines: ("menisci", menisci),
+        ..empty(setting)
+    }
+}
+
+fn sizes(setting: &Setting) -> Mosaic {
+    let pores = &setting.pores;
+    let areas = setting.network.regions.iter().zip(&pores.pore_of).map(|(region, &pore)| Area {
+        boundary: boundary(&super::displacement::outline(region)),
+        tone: Tone::Value(radius(setting, pore)),
+    });
+    let largest = (0..pores.main_region.len()).map(|pore| radius(setting, pore)).fold(0.0, f64::max);
+    Mosaic {
+        name: "pores",
+        note: format!("{} pores, {} throats", pores.main_region.len(), pores.throats.len()),
+        label: "inscribed radius in m",
+        range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
+        areas: areas.collect(),
+        lines: ("throats", kept(setting).map(|throat| throat.contacts.map(pair).to_vec()).collect()),
+        ..empty(setting)
+    }
+}

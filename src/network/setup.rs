@@ -1,0 +1,191 @@
+//! From a checked case to its network and the displacement in it.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::cycles::{Cycles, End, Fluid, HalfCycle};
+use super::displacement::{Conditions, Events};
+use super::graph::{Network, Pores};
+use super::solver::{NetworkSolver, Setting};
+use crate::analysis::laws::drops::tadmor;
+use crate::case::checked::{Case, PatchedWall, Side, WettingModel};
+use crate::case::network::checked::{NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use crate::geometry::{Geometry, GeometryError};
+
+/// Names of the sides in their order.
+pub(super) const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+
+/// A network that cannot be set up.
+#[derive(Debug, thiserror::Error)]
+pub enum SetupError {
+    /// The shapes make no sense.
+    #[error(transparent)]
+    Geometry(#[from] GeometryError),
+    /// The pores cannot be told apart.
+    #[error("{0}")]
+    Extract(#[from] super::ExtractError),
+    /// The domain is solid.
+    #[error("there is no pore in the domain: the solids fill all of it")]
+    NoPore,
+    /// An open side is closed by solids.
+    #[error(
+        "no pore opens at the side `{side}`, which is the {role} (network.{role}): solids close all of it; choose another side, or \
+         cut the shapes there with a smaller domain"
+    )]
+    NoOpening {
+        /// The side.
+        side: &'static str,
+        /// `inlet` or `outlet`.
+        role: &'static str,
+    },
+}
+
+fn kinds(network: &PoreNetwork) -> [Side; 4] {
+    [network.sides.left, network.sides.right, network.sides.bottom, network.sides.top]
+}
+
+/// The solids of a case as its network sees them: periodic sides joined, wall sides closed.
+///
+/// # Errors
+/// [`SetupError::Geometry`] with what is wrong with the shapes.
+pub fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupError> {
+    let sides = kinds(network);
+    let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
+    let walls = sides.map(|side| side == Side::Wall);
+    Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
+}
+
+/// The solver of a case with nothing displaced yet.
+///
+/// # Errors
+/// [`SetupError`].
+pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
+    let clock = Instant::now();
+    let geometry = geometry(case, wanted)?;
+    let sides = kinds(wanted);
+    let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
+    let network = super::extract(&geometry, open)?;
+    if network.regions.is_empty() {
+        return Err(SetupError::NoPore);
+    }
+    for (side, kind) in sides.into_iter().enumerate() {
+        let role = match kind {
+            Side::Inlet => "inlet",
+            Side::Outlet => "outlet",
+            _ => continue,
+        };
+        if network.openings.iter().all(|opening| opening.side != side) {
+            return Err(SetupError::NoOpening { side: SIDES[side], role });
+        }
+    }
+    let pores = Pores::merged(&network, wanted.persistence);
+    let extraction = clock.elapsed().as_secs_f64();
+    Ok(assemble(wanted, &geometry, network, pores).timed(extraction))
+}
+
+/// The solver of a network that is known.
+#[must_use]
+pub fn assemble(wanted: &PoreNetwork, geometry: &Geometry, network: Network, pores: Pores) -> NetworkSolver {
+    let (network, pores) = (Arc::new(network), Arc::new(pores));
+    let walls = geometry.shape_count() as usize + SIDES.len();
+    let half_cycles = match (&wanted.displacement, &wanted.interface) {
+        (Some(displacement), Some(interface)) => half_cycles(displacement, interface, kinds(wanted), walls),
+        _ => Vec::new(),
+    };
+    let entry = wanted.interface.as_ref().map(|interface| Conditions {
+        angle: angles(interface, walls, Fluid::NonWetting),
+        inlet: [false; 4],
+        outlet: [false; 4],
+        trapping: false,
+        events: Events::All,
+        largest_curvature: f64::INFINITY,
+    });
+    let setting = Setting {
+        network: Arc::clone(&network),
+        pores: Arc::clone(&pores),
+        bounds: geometry.bounds(),
+        periodic: geometry.periodic(),
+        inlet: kinds(wanted).iter().position(|&side| side == Side::Inlet),
+        outlet: kinds(wanted).iter().position(|&side| side == Side::Outlet),
+        outline: geometry.outline(),
+        porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / geometry.bounds().area(),
+        tension: wanted.interface.as_ref().map(|interface| interface.tension),
+        viscosities: [wanted.wetting, wanted.non_wetting].map(|fluid| fluid.map(|fluid| fluid.viscosity)),
+        entry,
+    };
+    NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles))
+}
+
+fn half_cycles(
+    displacement: &NetworkDisplacement,
+    interface: &NetworkInterface,
+    sides: [Side; 4],
+    walls: usize,
+) -> Vec<HalfCycle> {
+    let open = |kind: Side| sides.map(|side| side == kind);
+    let half = |invading: Fluid, [from, to]: [Side; 2], stop: Stop| {
+        let sign = if invading == Fluid::NonWetting { 1.0 } else { -1.0 };
+        HalfCycle {
+            invading,
+            conditions: Conditions {
+                angle: angles(interface, walls, invading),
+                inlet: open(from),
+                outlet: open(to),
+                trapping: displacement.trapping,
+                events: match displacement.events {
+                    NetworkEvents::All => Events::All,
+                    NetworkEvents::Burst => Events::BurstOnly,
+                },
+                largest_curvature: stop
+                    .capillary_pressure
+                    .map_or(f64::INFINITY, |pressure| sign * pressure / interface.tension),
+            },
+            end: End {
+                at_breakthrough: stop.breakthrough,
+                at_saturation: stop.saturation.map(|wetting| match invading {
+                    Fluid::Wetting => wetting,
+                    Fluid::NonWetting => 1.0 - wetting,
+                }),
+            },
+        }
+    };
+    let forwards = [Side::Inlet, Side::Outlet];
+    let backwards = [Side::Outlet, Side::Inlet];
+    match displacement.process {
+        Process::Drainage => vec![half(Fluid::NonWetting, forwards, displacement.stop)],
+        Process::Imbibition => vec![half(Fluid::Wetting, forwards, displacement.stop)],
+        Process::Cycle(cycles) => (0..cycles)
+            .flat_map(|_| {
+                [half(Fluid::NonWetting, forwards, displacement.stop), half(Fluid::Wetting, backwards, Stop::default())]
+            })
+            .collect(),
+    }
+}
+
+/// Contact angle of each wall through the defending phase in rad: where the non-wetting phase invades, the wetting one recedes.
+fn angles(interface: &NetworkInterface, walls: usize, invading: Fluid) -> Vec<f64> {
+    let through_defending = |model: &WettingModel| match (model, invading) {
+        (WettingModel::Tadmor { advancing, receding }, Fluid::NonWetting) => tadmor(*advancing, *receding),
+        (WettingModel::Tadmor { advancing, receding }, Fluid::Wetting) => PI - tadmor(*advancing, *receding),
+        (model, Fluid::NonWetting) => model.angles()[0],
+        (model, Fluid::Wetting) => PI - model.angles()[1],
+    };
+    let mut angles = vec![through_defending(&interface.wetting_model); walls];
+    let first_side = walls - SIDES.len();
+    for patch in &interface.patches {
+        let angle = through_defending(&patch.model);
+        let wall = match patch.on {
+            PatchedWall::All => {
+                angles.fill(angle);
+                continue;
+            }
+            PatchedWall::Shape(shape) => shape as usize,
+            PatchedWall::Side(side) => first_side + side as usize,
+        };
+        if let Some(known) = angles.get_mut(wall) {
+            *known = angle;
+        }
+    }
+    angles
+}

@@ -1,0 +1,217 @@
+//! The state of pores from that of their elements, and `network.json`: what the tables mean, and what went into them.
+
+use serde::Serialize;
+
+use super::cycles::{Cycles, Fluid, Invasion};
+use super::displacement::Phase;
+use super::setup::SIDES;
+use super::solver::{NetworkSolver, Setting};
+use crate::table::Document;
+
+/// The state of one pore.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoreState {
+    /// The fluid that holds more than half of it.
+    pub fluid: Fluid,
+    /// The event of the present half cycle by which the invading phase came to hold more than half of it.
+    pub invasion: Option<Invasion>,
+    /// Whether more than half of it is trapped.
+    pub is_trapped: bool,
+}
+
+/// The states of all pores.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoreStates(pub Vec<PoreState>);
+
+impl PoreStates {
+    /// The present states.
+    #[must_use]
+    pub fn new(setting: &Setting, cycles: &Cycles) -> Self {
+        let pores = setting.pores.main_region.len();
+        let mut elements_of: Vec<Vec<usize>> = vec![Vec::new(); pores];
+        for (index, element) in cycles.displacement().elements().iter().enumerate() {
+            elements_of[setting.pores.pore_of[element.region]].push(index);
+        }
+        let invading = cycles.half_cycle().invading;
+        Self(elements_of.iter().map(|elements| state(cycles, elements, invading)).collect())
+    }
+}
+
+/// Number of pores that the invading phase came to hold in the present half cycle.
+#[must_use]
+pub fn invaded_pores(setting: &Setting, cycles: &Cycles) -> usize {
+    let mut filled = vec![[0.0; 2]; setting.pores.main_region.len()];
+    for (index, element) in cycles.displacement().elements().iter().enumerate() {
+        let [before, now] = &mut filled[setting.pores.pore_of[element.region]];
+        match cycles.invasions()[index] {
+            Some(_) => *now += element.area,
+            None if cycles.displacement().phase(index) == Phase::Invading => *before += element.area,
+            None => {}
+        }
+    }
+    let halves = setting.pores.area.iter().map(|area| 0.5 * area);
+    filled.iter().zip(halves).filter(|([before, now], half)| before <= half && before + now > *half).count()
+}
+
+fn state(cycles: &Cycles, elements: &[usize], invading: Fluid) -> PoreState {
+    let displacement = cycles.displacement();
+    let area = |element: usize| displacement.elements()[element].area;
+    let sum = |keep: &dyn Fn(usize) -> bool| elements.iter().filter(|&&e| keep(e)).map(|&e| area(e)).sum::<f64>();
+    let half = 0.5 * sum(&|_| true);
+    let is_invaded = sum(&|e| displacement.phase(e) == Phase::Invading) > half;
+    let mut filled: Vec<(Invasion, f64)> =
+        elements.iter().filter_map(|&e| cycles.invasions()[e].map(|invasion| (invasion, area(e)))).collect();
+    filled.sort_by_key(|(invasion, _)| invasion.sequence);
+    // What it held of the invading phase before this half cycle.
+    let mut held = sum(&|e| displacement.phase(e) == Phase::Invading && cycles.invasions()[e].is_none());
+    let mut invasion = None;
+    for (event, area) in filled {
+        if held <= half && held + area > half {
+            invasion = Some(event);
+        }
+        held += area;
+    }
+    PoreState {
+        fluid: if is_invaded { invading } else { invading.other() },
+        invasion,
+        is_trapped: sum(&|e| displacement.is_trapped(e)) > half,
+    }
+}
+
+/// What stands in `network.json`.
+#[derive(Serialize)]
+struct Description<'a> {
+    version: &'static str,
+    persistence: f64,
+    geometry_hash: String,
+    domain_m: [[f64; 2]; 2],
+    periodic: [bool; 2],
+    inlet: Option<&'a str>,
+    outlet: Option<&'a str>,
+    tension_n_per_m: Option<f64>,
+    viscosity_pa_s: [Option<f64>; 2],
+    pores: usize,
+    throats: usize,
+    regions: usize,
+    porosity: f64,
+    units: &'static str,
+    definitions: Definitions,
+    half_cycles: Vec<HalfCycleDescription<'a>>,
+    merges: Merges,
+}
+
+#[derive(Serialize)]
+struct Definitions {
+    pore: &'static str,
+    throat: &'static str,
+    persistence: &'static str,
+    area: &'static str,
+    length: &'static str,
+    curvature: &'static str,
+    conductance: &'static str,
+    entry_pressure: &'static str,
+    sequence: &'static str,
+    trapped: &'static str,
+    openpnm: &'static str,
+}
+
+const DEFINITIONS: Definitions = Definitions {
+    pore: "a local maximum of the distance to the nearest wall; its inscribed radius is that distance",
+    throat: "a saddle of the distance to the nearest wall; its width is twice that distance, its chord joins both contacts and parts the pores",
+    persistence: "a throat is dissolved where its half width exceeds this share of the smaller inscribed radius",
+    area: "of the pore region between walls and chords, in closed form; a volume per depth",
+    length: "from pore center to pore center by way of the middle of the throat",
+    curvature: "of the walls at both contacts, above 0 where the solid is convex; empty at an edge",
+    conductance: "flow per depth times viscosity over pressure difference, from pore to pore; good to some ten percent above a solid fraction of 0.3",
+    entry_pressure: "tension times the largest curvature of a meniscus that passes the throat in drainage, at the receding angle",
+    sequence: "number of the event, from 1 on in the last half cycle, by which the invading phase came to hold more than half of the pore; 0 for what is filled at the beginning through an opening of the inlet; empty where none did",
+    trapped: "more than half of the pore holds defending phase without a way to the outlet",
+    openpnm: "openpnm.csv is for a depth of 1 m: volumes are areas times 1 m, cross sections widths times 1 m, and conductances those of the viscosity of the wetting phase, 1 Pa s where none is given",
+};
+
+#[derive(Serialize)]
+struct HalfCycleDescription<'a> {
+    process: &'a str,
+    invading: &'a str,
+    events: usize,
+    saturation_before: f64,
+    saturation_after: f64,
+}
+
+/// Enough to merge anew with another ratio.
+#[derive(Serialize)]
+struct Merges {
+    note: &'static str,
+    region_pore: Vec<usize>,
+    region_radius_m: Vec<f64>,
+    region_area_m2: Vec<f64>,
+    throat_regions: Vec<[usize; 2]>,
+    throat_width_m: Vec<f64>,
+}
+
+const MERGES: &str = "the network before the merge: regions with their pore, and all throats between regions; going through the throats \
+                      from wide to narrow, one is dissolved where its half width exceeds the persistence ratio times the smaller of \
+                      both radii, and the joined pore keeps the larger one";
+
+/// FNV-1a of the network's geometry: widths, places and areas, bit by bit.
+fn geometry_hash(setting: &Setting) -> String {
+    const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0100_0000_01b3;
+    let bounds = [setting.bounds.min, setting.bounds.max];
+    let points = bounds.into_iter().chain(setting.outline.points.iter().copied());
+    let bytes = points.flat_map(|point| [point.x, point.y]).flat_map(|value| value.to_bits().to_le_bytes());
+    let hash = bytes.fold(OFFSET, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME));
+    format!("{hash:016x}")
+}
+
+/// `network.json`.
+pub fn network_json(solver: &NetworkSolver) -> Document {
+    let setting = solver.setting();
+    let (network, pores) = (&setting.network, &setting.pores);
+    let description = Description {
+        version: env!("CARGO_PKG_VERSION"),
+        persistence: pores.persistence,
+        geometry_hash: geometry_hash(setting),
+        domain_m: [setting.bounds.min.into(), setting.bounds.max.into()],
+        periodic: setting.periodic,
+        inlet: setting.inlet.map(|side| SIDES[side]),
+        outlet: setting.outlet.map(|side| SIDES[side]),
+        tension_n_per_m: setting.tension,
+        viscosity_pa_s: setting.viscosities,
+        pores: pores.main_region.len(),
+        throats: pores.throats.len(),
+        regions: network.regions.len(),
+        porosity: setting.porosity,
+        units: "SI; the unit stands at the end of each column of pores.csv and throats.csv",
+        definitions: DEFINITIONS,
+        half_cycles: solver.cycles().map_or_else(Vec::new, half_cycles),
+        merges: Merges {
+            note: MERGES,
+            region_pore: pores.pore_of.clone(),
+            region_radius_m: network.regions.iter().map(|region| region.radius).collect(),
+            region_area_m2: network.regions.iter().map(|region| region.area).collect(),
+            throat_regions: network.throats.iter().map(|throat| throat.regions).collect(),
+            throat_width_m: network.throats.iter().map(|throat| throat.width).collect(),
+        },
+    };
+    // Numbers, texts and lists of them can always be written; what is not finite becomes null.
+    let text = serde_json::to_string(&description).unwrap_or_default();
+    Document { name: "network.json", text: text + "\n" }
+}
+
+fn half_cycles(cycles: &Cycles) -> Vec<HalfCycleDescription<'_>> {
+    let outcomes = cycles.outcomes();
+    let after = |index: usize| outcomes.get(index + 1).map_or(cycles.saturation(), |next| next.first_saturation[0]);
+    outcomes
+        .iter()
+        .zip(cycles.half_cycles())
+        .enumerate()
+        .map(|(index, (outcome, half))| HalfCycleDescription {
+            process: half.name(),
+            invading: half.invading.name(),
+            events: outcome.events,
+            saturation_before: outcome.first_saturation[0],
+            saturation_after: after(index),
+        })
+        .collect()
+}

@@ -1,0 +1,223 @@
+//! `pores.csv`, `throats.csv` and `events.csv`: SI units, one row each for a pore, a throat, an event.
+
+use super::cycles::{Cycles, Invasion};
+use super::displacement::EventKind;
+use super::graph::{Opening, Throat};
+use super::solver::{NetworkSolver, Setting, nearest};
+use super::summary::{PoreState, PoreStates};
+use crate::math::Vec2;
+use crate::table::{Cells, Column, Table};
+
+/// All tables.
+pub fn all(solver: &NetworkSolver) -> Vec<Table> {
+    let mut tables = vec![pores(solver), throats(solver)];
+    tables.extend(solver.cycles().map(|cycles| events(solver.setting(), cycles)));
+    tables
+}
+
+pub(super) fn numbers(name: &'static str, values: impl IntoIterator<Item = f64>) -> Column {
+    Column { name, cells: Cells::Numbers(values.into_iter().collect()) }
+}
+
+pub(super) fn counts(name: &'static str, values: impl IntoIterator<Item = usize>) -> Column {
+    Column { name, cells: Cells::Counts(values.into_iter().collect()) }
+}
+
+pub(super) fn flags(name: &'static str, values: impl IntoIterator<Item = bool>) -> Column {
+    Column { name, cells: Cells::Flags(values.into_iter().collect()) }
+}
+
+fn places(name: &'static str, values: impl IntoIterator<Item = Option<usize>>) -> Column {
+    Column { name, cells: Cells::Places(values.into_iter().collect()) }
+}
+
+fn words(name: &'static str, values: impl IntoIterator<Item = &'static str>) -> Column {
+    Column { name, cells: Cells::Words(values.into_iter().collect()) }
+}
+
+/// The pores of a throat of the network.
+pub(super) fn pores_of(setting: &Setting, throat: &Throat) -> [usize; 2] {
+    throat.regions.map(|region| setting.pores.pore_of[region])
+}
+
+/// Center of a pore in m.
+pub(super) fn center(setting: &Setting, pore: usize) -> Vec2 {
+    setting.network.regions[setting.pores.main_region[pore]].center
+}
+
+/// Inscribed radius of a pore in m.
+pub(super) fn radius(setting: &Setting, pore: usize) -> f64 {
+    setting.network.regions[setting.pores.main_region[pore]].radius
+}
+
+/// The middle of a throat in m.
+pub(super) fn middle(throat: &Throat) -> Vec2 {
+    0.5 * (throat.contacts[0] + throat.contacts[1])
+}
+
+/// The throats that were not dissolved.
+pub(super) fn kept(setting: &Setting) -> impl Iterator<Item = &Throat> {
+    setting.pores.throats.iter().map(|&throat| &setting.network.throats[throat])
+}
+
+/// The way between both pores by way of the middle of their throat: vectors from the middle to both centers.
+pub(super) fn arms(setting: &Setting, throat: &Throat) -> [Vec2; 2] {
+    pores_of(setting, throat).map(|pore| nearest(setting, middle(throat), center(setting, pore)))
+}
+
+/// Length of a throat from pore center to pore center by way of its middle, in m.
+pub(super) fn length(setting: &Setting, throat: &Throat) -> f64 {
+    arms(setting, throat).iter().map(|arm| arm.norm()).sum()
+}
+
+/// Lengths of wall of the pores in m.
+pub(super) fn wall_lengths(setting: &Setting) -> Vec<f64> {
+    let mut lengths = vec![0.0; setting.pores.main_region.len()];
+    for (region, &pore) in setting.network.regions.iter().zip(&setting.pores.pore_of) {
+        lengths[pore] += region.wall_length;
+    }
+    lengths
+}
+
+/// Number of throats of each pore, openings included; a throat from a pore to itself counts twice.
+fn coordination(setting: &Setting) -> Vec<usize> {
+    let mut numbers = vec![0; setting.pores.main_region.len()];
+    kept(setting).flat_map(|throat| pores_of(setting, throat)).for_each(|pore| numbers[pore] += 1);
+    openings(setting).for_each(|(_, pore)| numbers[pore] += 1);
+    numbers
+}
+
+/// The openings with their pores.
+pub(super) fn openings(setting: &Setting) -> impl Iterator<Item = (&Opening, usize)> {
+    setting.network.openings.iter().map(|opening| (opening, setting.pores.pore_of[opening.region]))
+}
+
+/// Whether pores open at a side.
+fn opens_at(setting: &Setting, side: Option<usize>) -> Vec<bool> {
+    let mut opens = vec![false; setting.pores.main_region.len()];
+    for (opening, pore) in openings(setting) {
+        opens[pore] |= Some(opening.side) == side;
+    }
+    opens
+}
+
+fn pores(solver: &NetworkSolver) -> Table {
+    let setting = solver.setting();
+    let all = || 0..setting.pores.main_region.len();
+    let mut columns = vec![
+        counts("pore", all()),
+        numbers("x_m", all().map(|pore| center(setting, pore).x)),
+        numbers("y_m", all().map(|pore| center(setting, pore).y)),
+        numbers("inscribed_radius_m", all().map(|pore| radius(setting, pore))),
+        numbers("area_m2", setting.pores.area.iter().copied()),
+        numbers("wall_length_m", wall_lengths(setting)),
+        counts("coordination_number", coordination(setting)),
+        flags("inlet", opens_at(setting, setting.inlet)),
+        flags("outlet", opens_at(setting, setting.outlet)),
+    ];
+    if let Some(cycles) = solver.cycles() {
+        let states = PoreStates::new(setting, cycles).0;
+        columns.extend(state_columns(setting, &states));
+    }
+    Table { name: "pores", columns }
+}
+
+fn state_columns(setting: &Setting, states: &[PoreState]) -> [Column; 5] {
+    let tension = setting.tension.unwrap_or(f64::NAN);
+    let of =
+        |value: fn(&Invasion) -> f64| states.iter().map(move |state| state.invasion.as_ref().map_or(f64::NAN, value));
+    [
+        words("phase", states.iter().map(|state| state.fluid.name())),
+        places("sequence", states.iter().map(|state| state.invasion.map(|invasion| invasion.sequence))),
+        flags("trapped", states.iter().map(|state| state.is_trapped)),
+        numbers("invasion_capillary_pressure_Pa", of(|invasion| invasion.applied).map(|applied| tension * applied)),
+        numbers("displaced_saturation_at_invasion", of(|invasion| invasion.displaced)),
+    ]
+}
+
+fn throats(solver: &NetworkSolver) -> Table {
+    let setting = solver.setting();
+    let of = |value: fn(&Throat) -> f64| kept(setting).map(value);
+    let mut columns = vec![
+        counts("throat", 0..setting.pores.throats.len()),
+        counts("pore_1", kept(setting).map(|throat| pores_of(setting, throat)[0])),
+        counts("pore_2", kept(setting).map(|throat| pores_of(setting, throat)[1])),
+        numbers("x_m", of(|throat| middle(throat).x)),
+        numbers("y_m", of(|throat| middle(throat).y)),
+        numbers("width_m", of(|throat| throat.width)),
+        numbers("length_m", kept(setting).map(|throat| length(setting, throat))),
+        numbers("contact_1_x_m", of(|throat| throat.contacts[0].x)),
+        numbers("contact_1_y_m", of(|throat| throat.contacts[0].y)),
+        numbers("contact_2_x_m", of(|throat| throat.contacts[1].x)),
+        numbers("contact_2_y_m", of(|throat| throat.contacts[1].y)),
+        counts("wall_1", kept(setting).map(|throat| throat.shapes[0] as usize)),
+        counts("wall_2", kept(setting).map(|throat| throat.shapes[1] as usize)),
+        numbers("wall_curvature_1_per_m", of(|throat| finite(throat.curvatures[0]))),
+        numbers("wall_curvature_2_per_m", of(|throat| finite(throat.curvatures[1]))),
+    ];
+    let conductances = solver.conductances();
+    columns.push(numbers("conductance_m2", setting.pores.throats.iter().map(|&throat| conductances[throat].value)));
+    if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
+        let pressures = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]);
+        columns.push(numbers("entry_pressure_Pa", pressures));
+    }
+    if let Some(cycles) = solver.cycles() {
+        columns.push(places("sequence", sequences(setting, cycles)));
+    }
+    Table { name: "throats", columns }
+}
+
+/// The curvature of a vertex has no number.
+pub(super) fn finite(value: f64) -> f64 {
+    if value.is_finite() { value } else { f64::NAN }
+}
+
+/// For each throat the event of the present half cycle by which it was passed.
+fn sequences(setting: &Setting, cycles: &Cycles) -> Vec<Option<usize>> {
+    let mut passed = vec![None; setting.network.throats.len()];
+    let present = cycles.history().iter().filter(|entry| entry.half_cycle == cycles.half_cycle_index());
+    for (sequence, entry) in (1..).zip(present) {
+        if let Some(throat) = entry.throat {
+            passed[throat].get_or_insert(sequence);
+        }
+    }
+    setting.pores.throats.iter().map(|&throat| passed[throat]).collect()
+}
+
+fn events(setting: &Setting, cycles: &Cycles) -> Table {
+    let tension = setting.tension.unwrap_or(f64::NAN);
+    let mut number_of = vec![None; setting.network.throats.len()];
+    setting.pores.throats.iter().enumerate().for_each(|(number, &throat)| number_of[throat] = Some(number));
+    let history = cycles.history();
+    let mut sequence = 0;
+    let mut last = 0;
+    let sequences = history.iter().map(|entry| {
+        sequence = if entry.half_cycle == last { sequence } else { 0 };
+        last = entry.half_cycle;
+        sequence += 1;
+        sequence
+    });
+    let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].name();
+    Table {
+        name: "events",
+        columns: vec![
+            counts("half_cycle", history.iter().map(|entry| entry.half_cycle + 1)),
+            words("process", history.iter().map(|entry| process(entry.half_cycle))),
+            counts("sequence", sequences),
+            words("event", history.iter().map(|entry| kind_name(entry.kind))),
+            places("throat", history.iter().map(|entry| entry.throat.and_then(|throat| number_of[throat]))),
+            numbers("meniscus_pressure_Pa", history.iter().map(|entry| tension * entry.curvature)),
+            numbers("capillary_pressure_Pa", history.iter().map(|entry| tension * entry.applied)),
+            numbers("saturation", history.iter().map(|entry| entry.saturation)),
+        ],
+    }
+}
+
+/// Name of a kind of event.
+pub(super) fn kind_name(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::Burst => "burst",
+        EventKind::Touch => "touch",
+        EventKind::Overlap => "overlap",
+    }
+}

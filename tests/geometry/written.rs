@@ -1,0 +1,156 @@
+//! Drawings that the program writes, read back by its own readers where the shape-file module has them.
+
+use std::f64::consts::PI;
+
+use meniscus::geometry::Geometry;
+use meniscus::geometry::export::{ExportError, Format, write};
+use meniscus::geometry::import::Options;
+use meniscus::geometry::import::drawing::Outline;
+use meniscus::geometry::import::mask::{MaskOptions, read};
+use meniscus::geometry::load;
+use meniscus::geometry::spec::{Capsule, Disc, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide};
+
+/// Discs, one across a side, a capsule, a turned rectangle and a polygon with a hole, apart from each other.
+fn shapes() -> GeometrySpec {
+    let square = |h: f64, turn: bool| {
+        let mut ring = vec![[-h, -h], [h, -h], [h, h], [-h, h]];
+        if turn {
+            ring.reverse();
+        }
+        ring
+    };
+    GeometrySpec {
+        min: [-1e-3, -1e-3],
+        max: [3e-3, 2e-3],
+        solid: SolidSide::Inside,
+        shapes: vec![
+            ShapeSpec::Disc(Disc { center: [0.0, 0.0], radius: 5e-4 }),
+            ShapeSpec::Disc(Disc { center: [3e-3, 1.5e-3], radius: 4e-4 }),
+            ShapeSpec::Capsule(Capsule { ends: [[1.5e-3, 0.0], [2.2e-3, 0.3e-3]], radius: 2e-4 }),
+            ShapeSpec::Rectangle(Rectangle { center: [0.2e-3, 1.4e-3], size: [6e-4, 3e-4], rotation_deg: 20.0 }),
+            ShapeSpec::Polygon(Polygon {
+                outer: square(4e-4, false),
+                holes: vec![square(2e-4, true)],
+                position: [1.4e-3, 1.3e-3],
+                rotation_deg: 10.0,
+            }),
+        ],
+    }
+}
+
+fn discs() -> GeometrySpec {
+    let mut spec = shapes();
+    spec.shapes.truncate(2);
+    spec
+}
+
+fn porosity(spec: &GeometrySpec) -> f64 {
+    Geometry::new(spec).unwrap().porosity().value
+}
+
+fn read_back(bytes: &[u8], name: &str) -> GeometrySpec {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, bytes).unwrap();
+    load(&path, &Options::default()).unwrap().spec
+}
+
+#[test]
+fn a_list_of_discs_comes_back_bit_by_bit() {
+    let spec = discs();
+    assert_eq!(read_back(&write(&spec, Format::Discs, None).unwrap(), "a.xyr"), spec);
+    let refused = write(&shapes(), Format::Discs, None).unwrap_err();
+    assert!(matches!(refused, ExportError::NoDisc { others: 3, all: 5 }), "{refused}");
+}
+
+#[test]
+fn a_shape_file_comes_back_bit_by_bit() {
+    let text = String::from_utf8(write(&shapes(), Format::Toml, None).unwrap()).unwrap();
+    let rest = text.strip_prefix("format = 1\n").unwrap();
+    assert_eq!(toml::from_str::<GeometrySpec>(rest).unwrap(), shapes());
+}
+
+#[test]
+fn well_known_text_keeps_domain_and_area() {
+    let back = read_back(&write(&shapes(), Format::Wkt, None).unwrap(), "a.wkt");
+    assert_eq!((back.min, back.max, back.shapes.len()), (shapes().min, shapes().max, 5));
+    // 100 chords take 6.6e-4 of a disc's area.
+    assert!((porosity(&back) - porosity(&shapes())).abs() < 7e-4 * (1.0 - porosity(&shapes())));
+}
+
+#[test]
+fn a_pore_between_shapes_is_written_as_the_solid_around_it() {
+    let spec = GeometrySpec { solid: SolidSide::Outside, ..discs() };
+    let back = read_back(&write(&spec, Format::Wkt, None).unwrap(), "a.wkt");
+    assert!((porosity(&back) - porosity(&spec)).abs() < 7e-4, "{} {}", porosity(&back), porosity(&spec));
+}
+
+#[test]
+fn geojson_tells_its_unit_and_holds_every_ring() {
+    let bytes = write(&shapes(), Format::GeoJson, None).unwrap();
+    let value: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+    assert_eq!(value["unit"], "m");
+    let features = value["features"].as_array().unwrap();
+    assert_eq!(features.len(), 5);
+    assert_eq!(features[4]["geometry"]["coordinates"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn svg_holds_circles_and_arcs_with_their_radii_in_mm() {
+    let text = String::from_utf8(write(&shapes(), Format::Svg, None).unwrap()).unwrap();
+    assert_eq!(text.matches("<circle").count(), 2);
+    assert_eq!(text.matches("<path").count(), 3);
+    let radii: Vec<f64> = text.split(" A").skip(1).map(|arc| arc.split(' ').next().unwrap().parse().unwrap()).collect();
+    assert!(
+        radii.len() == 2 && radii.iter().all(|r| (r - 0.2).abs() < 1e-12),
+        "the round ends of the capsule: {radii:?}"
+    );
+    assert!(text.contains("viewBox=\"-1 -2 4 3\"") && text.contains("width=\"4mm\""), "{text}");
+}
+
+#[test]
+fn dxf_holds_circles_and_bulges_in_mm() {
+    let bytes = write(&shapes(), Format::Dxf, None).unwrap();
+    let drawing = dxf::Drawing::load(&mut &bytes[..]).unwrap();
+    assert_eq!(drawing.header.default_drawing_units, dxf::enums::Units::Millimeters);
+    let (mut radii, mut bulges) = (Vec::new(), 0);
+    for entity in drawing.entities() {
+        match &entity.specific {
+            dxf::entities::EntityType::Circle(circle) => radii.push(circle.radius),
+            dxf::entities::EntityType::LwPolyline(line) => {
+                assert!(line.is_closed());
+                // Both ends of the capsule are half circles.
+                bulges += line.vertices.iter().filter(|v| (v.bulge - 1.0).abs() < 1e-12).count();
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    assert_eq!((radii, bulges), (vec![0.5, 0.4], 2));
+}
+
+#[test]
+fn a_mask_holds_the_share_of_solid_of_every_pixel() {
+    let spec = shapes();
+    let pixel = 1e-5;
+    let bytes = write(&spec, Format::Png, Some(pixel)).unwrap();
+    let image = image::load_from_memory(&bytes).unwrap().to_luma8();
+    assert_eq!(image.dimensions(), (400, 300));
+    let solid: f64 = image.pixels().map(|p| 1.0 - f64::from(p[0]) / 255.0).sum::<f64>() / 120_000.0;
+    // 256 steps of gray in some thousand pixels along the walls.
+    assert!((solid - (1.0 - porosity(&spec))).abs() < 2e-5, "{solid} {}", 1.0 - porosity(&spec));
+    let drawing = read(&bytes, &MaskOptions { pixel_size: Some(pixel), ..MaskOptions::default() }).unwrap();
+    let radii = drawing
+        .entities
+        .iter()
+        .filter_map(|e| if let Outline::Disc { radius, .. } = e.outline { Some(radius * pixel) } else { None });
+    let radii: Vec<f64> = radii.collect();
+    assert_eq!(radii.len(), 1);
+    assert!((PI * radii[0].powi(2) / (PI * 25e-8) - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn endings_that_name_no_format_are_refused() {
+    assert!(matches!(Format::of("a.DXF".as_ref()), Ok(Format::Dxf)));
+    assert!(Format::of("a.pdf".as_ref()).unwrap_err().to_string().contains(".svg"));
+    assert!(write(&discs(), Format::Png, Some(1.0)).is_err());
+}
