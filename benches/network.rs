@@ -31,7 +31,7 @@ fn discs(criterion: &mut Criterion) {
 }
 
 fn rings(criterion: &mut Criterion) {
-    for count in [1_000, 10_000] {
+    for count in [1_000, 10_000, 100_000] {
         let corner = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / count as f64;
             let radius = 3.5 * (1.0 + 0.1 * (40.0 * angle).cos());

@@ -3,7 +3,8 @@
 #[path = "../support/packs.rs"]
 mod grown;
 
-use meniscus::geometry::spec::{Rectangle, ShapeSpec};
+use meniscus::geometry::Geometry;
+use meniscus::geometry::spec::{Disc, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide};
 use meniscus::network::{ExtractError, extract};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -107,4 +108,41 @@ fn grains_on_a_lattice_have_a_network_though_everything_is_level_or_touches() {
     }
     assert!(failures.is_empty(), "{} failures: {:#?}", failures.len(), &failures[..failures.len().min(5)]);
     assert!(count > 400, "{count}");
+}
+
+#[test]
+fn a_network_has_the_size_of_its_grains_wherever_they_stand() {
+    let pack =
+        Pack { side: 6.0, count: 25, radii: [0.3, 0.6], gap: 0.03, periodic: true, grains: Grains::Discs, seed: 3 };
+    let polygons = Pack { side: 6.0, count: 8, grains: Grains::Polygons, seed: 4, ..pack };
+    let network_of = |scale: f64, origin: f64| {
+        let moved = |[x, y]: [f64; 2]| [origin + scale * x, origin + scale * y];
+        let shapes = pack.shapes().into_iter().chain(polygons.shapes()).map(|shape| match shape {
+            ShapeSpec::Disc(disc) => ShapeSpec::Disc(Disc { center: moved(disc.center), radius: scale * disc.radius }),
+            ShapeSpec::Polygon(ring) => {
+                let outer = ring.outer.iter().map(|[x, y]| [scale * x, scale * y]).collect();
+                ShapeSpec::Polygon(Polygon { outer, position: moved(ring.position), ..ring })
+            }
+            other => other,
+        });
+        let (min, max) = (moved([0.0; 2]), moved([6.0; 2]));
+        let spec = GeometrySpec { min, max, solid: SolidSide::Inside, shapes: shapes.collect() };
+        network(&Geometry::new(&spec).unwrap().with_periodic([true, true]), CLOSED)
+    };
+    let plain = network_of(1.0, 0.0);
+    assert!(plain.throats.len() > 40);
+    for (scale, origin) in [(1e-6, 0.0), (1e-6, 1e-4), (1e3, -5e5)] {
+        let other = network_of(scale, origin);
+        let scaled =
+            |values: Vec<f64>, power: i32| values.iter().map(|value| value / scale.powi(power)).collect::<Vec<f64>>();
+        assert_eq!(other.throats.len(), plain.throats.len());
+        // Positions far from the origin are rounded.
+        let rounding = 1e-14 * (1.0 + (origin / scale).abs());
+        for (a, b) in scaled(widths(&other), 1).iter().zip(widths(&plain)) {
+            assert!((a - b).abs() < rounding, "{a} {b}");
+        }
+        for (a, b) in scaled(areas(&other), 2).iter().zip(areas(&plain)) {
+            assert!((a - b).abs() < 100.0 * rounding, "{a} {b}");
+        }
+    }
 }
