@@ -48,8 +48,12 @@ fn a_square_array_in_a_box_has_throats_to_its_walls() {
     assert_eq!((n.regions.len(), n.throats.len()), (16, 24));
     let gaps: Vec<f64> = [0.2; 12].into_iter().chain([0.4; 12]).collect();
     assert_values(&widths(&n), &gaps);
-    let in_corner = 0.5 - 0.3 * (2.0_f64.sqrt() - 1.0) - (0.5 - 0.3) * (2.0 - 2.0_f64.sqrt());
-    let _ = in_corner;
+    // In a corner: the circle that touches both walls and the disc about (0.5, 0.5), x sqrt(2) = (0.5 sqrt(2) - 0.3) - x.
+    let in_corner = (0.5 * 2.0_f64.sqrt() - 0.3) / (1.0 + 2.0_f64.sqrt());
+    let between_four = 0.5_f64.sqrt() - 0.3;
+    let found = radii(&n);
+    assert_values(&found[..4], &[in_corner; 4]);
+    assert_values(&found[12..], &[between_four; 4]);
 }
 
 #[test]

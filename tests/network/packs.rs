@@ -1,27 +1,28 @@
 //! Random packs of every kind of grain and side.
 
 #[path = "../support/packs.rs"]
-mod packs;
+mod grown;
 
-use meniscus::geometry::spec::{Rectangle, ShapeSpec};
+use meniscus::geometry::Geometry;
+use meniscus::geometry::spec::{Disc, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide};
 use meniscus::network::{ExtractError, extract};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::invariants::{assert_distances, violations};
 use crate::scenes::*;
-use packs::{Grains, Pack};
+use grown::{Grains, Pack};
 
 #[test]
 fn a_thousand_random_packs_have_a_network_with_all_its_invariants() {
     let mut failures = Vec::new();
     for seed in 0..1000_u64 {
         let kind = |k: u64, of: u64| ((seed / k) % of) as usize;
-        let grains_of = [Grains::Discs, Grains::Polygons, Grains::Bars, Grains::Mixed][kind(1, 4)];
-        let sides = kind(4, 6);
+        let grains_of = [Grains::Discs, Grains::Polygons, Grains::Curves, Grains::Bars, Grains::Mixed][kind(1, 5)];
+        let sides = kind(5, 6);
         // Overlapping, nearly touching, tight and loose.
-        let gap = [-0.15, 0.001, 0.02, 0.2][kind(24, 4)];
-        let (side, count) = [(3.0, 3), (4.0, 10), (7.0, 30)][kind(96, 3)];
+        let gap = [-0.15, 0.001, 0.02, 0.2][kind(30, 4)];
+        let (side, count) = [(3.0, 3), (4.0, 10), (7.0, 30)][kind(120, 3)];
         let pack = Pack { side, count, radii: [0.2, 0.6], gap, periodic: sides == 1, grains: grains_of, seed };
         let g = grains([side; 2], pack.shapes());
         let (g, open) = match sides {
@@ -107,4 +108,41 @@ fn grains_on_a_lattice_have_a_network_though_everything_is_level_or_touches() {
     }
     assert!(failures.is_empty(), "{} failures: {:#?}", failures.len(), &failures[..failures.len().min(5)]);
     assert!(count > 400, "{count}");
+}
+
+#[test]
+fn a_network_has_the_size_of_its_grains_wherever_they_stand() {
+    let pack =
+        Pack { side: 6.0, count: 25, radii: [0.3, 0.6], gap: 0.03, periodic: true, grains: Grains::Discs, seed: 3 };
+    let polygons = Pack { side: 6.0, count: 8, grains: Grains::Polygons, seed: 4, ..pack };
+    let network_of = |scale: f64, origin: f64| {
+        let moved = |[x, y]: [f64; 2]| [origin + scale * x, origin + scale * y];
+        let shapes = pack.shapes().into_iter().chain(polygons.shapes()).map(|shape| match shape {
+            ShapeSpec::Disc(disc) => ShapeSpec::Disc(Disc { center: moved(disc.center), radius: scale * disc.radius }),
+            ShapeSpec::Polygon(ring) => {
+                let outer = ring.outer.iter().map(|[x, y]| [scale * x, scale * y]).collect();
+                ShapeSpec::Polygon(Polygon { outer, position: moved(ring.position), ..ring })
+            }
+            other => other,
+        });
+        let (min, max) = (moved([0.0; 2]), moved([6.0; 2]));
+        let spec = GeometrySpec { min, max, solid: SolidSide::Inside, shapes: shapes.collect() };
+        network(&Geometry::new(&spec).unwrap().with_periodic([true, true]), CLOSED)
+    };
+    let plain = network_of(1.0, 0.0);
+    assert!(plain.throats.len() > 40);
+    for (scale, origin) in [(1e-6, 0.0), (1e-6, 1e-4), (1e3, -5e5)] {
+        let other = network_of(scale, origin);
+        let scaled =
+            |values: Vec<f64>, power: i32| values.iter().map(|value| value / scale.powi(power)).collect::<Vec<f64>>();
+        assert_eq!(other.throats.len(), plain.throats.len());
+        // Positions far from the origin are rounded.
+        let rounding = 1e-14 * (1.0 + (origin / scale).abs());
+        for (a, b) in scaled(widths(&other), 1).iter().zip(widths(&plain)) {
+            assert!((a - b).abs() < rounding, "{a} {b}");
+        }
+        for (a, b) in scaled(areas(&other), 2).iter().zip(areas(&plain)) {
+            assert!((a - b).abs() < 100.0 * rounding, "{a} {b}");
+        }
+    }
 }

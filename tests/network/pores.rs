@@ -143,7 +143,8 @@ fn a_network_turns_and_mirrors_with_its_grains() {
     let keep = |n: &Network| {
         // The region around the frame is not turned with it.
         let [mut r, mut a, w] = table(n);
-        (r.pop(), a.pop());
+        r.pop();
+        a.pop();
         [r, a, w]
     };
     let straight = keep(&network(&scene(0.0, false), CLOSED));

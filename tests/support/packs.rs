@@ -11,6 +11,8 @@ pub enum Grains {
     Discs,
     /// Star-shaped polygons of 3 to 9 corners, concave ones too.
     Polygons,
+    /// Smooth curves cut into 40 to 200 segments.
+    Curves,
     /// Turned rectangles and capsules.
     Bars,
     /// All of these.
@@ -73,8 +75,9 @@ impl Pack {
         let kind = match self.grains {
             Grains::Discs => 0,
             Grains::Polygons => 1,
+            Grains::Curves => 4,
             Grains::Bars => 2 + usize::from(rng.random::<bool>()),
-            Grains::Mixed => (4.0 * rng.random::<f64>()) as usize,
+            Grains::Mixed => (5.0 * rng.random::<f64>()) as usize,
         };
         match kind {
             0 => ShapeSpec::Disc(Disc { center: [x, y], radius }),
@@ -92,6 +95,19 @@ impl Pack {
             2 => {
                 let size = [2.0 * radius * share, 2.0 * radius * (1.0 - share * share).sqrt()];
                 ShapeSpec::Rectangle(Rectangle { center: [x, y], size, rotation_deg: turn })
+            }
+            4 => {
+                let corners = 40 + (160.0 * rng.random::<f64>()) as usize;
+                let waves = (2.0 + 3.0 * rng.random::<f64>()).floor();
+                let depth = 0.2 * rng.random::<f64>();
+                let outer = (0..corners)
+                    .map(|k| {
+                        let angle = std::f64::consts::TAU * k as f64 / corners as f64;
+                        let r = radius * (1.0 - depth * (1.0 + (waves * angle).cos()));
+                        [r * angle.cos(), r * angle.sin()]
+                    })
+                    .collect();
+                ShapeSpec::Polygon(Polygon { outer, holes: Vec::new(), position: [x, y], rotation_deg: turn })
             }
             _ => {
                 let (thin, reach) = (radius * (1.0 - share), radius * share);

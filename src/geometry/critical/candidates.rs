@@ -5,7 +5,7 @@
 
 use delaunator::{Point, triangulate};
 
-use crate::geometry::critical::walls::{Shift, Walls, minus};
+use crate::geometry::critical::walls::{Link, Shift, Walls, minus, plus};
 use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 
@@ -56,7 +56,8 @@ fn sampled(walls: &Walls, k: usize, density: f64) -> Vec<f64> {
         Curve::Segment { .. } => 0.0,
         Curve::Arc { sweep, .. } => (PER_CIRCLE * sweep.abs() / std::f64::consts::TAU * density).ceil(),
     };
-    let count = (turning as usize).max((PER_PIECE as f64 * density) as usize).max(PER_PIECE);
+    let least = if is_finely_cut(walls, k) { 1 } else { PER_PIECE };
+    let count = (turning as usize).max((least as f64 * density) as usize).max(least);
     let mut found = Vec::with_capacity(count + 1);
     for i in 0..count {
         divide(walls, k, [i as f64 / count as f64, (i + 1) as f64 / count as f64], density, &mut found);
@@ -65,6 +66,19 @@ fn sampled(walls: &Walls, k: usize, density: f64) -> Vec<f64> {
         found.push(1.0);
     }
     found
+}
+
+/// Whether a segment is one of many that make up a curve: its ends sample that as densely as a circle.
+fn is_finely_cut(walls: &Walls, k: usize) -> bool {
+    // Neighbors of a sampled curve are about as long.
+    const LONGER: f64 = 4.0;
+    let wall = &walls.walls[k];
+    let is_like = |link: Option<Link>, turn: f64| {
+        let length = link.map_or(0.0, |link| walls.walls[link.wall].curve.length());
+        turn.abs() < std::f64::consts::TAU / PER_CIRCLE && wall.curve.length() < LONGER * length
+    };
+    let turn_at_end = wall.next.map_or(0.0, |link| walls.walls[link.wall].turn);
+    matches!(wall.curve, Curve::Segment { .. }) && is_like(wall.before, wall.turn) && is_like(wall.next, turn_at_end)
 }
 
 /// Adds the start of an interval, halved as long as it is longer than twice the distance to another wall.
@@ -77,9 +91,7 @@ fn divide(walls: &Walls, k: usize, [from, to]: [f64; 2], density: f64, found: &m
         let (x, normal) = (wall.curve.point(middle), wall.curve.normal(middle));
         let neighbors = [wall.next, wall.before];
         let faces = walls.any_within(x, 0.5 * length * density, |image, foot| {
-            let is_neighbor = |link: &Option<crate::geometry::critical::walls::Link>| {
-                link.is_some_and(|link| (link.wall, link.shift) == image)
-            };
+            let is_neighbor = |link: &Option<Link>| link.is_some_and(|link| (link.wall, link.shift) == image);
             image != (k, [0, 0]) && !neighbors.iter().any(is_neighbor) && (foot - x).dot(&normal) > 0.0
         });
         if faces {
@@ -175,8 +187,7 @@ fn add_pairs(walls: &Walls, a: &Sample, b: &Sample, pairs: &mut Vec<Pair>) {
 fn pieces(walls: &Walls, sample: &Sample) -> impl Iterator<Item = (usize, Shift)> + use<> {
     let before = walls.walls[sample.wall].before.filter(|_| sample.at_start);
     let shift = sample.shift;
-    std::iter::once((sample.wall, shift))
-        .chain(before.map(|link| (link.wall, crate::geometry::critical::walls::plus(shift, link.shift))))
+    std::iter::once((sample.wall, shift)).chain(before.map(|link| (link.wall, plus(shift, link.shift))))
 }
 
 fn circumcenter([a, b, c]: [Vec2; 3]) -> Option<Vec2> {

@@ -165,6 +165,10 @@ fn follow(walls: &Walls, from: &Opposite, t: Vec2) -> (Vec<Stretch>, End) {
             None => (until, false),
         };
         let axis = axis.part(0.0, until);
+        if let Some(u) = passes(walls, &axis, from, passed.is_empty()) {
+            passed.push(Stretch { axis: axis.part(0.0, u), along });
+            return (passed, End::Closed);
+        }
         passed.push(Stretch { axis, along });
         if opens {
             return (passed, End::Open);
@@ -175,21 +179,29 @@ fn follow(walls: &Walls, from: &Opposite, t: Vec2) -> (Vec<Stretch>, End) {
         let x = axis.point(1.0);
         at = Opposite::between(along.map(|along| contact(walls, &along, x)));
         t = axis.tangent(1.0);
-        let home = walls.wrapped(at.center - from.center + walls.domain.min).0 - walls.domain.min;
-        if home.norm() <= 1e-6 * at.half {
-            return (passed, End::Closed);
-        }
-        // It may also pass its start within a stretch.
-        let back = walls.wrapped(from.center).0;
-        if passed.len() > 1 {
-            let y = walls.offset(minus(walls.wrapped(axis.point(0.5)).1, [0, 0]));
-            let near = axis.project(back + y).point - (back + y);
-            if near.norm() <= 1e-6 * at.half {
-                return (passed, End::Closed);
-            }
-        }
     }
     (passed, End::Closed)
+}
+
+/// Where an axis comes back to where the passage was entered, as a parameter; the first axis begins there.
+fn passes(walls: &Walls, axis: &Curve, from: &Opposite, is_first: bool) -> Option<f64> {
+    const NEAR: f64 = 1e-6;
+    let near = NEAR * from.half;
+    let home = walls.wrapped(axis.point(0.5)).1;
+    let begin = walls.wrapped(from.center).0;
+    // A stretch is no longer than a period: an image next to its middle is on it, if any.
+    let steps = |i: usize| if walls.periodic[i] { -1..=1 } else { 0..=0 };
+    let images = steps(0).flat_map(|dx| steps(1).map(move |dy| [home[0] + dx, home[1] + dy]));
+    images
+        .map(|shift| begin + walls.offset(shift))
+        .filter_map(|x| {
+            let foot = axis.project(x);
+            // The point at which the axis begins is also the end of a circle.
+            let u = if is_first && foot.u * axis.length() <= near && axis.is_closed() { 1.0 } else { foot.u };
+            let counts = (foot.point - x).norm() <= near && (!is_first || u * axis.length() > near);
+            counts.then_some(u)
+        })
+        .min_by(f64::total_cmp)
 }
 
 /// The axis from opposite points along `t` until one of the walls ends.

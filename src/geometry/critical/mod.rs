@@ -5,6 +5,7 @@
 //! `level` joins stretches along which the distance stays the same, `maxima` finds places between three walls.
 
 pub(crate) mod candidates;
+mod joints;
 pub(crate) mod level;
 pub(crate) mod maxima;
 pub(crate) mod opposite;
@@ -89,4 +90,68 @@ fn one_of_each<T>(mut found: Vec<T>, place: impl Fn(&T) -> (Vec2, f64)) -> Vec<T
         }
     }
     kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Geometry;
+    use crate::geometry::critical::walls::Sides;
+    use crate::geometry::spec::{Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
+
+    /// Numbers that look random, the same on every machine.
+    fn noise(k: usize) -> f64 {
+        (f64::from(k as u32) * 0.754_877_666_246_69 + 0.5 * (f64::from(k as u32) * 0.569_840_290_998).fract()).fract()
+    }
+
+    /// All pairs of pieces and images, whether samples see each other or not.
+    fn all_pairs(walls: &Walls) -> Vec<Pair> {
+        let mut pairs = Vec::new();
+        let images = |i: usize| if walls.periodic[i] { -1..=1 } else { 0..=0 };
+        for a in 0..walls.walls.len() {
+            for b in a..walls.walls.len() {
+                for shift in images(0).flat_map(|dx| images(1).map(move |dy| [dx, dy])) {
+                    if a != b || shift < [0, 0] {
+                        let between = 0.5 * (walls.walls[a].curve.point(0.5) + walls.curve(b, shift).point(0.5));
+                        pairs.push(Pair { walls: [a, b], shift, between });
+                    }
+                }
+            }
+        }
+        pairs
+    }
+
+    #[test]
+    fn samples_miss_no_saddle_that_all_pairs_of_pieces_have() {
+        for scene in 0..40 {
+            let shapes: Vec<ShapeSpec> = (0..14)
+                .map(|k| {
+                    let [x, y, r, turn] = [0, 1, 2, 3].map(|i| noise(1 + 56 * scene + 4 * k + i));
+                    let center = [6.0 * x, 6.0 * y];
+                    if k % 3 == 0 {
+                        let corner = |i: usize| {
+                            let angle = turn + std::f64::consts::TAU * (i as f64 + 0.6 * noise(i + k)) / 5.0;
+                            [0.7 * (0.3 + r) * angle.cos(), 0.7 * (0.3 + r) * angle.sin()]
+                        };
+                        let outer = (0..5).map(corner).collect();
+                        ShapeSpec::Polygon(Polygon { outer, holes: Vec::new(), position: center, rotation_deg: 0.0 })
+                    } else {
+                        ShapeSpec::Disc(Disc { center, radius: 0.2 + 0.5 * r })
+                    }
+                })
+                .collect();
+            let spec = GeometrySpec { min: [0.0; 2], max: [6.0; 2], solid: SolidSide::Inside, shapes };
+            let geometry = Geometry::new(&spec).unwrap();
+            for (periodic, sides) in [([false; 2], Sides::Cut), ([false; 2], Sides::Beyond), ([true; 2], Sides::Cut)] {
+                let geometry = geometry.clone().with_periodic(periodic);
+                let walls = Walls::new(&geometry, sides);
+                let found = CriticalPoints::find(&walls, &vec![1.0; walls.walls.len()]).saddles;
+                let expected = between_two(&walls, &all_pairs(&walls)).0;
+                assert_eq!(found.len(), expected.len(), "scene {scene} {periodic:?} {sides:?}");
+                for (a, b) in found.iter().zip(&expected) {
+                    assert!((a.center - b.center).norm() < 1e-12 && (a.half - b.half).abs() < 1e-12);
+                }
+            }
+        }
+    }
 }

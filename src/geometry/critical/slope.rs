@@ -47,24 +47,21 @@ pub(crate) fn slope(walls: &Walls, at: &Opposite, t: Vec2) -> Slope {
         return Slope::Falls;
     }
     let sides = [side(walls, &at.contacts[0], across, t), side(walls, &at.contacts[1], -across, t)];
-    let mut bend = [0.0; 2];
-    for i in 0..2 {
-        bend[i] = match sides[i] {
-            Side::Towards => return Slope::Falls,
-            Side::Away(..) => 1.0,
-            Side::Smooth(_, k) if 1.0 + k * at.half <= SAME_DIRECTION => return Slope::Falls,
-            Side::Smooth(_, k) => k * at.half / (1.0 + k * at.half),
-        };
+    let [Some((first, k1)), Some((second, k2))] = sides.map(|side| bend(side, at.half)) else { return Slope::Falls };
+    if (k1 + k2).abs() > SAME_DISTANCE.max(SAME_DIRECTION * k1.abs()) {
+        return if k1 + k2 > 0.0 { Slope::Rises } else { Slope::Falls };
     }
-    let sum = bend[0] + bend[1];
-    if sum.abs() > SAME_DISTANCE.max(SAME_DIRECTION * bend[0].abs()) {
-        return if sum > 0.0 { Slope::Rises } else { Slope::Falls };
+    Slope::Level([first, second])
+}
+
+/// What a wall runs along, and its share k h / (1 + k h) of the second derivative; none where it turns towards the pore.
+fn bend(side: Side, half: f64) -> Option<(Along, f64)> {
+    match side {
+        Side::Towards => None,
+        Side::Away(contact, angle) => Some((Along::Vertex(contact, angle), 1.0)),
+        Side::Smooth(_, k) if 1.0 + k * half <= SAME_DIRECTION => None,
+        Side::Smooth(link, k) => Some((Along::Piece(link), k * half / (1.0 + k * half))),
     }
-    Slope::Level(sides.map(|side| match side {
-        Side::Smooth(link, _) => Along::Piece(link),
-        Side::Away(contact, angle) => Along::Vertex(contact, angle),
-        Side::Towards => unreachable!("it falls then"),
-    }))
 }
 
 /// How a wall goes on from a contact.

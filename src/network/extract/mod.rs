@@ -46,17 +46,20 @@ pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, Ex
     }
     let perimeter =
         Perimeter::new(&walls).map_err(|broken| ExtractError::Broken { at: broken.iter().map(|b| b.at).collect() })?;
-    let mut density = vec![1.0; walls.walls.len()];
+    certified(&walls, &perimeter, 1.0)
+}
+
+/// The network of walls, their samples multiplied by `density`, and by more where the certificate fails.
+fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Network, ExtractError> {
+    let mut density = vec![density; walls.walls.len()];
     let mut round = 0;
     loop {
-        let points = CriticalPoints::find(&walls, &density);
-        let loops = Loops::trace(&walls, &points.saddles, &perimeter);
-        match attempt(geometry, &walls, &points, &loops, &perimeter) {
+        let points = CriticalPoints::find(walls, &density);
+        let loops = Loops::trace(walls, &points.saddles, perimeter);
+        match attempt(walls, &points, &loops) {
             Attempt::Certified(network) => return Ok(network),
-            Attempt::Failed { places, walls_of } => {
-                if round == ROUNDS {
-                    return Err(ExtractError::NoCertificate { places });
-                }
+            Attempt::Failed { places, .. } if round == ROUNDS => return Err(ExtractError::NoCertificate { places }),
+            Attempt::Failed { walls_of, .. } => {
                 walls_of.into_iter().for_each(|wall| density[wall] *= 2.0);
                 round += 1;
             }
@@ -66,3 +69,40 @@ pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, Ex
 
 /// The names of sides in the order of their numbers.
 const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::spec::{Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
+
+    #[test]
+    fn more_samples_change_nothing() {
+        let mut shapes: Vec<ShapeSpec> =
+            [[1.0, 1.2, 0.5], [2.4, 0.9, 0.7], [1.7, 2.5, 0.6], [3.2, 2.6, 0.4], [0.5, 3.1, 0.3]]
+                .into_iter()
+                .map(|[x, y, radius]| ShapeSpec::Disc(Disc { center: [x, y], radius }))
+                .collect();
+        let outer = vec![[2.2, 3.4], [3.1, 3.3], [2.9, 3.8], [2.5, 3.6]];
+        shapes.push(ShapeSpec::Polygon(Polygon { outer, holes: Vec::new(), position: [0.0; 2], rotation_deg: 0.0 }));
+        let spec = GeometrySpec { min: [0.0; 2], max: [4.0; 2], solid: SolidSide::Inside, shapes };
+        let periodic = Geometry::new(&spec).unwrap().with_periodic([true, true]);
+        let open = Geometry::new(&spec).unwrap();
+        for geometry in [periodic, open] {
+            let walls = Walls::new(&geometry, Sides::Cut);
+            let perimeter = Perimeter::new(&walls).unwrap();
+            let coarse = certified(&walls, &perimeter, 1.0).unwrap();
+            assert!(coarse.throats.len() > 4);
+            for density in [2.0, 7.0] {
+                let fine = certified(&walls, &perimeter, density).unwrap();
+                assert_eq!((fine.regions.len(), fine.throats.len()), (coarse.regions.len(), coarse.throats.len()));
+                for (a, b) in fine.throats.iter().zip(&coarse.throats) {
+                    assert_eq!((a.width, a.contacts, a.regions), (b.width, b.contacts, b.regions));
+                }
+                for (a, b) in fine.regions.iter().zip(&coarse.regions) {
+                    // Newton's method may begin elsewhere.
+                    assert!((a.radius - b.radius).abs() < 1e-14 && (a.area - b.area).abs() < 1e-14);
+                }
+            }
+        }
+    }
+}

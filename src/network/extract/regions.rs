@@ -1,14 +1,13 @@
 //! Regions and throats from loops and maxima, and the certificate.
 
-use crate::geometry::Geometry;
 use crate::geometry::critical::CriticalPoints;
+use crate::geometry::critical::opposite::SAME_DIRECTION;
 use crate::geometry::critical::slope::curvature;
 use crate::geometry::critical::walls::{Contact, Shift, Walls, minus};
 use crate::math::Vec2;
 use crate::network::extract::loops::{Loop, Loops, Step};
 use crate::network::extract::moments::Moments;
 use crate::network::extract::openings::farthest;
-use crate::network::extract::sides::Perimeter;
 use crate::network::graph::{Edge, Network, Opening, Region, Throat, WallPiece};
 
 /// What came of some critical points.
@@ -28,20 +27,13 @@ pub(super) enum Attempt {
 const SAME: f64 = 1e-7;
 
 /// The network of the loops, if each of them has its one maximum.
-pub(super) fn attempt(
-    geometry: &Geometry,
-    walls: &Walls,
-    points: &CriticalPoints,
-    loops: &Loops,
-    perimeter: &Perimeter,
-) -> Attempt {
-    let _ = (geometry, perimeter);
+pub(super) fn attempt(walls: &Walls, points: &CriticalPoints, loops: &Loops) -> Attempt {
     let owned = maxima_of(walls, points, loops);
     let mut network = Network { throats: throats(walls, points), ..Network::default() };
     let mut failed = Vec::new();
     for (number, (ring, maxima)) in loops.loops.iter().zip(&owned).enumerate() {
         let region = build(walls, points, ring, number, maxima, &mut network);
-        let is_good = region.as_ref().is_some_and(|region| is_certified(walls, points, region, maxima));
+        let is_good = region.as_ref().is_some_and(|region| is_certified(walls, region, maxima.len()));
         match region {
             Some(region) if is_good => network.regions.push(region),
             _ => failed.push(number),
@@ -104,7 +96,6 @@ fn throats(walls: &Walls, points: &CriticalPoints) -> Vec<Throat> {
 
 /// The signed curvature in 1/m of the wall at a contact: infinite at a vertex that turns; where two arcs join smoothly the larger one.
 fn contact_curvature(walls: &Walls, contact: &Contact) -> f64 {
-    use crate::geometry::critical::opposite::SAME_DIRECTION;
     let [before, after] = walls.around(contact);
     let (Some(before), Some(after)) = (before, after) else { return f64::INFINITY };
     let (a, b) = (walls.curve(before.wall, before.shift), walls.curve(after.wall, after.shift));
@@ -209,15 +200,14 @@ fn widest_opening(walls: &Walls, ring: &Loop) -> Option<(Vec2, f64)> {
 }
 
 /// Whether a region has exactly one maximum.
-fn is_certified(walls: &Walls, points: &CriticalPoints, region: &Region, maxima: &[Owned]) -> bool {
+fn is_certified(walls: &Walls, region: &Region, maxima: usize) -> bool {
     let openings = region.edges.iter().filter_map(|edge| match edge {
         Edge::Opening { from, to, .. } => Some((*from, *to)),
         _ => None,
     });
     let is_higher_outside =
         || openings.clone().any(|(from, to)| farthest(walls, from, to).1 > region.radius * (1.0 + SAME));
-    let _ = points;
-    match maxima.len() {
+    match maxima {
         0 => region.area > 0.0,
         1 => region.area > 0.0 && !is_higher_outside(),
         _ => false,

@@ -1,0 +1,75 @@
+//! How walls turn where pieces join, and how they are cut at the sides of the domain.
+
+use std::f64::consts::PI;
+
+use crate::geometry::curve::{Curve, cross};
+use crate::geometry::intersect::meeting_places;
+use crate::math::{Bounds, perpendicular};
+
+/// The turn in rad, to the left above 0, from the end of one curve to the start of another one that leaves there.
+pub(super) fn turn(from: &Curve, to: &Curve, near: f64) -> f64 {
+    let (t, s) = (from.tangent(1.0), to.tangent(0.0));
+    let angle = cross(t, s).atan2(t.dot(&s));
+    // A cusp turns by half a circle to either side: the curves themselves tell where it opens.
+    const CUSP: f64 = 1e-4;
+    if PI - angle.abs() > CUSP {
+        return angle;
+    }
+    let reach = (1e3 * near).max(0.1 * from.length().min(to.length()));
+    let back = from.point(1.0 - (reach / from.length()).min(0.5));
+    let ahead = to.project(back).point;
+    if (ahead - back).dot(&-perpendicular(t)) > 0.0 { -PI } else { PI }
+}
+
+/// The parts of a curve within a box along the axes that are not periodic, and along periodic ones where the curve is longer than the
+/// box. A part along a side of the box is kept where its pore lies within.
+pub(super) fn clipped(curve: &Curve, frame: Bounds, periodic: [bool; 2], tolerance: f64) -> Vec<Curve> {
+    let bounds = curve.bounds();
+    let cuts = |i: usize| !periodic[i] || bounds.max[i] - bounds.min[i] > 1.5 * frame.size()[i];
+    let leaves =
+        |i: usize| cuts(i) && (bounds.min[i] < frame.min[i] + tolerance || bounds.max[i] > frame.max[i] - tolerance);
+    if !leaves(0) && !leaves(1) {
+        return vec![*curve];
+    }
+    let mut places = Vec::new();
+    let far = frame.grown(bounds.size().norm() + frame.size().norm());
+    for i in (0..2).filter(|&i| cuts(i)) {
+        for level in [frame.min[i], frame.max[i]] {
+            let (mut a, mut b) = (far.min, far.max);
+            (a[i], b[i]) = (level, level);
+            meeting_places(curve, &Curve::Segment { a, b }, tolerance, &mut places);
+        }
+    }
+    places.retain(|u| u.is_finite());
+    places.sort_by(f64::total_cmp);
+    if curve.is_closed() {
+        match places.first() {
+            Some(&first) => places.push(first + 1.0),
+            None => places = vec![0.0, 1.0],
+        }
+    } else {
+        places.insert(0, 0.0);
+        places.push(1.0);
+    }
+    let shortest = tolerance / curve.length();
+    let mut parts = Vec::new();
+    let mut from = places[0];
+    for &to in &places[1..] {
+        if to - from > shortest {
+            let part = if (from, to) == (0.0, 1.0) { *curve } else { curve.part(from, to) };
+            from = to;
+            let (middle, normal) = (part.point(0.5), part.normal(0.5));
+            let keeps = (0..2).filter(|&i| cuts(i)).all(|i| {
+                let (low, high) = (middle[i] - frame.min[i], frame.max[i] - middle[i]);
+                low > -tolerance
+                    && high > -tolerance
+                    && (low > tolerance || normal[i] > 0.0)
+                    && (high > tolerance || normal[i] < 0.0)
+            });
+            if keeps {
+                parts.push(part);
+            }
+        }
+    }
+    parts
+}
