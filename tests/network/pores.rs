@@ -160,17 +160,12 @@ fn a_network_turns_and_mirrors_with_its_grains() {
 fn open_sides_may_cut_grains_anywhere() {
     for k in 0..40 {
         let x = -0.19 + 0.02 * f64::from(k);
-<<<<<<< HEAD
-        let shapes =
-            vec![disc(x, 0.3, 0.25), disc(x + 0.1, 0.9, 0.2), disc(1.2 - x, 0.5, 0.3), disc(0.5 + 0.3 * x, -0.1, 0.15)];
-=======
         let shapes = vec![
             disc(x, 0.3, 0.25),
             disc(x + 0.1, 0.9, 0.2),
             disc(1.05 - x, 0.5, 0.3),
             disc(0.5 + 0.3 * x, -0.1, 0.15),
         ];
->>>>>>> e
         let g = grains([1.0, 1.1], shapes);
         network(&g, [true; 4]);
         network(&g.clone().with_wall_sides([false, false, true, true]), LEFT_RIGHT);

@@ -58,6 +58,17 @@ impl Loop {
         })
     }
 
+    /// Whether it closes in the plane; one that goes once around a periodic domain does not.
+    fn is_closed(&self) -> bool {
+        const ROUNDING: f64 = 1e-6;
+        let (mut gap, mut length) = (Vec2::zeros(), 0.0);
+        for curve in self.curves() {
+            gap += curve.point(1.0) - curve.point(0.0);
+            length += curve.length();
+        }
+        gap.norm() <= ROUNDING * length
+    }
+
     /// Area in m², closed form (Green).
     pub fn area(&self) -> f64 {
         let Some(origin) = self.curves().next().map(|curve| curve.point(0.0)) else { return 0.0 };
@@ -141,6 +152,9 @@ impl Loop {
 /// Divides a loop until each part has at most three stretches of wall, or no segment divides it any more. Segments are numbered from
 /// `segments` on, which counts them.
 pub(super) fn divide(whole: Loop, segments: &mut usize) -> Vec<Loop> {
+    if !whole.is_closed() {
+        return vec![whole];
+    }
     let (mut open, mut done) = (vec![whole], Vec::new());
     while let Some(part) = open.pop() {
         match if part.walls.len() > 3 { part.divided(*segments) } else { None } {

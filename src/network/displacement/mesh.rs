@@ -37,6 +37,8 @@ pub(super) struct Mesh {
     pub loops: Vec<Loop>,
     /// The region of each loop.
     pub region_of: Vec<usize>,
+    /// Area of each loop in m².
+    pub area: Vec<f64>,
     /// The element of each loop.
     pub element_of: Vec<usize>,
     /// The gate of each crossing of each loop with the end that lies there; none at openings and at dissolved throats.
@@ -82,7 +84,10 @@ impl Mesh {
     pub fn divided(network: &Network) -> Self {
         let (mut mesh, mut segments) = (Self::default(), 0);
         for (index, region) in network.regions.iter().enumerate() {
-            for part in divide(loop_of(region), &mut segments) {
+            let parts = divide(loop_of(region), &mut segments);
+            let is_whole = parts.len() == 1;
+            for part in parts {
+                mesh.area.push(if is_whole { region.area } else { part.area() });
                 mesh.element_of.push(mesh.elements.len());
                 mesh.region_of.push(index);
                 mesh.elements.push(Element { loops: vec![mesh.loops.len()], ..Element::default() });
@@ -100,6 +105,7 @@ impl Mesh {
             mesh.elements[pore].loops.push(index);
             mesh.element_of.push(pore);
             mesh.region_of.push(index);
+            mesh.area.push(region.area);
             mesh.loops.push(loop_of(region));
         }
         let mut is_left = vec![false; network.throats.len()];

@@ -14,7 +14,6 @@ mod walls;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-use self::loops::Loop;
 use self::mesh::Mesh;
 use self::outflow::Outflow;
 use self::walls::{Sides, gate_walls};
@@ -161,8 +160,9 @@ impl Displacement {
         };
         let invaded = vec![false; mesh.elements.len()];
         let centers = Arc::new(network.regions.iter().map(|region| region.center).collect());
-        let element = |(part, &region): (&Loop, &usize)| Element { region, area: part.area(), outline: part.outline() };
-        let elements = Arc::new(mesh.loops.iter().zip(&mesh.region_of).map(element).collect());
+        let element =
+            |k: usize| Element { region: mesh.region_of[k], area: mesh.area[k], outline: mesh.loops[k].outline() };
+        let elements = Arc::new((0..mesh.loops.len()).map(element).collect());
         Self::begun(Arc::new(mesh), elements, centers, conditions, invaded)
     }
 
