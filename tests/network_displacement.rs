@@ -158,7 +158,7 @@ fn overlap_makes_imbibition_easier_and_more_compact_and_hardly_matters_in_draina
     }
     assert!(pressures.windows(2).all(|pair| pair[1] < pair[0]), "{pressures:?}");
     assert!(saturations[5] > saturations[0] + 0.2, "{saturations:?}");
-    // Bursts alone ask for several times the pressure at 160 degrees [method: prototype 3.8 times for such a pack].
+    // Bursts alone ask for several times the pressure at 160 degrees (a prototype in another language found 3.8 times for such a pack).
     let alone = displaced(&spec, 160.0, true, Events::BurstOnly).breakthrough.unwrap().0;
     assert!(alone > 2.0 * pressures[5], "{alone} {}", pressures[5]);
 }

@@ -50,29 +50,50 @@ struct WallPoint {
 }
 
 impl Loop {
-    /// All curves of the loop in order, chords included.
-    pub fn curves(&self) -> impl Iterator<Item = Curve> {
-        (0..self.walls.len()).flat_map(|k| {
-            let chord = self.crossings.get(k).map(|c| Curve::Segment { a: c.from, b: c.to });
-            self.walls[k].iter().map(|piece| piece.curve).chain(chord.filter(|chord| chord.length() > 0.0))
-        })
+    /// All curves of the loop in order, chords included, and straight connections where one does not begin at the end of the one before:
+    /// along the seam of a region that goes around a periodic domain.
+    pub fn curves(&self) -> Vec<Curve> {
+        self.connected().0
     }
 
-    /// Whether it closes in the plane; one that goes once around a periodic domain does not.
-    fn is_closed(&self) -> bool {
-        const ROUNDING: f64 = 1e-6;
-        let (mut gap, mut length) = (Vec2::zeros(), 0.0);
-        for curve in self.curves() {
-            gap += curve.point(1.0) - curve.point(0.0);
+    /// The curves of the loop, and whether it has a seam.
+    fn connected(&self) -> (Vec<Curve>, bool) {
+        const ROUNDING: f64 = 1e-9;
+        let mut curves: Vec<Curve> = Vec::new();
+        let mut has_seam = false;
+        let mut length = 0.0;
+        let mut add = |curve: Curve| {
             length += curve.length();
+            if let Some(end) = curves.last().map(|last: &Curve| last.point(1.0))
+                && (curve.point(0.0) - end).norm() > ROUNDING * length
+            {
+                curves.push(Curve::Segment { a: end, b: curve.point(0.0) });
+                has_seam = true;
+            }
+            curves.push(curve);
+        };
+        for (k, wall) in self.walls.iter().enumerate() {
+            wall.iter().for_each(|piece| add(piece.curve));
+            if let Some(chord) = self.crossings.get(k).map(|c| Curve::Segment { a: c.from, b: c.to })
+                && chord.length() > 0.0
+            {
+                add(chord);
+            }
         }
-        gap.norm() <= ROUNDING * length
+        if let (Some(first), Some(last)) = (curves.first().map(|c| c.point(0.0)), curves.last().map(|c| c.point(1.0)))
+            && (first - last).norm() > ROUNDING * length
+        {
+            curves.push(Curve::Segment { a: last, b: first });
+            has_seam = true;
+        }
+        (curves, has_seam)
     }
 
     /// Area in m², closed form (Green).
     pub fn area(&self) -> f64 {
-        let Some(origin) = self.curves().next().map(|curve| curve.point(0.0)) else { return 0.0 };
-        -self.curves().map(|curve| curve.area_about(origin)).sum::<f64>()
+        let curves = self.curves();
+        let Some(origin) = curves.first().map(|curve| curve.point(0.0)) else { return 0.0 };
+        -curves.iter().map(|curve| curve.area_about(origin)).sum::<f64>()
     }
 
     /// The loop as a polygon in m, arcs as chords of a few degrees.
@@ -126,7 +147,7 @@ impl Loop {
 
     /// Whether the loop winds around `x`, the pore on its right.
     fn winds_around(&self, x: Vec2) -> bool {
-        self.curves().map(|curve| curve.winding(x)).sum::<f64>() < -std::f64::consts::PI
+        self.curves().iter().map(|curve| curve.winding(x)).sum::<f64>() < -std::f64::consts::PI
     }
 
     fn cut(&self, (a, p): (usize, WallPoint), (b, q): (usize, WallPoint), segment: usize) -> [Self; 2] {
@@ -152,7 +173,8 @@ impl Loop {
 /// Divides a loop until each part has at most three stretches of wall, or no segment divides it any more. Segments are numbered from
 /// `segments` on, which counts them.
 pub(super) fn divide(whole: Loop, segments: &mut usize) -> Vec<Loop> {
-    if !whole.is_closed() {
+    // Where the seam lies is nobody's choice, and segments must not depend on it.
+    if whole.connected().1 {
         return vec![whole];
     }
     let (mut open, mut done) = (vec![whole], Vec::new());

@@ -3,7 +3,7 @@
 //! The applied pressure rises. Each meniscus advances through its gate until one of three events \[CieplakRobbins1988;
 //! CieplakRobbins1990\]: it passes the place of largest curvature (burst), it touches a wall ahead (touch), or it meets the meniscus
 //! in the neighboring gate on the wall between them (overlap). The event of the lowest curvature comes first; ties go to the lower
-//! number of the gate. An event fills the whole element ahead. Pressures are curvatures here: times the tension they are
+//! number of the gate. An event fills the whole element ahead; an overlap all elements along the wall that both menisci close in on. Pressures are curvatures here: times the tension they are
 //! p_invading − p_defending. Areas swept by menisci between events are left out, and so are films and corner flow.
 
 mod loops;
@@ -18,7 +18,7 @@ use self::mesh::Mesh;
 use self::outflow::Outflow;
 use self::walls::{Sides, gate_walls};
 use super::graph::{Network, Pores, Region, WallPiece};
-use super::menisci::{Passage, Wall, WallPart, overlap};
+use super::menisci::{Hand, Passage, Wall, WallPart, overlap};
 use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 
@@ -113,7 +113,19 @@ struct Candidate {
     kind: EventKind,
     gate: usize,
     to: usize,
-    partner: Option<(usize, usize)>,
+    /// The meniscus to meet, and on which hand.
+    partner: Option<((usize, usize), Hand)>,
+}
+
+/// The next meniscus along a wall.
+struct Neighbor {
+    front: (usize, usize),
+    /// Length of wall between both gates in m.
+    shared: f64,
+    /// What is added to a position in its frame to get that in the frame of the meniscus it is the neighbor of, in m.
+    offset: Vec2,
+    /// The elements in between.
+    passed: Vec<usize>,
 }
 
 impl Eq for Candidate {}
@@ -127,7 +139,8 @@ impl PartialOrd for Candidate {
 impl Ord for Candidate {
     /// The greatest is the one that comes first.
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let by_number = (other.gate, other.to, other.partner).cmp(&(self.gate, self.to, self.partner));
+        let number = |it: &Self| (it.gate, it.to, it.partner.map(|(front, hand)| (front, hand == Hand::Right)));
+        let by_number = number(other).cmp(&number(self));
         other.curvature.total_cmp(&self.curvature).then(by_number)
     }
 }
@@ -221,15 +234,19 @@ impl Displacement {
         begun
     }
 
-    fn fill(&mut self, mesh: &Mesh, element: usize) {
-        self.invaded[element] = true;
-        self.stop_fronts_into(mesh, element);
-        let lost = self.outflow.as_mut().map(|outflow| outflow.remove(mesh, element)).unwrap_or_default();
-        for lost in lost {
-            self.trapped[lost] = true;
-            self.stop_fronts_into(mesh, lost);
+    fn fill(&mut self, mesh: &Mesh, elements: &[usize]) {
+        for &element in elements {
+            self.invaded[element] = true;
+            self.stop_fronts_into(mesh, element);
         }
-        self.connect(mesh, element);
+        for &element in elements {
+            let lost = self.outflow.as_mut().map(|outflow| outflow.remove(mesh, element)).unwrap_or_default();
+            for lost in lost.into_iter().filter(|&lost| !self.invaded[lost]).collect::<Vec<_>>() {
+                self.trapped[lost] = true;
+                self.stop_fronts_into(mesh, lost);
+            }
+        }
+        elements.iter().for_each(|&element| self.connect(mesh, element));
     }
 
     fn stop_fronts_into(&mut self, mesh: &Mesh, element: usize) {
@@ -261,20 +278,21 @@ impl Displacement {
         }
     }
 
-    /// The passage of a gate for a meniscus that enters it at its end `to`, and the walls ahead.
-    fn passage(&self, mesh: &Mesh, gate: usize, to: usize) -> (Passage, Vec<Curve>) {
+    /// The passage of a gate for a meniscus that enters it at its end `to`, and the walls ahead, moved by `offset` in m.
+    fn passage(&self, mesh: &Mesh, gate: usize, to: usize, offset: Vec2) -> (Passage, Vec<Curve>) {
         let walls = gate_walls(mesh, gate, to, &self.centers);
         let wall = |sides: &Sides| {
-            let part = |piece: &WallPiece| WallPart { curve: piece.curve, angle: self.angle(piece.shape) };
+            let part =
+                |piece: &WallPiece| WallPart { curve: piece.curve.shifted(offset), angle: self.angle(piece.shape) };
             let parts = sides.behind.iter().rev().chain(&sides.ahead).map(part).collect();
             Wall { parts, behind: sides.behind.len() }
         };
-        let obstacles = walls.ahead.iter().map(|piece| piece.curve).collect();
+        let obstacles = walls.ahead.iter().map(|piece| piece.curve.shifted(offset)).collect();
         (Passage::new(wall(&walls.left), wall(&walls.right)), obstacles)
     }
 
     fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
-        let (passage, obstacles) = self.passage(mesh, gate, to);
+        let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
         let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
         let mut kind = EventKind::Burst;
         let mut own = burst;
@@ -290,25 +308,53 @@ impl Displacement {
         self.fronts[gate][to] = Some(Front { passage, own });
     }
 
-    /// Overlaps of a new meniscus with those in the gates beside it.
+    /// Overlaps of a new meniscus with its neighbors on both walls.
     fn meet_neighbors(&mut self, mesh: &Mesh, (gate, to): (usize, usize), passage: &Passage, own: f64) {
-        let (index, slot) = mesh.gates[gate].places[to];
-        let count = mesh.loops[index].crossings.len();
-        if count < 2 {
-            return;
-        }
-        // The wall on the left ahead leads to the next crossing, the one on the right to that before.
-        for (beside, is_left) in [((slot + 1) % count, true), ((slot + count - 1) % count, false)] {
-            let Some((other, end)) = mesh.gate_at[index][beside] else { continue };
+        for hand in [Hand::Left, Hand::Right] {
+            let Some(neighbor) = self.neighbor(mesh, (gate, to), hand) else { continue };
+            let (other, end) = neighbor.front;
             let Some(front) = &self.fronts[other][end] else { continue };
-            let (a, b) = if is_left { (passage, &front.passage) } else { (&front.passage, passage) };
-            let between = if is_left { (slot + 1) % count } else { slot };
-            let shared: f64 = mesh.loops[index].walls[between].iter().map(|piece| piece.curve.length()).sum();
-            if let Some(curvature) = overlap(a, b, shared, own.min(front.own)) {
-                let partner = Some((other, end));
+            let moved = (neighbor.offset != Vec2::zeros()).then(|| self.passage(mesh, other, end, neighbor.offset).0);
+            let facing = moved.as_ref().unwrap_or(&front.passage);
+            let (a, b) = if hand == Hand::Left { (passage, facing) } else { (facing, passage) };
+            if let Some(curvature) = overlap(a, b, neighbor.shared, own.min(front.own)) {
+                let partner = Some((neighbor.front, hand));
                 self.queue.push(Candidate { curvature, kind: EventKind::Overlap, gate, to, partner });
             }
         }
+    }
+
+    /// The next meniscus along a wall of a gate, ahead of the meniscus that enters it, with nothing but the defending phase in between.
+    fn neighbor(&self, mesh: &Mesh, (gate, to): (usize, usize), hand: Hand) -> Option<Neighbor> {
+        let (mut index, slot) = mesh.gates[gate].places[to];
+        let next = |index: usize, k: usize| (k + 1) % mesh.loops[index].walls.len();
+        let before = |index: usize, k: usize| (k + mesh.loops[index].walls.len() - 1) % mesh.loops[index].walls.len();
+        // The wall on the left ahead leads to the next crossing, the one on the right to that before.
+        let mut wall = if hand == Hand::Left { next(index, slot) } else { slot };
+        let mut found =
+            Neighbor { front: (gate, to), shared: 0.0, offset: Vec2::zeros(), passed: vec![mesh.element_of[index]] };
+        // A wall has no more stretches than there are loops.
+        for _ in 0..mesh.loops.len() {
+            found.shared += mesh.loops[index].walls[wall].iter().map(|piece| piece.curve.length()).sum::<f64>();
+            let crossing = if hand == Hand::Left { wall } else { before(index, wall) };
+            let front = mesh.gate_at[index][crossing]?;
+            if front == (gate, to) {
+                return None;
+            }
+            if self.fronts[front.0][front.1].is_some() {
+                return Some(Neighbor { front, ..found });
+            }
+            let (beyond, twin, shift) = mesh.twins[index][crossing]?;
+            let element = mesh.element_of[beyond];
+            if self.invaded[element] || self.trapped[element] {
+                return None;
+            }
+            found.offset -= shift;
+            found.passed.push(element);
+            index = beyond;
+            wall = if hand == Hand::Left { next(index, twin) } else { twin };
+        }
+        None
     }
 
     fn angle(&self, shape: u32) -> f64 {
@@ -352,8 +398,12 @@ impl Displacement {
     pub fn entry_curvatures(&self, throats: usize) -> Vec<f64> {
         let mut found = vec![f64::NAN; throats];
         for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
-            let burst =
-                |to| self.passage(&self.mesh, gate, to).0.burst().map_or(f64::NAN, |meniscus| meniscus.curvature);
+            let burst = |to| {
+                self.passage(&self.mesh, gate, to, Vec2::zeros())
+                    .0
+                    .burst()
+                    .map_or(f64::NAN, |meniscus| meniscus.curvature)
+            };
             found[throat] = burst(0).max(burst(1));
         }
         found
@@ -371,20 +421,34 @@ impl Iterator for Displacement {
     type Item = Event;
 
     fn next(&mut self) -> Option<Event> {
-        let candidate = loop {
+        let (candidate, filled) = loop {
             let candidate =
                 self.queue.peek().copied().filter(|next| next.curvature <= self.conditions.largest_curvature)?;
             self.queue.pop();
-            let is_live = |(gate, to): (usize, usize)| self.fronts[gate][to].is_some();
-            if is_live((candidate.gate, candidate.to)) && candidate.partner.is_none_or(is_live) {
-                break candidate;
+            let Candidate { gate, to, partner, .. } = candidate;
+            if self.fronts[gate][to].is_none() {
+                continue;
+            }
+            let mesh = self.mesh.clone();
+            match partner {
+                None => break (candidate, vec![mesh.element(gate, to)]),
+                // Another meniscus may have come in between.
+                Some((front, hand)) => {
+                    if let Some(neighbor) = self.neighbor(&mesh, (gate, to), hand).filter(|found| found.front == front)
+                    {
+                        break (candidate, neighbor.passed);
+                    }
+                }
             }
         };
-        let Candidate { kind, curvature, gate, to, .. } = candidate;
+        let Candidate { kind, curvature, gate, .. } = candidate;
         self.applied = self.applied.max(curvature);
-        let (mesh, element) = (self.mesh.clone(), self.mesh.element(gate, to));
-        self.fill(&mesh, element);
-        let (throat, elements) = (mesh.gates[gate].throat, mesh.elements[element].loops.clone());
-        Some(Event { kind, throat, elements, curvature, applied: self.applied })
+        let mesh = self.mesh.clone();
+        self.fill(&mesh, &filled);
+        let mut elements: Vec<usize> =
+            filled.iter().flat_map(|&element| &mesh.elements[element].loops).copied().collect();
+        elements.sort_unstable();
+        elements.dedup();
+        Some(Event { kind, throat: mesh.gates[gate].throat, elements, curvature, applied: self.applied })
     }
 }
