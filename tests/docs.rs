@@ -170,7 +170,7 @@ fn every_example_file_loads() {
             let study = meniscus::study::load::load(&path).unwrap_or_else(|error| panic!("{}", error.render()));
             let runs = meniscus::study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
             assert!(runs.len() > 1, "{name}");
-        } else if text.contains("[time]") {
+        } else if text.contains("[time]") || text.contains("[network]") {
             let loaded = load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{name}: {error:?}"));
             let problems = meniscus::run::setup::problems(&loaded.case).unwrap();
             assert!(problems.is_empty(), "{name}: {problems:?}");

@@ -98,6 +98,9 @@ fn the_reference_names_every_word_that_a_key_can_be() {
         "RawFilmWeights",
         "RawFilmIntegrator",
         "RawLatticeEnergy",
+        "RawNetworkSide",
+        "RawProcess",
+        "RawEvents",
     ] {
         let variants = schema["$defs"][definition]["oneOf"].as_array().unwrap_or_else(|| panic!("{definition}"));
         let words: Vec<&str> = variants.iter().filter_map(|one| one["const"].as_str()).collect();
@@ -111,7 +114,7 @@ fn the_reference_names_every_word_that_a_key_can_be() {
 #[test]
 fn the_defaults_of_the_reference_are_those_of_the_program() {
     let rows = page("docs/reference/case-file.md").rows();
-    for case in ["cases/poiseuille.toml", "cases/sessile-drop.toml", "cases/laplace-drop.toml", FILM] {
+    for case in ["cases/poiseuille.toml", "cases/sessile-drop.toml", "cases/laplace-drop.toml", FILM, NETWORK] {
         let given = text(case);
         let resolved = load(&root().join(case), &Overrides::default()).unwrap().resolved;
         let table: toml::Table = resolved.parse().unwrap();
@@ -125,7 +128,7 @@ fn the_defaults_of_the_reference_are_those_of_the_program() {
             let value =
                 path.split('.').try_fold(toml::Value::Table(table.clone()), |value, key| value.get(key).cloned());
             let Some(number) = value.and_then(|value| value.as_float()) else { continue };
-            let follows_the_case = path.ends_with("every-time") || row[2].contains("one spacing");
+            let follows_the_case = path.ends_with("every-time") || path.ends_with("every-pore-volume") || row[2].contains("one spacing");
             if given.contains(&format!("\n{last} = ")) || follows_the_case || row[2].starts_with("required") {
                 continue;
             }
@@ -183,10 +186,11 @@ fn solver(case: &str) -> Box<dyn Solver> {
 
 const FLOW: &str = "cases/poiseuille.toml";
 const FILM: &str = "cases/thin-film/partial-wetting.toml";
+const NETWORK: &str = "cases/network/drainage.toml";
 
 #[test]
 fn every_column_of_the_series_is_described() {
-    for (case, title) in [(FLOW, "# `series.csv`"), (FILM, "Film columns")] {
+    for (case, title) in [(FLOW, "# `series.csv`"), (FILM, "Film columns"), (NETWORK, "Network columns")] {
         let there = solver(case).sample().into_iter().map(|sample| sample.name).collect::<Vec<_>>();
         assert_eq!(names(&section(&page("docs/reference/output.md"), title)), there);
     }
@@ -205,6 +209,48 @@ fn every_array_is_described_with_its_unit() {
     }
 }
 
+#[test]
+fn every_array_of_a_network_is_described_with_its_unit() {
+    let solver = solver(NETWORK);
+    let (regions, results) = (solver.layers(), solver.results());
+    let rows = section(&page("docs/reference/output.md"), "Network arrays");
+    columns_tell(&rows, regions.iter().chain(&results.layers).map(|layer| layer.fields.as_slice()));
+    assert_eq!(regions.len() + results.layers.len(), 3);
+}
+
+#[test]
+fn every_column_of_the_tables_of_a_network_is_described() {
+    let solver = solver(NETWORK);
+    let tables = solver.results().tables;
+    let page = page("docs/reference/output.md");
+    let mut count = 0;
+    // The columns of `openpnm.csv` are those of another program.
+    for table in tables.iter().filter(|table| table.name != "openpnm") {
+        let there = table.columns.iter().map(|column| column.name.to_owned()).collect::<Vec<_>>();
+        assert_eq!(names(&section(&page, &format!("Columns of `{}.csv`", table.name))), there);
+        count += 1;
+    }
+    assert_eq!(count, 4);
+}
+
+#[test]
+fn every_file_of_a_network_is_described() {
+    let solver = solver(NETWORK);
+    let results = solver.results();
+    let told: BTreeSet<String> = section(&page("docs/reference/output.md"), "Files of networks")
+        .iter()
+        .flat_map(|row| code(&row[0]))
+        .collect();
+    let tables = results.tables.iter().map(|table| format!("{}.csv", table.name));
+    let layers = results.layers.iter().map(|layer| format!("{}.vtp", layer.name));
+    let regions = solver.layers().into_iter().map(|layer| format!("{}.pvd", layer.name));
+    let diagrams = solver.diagrams().into_iter().map(|diagram| format!("diagram-{}.svg", diagram.name));
+    let documents = results.documents.iter().map(|document| document.name.to_owned());
+    for name in tables.chain(layers).chain(regions.collect::<Vec<_>>()).chain(diagrams.collect::<Vec<_>>()).chain(documents) {
+        assert!(told.contains(&name), "{name} is missing");
+    }
+}
+
 /// Columns from the third on say "yes" where a group of fields has the array.
 fn columns_tell<'f>(rows: &[Vec<String>], groups: impl Iterator<Item = &'f [Field<'f>]>) {
     for (fields, column) in groups.zip(2..) {
@@ -217,13 +263,16 @@ fn columns_tell<'f>(rows: &[Vec<String>], groups: impl Iterator<Item = &'f [Fiel
 #[test]
 fn every_measure_is_described() {
     let mut there = BTreeSet::new();
-    let film = root().join("src/thin_film/measures.rs");
-    for file in files(&root().join("src/sph/measures"), &["rs"]).into_iter().chain([film]) {
+    let others = ["src/thin_film/measures.rs", "src/network/measures.rs"].map(|file| root().join(file));
+    for file in files(&root().join("src/sph/measures"), &["rs"]).into_iter().chain(others) {
         let source = std::fs::read_to_string(file).unwrap();
         let calls = source.split("measure(").skip(1).filter_map(|rest| rest.trim_start().strip_prefix('"'));
         there.extend(calls.filter_map(|rest| rest.split('"').next().map(str::to_owned)));
+        // The network names the measures of its axes where it says what flows along them.
+        let axes = source.split("of_axis(").skip(1).filter_map(|rest| rest.split_once(", \"")?.1.split_once("\")"));
+        there.extend(axes.map(|(name, _)| name.to_owned()));
     }
-    assert!(there.contains("contact-angle-deg"), "{there:?}");
+    assert!(there.contains("contact-angle-deg") && there.contains("permeability-x-m2"), "{there:?}");
     assert_eq!(set(names(&page("docs/reference/measures.md").rows())), there);
 }
 
