@@ -3,6 +3,7 @@
 mod corners;
 mod distance;
 mod files;
+mod import;
 mod measures;
 mod shapes;
 mod shells;
