@@ -62,6 +62,18 @@ impl Bounds {
         (0..2).all(|i| self.min[i] <= x[i] && x[i] <= self.max[i])
     }
 
+    /// Whether two boxes share a point, their sides included.
+    #[must_use]
+    pub fn overlaps(&self, other: &Self) -> bool {
+        (0..2).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])
+    }
+
+    /// The smallest box around both.
+    #[must_use]
+    pub fn united(&self, other: &Self) -> Self {
+        Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
+    }
+
     /// The box with every side moved outwards by `margin` in m.
     #[must_use]
     pub fn grown(&self, margin: f64) -> Self {

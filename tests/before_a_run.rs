@@ -85,6 +85,47 @@ fn geometry_measures_and_draws_every_shape_file() {
     }
 }
 
+/// A disc on the corner of a box, with the walls of a case or joined sides.
+#[test]
+fn geometry_sees_the_sides_of_a_case_and_those_it_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "corner.toml",
+        "format = 1\nmin = [0.0, 0.0]\nmax = [1.0e-3, 1.0e-3]\nshapes = [{ disc = { center = [0.0, 0.0], radius = 2.0e-4 } }]\n",
+    );
+    let case = |sides: &str| {
+        format!(
+            "format = 1\ntitle = \"A corner\"\n[geometry]\nfile = \"corner.toml\"\n[sph]\nspacing = 2.0e-5\n[sph.phases.wetting]\n\
+             density = 1000.0\nviscosity = 1.0e-3\n[sph.sides]\n{sides}\n[time]\nend = 1.0e-3\n"
+        )
+    };
+    write("joined.toml", &case("left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\""));
+    write("walled.toml", &case("left = \"wall\"\nright = \"wall\"\nbottom = \"symmetry\"\ntop = \"wall\""));
+    let told = |arguments: &[&str]| {
+        let output = meniscus(folder.path(), &[&["geometry"], arguments].concat());
+        assert_code(&output, 0);
+        stdout(&output)
+    };
+    let porosity = |text: &str| line(text, "porosity").split_whitespace().next().unwrap().parse::<f64>().unwrap();
+    let quarter = std::f64::consts::PI * 0.04 / 4.0;
+    // Four digits are told.
+    let (box_alone, joined) = (told(&["corner.toml"]), told(&["joined.toml"]));
+    assert!((porosity(&box_alone) - (1.0 - quarter)).abs() < 1e-4);
+    assert!((porosity(&joined) - (1.0 - 4.0 * quarter)).abs() < 1e-4);
+    assert!(!box_alone.contains("sides"));
+    assert!(line(&joined, "sides").contains("left periodic, right periodic, bottom periodic, top periodic"));
+    // The gaps between the disc and its own images.
+    assert!(line(&joined, "throat-1-width-m").starts_with("6.000e-4"), "{joined}");
+    assert_eq!(porosity(&told(&["corner.toml", "--periodic", "xy"])), porosity(&joined));
+    assert!((porosity(&told(&["corner.toml", "--periodic", "y"])) - (1.0 - 2.0 * quarter)).abs() < 1e-4);
+    let walled = told(&["walled.toml"]);
+    assert!(line(&walled, "sides").contains("left wall, right wall, bottom open, top wall"), "{walled}");
+    // From the disc to the opposite wall.
+    assert!(line(&walled, "throat-1-width-m").starts_with("8.000e-4"), "{walled}");
+    assert_code(&meniscus(folder.path(), &["geometry", "walled.toml", "--periodic", "x"]), 2);
+}
+
 #[test]
 fn the_list_names_every_model_with_its_source() {
     let folder = tempfile::tempdir().unwrap();

@@ -7,6 +7,7 @@ mod check;
 pub mod checked;
 mod facts;
 pub mod film;
+mod kind;
 mod load;
 mod measures;
 mod numerics;
@@ -22,6 +23,7 @@ mod wetting;
 
 pub(crate) use check::Checker;
 pub use facts::{Facts, check_against};
+pub use kind::is_case;
 pub(crate) use load::read;
 pub use load::{Loaded, load, load_default, load_shapes};
 pub use schema::{schema, starter_case};

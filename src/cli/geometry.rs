@@ -1,27 +1,41 @@
-//! `meniscus geometry`: measures of a shape file, its outline, its signed distance and a picture.
+//! `meniscus geometry`: measures of a shape file or of the geometry of a case, its outline, its signed distance and a picture.
 
 use std::path::Path;
 
-use super::arguments::GeometryArguments;
+use super::arguments::{Axes, GeometryArguments};
 use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{readable, say};
 use super::source::{self, Shapes};
+use super::stages::Stages;
 use crate::io::picture::{PORE, picture};
 use crate::io::{atomic, vtk};
 use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Snapshot, Values};
 
+/// Stages of loading and measuring, and those of writing.
+const STAGES: usize = 5;
+const WRITING_STAGES: usize = 1;
+
 /// Measures a shape file and writes what can be seen of it.
 pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
-    let shapes = source::load_shapes(&arguments.file, &arguments.import.options())?;
+    let count = if arguments.out.is_some() { STAGES + WRITING_STAGES } else { STAGES };
+    let stages = Stages::of(count);
+    let periodic = arguments.periodic.map(Axes::along);
+    let options = arguments.import.options();
+    let shapes = source::load_shapes(&arguments.file, &options, periodic, |stage| stages.at(stage))?;
     let width = shapes.measures.iter().map(|measure| measure.name.len()).max().unwrap_or(0);
     for measure in &shapes.measures {
         let value = format!("{} {}", readable(measure.value), measure.unit);
         say(format_args!("{:<width$}  {value:<12}  {}", measure.name, measure.method));
     }
+    if let Some(sides) = &shapes.sides {
+        say(format_args!("{:<width$}  {sides}", "sides"));
+    }
     if let Some(folder) = &arguments.out {
         let title = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        stages.at("drawing and writing files");
         write(folder, &shapes, &title)?;
+        drop(stages);
         say(format_args!("wrote solid.vtp, distance.vti and picture.png to {}", folder.display()));
     }
     Ok(DONE)
@@ -72,7 +86,7 @@ mod tests {
         };
         let distance =
             Grid { origin: Vec2::zeros(), spacing: Vec2::repeat(1.0e-6), counts: [30, 20], fields: vec![distance] };
-        let shapes = Shapes { outline, distance, measures: Vec::new() };
+        let shapes = Shapes { outline, distance, measures: Vec::new(), sides: None };
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), &shapes, "half a plane").unwrap();
         let mut names: Vec<_> =

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use super::exit::{BAD_INPUT, Failure};
+use super::exit::{BAD_INPUT, Failure, USAGE};
 use super::output::tell;
 use crate::case::checked::Case;
 use crate::case::{self, Loaded};
 use crate::geometry::Geometry;
-use crate::geometry::import::Options;
+use crate::geometry::import::{self, Beyond, Options};
 use crate::geometry::throats::throats;
 use crate::input::{InputError, Overrides};
 use crate::run::setup;
@@ -19,6 +19,9 @@ const DEFAULT_NAME: &str = "four-discs";
 
 /// Nodes of the distance grid along the longer side of a shape file's domain.
 const GRID_NODES: f64 = 400.0;
+
+/// Chords of the drawn outline lie within this share of the domain's longer side of their arcs: a hundredth of a pixel of the picture.
+const OUTLINE_ERROR: f64 = 1e-5;
 
 /// So many of the narrowest throats are told.
 const THROATS: usize = 10;
@@ -43,6 +46,8 @@ pub struct Shapes {
     pub distance: Grid<'static>,
     /// Porosity, specific surface, throats.
     pub measures: Vec<Measure>,
+    /// What stands at the sides, where the user said it.
+    pub sides: Option<String>,
 }
 
 /// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
@@ -63,13 +68,66 @@ fn load(path: Option<&Path>, overrides: &[String]) -> Result<Loaded, InputError>
     }
 }
 
-/// Loads and measures a shape file.
-pub fn load_shapes(path: &Path, options: &Options) -> Result<Shapes, Failure> {
-    let read = case::load_shapes(path, options).map_err(Failure::input)?;
-    read.notes.iter().for_each(tell);
-    let geometry = Geometry::new(&read.spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
-    let spacing = geometry.bounds().size().max() / GRID_NODES;
-    Ok(Shapes { outline: geometry.outline(), distance: geometry.distance_grid(spacing), measures: measures(&geometry) })
+/// Loads and measures a shape file, or the geometry of a case with the case's sides; `at` is told what is being done.
+pub fn load_shapes(
+    path: &Path,
+    options: &Options,
+    periodic: Option<[bool; 2]>,
+    at: impl Fn(&'static str),
+) -> Result<Shapes, Failure> {
+    at("reading and checking the shapes");
+    // What cannot be read as text is for the readers of shape files to tell.
+    let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let is_case = is_toml && std::fs::read_to_string(path).is_ok_and(|text| case::is_case(&text));
+    if is_case && *options != Options::default() {
+        let message = "a case says itself how its drawing is read: set the keys of its [geometry]";
+        return Err(Failure::new(USAGE, &message));
+    }
+    let geometry = match (is_case, periodic) {
+        (true, Some(_)) => {
+            let message = "a case says itself which of its sides are periodic: leave out --periodic";
+            return Err(Failure::new(USAGE, &message));
+        }
+        (true, None) => {
+            let loaded = load(Some(path), &[]).map_err(Failure::input)?;
+            loaded.notes.iter().for_each(tell);
+            at("uniting the shapes");
+            setup::geometry(&loaded.case).map_err(|error| Failure::new(BAD_INPUT, &error))?
+        }
+        (false, periodic) => {
+            let mut read = case::load_shapes(path, options).map_err(Failure::input)?;
+            let [x, y] = periodic.unwrap_or_default();
+            if options.window.is_some() {
+                let beyond = |is_joined| if is_joined { Beyond::Nothing } else { Beyond::Whole };
+                import::cut_at_sides(&mut read.spec, [x, x, y, y].map(beyond));
+            }
+            read.notes.iter().for_each(tell);
+            at("uniting the shapes");
+            let geometry = Geometry::new(&read.spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+            geometry.with_sides([x, y], [false; 4])
+        }
+    };
+    let sides = (is_case || periodic.is_some()).then(|| told_sides(&geometry));
+    at("measuring porosity, walls and throats");
+    let measures = measures(&geometry);
+    at("drawing the outline");
+    let longer = geometry.bounds().size().max();
+    let outline = geometry.outline_within(OUTLINE_ERROR * longer);
+    at("computing the signed distance on a grid");
+    let distance = geometry.distance_grid(longer / GRID_NODES);
+    Ok(Shapes { outline, distance, measures, sides })
+}
+
+/// What stands at each side, as far as the geometry sees it.
+fn told_sides(geometry: &Geometry) -> String {
+    let [x, y] = geometry.periodic();
+    let names = ["left", "right", "bottom", "top"].into_iter().zip([x, x, y, y]).zip(geometry.wall_sides());
+    let told = names.map(|((name, is_periodic), is_wall)| match (is_periodic, is_wall) {
+        (true, _) => format!("{name} periodic"),
+        (_, true) => format!("{name} wall"),
+        _ => format!("{name} open"),
+    });
+    told.collect::<Vec<_>>().join(", ")
 }
 
 fn measures(geometry: &Geometry) -> Vec<Measure> {

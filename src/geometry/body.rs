@@ -7,10 +7,12 @@ use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::shape::{Polyline, PolylineFlags, SharedShape};
 
 use crate::geometry::cosine;
-use crate::geometry::curve::{Curve, Foot, unit};
+use crate::geometry::curve::{Curve, unit};
+use crate::geometry::curve_set::CurveSet;
 use crate::geometry::spec::{
     Capsule, CurvedPolygon, HalfPlane, Polygon, Rectangle, ShapeSpec, ThroatCosine, ThroatDiscs,
 };
+use crate::geometry::winding::Winding;
 use crate::math::{Bounds, Vec2, perpendicular};
 
 /// Straight walls without end are built this many box diagonals long: far beyond any query, and rounding stays small.
@@ -22,9 +24,9 @@ enum Inside {
     /// A shape of parry at a place.
     Parry(Pose, SharedShape),
     /// The side of the nearest of these surface curves; right for smooth chains only.
-    Chain(Vec<Curve>),
-    /// The points that these closed curves wind around.
-    Wound(Vec<Curve>),
+    Chain(CurveSet),
+    /// The points that closed rings wind around.
+    Wound(Winding),
     /// The part of another body within a box.
     Within(Box<Inside>, Bounds),
 }
@@ -35,7 +37,7 @@ pub(crate) struct Body {
     /// Index of the written shape it comes from.
     pub shape: u32,
     /// Its surface, solid on the left.
-    pub curves: Vec<Curve>,
+    pub curves: CurveSet,
     /// A box around the surface, for culling; a body without end has a box without end.
     pub bounds: Bounds,
     inside: Inside,
@@ -64,23 +66,10 @@ fn everywhere() -> Bounds {
     Bounds { min: Vec2::repeat(f64::NEG_INFINITY), max: Vec2::repeat(f64::INFINITY) }
 }
 
-fn bounds_of(curves: &[Curve]) -> Bounds {
-    let empty = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
-    curves.iter().map(Curve::bounds).fold(empty, |a, b| Bounds { min: a.min.inf(&b.min), max: a.max.sup(&b.max) })
-}
-
-/// The nearest of some curves to `x`.
-pub(crate) fn nearest_curve(curves: &[Curve], x: Vec2) -> Option<(&Curve, Foot)> {
-    curves
-        .iter()
-        .map(|curve| (curve, curve.project(x)))
-        .min_by(|a, b| (a.1.point - x).norm_squared().total_cmp(&(b.1.point - x).norm_squared()))
-}
-
 impl Body {
     fn finite(shape: u32, curves: Vec<Curve>, place: Pose, parry: SharedShape) -> Self {
-        let bounds = bounds_of(&curves);
-        Self { shape, curves, bounds, inside: Inside::Parry(place, parry) }
+        let curves = CurveSet::from(curves);
+        Self { shape, bounds: curves.bounds(), curves, inside: Inside::Parry(place, parry) }
     }
 
     /// The bodies of a written shape, number `shape` of its list. The box tells how far endless walls must reach.
@@ -115,7 +104,7 @@ impl Body {
         let reach = along * (REACH * domain.size().norm());
         let curves = vec![Curve::Segment { a: middle + reach, b: middle - reach }];
         let inside = Inside::Parry(pose(0.0, point), SharedShape::halfspace(glam(perpendicular(along))));
-        Self { shape, curves, bounds: everywhere(), inside }
+        Self { shape, curves: curves.into(), bounds: everywhere(), inside }
     }
 
     fn disc(shape: u32, center: Vec2, radius: f64) -> Self {
@@ -169,12 +158,11 @@ impl Body {
 
     fn curved_polygon(shape: u32, polygon: &CurvedPolygon) -> Self {
         let (angle, by) = (polygon.rotation_deg.to_radians(), Vec2::from(polygon.position));
-        let curves: Vec<Curve> = std::iter::once(&polygon.outer)
-            .chain(&polygon.holes)
-            .flat_map(|ring| bulged_ring(ring))
-            .map(|curve| curve.placed(angle, by))
-            .collect();
-        Self { shape, bounds: bounds_of(&curves), inside: Inside::Wound(curves.clone()), curves }
+        let rings = std::iter::once(&polygon.outer).chain(&polygon.holes);
+        let rings: Vec<Vec<Curve>> =
+            rings.map(|ring| bulged_ring(ring).map(|curve| curve.placed(angle, by)).collect()).collect();
+        let curves = CurveSet::from(rings.concat());
+        Self { shape, bounds: curves.bounds(), curves, inside: Inside::Wound(Winding::of(rings)) }
     }
 
     fn throat_discs(shape: u32, throat: &ThroatDiscs) -> Vec<Self> {
@@ -195,6 +183,7 @@ impl Body {
             .into_iter()
             .map(|angle| {
                 let curves: Vec<Curve> = wall.iter().map(|piece| piece.placed(angle, center)).collect();
+                let curves = CurveSet::from(curves);
                 Self { shape, inside: Inside::Chain(curves.clone()), curves, bounds: everywhere() }
             })
             .collect()
@@ -209,7 +198,7 @@ impl Body {
     pub fn shifted(&self, by: Vec2) -> Self {
         Self {
             shape: self.shape,
-            curves: self.curves.iter().map(|curve| curve.shifted(by)).collect(),
+            curves: self.curves.shifted(by),
             bounds: shift(self.bounds, by),
             inside: self.inside.shifted(by),
         }
@@ -217,6 +206,7 @@ impl Body {
 
     /// The part of the body within a box, given the curves around that part.
     pub fn within(&self, bounds: Bounds, curves: Vec<Curve>) -> Self {
+        let curves = CurveSet::from(curves);
         Self { shape: self.shape, curves, bounds, inside: Inside::Within(Box::new(self.inside.clone()), bounds) }
     }
 
@@ -236,7 +226,7 @@ impl Body {
         } else if distance < -tolerance {
             Place::In
         } else {
-            match nearest_curve(&self.curves, x) {
+            match self.curves.nearest(x) {
                 Some((curve, foot)) => Place::On(curve.normal(foot.u)),
                 None => Place::Out,
             }
@@ -252,27 +242,27 @@ impl Inside {
                 place.translation += glam(by);
                 Self::Parry(place, shape.clone())
             }
-            Self::Chain(curves) => Self::Chain(curves.iter().map(|curve| curve.shifted(by)).collect()),
-            Self::Wound(curves) => Self::Wound(curves.iter().map(|curve| curve.shifted(by)).collect()),
+            Self::Chain(curves) => Self::Chain(curves.shifted(by)),
+            Self::Wound(winding) => Self::Wound(winding.shifted(by)),
             Self::Within(inner, bounds) => Self::Within(Box::new(inner.shifted(by)), shift(*bounds, by)),
         }
     }
 
-    fn signed_distance(&self, curves: &[Curve], x: Vec2) -> f64 {
+    fn signed_distance(&self, curves: &CurveSet, x: Vec2) -> f64 {
         match self {
             Self::Parry(place, shape) => {
                 let found = shape.project_point(place, glam(x), false);
                 let distance = (found.point - glam(x)).length();
                 let sign = if found.is_inside { -1.0 } else { 1.0 };
                 // Parry divides by zero at the center of a ball.
-                if distance.is_nan() { sign * distance_to(curves, x) } else { sign * distance }
+                if distance.is_nan() { sign * curves.distance(x) } else { sign * distance }
             }
-            Self::Chain(chain) => nearest_curve(chain, x)
-                .map_or(f64::INFINITY, |(curve, foot)| (x - foot.point).dot(&curve.normal(foot.u))),
-            Self::Wound(wound) => {
-                let turns = wound.iter().map(|curve| curve.winding(x)).sum::<f64>() / std::f64::consts::TAU;
-                let sign = if turns > 0.5 { -1.0 } else { 1.0 };
-                sign * distance_to(wound, x)
+            Self::Chain(chain) => {
+                chain.nearest(x).map_or(f64::INFINITY, |(curve, foot)| (x - foot.point).dot(&curve.normal(foot.u)))
+            }
+            Self::Wound(winding) => {
+                let sign = if winding.turns(x) > 0.5 { -1.0 } else { 1.0 };
+                sign * curves.distance(x)
             }
             Self::Within(inner, bounds) => {
                 let out = (bounds.min - x).sup(&(x - bounds.max)).max();
@@ -280,10 +270,6 @@ impl Inside {
             }
         }
     }
-}
-
-fn distance_to(curves: &[Curve], x: Vec2) -> f64 {
-    nearest_curve(curves, x).map_or(f64::INFINITY, |(_, foot)| (foot.point - x).norm())
 }
 
 fn shift(bounds: Bounds, by: Vec2) -> Bounds {

@@ -4,13 +4,10 @@
 //! surfaces run together, one of them is kept if both solids lie on the same side and none if the solids touch. So depth
 //! within overlapping solids is the distance to the true surface, not the least depth over the bodies.
 
-use parry2d_f64::bounding_volume::Aabb;
-use parry2d_f64::math::Vector;
-use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy};
-
 use crate::geometry::body::{Body, Place};
 use crate::geometry::curve::{Curve, Foot};
 use crate::geometry::intersect::meeting_places;
+use crate::geometry::tree::Tree;
 use crate::math::{Bounds, Vec2};
 
 /// Up to this many pieces a plain loop is faster than the tree.
@@ -41,11 +38,8 @@ pub(crate) struct Boundary {
     pub pieces: Vec<Piece>,
     /// For the start and end of each piece: the mean outward normal of the two pieces that join there.
     pub corners: Vec<[Option<Vec2>; 2]>,
-    tree: Bvh,
-}
-
-fn overlap(a: &Bounds, b: &Bounds) -> bool {
-    (0..2).all(|i| a.min[i] <= b.max[i] && b.min[i] <= a.max[i])
+    /// The tree over the boxes of the pieces.
+    pub tree: Tree,
 }
 
 /// The parts of `curve` between its meetings with `others`.
@@ -53,7 +47,7 @@ pub(crate) fn split<'a>(curve: &Curve, others: impl Iterator<Item = &'a Curve>, 
     let near = curve.bounds().grown(tolerance);
     let mut places = Vec::new();
     for other in others {
-        if overlap(&near, &other.bounds()) {
+        if near.overlaps(&other.bounds()) {
             meeting_places(curve, other, tolerance, &mut places);
         }
     }
@@ -89,17 +83,42 @@ fn stays(place: Place, normal: Vec2, is_first: bool) -> bool {
     }
 }
 
+/// Bodies that can be searched by place.
+struct Bodies<'a> {
+    all: &'a [&'a Body],
+    tree: Tree,
+    tolerance: f64,
+}
+
+impl<'a> Bodies<'a> {
+    fn new(all: &'a [&'a Body], tolerance: f64) -> Self {
+        Self { all, tree: Tree::over(all.iter().map(|body| body.bounds)), tolerance }
+    }
+
+    /// The parts of `curve` between its meetings with the bodies; that of index `but` is left out.
+    fn split(&self, curve: &Curve, but: Option<usize>) -> Vec<Curve> {
+        let near = curve.bounds().grown(self.tolerance);
+        let others = self.tree.near_in_order(near).into_iter().filter(|&j| Some(j) != but);
+        split(curve, others.flat_map(|j| self.all[j].curves.near(near)), self.tolerance)
+    }
+
+    /// Bodies that `x` may lie in or on, by index; it lies outside of all others.
+    fn around(&self, x: Vec2) -> impl Iterator<Item = usize> {
+        // Twice the tolerance: rounding must not hide a body whose box ends at it.
+        self.tree.near(Bounds { min: x, max: x }.grown(2.0 * self.tolerance))
+    }
+}
+
 /// The surface of the union of bodies.
-pub(crate) fn union(bodies: &[Body], tolerance: f64) -> Vec<Piece> {
+pub(crate) fn union(bodies: &[&Body], tolerance: f64) -> Vec<Piece> {
+    let all = Bodies::new(bodies, tolerance);
     let mut pieces = Vec::new();
     for (i, body) in bodies.iter().enumerate() {
-        for curve in &body.curves {
-            let near = curve.bounds().grown(tolerance);
-            let others: Vec<usize> =
-                (0..bodies.len()).filter(|&j| j != i && overlap(&near, &bodies[j].bounds)).collect();
-            for part in split(curve, others.iter().flat_map(|&j| &bodies[j].curves), tolerance) {
+        for curve in body.curves.iter() {
+            for part in all.split(curve, Some(i)) {
                 let (middle, normal) = (part.point(0.5), part.normal(0.5));
-                if others.iter().all(|&j| stays(bodies[j].place(middle, tolerance), normal, i < j)) {
+                let mut others = all.around(middle).filter(|&j| j != i);
+                if others.all(|j| stays(bodies[j].place(middle, tolerance), normal, i < j)) {
                     pieces.push(Piece { curve: part, shape: body.shape });
                 }
             }
@@ -109,20 +128,21 @@ pub(crate) fn union(bodies: &[Body], tolerance: f64) -> Vec<Piece> {
 }
 
 /// The surface of the solid outside of all `pores` united with the solid `walls`.
-pub(crate) fn complement(pores: &[Body], walls: &[Body], tolerance: f64) -> Vec<Piece> {
+pub(crate) fn complement(pores: &[&Body], walls: &[&Body], tolerance: f64) -> Vec<Piece> {
+    let (all_pores, all_walls) = (Bodies::new(pores, tolerance), Bodies::new(walls, tolerance));
     let mut pieces = Vec::new();
     for piece in union(pores, tolerance) {
-        for part in split(&piece.curve.reversed(), walls.iter().flat_map(|w| &w.curves), tolerance) {
+        for part in all_walls.split(&piece.curve.reversed(), None) {
             let (middle, normal) = (part.point(0.5), part.normal(0.5));
-            if walls.iter().all(|wall| stays(wall.place(middle, tolerance), normal, true)) {
+            if all_walls.around(middle).all(|j| stays(walls[j].place(middle, tolerance), normal, true)) {
                 pieces.push(Piece { curve: part, shape: piece.shape });
             }
         }
     }
     for piece in union(walls, tolerance) {
-        for part in split(&piece.curve, pores.iter().flat_map(|p| &p.curves), tolerance) {
+        for part in all_pores.split(&piece.curve, None) {
             let middle = part.point(0.5);
-            if pores.iter().any(|pore| pore.place(middle, tolerance) == Place::In) {
+            if all_pores.around(middle).any(|j| pores[j].place(middle, tolerance) == Place::In) {
                 pieces.push(Piece { curve: part, shape: piece.shape });
             }
         }
@@ -135,8 +155,8 @@ pub(crate) fn clip_body(body: &Body, bounds: Bounds, tolerance: f64) -> Body {
     let frame = Body::of_box(body.shape, bounds);
     let mut curves = Vec::new();
     for (kept, by, is_first) in [(body, &frame, true), (&frame, body, false)] {
-        for curve in &kept.curves {
-            for part in split(curve, by.curves.iter(), tolerance) {
+        for curve in kept.curves.iter() {
+            for part in split(curve, by.curves.near(curve.bounds().grown(tolerance)), tolerance) {
                 let keep = match by.place(part.point(0.5), tolerance) {
                     Place::In => true,
                     Place::Out => false,
@@ -154,27 +174,14 @@ pub(crate) fn clip_body(body: &Body, bounds: Bounds, tolerance: f64) -> Body {
 impl Boundary {
     /// Prepares pieces for the search. Ends closer than `tolerance` (m) are joined.
     pub fn new(pieces: Vec<Piece>, tolerance: f64) -> Self {
-        let boxes: Vec<Aabb> = pieces
-            .iter()
-            .map(|piece| {
-                let b = piece.curve.bounds();
-                Aabb::new(Vector::new(b.min.x, b.min.y), Vector::new(b.max.x, b.max.y))
-            })
-            .collect();
-        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        let tree = Tree::over(pieces.iter().map(|piece| piece.curve.bounds()));
         let corners = corners(&pieces, tolerance);
         Self { pieces, corners, tree }
     }
 
     /// The nearest points to `x` of all pieces within `reach` (m).
     pub fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = Nearest> {
-        let (low, high) = (x - Vec2::repeat(reach), x + Vec2::repeat(reach));
-        let leaves = self.tree.leaves(move |node| {
-            let (min, max) = (node.mins(), node.maxs());
-            min.x <= high.x && low.x <= max.x && min.y <= high.y && low.y <= max.y
-        });
-        leaves.filter_map(move |leaf| {
-            let piece = leaf as usize;
+        self.tree.within(x, reach).filter_map(move |piece| {
             let foot = self.pieces.get(piece)?.curve.project(x);
             ((foot.point - x).norm() <= reach).then_some(Nearest { piece, foot })
         })
@@ -187,17 +194,7 @@ impl Boundary {
             let all = self.pieces.iter().map(squared).enumerate();
             all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
         } else {
-            let to_box = |min: Vector, max: Vector| {
-                let (dx, dy) = ((min.x - x.x).max(x.x - max.x).max(0.0), (min.y - x.y).max(x.y - max.y).max(0.0));
-                dx * dx + dy * dy
-            };
-            self.tree
-                .find_best(
-                    f64::MAX,
-                    |node, _| to_box(node.mins(), node.maxs()),
-                    |leaf, _| self.pieces.get(leaf as usize).map(squared),
-                )
-                .map(|(leaf, _)| leaf as usize)
+            self.tree.nearest(x, |piece| squared(&self.pieces[piece])).map(|(piece, _)| piece)
         }?;
         Some(Nearest { piece, foot: self.pieces[piece].curve.project(x) })
     }
@@ -205,19 +202,24 @@ impl Boundary {
 
 /// For each piece the piece whose start is its end, where exactly two ends meet; `None` elsewhere.
 pub(crate) fn followers(pieces: &[Piece], tolerance: f64) -> Vec<Option<usize>> {
-    // Start and end of every piece that has ends, sorted along x so that a short window holds all near ones.
-    let mut ends: Vec<(Vec2, usize, bool)> = Vec::new();
+    // Start and end of every piece that has ends, sorted by the square of a grid they lie in: all near ones lie in the nine around.
+    let cell = |v: f64| (v / tolerance).floor() as i64;
+    let mut ends: Vec<([i64; 2], Vec2, usize, bool)> = Vec::new();
     for (i, piece) in pieces.iter().enumerate().filter(|(_, piece)| !piece.curve.is_closed()) {
-        ends.push((piece.curve.point(0.0), i, true));
-        ends.push((piece.curve.point(1.0), i, false));
+        for (point, is_start) in [(piece.curve.point(0.0), true), (piece.curve.point(1.0), false)] {
+            ends.push(([cell(point.x), cell(point.y)], point, i, is_start));
+        }
     }
-    ends.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
+    ends.sort_by_key(|end| end.0);
     let mut next = vec![None; pieces.len()];
-    for (k, &(point, i, _)) in ends.iter().enumerate().filter(|(_, end)| !end.2) {
-        let before = ends[..k].iter().rev().take_while(|end| point.x - end.0.x <= tolerance);
-        let after = ends[k + 1..].iter().take_while(|end| end.0.x - point.x <= tolerance);
-        let mut met = before.chain(after).filter(|end| (end.0 - point).norm() <= tolerance);
-        if let (Some(&(_, j, true)), None) = (met.next(), met.next()) {
+    for (k, &([x, y], point, i, _)) in ends.iter().enumerate().filter(|(_, end)| !end.3) {
+        let around = [x.saturating_sub(1), x, x.saturating_add(1)].into_iter().flat_map(|column| {
+            let first = ends.partition_point(|end| end.0 < [column, y.saturating_sub(1)]);
+            let last = [column, y.saturating_add(1)];
+            ends[first..].iter().zip(first..).take_while(move |(end, _)| end.0 <= last)
+        });
+        let mut met = around.filter(|(end, j)| *j != k && (end.1 - point).norm() <= tolerance);
+        if let (Some((&(_, _, j, true), _)), None) = (met.next(), met.next()) {
             next[i] = Some(j);
         }
     }

@@ -111,6 +111,8 @@ impl Curve {
 
     /// The nearest point to `x`. At the center of an arc all its points are nearest: the middle is returned.
     pub fn project(&self, x: Vec2) -> Foot {
+        #[cfg(test)]
+        work::count();
         match *self {
             Self::Segment { a, b } => {
                 let d = b - a;
@@ -139,6 +141,8 @@ impl Curve {
 
     /// The smallest box around the curve.
     pub fn bounds(&self) -> Bounds {
+        #[cfg(test)]
+        work::count();
         let (p, q) = (self.point(0.0), self.point(1.0));
         let mut bounds = Bounds { min: p.inf(&q), max: p.sup(&q) };
         if let Self::Arc { center, radius, start, sweep } = *self {
@@ -201,8 +205,9 @@ impl Curve {
         if self.is_closed() {
             return if (x - center).norm() < radius { sweep } else { 0.0 };
         }
-        // Seen from between chord and arc, the arc turns the other way round.
-        let is_between = (x - center).norm() < radius && cross(a, b) * sweep < 0.0;
+        // From within its circle an arc turns the way it runs: seen from between chord and arc not the way of the chord. The sign is that of
+        // the angle, which tells it on the chord too, where the cross product is a zero of either sign.
+        let is_between = (x - center).norm() < radius && chord * sweep < 0.0;
         if is_between { chord + sweep.signum() * TAU } else { chord }
     }
 
@@ -215,6 +220,27 @@ impl Curve {
                 0.5 * (radius * radius * sweep + cross(center - origin, chord))
             }
         }
+    }
+}
+
+/// Counts what is done with curves, so that tests see how work grows with their number.
+#[cfg(test)]
+pub(crate) mod work {
+    use std::cell::Cell;
+
+    thread_local! {
+        static DONE: Cell<u64> = const { Cell::new(0) };
+    }
+
+    pub fn count() {
+        DONE.set(DONE.get() + 1);
+    }
+
+    /// Boxes and nearest points of curves that this thread computes during `job`.
+    pub fn of(job: impl FnOnce()) -> u64 {
+        let before = DONE.get();
+        job();
+        DONE.get() - before
     }
 }
 

@@ -58,9 +58,10 @@ impl Geometry {
                 outline.push(piece.curve);
             }
         }
-        let walls: Vec<Curve> = self.boundary.pieces.iter().map(|piece| piece.curve).collect();
-        for side in &frame.curves {
-            for part in split(side, walls.iter(), tolerance) {
+        for side in frame.curves.iter() {
+            let near = self.boundary.tree.near_in_order(side.bounds().grown(tolerance));
+            let walls = near.iter().map(|&piece| &self.boundary.pieces[piece].curve);
+            for part in split(side, walls, tolerance) {
                 if self.signed_distance(part.point(0.5)) < -tolerance {
                     outline.push(part);
                 }

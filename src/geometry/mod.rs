@@ -7,16 +7,22 @@ pub(crate) mod body;
 pub(crate) mod boundary;
 pub(crate) mod cosine;
 pub mod curve;
+pub(crate) mod curve_set;
+#[cfg(test)]
+mod growth;
 pub mod import;
 pub(crate) mod intersect;
 pub mod measures;
 pub mod outline;
+pub(crate) mod rings;
 pub mod shape_file;
 pub mod shells;
 pub mod solid;
 pub mod spec;
 pub mod throats;
+pub(crate) mod tree;
 pub mod validate;
+pub(crate) mod winding;
 
 pub use shape_file::{ShapeFileError, load};
 pub use solid::{Geometry, GeometryError, Wall};

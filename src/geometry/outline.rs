@@ -8,20 +8,29 @@ use crate::geometry::curve::Curve;
 use crate::geometry::solid::Geometry;
 use crate::snapshot::{Field, Lines, Values};
 
-/// Largest angle between neighboring vertices of a drawn arc, in rad: 1 degree, chords within 4e-5 of the radius.
-const DRAWN_ANGLE: f64 = std::f64::consts::PI / 180.0;
+/// Angle between neighboring vertices of a finely drawn arc, in rad: 1 degree, chords within 4e-5 of the radius.
+const FINE_ANGLE: f64 = std::f64::consts::PI / 180.0;
+
+/// Largest angle between neighboring vertices of a drawn arc, in rad: 15 degrees, so that a circle of any size looks like one.
+const COARSE_ANGLE: f64 = std::f64::consts::PI / 12.0;
 
 impl Geometry {
     /// The surface of the united solid within the domain, circles finely sampled, with the field `shape`.
     #[must_use]
     pub fn outline(&self) -> Lines<'static> {
+        self.outline_within(0.0)
+    }
+
+    /// The same with chords within `error` (m) of their arcs, as far as the angle between vertices stays from 1 to 15 degrees.
+    #[must_use]
+    pub fn outline_within(&self, error: f64) -> Lines<'static> {
         let pieces = self.visible_pieces();
         let next = followers(&pieces, 10.0 * self.tolerance());
         let (mut points, mut shapes, mut lines) = (Vec::new(), Vec::new(), Vec::new());
         for (chain, is_closed) in chains(&pieces, &next) {
             let begin = points.len() as u32;
             for &i in &chain {
-                for u in samples(&pieces[i].curve) {
+                for u in samples(&pieces[i].curve, error) {
                     points.push(pieces[i].curve.point(u));
                     shapes.push(i64::from(pieces[i].shape));
                 }
@@ -61,11 +70,32 @@ impl Geometry {
     }
 }
 
-/// Parameters of the vertices of a curve, its end left out.
-fn samples(curve: &Curve) -> impl Iterator<Item = f64> + use<> {
-    let count = match curve {
+/// Parameters of the vertices of a curve whose chords lie within `error` (m) of it, its end left out.
+fn samples(curve: &Curve, error: f64) -> impl Iterator<Item = f64> + use<> {
+    let count = match *curve {
         Curve::Segment { .. } => 1,
-        Curve::Arc { sweep, .. } => (sweep.abs() / DRAWN_ANGLE).ceil().max(1.0) as usize,
+        Curve::Arc { radius, sweep, .. } => {
+            // A chord of this angle lies radius (1 − cos(angle/2)) from the middle of its arc.
+            let angle = 2.0 * (1.0 - error / radius).clamp(-1.0, 1.0).acos();
+            (sweep.abs() / angle.clamp(FINE_ANGLE, COARSE_ANGLE)).ceil().max(1.0) as usize
+        }
     };
     (0..count).map(move |k| k as f64 / count as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Vec2;
+
+    #[test]
+    fn chords_lie_within_the_error_asked_for_and_no_denser_than_a_degree() {
+        for (error, count) in [(0.0, 360), (1e-3, 71), (10.0, 24)] {
+            let circle = Curve::circle(Vec2::zeros(), 1.0);
+            let places: Vec<f64> = samples(&circle, error).collect();
+            assert_eq!(places.len(), count);
+            let middle = 0.5 * (circle.point(places[0]) + circle.point(places[1]));
+            assert!(1.0 - middle.norm() <= error.max(4e-5));
+        }
+    }
 }

@@ -9,7 +9,7 @@
 use crate::geometry::boundary::{Nearest, Piece, chains, followers};
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::solid::Geometry;
-use crate::math::{Bounds, Vec2};
+use crate::math::Vec2;
 
 /// A depth that differs by less than this share of the distance of samples is the same.
 const SAME_DEPTH: f64 = 1e-2;
@@ -104,7 +104,7 @@ impl<'a> UnfittedSurface<'a> {
         let near = geometry.bounds().grown(reach);
         let is_unfitted = |piece: &Piece| {
             let on_lattice = matches!(piece.curve, Curve::Segment { a, b } if is_on_lattice(a, b));
-            !on_lattice && overlap(&near, &piece.curve.bounds())
+            !on_lattice && near.overlaps(&piece.curve.bounds())
         };
         let next = followers(pieces, 10.0 * geometry.tolerance());
         let mut before = vec![None; pieces.len()];
@@ -283,8 +283,4 @@ fn close(shells: &mut Vec<Shell>, reach: f64) {
         }
         Some(_) => shells.push(last),
     }
-}
-
-fn overlap(a: &Bounds, b: &Bounds) -> bool {
-    (0..2).all(|i| a.min[i] <= b.max[i] && b.min[i] <= a.max[i])
 }

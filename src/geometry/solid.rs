@@ -7,6 +7,7 @@
 use crate::geometry::body::Body;
 use crate::geometry::boundary::{Boundary, Nearest, clip_body, complement, union};
 use crate::geometry::spec::{GeometrySpec, SolidSide};
+use crate::geometry::tree::Tree;
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
 
@@ -36,6 +37,30 @@ fn list(problems: &[Problem]) -> String {
     problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
 
+/// Whether two normals are one: pieces that join at the nearest point have one normal there, up to rounding.
+fn is_same(a: &Vec2, b: &Vec2) -> bool {
+    const SAME: f64 = 1e-6;
+    (a - b).norm() <= SAME
+}
+
+/// The normals that differ.
+fn different(mut normals: Vec<Vec2>) -> Vec<Vec2> {
+    // Of more than these each is held against its neighbors in angle only: from the center of a round ring all its edges are equally near.
+    const MANY: usize = 64;
+    if normals.len() > MANY {
+        normals.sort_by(|a, b| a.y.atan2(a.x).total_cmp(&b.y.atan2(b.x)));
+        normals.dedup_by(|a, b| is_same(a, b));
+        return normals;
+    }
+    let mut kept: Vec<Vec2> = Vec::new();
+    for normal in normals {
+        if !kept.iter().any(|known| is_same(known, &normal)) {
+            kept.push(normal);
+        }
+    }
+    kept
+}
+
 /// Domain and solids.
 #[derive(Clone)]
 pub struct Geometry {
@@ -46,6 +71,8 @@ pub struct Geometry {
     wall_sides: [bool; 4],
     shape_count: u32,
     bodies: Vec<Body>,
+    /// The tree over the boxes of `bodies`.
+    tree: Tree,
     walls: Vec<Body>,
     pub(crate) boundary: Boundary,
 }
@@ -82,6 +109,7 @@ impl Geometry {
             wall_sides: [false; 4],
             shape_count: spec.shapes.len() as u32,
             bodies: Vec::new(),
+            tree: Tree::over([]),
             walls: Vec::new(),
             boundary: Boundary::new(Vec::new(), 0.0),
         }
@@ -106,16 +134,31 @@ impl Geometry {
         self.periodic
     }
 
+    /// Whether solid stands outside of the left, right, bottom and top side.
+    #[must_use]
+    pub fn wall_sides(&self) -> [bool; 4] {
+        self.wall_sides
+    }
+
+    /// The same solids with both: periodic along x and y, and solid outside of the chosen sides (left, right, bottom, top).
+    #[must_use]
+    pub fn with_sides(self, periodic: [bool; 2], wall_sides: [bool; 4]) -> Self {
+        let is_same = self.periodic == periodic && self.wall_sides == wall_sides;
+        if is_same { self } else { Self { periodic, wall_sides, ..self }.rebuilt() }
+    }
+
     /// The same solids seen through the periodic images of the domain along x and y.
     #[must_use]
     pub fn with_periodic(self, periodic: [bool; 2]) -> Self {
-        Self { periodic, ..self }.rebuilt()
+        let wall_sides = self.wall_sides;
+        self.with_sides(periodic, wall_sides)
     }
 
     /// The same solids and solid half-planes outside of the chosen sides: left, right, bottom, top.
     #[must_use]
     pub fn with_wall_sides(self, wall_sides: [bool; 4]) -> Self {
-        Self { wall_sides, ..self }.rebuilt()
+        let periodic = self.periodic;
+        self.with_sides(periodic, wall_sides)
     }
 
     /// Lengths in m below this count as zero.
@@ -126,13 +169,12 @@ impl Geometry {
     fn rebuilt(mut self) -> Self {
         let tolerance = self.tolerance();
         self.bodies = self.shapes.iter().flat_map(|body| self.images(body)).collect();
+        self.tree = Tree::over(self.bodies.iter().map(|body| body.bounds));
         self.walls = self.side_walls();
+        let (bodies, walls): (Vec<&Body>, Vec<&Body>) = (self.bodies.iter().collect(), self.walls.iter().collect());
         let pieces = match self.side {
-            SolidSide::Inside => {
-                let all: Vec<Body> = self.bodies.iter().chain(&self.walls).cloned().collect();
-                union(&all, tolerance)
-            }
-            SolidSide::Outside => complement(&self.bodies, &self.walls, tolerance),
+            SolidSide::Inside => union(&[bodies, walls].concat(), tolerance),
+            SolidSide::Outside => complement(&bodies, &walls, tolerance),
         };
         // Ends come from intersections computed twice, once on each curve.
         const ROUNDING: f64 = 10.0;
@@ -203,7 +245,7 @@ impl Geometry {
     pub fn is_solid(&self, x: Vec2) -> bool {
         let x = self.wrapped(x);
         let within = |body: &Body| body.bounds.contains(x) && body.signed_distance(x) < 0.0;
-        let in_shapes = self.bodies.iter().any(within);
+        let in_shapes = self.tree.near(Bounds { min: x, max: x }).any(|i| within(&self.bodies[i]));
         (in_shapes == (self.side == SolidSide::Inside)) || self.walls.iter().any(within)
     }
 
@@ -229,20 +271,14 @@ impl Geometry {
     /// The mean of the different normals of all walls that are as near to `x` as `nearest`; none where there is but one, or
     /// where they cancel.
     fn mean_normal(&self, x: Vec2, nearest: &Wall) -> Option<Vec2> {
-        // Two pieces that join at the foot have one normal there, up to rounding.
-        const SAME: f64 = 1e-6;
         // Opposite walls; less than any wedge that particles fit into.
         const CANCELED: f64 = 1e-3;
         if !nearest.distance.is_finite() {
             return None;
         }
-        let mut others: Vec<Vec2> = Vec::new();
-        for near in self.boundary.within(x, nearest.distance.abs() + self.tolerance()) {
-            let normal = self.wall_at(x, near).normal;
-            if std::iter::once(&nearest.normal).chain(&others).all(|known| (normal - known).norm() > SAME) {
-                others.push(normal);
-            }
-        }
+        let near = self.boundary.within(x, nearest.distance.abs() + self.tolerance());
+        let normals = near.map(|near| self.wall_at(x, near).normal);
+        let others = different(normals.filter(|normal| !is_same(normal, &nearest.normal)).collect());
         let sum = nearest.normal + others.iter().sum::<Vec2>();
         if others.is_empty() { None } else { sum.try_normalize(CANCELED) }
     }

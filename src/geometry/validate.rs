@@ -1,17 +1,18 @@
 //! What can be wrong with written shapes: sizes, rings, and how the shapes lie in the domain. All problems, not the first.
 //!
-//! Ring checks that name a point are made here; self-intersection and holes that leave their ring are told by crate `geo`.
+//! Single points of rings are checked here; how rings cross and contain each other is told by `rings`.
 
-use geo::algorithm::Validation;
-use geo::algorithm::validation::InvalidPolygon;
-
-use crate::geometry::body::{Body, Place};
+use crate::geometry::body::{Body, Place, bulged_ring};
 use crate::geometry::boundary::split;
-use crate::geometry::curve::cross;
+use crate::geometry::curve::{Curve, cross};
+use crate::geometry::rings::{RingFault, faults};
 use crate::geometry::solid::Geometry;
 use crate::geometry::spec::{CurvedPolygon, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
+
+/// An arc of a larger bulge is a full circle less a few millionths: its center is lost to rounding.
+const LARGEST_BULGE: f64 = 1e6;
 
 /// A domain with less pore than this share of its area has none: it is rounding.
 const NO_PORE: f64 = 1e-9;
@@ -79,7 +80,7 @@ fn reaches(body: &Body, domain: Bounds) -> bool {
     let tolerance = 1e-9 * domain.size().max();
     let frame = Body::of_box(0, domain);
     let inner = frame.curves.iter().any(|side| {
-        split(side, body.curves.iter(), tolerance)
+        split(side, body.curves.near(side.bounds().grown(tolerance)), tolerance)
             .iter()
             .any(|part| body.place(part.point(0.5), tolerance) == Place::In)
     });
@@ -188,49 +189,65 @@ impl Check {
     fn polygon(&mut self, polygon: &Polygon) {
         self.finite("position", &polygon.position);
         self.finite("rotation-deg", &[polygon.rotation_deg]);
-        self.ring("outer", &polygon.outer, true);
-        for (k, hole) in polygon.holes.iter().enumerate() {
-            self.ring(&format!("holes[{k}]"), hole, false);
-        }
-        if self.found.is_empty() {
-            for error in to_geo(polygon).validation_errors() {
-                self.invalid(&error);
-            }
-        }
+        let rings: Vec<Vec<[f64; 3]>> = std::iter::once(&polygon.outer)
+            .chain(&polygon.holes)
+            .map(|ring| ring.iter().map(|&[x, y]| [x, y, 0.0]).collect())
+            .collect();
+        // Three points, so that straight edges enclose an area.
+        self.rings(&rings, 3);
     }
 
     fn curved_polygon(&mut self, polygon: &CurvedPolygon) {
         self.finite("position", &polygon.position);
         self.finite("rotation-deg", &[polygon.rotation_deg]);
-        for (key, ring) in std::iter::once(("outer", &polygon.outer)).chain(polygon.holes.iter().map(|h| ("holes", h)))
-        {
-            if ring.len() < 2 {
-                self.add(key, format!("the ring has {} vertices", ring.len()), "a ring needs at least two vertices");
+        let rings: Vec<Vec<[f64; 3]>> = std::iter::once(&polygon.outer).chain(&polygon.holes).cloned().collect();
+        self.rings(&rings, 2);
+    }
+
+    /// Checks the outer ring and the holes, of at least so many points each.
+    fn rings(&mut self, rings: &[Vec<[f64; 3]>], least: usize) {
+        let before = self.found.len();
+        for (k, ring) in rings.iter().enumerate() {
+            self.ring(&key_of(k), ring, least, k == 0);
+        }
+        if self.found.len() == before {
+            let rings: Vec<Vec<Curve>> = rings.iter().map(|ring| bulged_ring(ring).collect()).collect();
+            for fault in faults(&rings) {
+                self.fault(&fault);
             }
-            self.finite(key, ring.as_flattened());
         }
     }
 
-    fn ring(&mut self, key: &str, points: &[[f64; 2]], is_outer: bool) {
+    fn ring(&mut self, key: &str, points: &[[f64; 3]], least: usize, is_outer: bool) {
         let count = points.len();
-        if count < 3 {
-            self.add(key, format!("the ring has {count} point(s)"), "a ring needs at least three points");
+        if count < least {
+            let word = if least == 2 { "two" } else { "three" };
+            self.add(key, format!("the ring has {count} point(s)"), format!("a ring needs at least {word} points"));
             return;
         }
         if points.iter().flatten().any(|v| !v.is_finite()) {
             self.finite(key, points.as_flattened());
             return;
         }
-        if points[0] == points[count - 1] {
+        let place = |i: usize| [points[i][0], points[i][1]];
+        if place(0) == place(count - 1) {
             self.add(key, "the last point repeats the first", "remove the last point: rings close by themselves");
             return;
         }
-        if let Some(i) = (1..count).find(|&i| points[i] == points[i - 1]) {
-            let [x, y] = points[i];
+        if let Some(i) = (1..count).find(|&i| place(i) == place(i - 1)) {
+            let [x, y] = place(i);
             self.add(key, format!("points {} and {i} are both ({x:e}, {y:e})", i - 1), "remove one of them");
             return;
         }
-        let area = ring_area(points);
+        if let Some(i) = (0..count).find(|&i| points[i][2].abs() > LARGEST_BULGE) {
+            self.add(
+                key,
+                format!("the bulge {:e} at point {i} makes an arc that is a full circle up to rounding", points[i][2]),
+                "a bulge is the tangent of a quarter of the arc's angle: 1 is a half circle; write a circle as two half circles",
+            );
+            return;
+        }
+        let area = bulged_area(points);
         let (direction, wanted) = if area > 0.0 {
             ("counter-clockwise", "a hole runs clockwise: reverse its points")
         } else {
@@ -243,18 +260,35 @@ impl Check {
         }
     }
 
-    fn invalid(&mut self, error: &InvalidPolygon) {
-        let (key, help) = match error {
-            InvalidPolygon::InteriorRingNotContainedInExteriorRing(_) => {
-                ("holes", "each hole must lie wholly within the outer ring")
+    fn fault(&mut self, fault: &RingFault) {
+        let (key, help) = match fault {
+            RingFault::NotContained { .. } => ("holes".to_owned(), "each hole must lie wholly within the outer ring"),
+            RingFault::OnALine { .. } | RingFault::OnAnArea { .. } => {
+                ("holes".to_owned(), "rings of a polygon must not overlap: join overlapping holes into one")
             }
-            InvalidPolygon::IntersectingRingsOnALine(..) | InvalidPolygon::IntersectingRingsOnAnArea(..) => {
-                ("holes", "rings of a polygon must not overlap: join overlapping holes into one")
+            RingFault::SelfIntersection { ring, .. } => {
+                (key_of(*ring), "a ring must not cross or touch itself: move or remove the points of the loop")
             }
-            _ => ("outer", "a ring must not cross or touch itself: move or remove the points of the loop"),
         };
-        self.add(key, error.to_string(), help);
+        self.add(&key, fault.to_string(), help);
     }
+}
+
+/// The key of the outer ring and of the holes.
+fn key_of(ring: usize) -> String {
+    ring.checked_sub(1).map_or_else(|| "outer".to_owned(), |hole| format!("holes[{hole}]"))
+}
+
+/// Signed area in m² of a ring of vertices with bulges, above 0 where it runs counter-clockwise.
+fn bulged_area(points: &[[f64; 3]]) -> f64 {
+    let Some(&[x, y, _]) = points.first() else { return 0.0 };
+    let origin = Vec2::new(x, y);
+    let flat = ring_area(&points.iter().map(|&[x, y, _]| [x, y]).collect::<Vec<_>>());
+    // Each arc adds the segment of its circle between it and its chord.
+    let arcs = bulged_ring(points).filter(|edge| matches!(edge, Curve::Arc { .. }));
+    flat + arcs
+        .map(|arc| arc.area_about(origin) - 0.5 * cross(arc.point(0.0) - origin, arc.point(1.0) - origin))
+        .sum::<f64>()
 }
 
 /// Signed area of a ring in m², above 0 where it runs counter-clockwise.
@@ -262,10 +296,4 @@ pub(crate) fn ring_area(points: &[[f64; 2]]) -> f64 {
     let Some(&first) = points.first() else { return 0.0 };
     let origin = Vec2::from(first);
     points.windows(2).map(|w| 0.5 * cross(Vec2::from(w[0]) - origin, Vec2::from(w[1]) - origin)).sum()
-}
-
-/// The rings as crate `geo` takes them, closed.
-pub(crate) fn to_geo(polygon: &Polygon) -> geo::Polygon<f64> {
-    let ring = |points: &[[f64; 2]]| geo::LineString::from(points.to_vec());
-    geo::Polygon::new(ring(&polygon.outer), polygon.holes.iter().map(|hole| ring(hole)).collect())
 }

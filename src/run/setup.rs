@@ -2,6 +2,7 @@
 
 use crate::case::checked::{Case, Model};
 use crate::case::{Facts, check_against};
+use crate::geometry::Geometry;
 use crate::input::Problem;
 use crate::solver::Solver;
 use crate::{sph, thin_film};
@@ -43,6 +44,17 @@ pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
         in_initial_shape: &|index, x| regions[index].signed_distance(x) < 0.0,
     };
     Ok(check_against(case, &facts))
+}
+
+/// The geometry of a case with its sides, as its solver sees it; a thin film has the shapes of its case alone.
+///
+/// # Errors
+/// [`SetupError`] where the shapes are not usable.
+pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
+    match &case.model {
+        Model::Sph(sph) => Ok(sph::setup::geometry(case, sph)?),
+        Model::ThinFilm(_) => Ok(Geometry::new(&case.geometry).map_err(sph::setup::SetupError::from)?),
+    }
 }
 
 /// Width of the narrowest throat of a case in m; none where there is no throat, or no usable geometry.

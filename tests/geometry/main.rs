@@ -1,6 +1,7 @@
 //! The geometry module against closed forms and brute force.
 
 mod corners;
+mod curved;
 mod distance;
 mod files;
 mod import;

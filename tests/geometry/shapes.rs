@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::{
-    Capsule, Disc, GeometrySpec, HalfPlane, Polygon, Rectangle, ShapeSpec, SolidSide, ThroatCosine, ThroatDiscs,
+    Capsule, CurvedPolygon, Disc, GeometrySpec, HalfPlane, Polygon, Rectangle, ShapeSpec, SolidSide, ThroatCosine,
+    ThroatDiscs,
 };
 use meniscus::math::Vec2;
 use proptest::prelude::*;
@@ -20,6 +21,11 @@ pub fn rectangle(center: [f64; 2], size: [f64; 2], rotation_deg: f64) -> ShapeSp
 pub fn polygon(outer: &[[f64; 2]], holes: &[&[[f64; 2]]]) -> ShapeSpec {
     let holes = holes.iter().map(|hole| hole.to_vec()).collect();
     ShapeSpec::Polygon(Polygon { outer: outer.to_vec(), holes, position: [0.0; 2], rotation_deg: 0.0 })
+}
+
+pub fn curved(outer: &[[f64; 3]], holes: &[&[[f64; 3]]]) -> ShapeSpec {
+    let holes = holes.iter().map(|hole| hole.to_vec()).collect();
+    ShapeSpec::CurvedPolygon(CurvedPolygon { outer: outer.to_vec(), holes, position: [0.0; 2], rotation_deg: 0.0 })
 }
 
 pub fn spec(shapes: Vec<ShapeSpec>, solid: SolidSide) -> GeometrySpec {
@@ -47,7 +53,16 @@ pub fn zoo() -> Vec<ShapeSpec> {
         ),
         ShapeSpec::ThroatDiscs(ThroatDiscs { center: [0.3, -0.7], radii: [0.3, 0.25], gap: 0.2, rotation_deg: 40.0 }),
         disc(-0.6, -1.1, 0.3),
+        keyhole(),
     ]
+}
+
+/// A straight side, an arc of more than a half circle, one that bends inwards, and a round hole.
+pub fn keyhole() -> ShapeSpec {
+    let outer = [[1.25, -1.0, 0.0], [1.6, -1.0, 1.4], [1.6, -0.6, 0.2], [1.2, -0.55, -0.3]];
+    let hole = [[1.5, -0.8, -1.0], [1.7, -0.8, -1.0]];
+    let ShapeSpec::CurvedPolygon(shape) = curved(&outer, &[&hole]) else { unreachable!() };
+    ShapeSpec::CurvedPolygon(CurvedPolygon { position: [0.05, 0.02], rotation_deg: -4.0, ..shape })
 }
 
 /// Membership by the definition of each shape, independent of the library.
@@ -80,6 +95,11 @@ pub fn is_in(shape: &ShapeSpec, x: Vec2) -> bool {
             }
             inside
         }
+        ShapeSpec::CurvedPolygon(s) => {
+            let d = x - Vec2::from(s.position);
+            let d = v(d.dot(&unit(s.rotation_deg)), d.dot(&across(s.rotation_deg)));
+            std::iter::once(&s.outer).chain(&s.holes).filter(|ring| is_in_bulged(ring, d)).count() % 2 == 1
+        }
         ShapeSpec::Channel(s) => (x - Vec2::from(s.center)).dot(&across(s.rotation_deg)).abs() > 0.5 * s.width,
         ShapeSpec::ThroatDiscs(s) => [(-1.0, s.radii[0]), (1.0, s.radii[1])].iter().any(|(side, r)| {
             (x - Vec2::from(s.center) - across(s.rotation_deg) * (side * (0.5 * s.gap + r))).norm() < *r
@@ -90,6 +110,28 @@ pub fn is_in(shape: &ShapeSpec, x: Vec2) -> bool {
             high.abs() > cosine_half_width(s, along)
         }
     }
+}
+
+/// Even-odd rule over the chords, turned where the point lies between a chord and its arc.
+fn is_in_bulged(ring: &[[f64; 3]], x: Vec2) -> bool {
+    let mut inside = false;
+    for (i, &[px, py, bulge]) in ring.iter().enumerate() {
+        let (p, q) = (v(px, py), Vec2::new(ring[(i + 1) % ring.len()][0], ring[(i + 1) % ring.len()][1]));
+        if (p.y > x.y) != (q.y > x.y) && x.x < p.x + (x.y - p.y) / (q.y - p.y) * (q.x - p.x) {
+            inside = !inside;
+        }
+        if bulge != 0.0 {
+            // The arc passes at bulge times half the chord beside its middle, on the right of the chord where the bulge is above 0.
+            let (chord, right) = (q - p, v(q.y - p.y, p.x - q.x));
+            let center = 0.5 * (p + q) + right * (0.25 * (bulge - 1.0 / bulge));
+            let radius = (p - center).norm();
+            let is_beyond_chord = (x - p).dot(&right) * bulge > 0.0;
+            if is_beyond_chord && chord.norm() > 0.0 && (x - center).norm() < radius {
+                inside = !inside;
+            }
+        }
+    }
+    inside
 }
 
 pub fn cosine_half_width(s: &ThroatCosine, along: f64) -> f64 {

@@ -36,7 +36,7 @@ pub fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
     let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
     let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
     let walls = sides.map(|side| side == Side::Wall);
-    Ok(Geometry::new(&case.geometry)?.with_periodic(periodic).with_wall_sides(walls))
+    Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
 }
 
 /// The solver of a case at time zero.

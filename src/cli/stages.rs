@@ -1,0 +1,132 @@
+//! What a command that steps nothing is doing: one line on standard error, once it takes long.
+//!
+//! A thread of its own tells it, so that a stage of many seconds is seen while it lasts. How much of a stage is done is not known, only which
+//! one of how many it is. On a terminal the line is rewritten in place.
+
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::output::{duration, tell};
+
+/// Nothing is told before: most files are measured sooner.
+const SILENT: Duration = Duration::from_secs(2);
+/// Time between lines of the same stage where there is no terminal.
+const BETWEEN_LINES: Duration = Duration::from_secs(15);
+/// Time between looks at the stage.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(200);
+
+/// What is done now: number of the stage, from 1, its name, and whether the command is done.
+#[derive(Default)]
+struct Now {
+    number: usize,
+    name: &'static str,
+    is_done: bool,
+}
+
+/// Tells the stages of a command from the second second on, until it is dropped.
+pub struct Stages {
+    now: Arc<(Mutex<Now>, Condvar)>,
+    teller: Option<JoinHandle<()>>,
+}
+
+impl Stages {
+    /// Begins to watch a command of so many stages.
+    pub fn of(count: usize) -> Self {
+        let bar = terminal();
+        let show = move |line: &str, is_new: bool| match &bar {
+            Some(bar) => bar.set_message(line.to_owned()),
+            None if is_new => tell(line),
+            None => {}
+        };
+        Self::telling(count, SILENT, show)
+    }
+
+    /// The same with another silence, and lines given to `show` with whether their stage or their time make them worth a line of their own.
+    fn telling(count: usize, silent: Duration, show: impl Fn(&str, bool) + Send + 'static) -> Self {
+        let now = Arc::new((Mutex::new(Now::default()), Condvar::new()));
+        let shared = Arc::clone(&now);
+        let teller = std::thread::spawn(move || {
+            let (begun, mut pause) = (Instant::now(), silent);
+            let (mut told, mut told_at) = (0, begun);
+            let mut state = shared.0.lock().unwrap_or_else(PoisonError::into_inner);
+            while !state.is_done {
+                let waited = shared.1.wait_timeout_while(state, pause, |now| !now.is_done);
+                state = waited.unwrap_or_else(PoisonError::into_inner).0;
+                if state.is_done {
+                    break;
+                }
+                pause = BETWEEN_LOOKS;
+                let is_new = state.number != told || told_at.elapsed() >= BETWEEN_LINES;
+                if is_new {
+                    (told, told_at) = (state.number, Instant::now());
+                }
+                let seconds = begun.elapsed().as_secs_f64();
+                show(&format!("{} of {count}: {}, {}", state.number, state.name, duration(seconds)), is_new);
+            }
+        });
+        Self { now, teller: Some(teller) }
+    }
+
+    /// The next stage begins.
+    pub fn at(&self, name: &'static str) {
+        let mut now = self.now.0.lock().unwrap_or_else(PoisonError::into_inner);
+        now.number += 1;
+        now.name = name;
+    }
+}
+
+impl Drop for Stages {
+    fn drop(&mut self) {
+        self.now.0.lock().unwrap_or_else(PoisonError::into_inner).is_done = true;
+        self.now.1.notify_all();
+        // The bar goes with its thread; that one does nothing that can fail.
+        let _ = self.teller.take().map(JoinHandle::join);
+    }
+}
+
+fn terminal() -> Option<ProgressBar> {
+    use std::io::IsTerminal;
+    if !std::io::stderr().is_terminal() {
+        return None;
+    }
+    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+    bar.set_style(ProgressStyle::with_template("{msg}").ok()?);
+    Some(bar)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The lines that a command of one stage of 300 ms tells after this silence.
+    fn lines(silent: Duration) -> Vec<String> {
+        let lines = Arc::new(Mutex::new(Vec::new()));
+        let kept = Arc::clone(&lines);
+        let stages = Stages::telling(3, silent, move |line, is_new| {
+            if is_new {
+                kept.lock().unwrap().push(line.to_owned());
+            }
+        });
+        stages.at("uniting the shapes");
+        std::thread::sleep(Duration::from_millis(300));
+        drop(stages);
+        Arc::try_unwrap(lines).unwrap().into_inner().unwrap()
+    }
+
+    #[test]
+    fn a_command_that_is_done_soon_tells_nothing() {
+        assert_eq!(lines(Duration::from_secs(60)), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_command_that_takes_long_tells_its_stage_once() {
+        let told = lines(Duration::from_millis(1));
+        // The stage may begin after the first look.
+        let last = told.last().unwrap();
+        assert!(last.starts_with("1 of 3: uniting the shapes, 0."), "{told:?}");
+        assert!(told.len() <= 2, "{told:?}");
+    }
+}

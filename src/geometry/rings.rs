@@ -1,0 +1,320 @@
+//! How the rings of a polygon, of segments and arcs, lie to themselves and to each other: no ring crosses or touches itself, holes lie
+//! within the outer ring and beside each other, and rings touch at points at most.
+//!
+//! Edges that can meet are found by a tree over their boxes. Two segments meet by exact predicates (crate `geo`); where an arc is involved they
+//! meet within rounding. Rings that meet are cut there, and each part is told in or out of the other ring by winding numbers. Left
+//! out: holes that touch so that they cut the polygon into several parts, which harm nothing here.
+
+use std::collections::BTreeSet;
+
+use geo::Intersects;
+
+use crate::geometry::boundary::split;
+use crate::geometry::curve::Curve;
+use crate::geometry::curve_set::CurveSet;
+use crate::geometry::intersect::meeting_places;
+use crate::geometry::tree::Tree;
+use crate::geometry::winding::Winding;
+use crate::math::{Bounds, Vec2};
+
+/// Points nearer than this share of the size of the polygon are one, where arcs are involved.
+const ROUNDING: f64 = 1e-12;
+
+/// Neighboring edges of which one is an arc meet at their common vertex up to this share of the shorter one: where they are tangent there,
+/// the computed crossing is ill-conditioned.
+const AT_VERTEX: f64 = 1e-3;
+
+/// What is wrong with the rings; ring 0 is the outer one. Places in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum RingFault {
+    /// Two edges of a ring, by the number of the point at which they begin, meet elsewhere than at a common end.
+    SelfIntersection { ring: usize, edges: [usize; 2], at: Vec2 },
+    /// A hole is not within the outer ring.
+    NotContained { hole: usize, at: Vec2 },
+    /// Two rings run along each other.
+    OnALine { rings: [usize; 2], at: Vec2 },
+    /// One hole reaches into another.
+    OnAnArea { rings: [usize; 2], at: Vec2 },
+}
+
+impl RingFault {
+    /// The rings it is between.
+    fn rings(&self) -> [usize; 2] {
+        match *self {
+            Self::SelfIntersection { ring, .. } => [ring; 2],
+            Self::NotContained { hole, .. } => [0, hole],
+            Self::OnALine { rings, .. } | Self::OnAnArea { rings, .. } => rings,
+        }
+    }
+}
+
+fn name(ring: usize) -> String {
+    match ring.checked_sub(1) {
+        None => "exterior ring".to_owned(),
+        Some(hole) => format!("interior ring at index {hole}"),
+    }
+}
+
+impl std::fmt::Display for RingFault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let point = |at: &Vec2| format!("({:e}, {:e})", at.x, at.y);
+        match self {
+            Self::SelfIntersection { ring, edges: [i, j], at } => {
+                write!(
+                    f,
+                    "{} has a self-intersection: the edges from its points {i} and {j} meet at {}",
+                    name(*ring),
+                    point(at)
+                )
+            }
+            Self::NotContained { hole, at } => {
+                write!(f, "{} is not contained within the polygon's exterior: see {}", name(*hole), point(at))
+            }
+            Self::OnALine { rings: [a, b], at } => {
+                write!(f, "{} and {} intersect on a line: see {}", name(*a), name(*b), point(at))
+            }
+            Self::OnAnArea { rings: [a, b], at } => {
+                write!(f, "{} and {} intersect on an area: see {}", name(*a), name(*b), point(at))
+            }
+        }
+    }
+}
+
+/// All that is wrong between rings of two edges or more without double points: the first fault of each ring and of each pair of rings.
+pub(crate) fn faults(rings: &[Vec<Curve>]) -> Vec<RingFault> {
+    let edges = Edges::of(rings);
+    let mut found: Vec<RingFault> = (0..rings.len()).filter_map(|ring| edges.self_intersection(ring)).collect();
+    if rings.len() > 1 && found.is_empty() {
+        let regions: Vec<Region> = rings.iter().map(|ring| Region::of(ring)).collect();
+        let boxes = Tree::over(regions.iter().map(|region| region.curves.bounds()));
+        // A pair of holes is seen from both sides.
+        let mut known = BTreeSet::new();
+        for hole in 1..rings.len() {
+            let all = edges.faults_of_hole(hole, &regions, &boxes);
+            found.extend(all.into_iter().filter(|fault| known.insert(fault.rings())));
+        }
+    }
+    found
+}
+
+/// What is enclosed by one ring.
+struct Region {
+    curves: CurveSet,
+    winding: Winding,
+}
+
+impl Region {
+    fn of(ring: &[Curve]) -> Self {
+        Self { curves: ring.to_vec().into(), winding: Winding::of([ring.to_vec()]) }
+    }
+}
+
+/// The edges of all rings, one ring after the other.
+struct Edges<'a> {
+    rings: &'a [Vec<Curve>],
+    /// Ring and number of each edge.
+    owner: Vec<(usize, usize)>,
+    tree: Tree,
+    tolerance: f64,
+}
+
+impl<'a> Edges<'a> {
+    fn of(rings: &'a [Vec<Curve>]) -> Self {
+        let owner: Vec<(usize, usize)> =
+            rings.iter().enumerate().flat_map(|(ring, edges)| (0..edges.len()).map(move |edge| (ring, edge))).collect();
+        let boxes: Vec<Bounds> = rings.iter().flatten().map(Curve::bounds).collect();
+        let all = boxes.iter().copied().reduce(|a, b| a.united(&b));
+        // Far from the origin coordinates are rounded more coarsely than the shape is large.
+        let tolerance = all.map_or(0.0, |all| {
+            ROUNDING * all.size().max() + 8.0 * f64::EPSILON * all.min.abs().sup(&all.max.abs()).max()
+        });
+        let tree = Tree::over(boxes.iter().map(|b| b.grown(tolerance)));
+        Self { rings, owner, tree, tolerance }
+    }
+
+    /// Edges whose box meets that of `curve`, in order.
+    fn near(&self, curve: &Curve) -> impl Iterator<Item = (usize, usize)> {
+        self.tree.near_in_order(curve.bounds().grown(self.tolerance)).into_iter().map(|index| self.owner[index])
+    }
+
+    fn self_intersection(&self, ring: usize) -> Option<RingFault> {
+        let edges = &self.rings[ring];
+        (0..edges.len()).find_map(|i| {
+            let others = self.near(&edges[i]).filter(|&(other, j)| other == ring && j > i);
+            others.into_iter().find_map(|(_, j)| {
+                let at = self.meeting(edges, i, j)?;
+                Some(RingFault::SelfIntersection { ring, edges: [i, j], at })
+            })
+        })
+    }
+
+    /// Where edges `i` < `j` of a ring meet elsewhere than at a common vertex.
+    fn meeting(&self, edges: &[Curve], i: usize, j: usize) -> Option<Vec2> {
+        let (a, b) = (&edges[i], &edges[j]);
+        let vertices: Vec<Vec2> =
+            [(j == i + 1).then(|| b.point(0.0)), (i == 0 && j + 1 == edges.len()).then(|| a.point(0.0))]
+                .into_iter()
+                .flatten()
+                .collect();
+        if let (Curve::Segment { a: p, b: q }, Curve::Segment { a: r, b: s }) = (a, b) {
+            // Neighbors that turn back along each other show where the next edge meets them.
+            let do_meet = vertices.is_empty() && line(*p, *q).intersects(&line(*r, *s));
+            return do_meet.then(|| self.first_place(a, b).unwrap_or(*r));
+        }
+        let near_vertex = AT_VERTEX * a.length().min(b.length());
+        let mut places = Vec::new();
+        meeting_places(a, b, self.tolerance, &mut places);
+        let away = |x: &Vec2| vertices.iter().all(|vertex| (x - vertex).norm() > near_vertex);
+        places.into_iter().map(|u| a.point(u)).find(away)
+    }
+
+    fn first_place(&self, a: &Curve, b: &Curve) -> Option<Vec2> {
+        let mut places = Vec::new();
+        meeting_places(a, b, self.tolerance, &mut places);
+        places.into_iter().min_by(f64::total_cmp).map(|u| a.point(u))
+    }
+
+    /// What is wrong between a hole and the other rings, holes before it left out.
+    fn faults_of_hole(&self, hole: usize, regions: &[Region], boxes: &Tree) -> Vec<RingFault> {
+        let mut found: Vec<(usize, RingFault)> = Vec::new();
+        for (number, edge) in self.rings[hole].iter().enumerate() {
+            let near: Vec<(usize, usize)> = self.near(edge).filter(|&(ring, _)| ring != hole).collect();
+            // A hole that meets no other ring is told in or out as a whole, by its first edge.
+            let mut rings: Vec<usize> = near.iter().map(|&(ring, _)| ring).collect();
+            if number == 0 {
+                let start = edge.point(0.0);
+                rings.extend(boxes.near(Bounds { min: start, max: start }).filter(|&ring| ring != hole));
+                rings.push(0);
+                rings.sort_unstable();
+            }
+            rings.dedup();
+            for ring in rings {
+                if found.iter().any(|(known, _)| *known == ring) {
+                    continue;
+                }
+                let others = near.iter().filter(|&&(other, _)| other == ring).map(|&(_, j)| &self.rings[ring][j]);
+                let parts = split(edge, others, self.tolerance);
+                let fault = parts.iter().find_map(|part| self.fault(hole, ring, &regions[ring], part.point(0.5)));
+                found.extend(fault.map(|fault| (ring, fault)));
+            }
+        }
+        found.into_iter().map(|(_, fault)| fault).collect()
+    }
+
+    /// What is wrong where `x` on a hole lies in, on or out of another ring.
+    fn fault(&self, hole: usize, ring: usize, region: &Region, x: Vec2) -> Option<RingFault> {
+        let rings = [ring.min(hole), ring.max(hole)];
+        if region.curves.distance(x) <= self.tolerance {
+            return Some(RingFault::OnALine { rings, at: x });
+        }
+        let is_in = region.winding.turns(x).abs() > 0.5;
+        match (ring, is_in) {
+            (0, false) => Some(RingFault::NotContained { hole, at: x }),
+            (1.., true) => Some(RingFault::OnAnArea { rings, at: x }),
+            _ => None,
+        }
+    }
+}
+
+fn line(a: Vec2, b: Vec2) -> geo::Line<f64> {
+    geo::Line::new(geo::coord! { x: a.x, y: a.y }, geo::coord! { x: b.x, y: b.y })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::body::bulged_ring;
+
+    fn ring(vertices: &[[f64; 3]]) -> Vec<Curve> {
+        bulged_ring(vertices).collect()
+    }
+
+    fn square(x: f64, y: f64, side: f64) -> Vec<Curve> {
+        ring(&[[x, y, 0.0], [x + side, y, 0.0], [x + side, y + side, 0.0], [x, y + side, 0.0]])
+    }
+
+    fn hole(curves: Vec<Curve>) -> Vec<Curve> {
+        curves.iter().rev().map(Curve::reversed).collect()
+    }
+
+    #[test]
+    fn sound_rings_have_no_fault_even_where_they_touch_at_a_point() {
+        let lens = ring(&[[0.0, 0.0, 0.5], [1.0, 0.0, 0.5]]);
+        // A half circle that runs on smoothly into straight sides, and a crescent whose tips have no width.
+        let stadium = ring(&[[-1.0, -1.0, 0.0], [1.0, -1.0, 1.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 1.0]]);
+        let crescent = ring(&[[0.0, -1.0, 1.0], [0.0, 1.0, -0.6]]);
+        for sound in [lens, stadium, crescent, square(0.0, 0.0, 1.0)] {
+            assert_eq!(faults(&[sound]), []);
+        }
+        let disc = hole(ring(&[[1.0, 2.0, 1.0], [3.0, 2.0, 1.0]]));
+        let diamond = hole(ring(&[[0.0, 2.0, 0.0], [0.5, 1.5, 0.0], [1.0, 2.0, 0.0], [0.5, 2.5, 0.0]]));
+        assert_eq!(faults(&[square(0.0, 0.0, 4.0), disc, diamond]), []);
+    }
+
+    #[test]
+    fn edges_that_cross_or_touch_are_named_with_their_place() {
+        let bow = ring(&[[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.5, 0.0]]);
+        let at = Vec2::new(0.6, 0.6);
+        let [RingFault::SelfIntersection { ring: 0, edges: [0, 2], at: found }] = faults(&[bow])[..] else { panic!() };
+        assert!((found - at).norm() < 1e-12);
+        // The arc of the first edge bulges far enough to cross the opposite side.
+        let arc = ring(&[[0.0, 0.0, -1.0], [2.0, 0.0, 0.0], [2.0, 0.5, 0.0], [0.0, 0.5, 0.0]]);
+        assert!(matches!(faults(&[arc])[..], [RingFault::SelfIntersection { ring: 0, edges: [0, 2], .. }]));
+        // Two arcs that cross between their common ends cannot be: they share both; an arc and its neighbor can.
+        let neighbors = ring(&[[0.0, 0.0, -2.0], [1.0, 0.0, 0.0], [-1.0, 1.0, 0.0]]);
+        assert!(matches!(faults(&[neighbors])[..], [RingFault::SelfIntersection { .. }]));
+        let spike = ring(&[
+            [0.0, 0.0, 0.0],
+            [4.0, 0.0, 0.0],
+            [4.0, 4.0, 0.0],
+            [2.0, 4.0, 0.0],
+            [2.0, 6.0, 0.0],
+            [2.0, 4.0, 0.0],
+            [0.0, 4.0, 0.0],
+        ]);
+        assert!(matches!(faults(&[spike])[..], [RingFault::SelfIntersection { .. }]));
+    }
+
+    #[test]
+    fn holes_must_lie_within_the_outer_ring_and_beside_each_other() {
+        let outer = square(0.0, 0.0, 4.0);
+        let with =
+            |holes: Vec<Vec<Curve>>| faults(&[vec![outer.clone()], holes.into_iter().map(hole).collect()].concat());
+        assert!(matches!(with(vec![square(9.0, 9.0, 1.0)])[..], [RingFault::NotContained { hole: 1, .. }]));
+        assert!(matches!(with(vec![square(3.0, 3.0, 2.0)])[..], [RingFault::NotContained { hole: 1, .. }]));
+        assert!(matches!(with(vec![square(-1.0, -1.0, 9.0)])[..], [RingFault::NotContained { hole: 1, .. }]));
+        assert!(matches!(with(vec![square(0.0, 1.0, 1.0)])[..], [RingFault::OnALine { rings: [0, 1], .. }]));
+        let pair = |a, b| with(vec![a, b]);
+        assert!(matches!(pair(square(1.0, 1.0, 1.0), square(1.5, 1.5, 1.0))[..], [RingFault::OnAnArea { .. }, ..]));
+        assert!(matches!(pair(square(1.0, 1.0, 2.0), square(1.5, 1.5, 0.5))[..], [RingFault::OnAnArea { .. }, ..]));
+        assert!(matches!(pair(square(1.0, 1.0, 1.0), square(2.0, 1.0, 1.0))[..], [RingFault::OnALine { .. }, ..]));
+        assert_eq!(pair(square(1.0, 1.0, 1.0), square(2.5, 1.0, 1.0)), []);
+    }
+
+    #[test]
+    fn the_verdict_is_that_of_crate_geo_for_random_polygons() {
+        use geo::algorithm::Validation;
+        let random = |k: usize| (0.5 + 0.5 * (12.9898 * (k as f64 + 1.0)).sin() * 43758.5453).rem_euclid(1.0);
+        let (mut sound, mut faulty) = (0, 0);
+        for trial in 0..2000 {
+            let outline = |n: usize, seed: usize, center: Vec2, size: f64| -> Vec<[f64; 2]> {
+                let at = |k: usize| {
+                    let t = std::f64::consts::TAU * (k as f64 + 1.4 * random(seed + k)) / n as f64;
+                    (center + size * (0.3 + 0.7 * random(seed + 50 + k)) * Vec2::new(t.cos(), t.sin())).into()
+                };
+                (0..n).map(at).collect()
+            };
+            let place = |seed: usize| Vec2::new(random(seed) - 0.5, random(seed + 1) - 0.5);
+            let outer = outline(8, 1000 * trial, Vec2::zeros(), 1.0);
+            let holes = [1, 2].map(|h| outline(4, 1000 * trial + 200 * h, place(1000 * trial + 300 * h) * 0.6, 0.25));
+            let line_string = |points: &[[f64; 2]]| geo::LineString::from(points.to_vec());
+            let polygon = geo::Polygon::new(line_string(&outer), holes.iter().map(|h| line_string(h)).collect());
+            let bulged = |points: &[[f64; 2]]| ring(&points.iter().map(|p| [p[0], p[1], 0.0]).collect::<Vec<_>>());
+            let rings: Vec<Vec<Curve>> = std::iter::once(&outer).chain(&holes).map(|r| bulged(r)).collect();
+            let is_sound = faults(&rings).is_empty();
+            assert_eq!(is_sound, polygon.is_valid(), "{trial} {:?}", faults(&rings));
+            if is_sound { sound += 1 } else { faulty += 1 }
+        }
+        assert!(sound > 100 && faulty > 100, "{sound} {faulty}");
+    }
+}
