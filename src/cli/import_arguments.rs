@@ -15,8 +15,8 @@ pub struct ImportArguments {
     #[arg(long, value_name = "M")]
     pub scale: Option<f64>,
     /// Corners of the domain in m: shapes outside of it are left out
-    #[arg(long, value_name = "X0,Y0,X1,Y1", value_delimiter = ',', num_args = 4, allow_hyphen_values = true)]
-    pub window: Option<Vec<f64>>,
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = numbers::<f64, 4>, allow_hyphen_values = true)]
+    pub window: Option<[f64; 4]>,
     /// Layers that are read; all where there is none
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub layers: Option<Vec<String>>,
@@ -36,8 +36,8 @@ pub struct ImportArguments {
     #[arg(long, value_name = "DEG")]
     pub smooth_below_deg: Option<f64>,
     /// Columns of x, y and radius in a list of discs, the first one being 0
-    #[arg(long, value_name = "X,Y,R", value_delimiter = ',', num_args = 3)]
-    pub columns: Option<Vec<usize>>,
+    #[arg(long, value_name = "X,Y,R", value_parser = numbers::<usize, 3>)]
+    pub columns: Option<[usize; 3]>,
     /// The character between the columns of a list of discs
     #[arg(long, value_name = "CHAR")]
     pub separator: Option<char>,
@@ -46,20 +46,36 @@ pub struct ImportArguments {
 impl ImportArguments {
     /// The same as options of the reader.
     pub fn options(&self) -> Options {
-        // The number of values is known to the parser of the command line.
-        let window = self.window.as_deref().and_then(|window| <[f64; 4]>::try_from(window).ok());
         Options {
             unit: self.unit.clone(),
             scale: self.scale,
-            window: window.map(|[x0, y0, x1, y1]| [[x0, y0], [x1, y1]]),
+            window: self.window.map(|[x0, y0, x1, y1]| [[x0, y0], [x1, y1]]),
             layers: self.layers.clone(),
             threshold: self.threshold,
             pixel_size: self.pixel_size,
             invert: self.invert.then_some(true),
             recognize_circles: self.no_circles.then_some(false),
             smooth_below_deg: self.smooth_below_deg,
-            columns: self.columns.as_deref().and_then(|columns| columns.try_into().ok()),
+            columns: self.columns,
             separator: self.separator,
         }
+    }
+}
+
+/// `N` numbers separated by commas.
+fn numbers<T: std::str::FromStr, const N: usize>(text: &str) -> Result<[T; N], String> {
+    let found: Result<Vec<T>, _> = text.split(',').map(|word| word.trim().parse()).collect();
+    let expected = || format!("expected {N} numbers separated by commas");
+    found.map_err(|_| expected())?.try_into().map_err(|_| expected())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_separated_by_commas_and_counted() {
+        assert_eq!(numbers::<f64, 4>("-1e-3, 0,2,3.5"), Ok([-1e-3, 0.0, 2.0, 3.5]));
+        assert!(numbers::<usize, 3>("0,1").is_err() && numbers::<usize, 3>("0,1,x").is_err());
     }
 }

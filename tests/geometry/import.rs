@@ -165,6 +165,46 @@ fn a_window_takes_what_reaches_into_it_and_inverting_changes_solid_and_pore() {
 }
 
 #[test]
+fn a_window_with_open_sides_cuts_grains_and_draws_them_out_beyond() {
+    let case = |window: &str, sides: &str| {
+        let text = format!(
+            "format = 1\ntitle = \"t\"\n[geometry]\nfile = \"p.xyr\"\n{window}\n[sph]\nspacing = 0.02\n[sph.phases]\n\
+             wetting = {{ density = 1.0e3, viscosity = 1.0e-3 }}\n{sides}[time]\nend = 1.0\n"
+        );
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("p.xyr"), "0.2 0.5 0.25\n0.9 0.1 0.3\n3 3 0.1\n").unwrap();
+        let path = folder.path().join("case.toml");
+        std::fs::write(&path, text).unwrap();
+        meniscus::case::load(&path, &meniscus::input::Overrides::default())
+    };
+    let window = "window = [[0.0, 0.0], [1.0, 1.0]]";
+    let open = "[sph.sides]\nleft = \"inlet\"\nright = \"outlet\"\n[sph.sides.open]\nleft = { pressure = 1.0 }\n\
+                right = { pressure = 0.0 }\n";
+    let cut = case(window, open).unwrap();
+    assert!(cut.notes.iter().any(|note| note.contains("shapes (2)")), "{:?}", cut.notes);
+    let whole = case(window, "").unwrap();
+    let [a, b] = [&cut, &whole].map(|loaded| Geometry::new(&loaded.case.geometry).unwrap());
+    assert!((a.porosity().value - b.porosity().value).abs() < 1e-12);
+    // On the side itself the left disc is 0.15 to each side of its center.
+    for (x, expected) in [([-0.3, 0.36], -0.01), ([-0.3, 0.34], 0.01)] {
+        assert!((a.signed_distance(Vec2::from(x)) - expected).abs() < 1e-9, "{x:?}");
+    }
+    assert!(b.signed_distance(Vec2::new(-0.3, 0.5)) > 0.2, "a closed side leaves the disc whole");
+    // A joined side ends the drawing: the cut disc has a face there, and its image does not reach in from the other side.
+    let joined = case(window, "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n").unwrap().case;
+    let g = Geometry::new(&joined.geometry).unwrap().with_periodic([true, false]);
+    assert!((g.porosity().value - b.porosity().value).abs() < 1e-12);
+    for (keys, message) in [
+        ("window = [[0, 0], [1, 1]]\nmin = [0, 0]", "`window` and `min` are both given"),
+        ("unit = \"parsec\"", "there is no unit `parsec`"),
+        ("min = [0, 0]\nmax = [1, 1]", "`window` in place of"),
+    ] {
+        let error = case(keys, "").unwrap_err().render();
+        assert!(error.contains(message), "{error}");
+    }
+}
+
+#[test]
 fn what_cannot_be_read_is_refused_with_place_and_way_out() {
     let m = Options::default();
     let bow = "POLYGON ((0 0, 1 1, 1 0, 0 1, 0 0))";
