@@ -176,7 +176,12 @@ fn read_geometry(
     match loaded {
         Ok(read) => {
             let spec = shapes::with_domain(checker, read.spec, raw)?;
-            Some(Imported { spec, notes: read.notes })
+            let mut notes = read.notes;
+            if raw.min.is_some() || raw.max.is_some() {
+                // The case says the domain itself.
+                notes.retain(|note| !note.starts_with("domain "));
+            }
+            Some(Imported { spec, notes })
         }
         Err(NotRead::Keys(problems)) => {
             for problem in problems {

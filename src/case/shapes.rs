@@ -139,7 +139,8 @@ pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &R
         for problem in spec_problems(&spec) {
             // The shapes were right in their file, so that what is wrong now is the domain.
             let key = if raw.max.is_some() { "geometry.max" } else { "geometry.min" };
-            checker.refuse(key, problem.message, problem.help);
+            let help = format!("{}; `window` in place of `min` and `max` leaves out what lies outside", problem.help);
+            checker.refuse(key, problem.message, help);
         }
     }
     (checker.problems.len() == before).then_some(spec)

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
-use crate::geometry::import::Options;
+use super::import_arguments::ImportArguments;
 
 /// Exit codes, as the help tells them.
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 bug, 2 usage or output folder, 3 bad case or shape file, 4 solver failed, \
@@ -198,66 +198,6 @@ impl PeriodicAxes {
     #[must_use]
     pub fn along(self) -> [bool; 2] {
         [self != Self::Y, self != Self::X]
-    }
-}
-
-/// How a drawing is read: the keys of `[geometry]` beside `file`.
-#[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "How a drawing is read")]
-pub struct ImportArguments {
-    /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px
-    #[arg(long, value_name = "UNIT")]
-    pub unit: Option<String>,
-    /// Length of the drawing unit in m, in place of --unit
-    #[arg(long, value_name = "M")]
-    pub scale: Option<f64>,
-    /// Corners of the domain in m: shapes outside of it are left out
-    #[arg(long, value_name = "X0,Y0,X1,Y1", value_delimiter = ',', num_args = 4, allow_hyphen_values = true)]
-    pub window: Option<Vec<f64>>,
-    /// Layers that are read; all where there is none
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
-    pub layers: Option<Vec<String>>,
-    /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white)
-    #[arg(long, value_name = "GRAY")]
-    pub threshold: Option<f64>,
-    /// Side of a pixel of a mask in m
-    #[arg(long, value_name = "M")]
-    pub pixel_size: Option<f64>,
-    /// What is drawn is the pore, and all else is solid
-    #[arg(long)]
-    pub invert: bool,
-    /// Keep polygons whose vertices lie on a circle
-    #[arg(long)]
-    pub no_circles: bool,
-    /// Vertices that turn by less than this many degrees become arcs; 20 where there is none, 0: none
-    #[arg(long, value_name = "DEG")]
-    pub smooth_below_deg: Option<f64>,
-    /// Columns of x, y and radius in a list of discs, the first one being 0
-    #[arg(long, value_name = "X,Y,R", value_delimiter = ',', num_args = 3)]
-    pub columns: Option<Vec<usize>>,
-    /// The character between the columns of a list of discs
-    #[arg(long, value_name = "CHAR")]
-    pub separator: Option<char>,
-}
-
-impl ImportArguments {
-    /// The same as options of the reader.
-    pub fn options(&self) -> Options {
-        // The number of values is known to the parser of the command line.
-        let window = self.window.as_deref().and_then(|window| <[f64; 4]>::try_from(window).ok());
-        Options {
-            unit: self.unit.clone(),
-            scale: self.scale,
-            window: window.map(|[x0, y0, x1, y1]| [[x0, y0], [x1, y1]]),
-            layers: self.layers.clone(),
-            threshold: self.threshold,
-            pixel_size: self.pixel_size,
-            invert: self.invert.then_some(true),
-            recognize_circles: self.no_circles.then_some(false),
-            smooth_below_deg: self.smooth_below_deg,
-            columns: self.columns.as_deref().and_then(|columns| columns.try_into().ok()),
-            separator: self.separator,
-        }
     }
 }
 

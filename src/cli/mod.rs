@@ -8,6 +8,7 @@ mod check;
 mod entry;
 pub mod exit;
 mod geometry;
+pub mod import_arguments;
 mod interrupt;
 mod list;
 mod network;

@@ -26,7 +26,11 @@ pub fn network(arguments: &NetworkArguments) -> Result<u8, Failure> {
 fn load(arguments: &NetworkArguments) -> Result<Source, Failure> {
     let path = &arguments.file;
     if !source::is_case_file(path) {
-        let geometry = source::geometry_of_file(path, &arguments.import.options())?;
+        let geometry = source::geometry_of_file(
+            path,
+            &arguments.import.options(),
+            arguments.periodic.map(PeriodicAxes::along).unwrap_or_default(),
+        )?;
         return quick(arguments, geometry);
     }
     let overrides = overrides(arguments);

@@ -7,7 +7,7 @@ use super::output::tell;
 use crate::case::checked::{Case, Model};
 use crate::case::{self, Loaded};
 use crate::geometry::Geometry;
-use crate::geometry::import::Options;
+use crate::geometry::import::{self, Beyond, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
 use crate::input::{InputError, Overrides};
@@ -84,8 +84,13 @@ pub fn is_network(case: &Case) -> bool {
 }
 
 /// Loads a shape file.
-pub fn geometry_of_file(path: &Path, options: &Options) -> Result<GeometrySpec, Failure> {
-    let read = case::load_shapes(path, options).map_err(Failure::input)?;
+pub fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> Result<GeometrySpec, Failure> {
+    let mut read = case::load_shapes(path, options).map_err(Failure::input)?;
+    if options.window.is_some() {
+        let [x, y] = periodic;
+        let beyond = |is_joined| if is_joined { Beyond::Nothing } else { Beyond::Whole };
+        import::cut_at_sides(&mut read.spec, [x, x, y, y].map(beyond));
+    }
     read.notes.iter().for_each(tell);
     Ok(read.spec)
 }
@@ -99,18 +104,23 @@ pub fn load_shapes(
 ) -> Result<Shapes, Failure> {
     at("reading and checking the shapes");
     let is_case = is_case_file(path);
+    if is_case && *options != Options::default() {
+        let message = "a case says itself how its drawing is read: set the keys of its [geometry]";
+        return Err(Failure::new(USAGE, &message));
+    }
     let (geometry, spec) = match (is_case, periodic) {
         (true, Some(_)) => {
             let message = "a case says itself which of its sides are periodic: leave out --periodic";
             return Err(Failure::new(USAGE, &message));
         }
         (true, None) => {
-            let case = load(Some(path), &[]).map_err(Failure::input)?.case;
+            let loaded = load(Some(path), &[]).map_err(Failure::input)?;
+            loaded.notes.iter().for_each(tell);
             at("uniting the shapes");
-            (setup::geometry(&case).map_err(|error| Failure::new(BAD_INPUT, &error))?, case.geometry)
+            (setup::geometry(&loaded.case).map_err(|error| Failure::new(BAD_INPUT, &error))?, loaded.case.geometry)
         }
         (false, periodic) => {
-            let spec = geometry_of_file(path, options)?;
+            let spec = geometry_of_file(path, options, periodic.unwrap_or_default())?;
             at("uniting the shapes");
             let geometry = Geometry::new(&spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
             (geometry.with_sides(periodic.unwrap_or_default(), [false; 4]), spec)

@@ -4,6 +4,7 @@ mod corners;
 mod curved;
 mod distance;
 mod files;
+mod import;
 mod masks;
 mod measures;
 mod packs;

@@ -55,12 +55,21 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     if !refusals.is_empty() {
         return Err(Refused::Parts(refusals));
     }
-    let (domain, from) = domain(&shapes, frame, options);
+    if shapes.is_empty() {
+        let found = "no outline that encloses an area".to_owned();
+        let expected = "closed shapes; what was read and not used: ".to_owned() + &notes.unused();
+        return Err(Refused::Parts(vec![Refusal { place: "file".into(), found, expected }]));
+    }
+    let around = bounds_of_points(shapes.iter().flat_map(|placed| corners_of(&placed.shape)));
+    let (domain, from) = domain(around, frame, options);
     notes.domain(domain, from);
     if options.window.is_some() || (frame.is_some() && format.has_page()) {
         let before = shapes.len();
         shapes.retain(|placed| window::reaches(&placed.shape, domain));
         notes.counts.outside = before - shapes.len();
+        if shapes.is_empty() {
+            return Err(Refused::Keys(vec![nothing_within(domain, around)]));
+        }
     }
     notes.counts.shapes(shapes.iter().map(|placed| &placed.shape));
     let (places, shapes): (Vec<_>, Vec<_>) = shapes.into_iter().map(|placed| (placed.place, placed.shape)).unzip();
@@ -121,7 +130,7 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
                 for ring in rings {
                     let (ring, doubled) = ring.scaled(scale).without_doubled(tolerance);
                     counts.doubled += doubled;
-                    if ring.vertices.len() >= 2 && ring.area().abs() > tolerance * ring.bounds().size().max() {
+                    if ring.width() > tolerance {
                         kept.push(ring);
                     } else {
                         counts.without_area += 1;
@@ -244,16 +253,21 @@ pub(crate) fn shape_of(outer: Ring, holes: Vec<Ring>) -> ShapeSpec {
     ShapeSpec::CurvedPolygon(CurvedPolygon { outer: outer.vertices, holes, position, rotation_deg })
 }
 
+/// The problem of a window beside the drawing.
+fn nothing_within(domain: Bounds, around: Bounds) -> Problem {
+    let span = |b: Bounds| format!("({:e}, {:e}) to ({:e}, {:e}) m", b.min.x, b.min.y, b.max.x, b.max.y);
+    let message = format!("no shape reaches into the domain, {}; the shapes span {}", span(domain), span(around));
+    Problem::new("window", message, "move the window, or check `unit` or `scale`")
+}
+
 /// The domain and where it comes from.
-fn domain(shapes: &[Placed], frame: Option<Bounds>, options: &Options) -> (Bounds, &'static str) {
+fn domain(around: Bounds, frame: Option<Bounds>, options: &Options) -> (Bounds, &'static str) {
     if let Some([min, max]) = options.window {
         return (Bounds { min: min.into(), max: max.into() }, "the window");
     }
     if let Some(frame) = frame {
         return (frame, "the domain of the file");
     }
-    let corners = shapes.iter().flat_map(|placed| corners_of(&placed.shape));
-    let around = bounds_of_points(corners);
     (around.grown(MARGIN * around.size().max()), "the box around the shapes with a margin of a tenth")
 }
 

@@ -91,7 +91,7 @@ fn united(rings: &[Ring], rule: FillRule) -> Result<Vec<Region>, String> {
         FillRule::NonZero => bool_ops::FillRule::NonZero,
     };
     let union = all.boolean_op_with_fill_rule(&MultiPolygon::<f64>::new(Vec::new()), OpType::Union, rule);
-    let (area, most) = (union.unsigned_area(), rings.iter().map(|ring| bounding_area(ring)).sum::<f64>());
+    let (area, most) = (union.unsigned_area(), rings.iter().map(bounding_area).sum::<f64>());
     // Integers inside: what they make of coordinates must not be more than there was.
     if !(area.is_finite() && area <= most * (1.0 + 1e-9)) {
         return Err(format!("outlines that cross, whose union comes out with the area {area:e}"));

@@ -1,12 +1,13 @@
 //! Drawings of other programs.
 //!
 //! Each reader turns a file into a [`Drawing`](drawing::Drawing) in the file's own unit; what follows is the same for all: unit
-//! ([`units`]), fills and holes, circles and arcs behind polygons, domain ([`build`]), and cuts at the sides of a window ([`window`]).
+//! ([`units`]), fills and holes, circles and arcs behind polygons, domain ([`build`]), what a [`window`] leaves out, and [`cut`]s at its sides.
 
 pub mod affine;
 pub mod biarc;
 pub(crate) mod build;
 pub mod contour;
+pub mod cut;
 pub mod drawing;
 pub mod dxf;
 pub(crate) mod esri;
@@ -31,6 +32,7 @@ pub mod window;
 pub(crate) mod wkt;
 
 pub use build::Imported;
+pub use cut::{Beyond, cut_at_sides};
 pub use format::Format;
 pub use options::Options;
-pub use window::{Beyond, cut_at_sides, windowed};
+pub use window::windowed;

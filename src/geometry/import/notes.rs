@@ -69,6 +69,15 @@ impl Notes {
         Self { counts: Counts::default(), first, unused, of_reader: drawing.notes.clone(), domain: String::new() }
     }
 
+    /// What was read and is not used.
+    pub fn unused(&self) -> String {
+        let mut unused = self.unused.clone();
+        if self.counts.without_area > 0 {
+            unused.push(format!("rings without area ({})", self.counts.without_area));
+        }
+        if unused.is_empty() { "nothing".into() } else { unused.join(", ") }
+    }
+
     /// Tells the domain, and where it comes from.
     pub fn domain(&mut self, domain: Bounds, from: &str) {
         let size = domain.size();
@@ -94,12 +103,8 @@ impl Notes {
         if counts.outside > 0 {
             line += &format!("; outside of the domain: {}", of(counts.outside, "shape"));
         }
-        let mut unused = self.unused;
-        if counts.without_area > 0 {
-            unused.push(format!("rings without area ({})", counts.without_area));
-        }
-        if !unused.is_empty() {
-            line += &format!("; not used: {}", unused.join(", "));
+        if !self.unused.is_empty() || counts.without_area > 0 {
+            line += &format!("; not used: {}", self.unused());
         }
         let mut lines = self.first;
         lines.push(line);

@@ -1,6 +1,7 @@
 //! Rings as files give them, and what is repaired in them: a small gap where they close, doubled vertices.
 
 use crate::geometry::body::bulged_ring;
+use crate::geometry::curve::cross;
 use crate::geometry::import::drawing::Ring;
 use crate::math::{Bounds, Vec2};
 
@@ -67,6 +68,16 @@ impl Ring {
     pub(crate) fn area(&self) -> f64 {
         let Some(&[x, y, _]) = self.vertices.first() else { return 0.0 };
         bulged_ring(&self.vertices).map(|curve| curve.area_about(Vec2::new(x, y))).sum()
+    }
+
+    /// How far the ring reaches from the line through its first vertex and the one farthest from it; 0 where it encloses nothing.
+    pub(crate) fn width(&self) -> f64 {
+        let Some(&[x, y, _]) = self.vertices.first() else { return 0.0 };
+        let points = bulged_ring(&self.vertices).flat_map(|curve| [curve.point(0.0), curve.point(0.5)]);
+        let from_first: Vec<Vec2> = points.map(|point| point - Vec2::new(x, y)).collect();
+        let farthest = from_first.iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+        let Some(along) = farthest.and_then(|far| far.try_normalize(0.0)) else { return 0.0 };
+        from_first.iter().map(|point| cross(along, *point).abs()).fold(0.0, f64::max)
     }
 
     /// Whether every edge is straight.

@@ -1,0 +1,81 @@
+//! The options that tell how a drawing is read, shared by the commands that read one.
+
+use clap::Args;
+
+use crate::geometry::import::Options;
+
+/// How a drawing is read: the keys of `[geometry]` beside `file`.
+#[derive(Debug, Clone, Default, Args)]
+#[command(next_help_heading = "How a drawing is read")]
+pub struct ImportArguments {
+    /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px
+    #[arg(long, value_name = "UNIT")]
+    pub unit: Option<String>,
+    /// Length of the drawing unit in m, in place of --unit
+    #[arg(long, value_name = "M")]
+    pub scale: Option<f64>,
+    /// Corners of the domain in m: shapes outside of it are left out
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = numbers::<f64, 4>, allow_hyphen_values = true)]
+    pub window: Option<[f64; 4]>,
+    /// Layers that are read; all where there is none
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    pub layers: Option<Vec<String>>,
+    /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white)
+    #[arg(long, value_name = "GRAY")]
+    pub threshold: Option<f64>,
+    /// Side of a pixel of a mask in m
+    #[arg(long, value_name = "M")]
+    pub pixel_size: Option<f64>,
+    /// What is drawn is the pore, and all else is solid
+    #[arg(long)]
+    pub invert: bool,
+    /// Keep polygons whose vertices lie on a circle
+    #[arg(long)]
+    pub no_circles: bool,
+    /// Vertices that turn by less than this many degrees become arcs; 20 where there is none, 0: none
+    #[arg(long, value_name = "DEG")]
+    pub smooth_below_deg: Option<f64>,
+    /// Columns of x, y and radius in a list of discs, the first one being 0
+    #[arg(long, value_name = "X,Y,R", value_parser = numbers::<usize, 3>)]
+    pub columns: Option<[usize; 3]>,
+    /// The character between the columns of a list of discs
+    #[arg(long, value_name = "CHAR")]
+    pub separator: Option<char>,
+}
+
+impl ImportArguments {
+    /// The same as options of the reader.
+    pub fn options(&self) -> Options {
+        Options {
+            unit: self.unit.clone(),
+            scale: self.scale,
+            window: self.window.map(|[x0, y0, x1, y1]| [[x0, y0], [x1, y1]]),
+            layers: self.layers.clone(),
+            threshold: self.threshold,
+            pixel_size: self.pixel_size,
+            invert: self.invert.then_some(true),
+            recognize_circles: self.no_circles.then_some(false),
+            smooth_below_deg: self.smooth_below_deg,
+            columns: self.columns,
+            separator: self.separator,
+        }
+    }
+}
+
+/// `N` numbers separated by commas.
+fn numbers<T: std::str::FromStr, const N: usize>(text: &str) -> Result<[T; N], String> {
+    let found: Result<Vec<T>, _> = text.split(',').map(|word| word.trim().parse()).collect();
+    let expected = || format!("expected {N} numbers separated by commas");
+    found.map_err(|_| expected())?.try_into().map_err(|_| expected())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_separated_by_commas_and_counted() {
+        assert_eq!(numbers::<f64, 4>("-1e-3, 0,2,3.5"), Ok([-1e-3, 0.0, 2.0, 3.5]));
+        assert!(numbers::<usize, 3>("0,1").is_err() && numbers::<usize, 3>("0,1,x").is_err());
+    }
+}

@@ -1,0 +1,380 @@
+//! Shapes cut at the sides of a window by true geometry.
+//!
+//! What lies beyond a side that is a wall is never seen, so that shapes stay whole there. Beyond an open side walls go on straight, as the
+//! solvers want it: the shape is cut along the side and its section drawn out. At a periodic side the drawing ends, and its
+//! part in the window is what is repeated. Arcs stay arcs.
+
+use crate::geometry::body::{Body, bulged_ring};
+use crate::geometry::curve::Curve;
+use crate::geometry::import::build::shape_of;
+use crate::geometry::import::drawing::{FillRule, Ring};
+use crate::geometry::import::fill::regions;
+use crate::geometry::import::window::ON_SIDE;
+use crate::geometry::spec::GeometrySpec;
+use crate::math::{Bounds, Vec2};
+
+/// What becomes of shapes beyond a side of the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Beyond {
+    /// They stay as they are: a wall hides them, or nothing is beyond.
+    #[default]
+    Whole,
+    /// They go on straight: an open side.
+    Straight,
+    /// They end: a periodic side.
+    Nothing,
+}
+
+/// Where a curve crosses the line on which coordinate `axis` is `at`: parameters from 0 to 1.
+pub(crate) fn crossings(curve: &Curve, axis: usize, at: f64) -> Vec<f64> {
+    match *curve {
+        Curve::Segment { a, b } => {
+            let u = (at - a[axis]) / (b[axis] - a[axis]);
+            if 0.0 < u && u < 1.0 { vec![u] } else { Vec::new() }
+        }
+        Curve::Arc { center, radius, start, sweep } => {
+            let height = (at - center[axis]) / radius;
+            if !(height.abs() < 1.0) {
+                return Vec::new();
+            }
+            // The line is met at two angles about the axis.
+            let middle = if axis == 0 { 0.0 } else { std::f64::consts::FRAC_PI_2 };
+            let mut found: Vec<f64> = [middle - height.acos(), middle + height.acos()]
+                .into_iter()
+                .map(|angle| ((angle - start) * sweep.signum()).rem_euclid(std::f64::consts::TAU) / sweep.abs())
+                .filter(|u| 0.0 < *u && *u < 1.0)
+                .collect();
+            found.sort_by(f64::total_cmp);
+            found
+        }
+    }
+}
+
+/// Cuts the shapes at the sides of the domain: left, right, bottom, top. Returns how many were cut, and how many could not be.
+pub fn cut_at_sides(spec: &mut GeometrySpec, beyond: [Beyond; 4]) -> (usize, usize) {
+    let domain = Bounds { min: Vec2::from(spec.min), max: Vec2::from(spec.max) };
+    let (mut shapes, mut done, mut failed) = (Vec::with_capacity(spec.shapes.len()), 0, 0);
+    for shape in spec.shapes.drain(..) {
+        let bodies = Body::of(&shape, 0, domain);
+        if beyond == [Beyond::Whole; 4] || !bodies.iter().any(|body| is_cut(body, domain, beyond)) {
+            shapes.push(shape);
+            continue;
+        }
+        let parts: Option<Vec<Vec<Ring>>> = bodies.iter().map(|body| rings_of(body, domain, beyond)).collect();
+        match parts {
+            Some(parts) => {
+                done += 1;
+                let cut = parts.iter().flat_map(|rings| regions(rings, FillRule::EvenOdd));
+                shapes.extend(cut.map(|(outer, holes)| shape_of(outer, holes)));
+            }
+            None => {
+                failed += 1;
+                shapes.push(shape);
+            }
+        }
+    }
+    spec.shapes = shapes;
+    (done, failed)
+}
+
+/// Whether a body crosses or touches a side at which it is to be cut. Walls without end go on by themselves.
+fn is_cut(body: &Body, domain: Bounds, beyond: [Beyond; 4]) -> bool {
+    let near = ON_SIDE * domain.size().max();
+    let b = body.bounds;
+    let crosses = [
+        b.min.x <= domain.min.x + near,
+        b.max.x >= domain.max.x - near,
+        b.min.y <= domain.min.y + near,
+        b.max.y >= domain.max.y - near,
+    ];
+    !body.is_endless() && (0..4).any(|side| beyond[side] != Beyond::Whole && crosses[side])
+}
+
+/// The rings of a body, cut at all sides; nothing where they do not close.
+fn rings_of(body: &Body, domain: Bounds, beyond: [Beyond; 4]) -> Option<Vec<Ring>> {
+    let mut rings = loops(&body.curves)?;
+    for (side, what) in beyond.into_iter().enumerate().filter(|(_, what)| *what != Beyond::Whole) {
+        let (axis, is_upper) = (side / 2, side % 2 == 1);
+        let at = if is_upper { domain.max[axis] } else { domain.min[axis] };
+        let length = domain.size().max();
+        let far = (what == Beyond::Straight).then_some(if is_upper { at + length } else { at - length });
+        rings = Line { axis, at, is_upper, far, near: ON_SIDE * length }.cut(&rings)?;
+    }
+    Some(rings)
+}
+
+/// The closed rings of curves that follow each other.
+fn loops(curves: &[Curve]) -> Option<Vec<Ring>> {
+    let (mut rings, mut open) = (Vec::new(), Ring::default());
+    let mut first: Option<Vec2> = None;
+    for curve in curves {
+        // Arcs above a half circle are halved: their bulge would lose digits.
+        let parts = match curve {
+            Curve::Arc { sweep, .. } if sweep.abs() > std::f64::consts::PI => 2,
+            _ => 1,
+        };
+        for k in 0..parts {
+            let part = curve.part(f64::from(k) / f64::from(parts), f64::from(k + 1) / f64::from(parts));
+            let bulge = match part {
+                Curve::Segment { .. } => 0.0,
+                Curve::Arc { sweep, .. } => (0.25 * sweep).tan(),
+            };
+            let a = part.point(0.0);
+            open.vertices.push([a.x, a.y, bulge]);
+        }
+        let begin = *first.get_or_insert(curve.point(0.0));
+        let size = 1e-9 * (curve.bounds().size().max() + (begin - curve.point(1.0)).norm()).max(begin.norm());
+        if curve.is_closed() || (curve.point(1.0) - begin).norm() <= size {
+            rings.push(std::mem::take(&mut open));
+            first = None;
+        }
+    }
+    open.vertices.is_empty().then_some(rings)
+}
+
+/// A side along which rings are cut.
+struct Line {
+    axis: usize,
+    at: f64,
+    is_upper: bool,
+    /// Where the section is drawn out to.
+    far: Option<f64>,
+    near: f64,
+}
+
+/// Edges of a ring within the window, from the side to the side.
+struct Run {
+    vertices: Vec<[f64; 3]>,
+    end: Vec2,
+}
+
+impl Line {
+    fn cut(&self, rings: &[Ring]) -> Option<Vec<Ring>> {
+        let (mut whole, mut runs) = (Vec::new(), Vec::new());
+        for ring in rings {
+            self.runs(ring, &mut whole, &mut runs);
+        }
+        let next = self.followers(&runs)?;
+        let mut used = vec![false; runs.len()];
+        for first in 0..runs.len() {
+            let (mut ring, mut i) = (Ring::default(), first);
+            while !used[i] {
+                used[i] = true;
+                ring.vertices.extend(&runs[i].vertices);
+                let (from, to) = (runs[i].end, self.start(&runs[next[i]]));
+                ring.vertices.push([from.x, from.y, 0.0]);
+                if let Some(far) = self.far {
+                    for mut corner in [from, to] {
+                        corner[self.axis] = far;
+                        ring.vertices.push([corner.x, corner.y, 0.0]);
+                    }
+                }
+                i = next[i];
+            }
+            if !ring.vertices.is_empty() {
+                whole.push(ring.without_doubled(self.near).0);
+            }
+        }
+        Some(whole)
+    }
+
+    fn is_inside(&self, x: Vec2) -> bool {
+        if self.is_upper { x[self.axis] < self.at } else { x[self.axis] > self.at }
+    }
+
+    /// The point on the side where it is as good as there.
+    fn snapped(&self, mut x: Vec2) -> Vec2 {
+        if (x[self.axis] - self.at).abs() <= self.near {
+            x[self.axis] = self.at;
+        }
+        x
+    }
+
+    fn runs(&self, ring: &Ring, whole: &mut Vec<Ring>, runs: &mut Vec<Run>) {
+        let n = ring.vertices.len();
+        let mut pieces: Vec<(Vec2, f64, bool)> = Vec::with_capacity(n);
+        let corners: Vec<[f64; 3]> = ring
+            .vertices
+            .iter()
+            .map(|&[x, y, bulge]| {
+                let p = self.snapped(Vec2::new(x, y));
+                [p.x, p.y, bulge]
+            })
+            .collect();
+        for (curve, &[x, y, bulge]) in bulged_ring(&corners).zip(&corners) {
+            let mut places = vec![0.0];
+            let end = self.near / curve.length();
+            places.extend(crossings(&curve, self.axis, self.at).into_iter().filter(|u| end < *u && *u < 1.0 - end));
+            places.push(1.0);
+            for (k, pair) in places.windows(2).enumerate() {
+                let mut from = if k == 0 { Vec2::new(x, y) } else { curve.point(pair[0]) };
+                if k > 0 {
+                    from[self.axis] = self.at;
+                }
+                let part = if bulge == 0.0 { 0.0 } else { (bulge.atan() * (pair[1] - pair[0])).tan() };
+                pieces.push((from, part, self.is_inside(curve.point(0.5 * (pair[0] + pair[1])))));
+            }
+        }
+        let count = pieces.len();
+        let Some(begin) = (0..count).find(|&i| pieces[i].2 && !pieces[(i + count - 1) % count].2) else {
+            if pieces.iter().any(|piece| piece.2) {
+                whole.push(ring.clone());
+            }
+            return;
+        };
+        let mut open: Option<Run> = None;
+        for k in 0..=count {
+            let (from, bulge, is_inside) = pieces[(begin + k) % count];
+            match &mut open {
+                Some(run) if is_inside && k < count => run.vertices.push([from.x, from.y, bulge]),
+                Some(_) => {
+                    if let Some(mut run) = open.take() {
+                        run.end = from;
+                        runs.push(run);
+                    }
+                }
+                None if is_inside && k < count => {
+                    open = Some(Run { vertices: vec![[from.x, from.y, bulge]], end: from });
+                }
+                None => {}
+            }
+        }
+    }
+
+    fn start(&self, run: &Run) -> Vec2 {
+        run.vertices.first().map_or(run.end, |v| Vec2::new(v[0], v[1]))
+    }
+
+    /// The run that follows each one around a solid section of the side; nothing where ends do not pair.
+    fn followers(&self, runs: &[Run]) -> Option<Vec<usize>> {
+        let along = 1 - self.axis;
+        // The solid is on the left of a run that leaves the window, so that its section opens upwards on the right and the bottom side.
+        let end_is_lower = self.is_upper == (self.axis == 0);
+        let mut places: Vec<(f64, bool, usize)> = Vec::with_capacity(2 * runs.len());
+        for (i, run) in runs.iter().enumerate() {
+            places.push((self.start(run)[along], false, i));
+            places.push((run.end[along], true, i));
+        }
+        places.sort_by(|a, b| {
+            a.0.total_cmp(&b.0).then((a.1 != end_is_lower).cmp(&(b.1 != end_is_lower))).then(a.2.cmp(&b.2))
+        });
+        let mut next = vec![usize::MAX; runs.len()];
+        for pair in places.chunks(2) {
+            let [low, high] = pair else { return None };
+            let (end, start) = if end_is_lower { (low, high) } else { (high, low) };
+            if !end.1 || start.1 {
+                return None;
+            }
+            next[end.2] = start.2;
+        }
+        next.iter().all(|&i| i != usize::MAX).then_some(next)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Geometry;
+    use crate::geometry::spec::{CurvedPolygon, Disc, ShapeSpec, SolidSide};
+
+    fn spec(shapes: Vec<ShapeSpec>) -> GeometrySpec {
+        GeometrySpec { min: [0.0, 0.0], max: [4.0, 3.0], solid: SolidSide::Inside, shapes }
+    }
+
+    fn disc(x: f64, y: f64, radius: f64) -> ShapeSpec {
+        ShapeSpec::Disc(Disc { center: [x, y], radius })
+    }
+
+    fn straight(sides: [bool; 4]) -> [Beyond; 4] {
+        sides.map(|is_open| if is_open { Beyond::Straight } else { Beyond::Whole })
+    }
+
+    #[test]
+    fn a_disc_that_crosses_an_open_side_goes_on_straight_and_is_the_same_within() {
+        for (center, side, out) in [
+            ([3.8, 1.2], 1, Vec2::x()),
+            ([0.3, 1.7], 0, -Vec2::x()),
+            ([2.2, 2.6], 3, Vec2::y()),
+            ([1.9, 0.1], 2, -Vec2::y()),
+        ] {
+            let whole = spec(vec![disc(center[0], center[1], 0.7)]);
+            let mut cut_spec = whole.clone();
+            let mut sides = [false; 4];
+            sides[side] = true;
+            assert_eq!(cut_at_sides(&mut cut_spec, straight(sides)), (1, 0));
+            let (a, b) = (Geometry::unchecked(&whole), Geometry::unchecked(&cut_spec));
+            assert!((a.porosity().value - b.porosity().value).abs() < 1e-12, "side {side}");
+            let domain = a.bounds();
+            for k in 0..200 {
+                let share = (f64::from(k) + 0.5) / 200.0;
+                let mut x = domain.min + domain.size() * share;
+                let axis = side / 2;
+                x[axis] = if side % 2 == 1 { domain.max[axis] } else { domain.min[axis] };
+                let inside = a.signed_distance(x - 1e-6 * out) > 0.0;
+                for beyond in [1e-6, 0.3, 1.0] {
+                    assert_eq!(b.signed_distance(x + beyond * out) > 0.0, inside, "side {side}, {x:?}, {beyond}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_disc_at_a_corner_of_two_open_sides_goes_on_beyond_both() {
+        let mut cut_spec = spec(vec![disc(4.0, 3.0, 1.0)]);
+        cut_at_sides(&mut cut_spec, straight([false, true, false, true]));
+        let g = Geometry::unchecked(&cut_spec);
+        for (x, is_pore) in [([5.0, 2.5], false), ([5.0, 1.5], true), ([3.5, 4.0], false), ([2.5, 4.0], true)] {
+            assert_eq!(g.signed_distance(Vec2::from(x)) > 0.0, is_pore, "{x:?}");
+        }
+    }
+
+    #[test]
+    fn a_comb_is_cut_into_its_teeth_and_a_ring_into_two_walls() {
+        let comb = vec![
+            [1.0, 0.5, 0.0],
+            [6.0, 0.5, 0.0],
+            [6.0, 2.5, 0.0],
+            [1.0, 2.5, 0.0],
+            [1.0, 2.0, 0.0],
+            [5.0, 2.0, 0.0],
+            [5.0, 1.0, 0.0],
+            [1.0, 1.0, 0.0],
+        ];
+        let comb = ShapeSpec::CurvedPolygon(CurvedPolygon {
+            outer: comb,
+            holes: vec![],
+            position: [0.0; 2],
+            rotation_deg: 0.0,
+        });
+        let mut teeth = spec(vec![comb]);
+        cut_at_sides(&mut teeth, [Beyond::Whole, Beyond::Nothing, Beyond::Whole, Beyond::Whole]);
+        assert_eq!(teeth.shapes.len(), 2);
+        let ring = CurvedPolygon {
+            outer: vec![[2.5, 1.5, 1.0], [4.5, 1.5, 1.0]],
+            holes: vec![vec![[3.0, 1.5, -1.0], [4.0, 1.5, -1.0]]],
+            position: [0.0; 2],
+            rotation_deg: 0.0,
+        };
+        let mut walls = spec(vec![ShapeSpec::CurvedPolygon(ring)]);
+        let before = Geometry::unchecked(&walls).porosity().value;
+        cut_at_sides(&mut walls, straight([false, true, false, false]));
+        let g = Geometry::unchecked(&walls);
+        assert!((g.porosity().value - before).abs() < 1e-12);
+        assert!(g.signed_distance(Vec2::new(4.5, 1.5)) < 0.0 && g.signed_distance(Vec2::new(3.5, 1.5)) > 0.0);
+    }
+
+    #[test]
+    fn a_shape_that_ends_on_the_side_goes_on_and_one_whole_within_is_left_alone() {
+        let block = vec![[3.0, 1.0, 0.0], [4.0, 1.0, 0.0], [4.0, 2.0, 0.0], [3.0, 2.0, 0.0]];
+        let block = ShapeSpec::CurvedPolygon(CurvedPolygon {
+            outer: block,
+            holes: vec![],
+            position: [0.0; 2],
+            rotation_deg: 0.0,
+        });
+        let mut cut_spec = spec(vec![block, disc(1.0, 1.0, 0.5)]);
+        assert_eq!(cut_at_sides(&mut cut_spec, straight([true; 4])), (1, 0));
+        assert_eq!(cut_spec.shapes[1], disc(1.0, 1.0, 0.5));
+        assert!(Geometry::unchecked(&cut_spec).signed_distance(Vec2::new(4.5, 1.5)) < -0.4);
+    }
+}
