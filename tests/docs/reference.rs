@@ -120,15 +120,17 @@ fn the_defaults_of_the_reference_are_those_of_the_program() {
         let table: toml::Table = resolved.parse().unwrap();
         for row in rows.iter().filter(|row| row.len() == 5) {
             let path = code(&row[0]).remove(0);
-            let (Some(last), false) =
-                (path.rsplit('.').next(), path.starts_with("sph.phases") || path.starts_with("thin-film.fluid"))
-            else {
+            let (Some(last), false) = (
+                path.rsplit('.').next(),
+                ["sph.phases", "network.phases", "thin-film.fluid"].iter().any(|fluid| path.starts_with(fluid)),
+            ) else {
                 continue;
             };
             let value =
                 path.split('.').try_fold(toml::Value::Table(table.clone()), |value, key| value.get(key).cloned());
             let Some(number) = value.and_then(|value| value.as_float()) else { continue };
-            let follows_the_case = path.ends_with("every-time") || path.ends_with("every-pore-volume") || row[2].contains("one spacing");
+            let follows_the_case =
+                path.ends_with("every-time") || path.ends_with("every-pore-volume") || row[2].contains("one spacing");
             if given.contains(&format!("\n{last} = ")) || follows_the_case || row[2].starts_with("required") {
                 continue;
             }
@@ -237,16 +239,16 @@ fn every_column_of_the_tables_of_a_network_is_described() {
 fn every_file_of_a_network_is_described() {
     let solver = solver(NETWORK);
     let results = solver.results();
-    let told: BTreeSet<String> = section(&page("docs/reference/output.md"), "Files of networks")
-        .iter()
-        .flat_map(|row| code(&row[0]))
-        .collect();
+    let told: BTreeSet<String> =
+        section(&page("docs/reference/output.md"), "Files of networks").iter().flat_map(|row| code(&row[0])).collect();
     let tables = results.tables.iter().map(|table| format!("{}.csv", table.name));
     let layers = results.layers.iter().map(|layer| format!("{}.vtp", layer.name));
     let regions = solver.layers().into_iter().map(|layer| format!("{}.pvd", layer.name));
     let diagrams = solver.diagrams().into_iter().map(|diagram| format!("diagram-{}.svg", diagram.name));
     let documents = results.documents.iter().map(|document| document.name.to_owned());
-    for name in tables.chain(layers).chain(regions.collect::<Vec<_>>()).chain(diagrams.collect::<Vec<_>>()).chain(documents) {
+    for name in
+        tables.chain(layers).chain(regions.collect::<Vec<_>>()).chain(diagrams.collect::<Vec<_>>()).chain(documents)
+    {
         assert!(told.contains(&name), "{name} is missing");
     }
 }
