@@ -120,9 +120,10 @@ fn the_defaults_of_the_reference_are_those_of_the_program() {
         let table: toml::Table = resolved.parse().unwrap();
         for row in rows.iter().filter(|row| row.len() == 5) {
             let path = code(&row[0]).remove(0);
-            let (Some(last), false) =
-                (path.rsplit('.').next(), path.starts_with("sph.phases") || path.starts_with("thin-film.fluid"))
-            else {
+            let (Some(last), false) = (
+                path.rsplit('.').next(),
+                ["sph.phases", "network.phases", "thin-film.fluid"].iter().any(|fluid| path.starts_with(fluid)),
+            ) else {
                 continue;
             };
             let value =
