@@ -26,7 +26,7 @@ fn discs(side: usize, radius: f64) -> Vec<ShapeSpec> {
 /// boxes can help.)
 fn gear(teeth: usize, x: f64) -> Vec<[f64; 2]> {
     let depth = TAU / teeth as f64;
-    let at = |k: usize| (TAU * k as f64 / teeth as f64, if k % 2 == 0 { 1.0 - depth } else { 1.0 });
+    let at = |k: usize| (TAU * k as f64 / teeth as f64, if k.is_multiple_of(2) { 1.0 - depth } else { 1.0 });
     (0..teeth).map(at).map(|(angle, radius)| [x + radius * angle.cos(), radius * angle.sin()]).collect()
 }
 
@@ -77,7 +77,7 @@ fn ends_on_one_line_cost_the_same_each() {
     // A comb: half of its ends have the same x.
     assert_grows_slowly("comb", |share| {
         let teeth = 500 * share;
-        let at = |k: usize| [if k % 2 == 0 { 0.2 } else { 0.4 }, (k / 2) as f64 / teeth as f64];
+        let at = |k: usize| [if k.is_multiple_of(2) { 0.2 } else { 0.4 }, (k / 2) as f64 / teeth as f64];
         let mut ring: Vec<[f64; 2]> = (0..2 * teeth).map(at).collect();
         ring.extend([[0.2, 1.0], [0.0, 1.0], [0.0, 0.0]]);
         ring.reverse();

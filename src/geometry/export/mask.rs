@@ -119,10 +119,10 @@ fn span(x0: f64, x1: f64, rise: f64, line: &mut [f64]) {
         }
     };
     let (mut before, mut done) = (0.0, 0.0);
-    for column in first..=(end + 1).min(last) {
+    for (column, pixel) in line.iter_mut().enumerate().take((end + 1).min(last) + 1).skip(first) {
         let to = covered(column as f64 + 1.0);
         let area = to - before;
-        line[column] += area - done;
+        *pixel += area - done;
         (before, done) = (to, area);
     }
 }

@@ -118,6 +118,9 @@ struct Candidate {
     partner: Option<((usize, usize), Hand)>,
 }
 
+/// What is added to a wall beside a crossing of a loop so that it meets it.
+type SeamOf = fn(&Loop, usize) -> Vec2;
+
 /// The next meniscus along a wall.
 struct Neighbor {
     front: (usize, usize),
@@ -297,10 +300,10 @@ impl Displacement {
         let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
         let mut kind = EventKind::Burst;
         let mut own = burst;
-        if self.conditions.events == Events::All {
-            if let Some(touch) = passage.touch(&obstacles, burst) {
-                (kind, own) = (EventKind::Touch, touch);
-            }
+        if self.conditions.events == Events::All
+            && let Some(touch) = passage.touch(&obstacles, burst)
+        {
+            (kind, own) = (EventKind::Touch, touch);
         }
         self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None });
         if self.conditions.events == Events::All {
@@ -334,13 +337,13 @@ impl Displacement {
         let mut wall = if hand == Hand::Left { next(index, slot) } else { slot };
         let mut found =
             Neighbor { front: (gate, to), shared: 0.0, offset: Vec2::zeros(), passed: vec![mesh.element_of[index]] };
-        let (before_crossing, after_crossing): (fn(&Loop, usize) -> Vec2, fn(&Loop, usize) -> Vec2) =
+        let (to_crossing, from_crossing): (SeamOf, SeamOf) =
             if hand == Hand::Left {
                 (Loop::wall_before, Loop::wall_after)
             } else {
                 (Loop::wall_after, Loop::wall_before)
             };
-        found.offset += after_crossing(&mesh.loops[index], slot);
+        found.offset += from_crossing(&mesh.loops[index], slot);
         // A wall has no more stretches than there are loops.
         for _ in 0..mesh.loops.len() {
             found.shared += mesh.loops[index].walls[wall].iter().map(|piece| piece.curve.length()).sum::<f64>();
@@ -349,7 +352,7 @@ impl Displacement {
             if front == (gate, to) {
                 return None;
             }
-            found.offset -= before_crossing(&mesh.loops[index], crossing);
+            found.offset -= to_crossing(&mesh.loops[index], crossing);
             if self.fronts[front.0][front.1].is_some() {
                 return Some(Neighbor { front, ..found });
             }
@@ -358,7 +361,7 @@ impl Displacement {
             if self.invaded[element] || self.trapped[element] {
                 return None;
             }
-            found.offset += after_crossing(&mesh.loops[beyond], twin) - shift;
+            found.offset += from_crossing(&mesh.loops[beyond], twin) - shift;
             found.passed.push(element);
             index = beyond;
             wall = if hand == Hand::Left { next(index, twin) } else { twin };
