@@ -1,5 +1,6 @@
 //! How long it takes to extract a network: random packs of discs, and a ring of many vertices.
 
+#[allow(dead_code, reason = "the tests use more of it")]
 #[path = "../tests/support/packs.rs"]
 mod packs;
 

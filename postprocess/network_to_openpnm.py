@@ -117,14 +117,20 @@ def measure(path: str | Path) -> dict:
 
 def drain_at(openpnm, network, ours: dict) -> dict:
     """Drainage at all pressures of our run and all entry pressures, so that neither is rounded to the other."""
-    own = ours["invasion_capillary_pressure_Pa"]
+    own = invasion_pressures(ours)
     pressures = np.unique(np.concatenate([own[np.isfinite(own)], network["throat.entry_pressure"]]))
     return drain(openpnm, network, pressures)
 
 
+def invasion_pressures(ours: dict) -> np.ndarray:
+    """Pressure in Pa at which each pore is invaded; 0 where it is open at the inlet and filled from the start, NaN where it stays."""
+    own = ours["invasion_capillary_pressure_Pa"]
+    return np.where(~np.isfinite(own) & (ours["sequence"] == 0), 0.0, own)
+
+
 def compare(theirs: dict, ours: dict, count: int) -> dict:
     """Pressures and orders of invasion side by side, boundary pores left out."""
-    own, other = ours["invasion_capillary_pressure_Pa"], theirs["pressure"][:count].copy()
+    own, other = invasion_pressures(ours), theirs["pressure"][:count].copy()
     other[~np.isfinite(other)] = np.nan
     area = ours["area_m2"]
     # Below what is applied at the end both programs are asked the same question.

@@ -385,7 +385,6 @@ fn entry_curvatures_are_those_of_arcs_shot_from_wall_to_wall() {
 }
 
 #[test]
-#[ignore = "a side of the box ends at the next gate, a disc does not: `extended` in network/displacement/walls.rs"]
 fn entry_curvatures_at_sides_are_those_of_arcs_shot_from_wall_to_wall() {
     let worst = entries_off(|meets_a_side, angle| meets_a_side && angle > 90.0);
     assert!(worst < 1e-9, "{worst:e}");

@@ -99,7 +99,6 @@ fn a_fresh_network_keeps_the_contract_and_has_the_permeability_of_openpnm() {
 }
 
 #[test]
-#[ignore = "pores.csv leaves the pressure of pores empty that the inlet fills from the start; network_to_openpnm.py takes them for not invaded"]
 fn a_fresh_drainage_by_bursts_is_the_invasion_of_openpnm() {
     let printed = compared("network_to_openpnm.py", folder_with_drainage().path());
     let same = printed.lines().find_map(|line| line.strip_prefix("same invaded pores"));

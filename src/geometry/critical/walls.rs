@@ -94,7 +94,11 @@ impl Walls {
     pub fn new(geometry: &Geometry, sides: Sides) -> Self {
         let (domain, periodic, tolerance) = (geometry.bounds(), geometry.periodic(), geometry.tolerance());
         let reach = if sides == Sides::Cut { 0.0 } else { domain.size().norm() };
-        let frame = domain.grown(reach);
+        let mut frame = domain.grown(reach);
+        for i in (0..2).filter(|&i| periodic[i]) {
+            // What goes on along a periodic axis is its own image.
+            (frame.min[i], frame.max[i]) = (domain.min[i], domain.max[i]);
+        }
         let mut pieces = Vec::new();
         for (k, piece) in geometry.boundary.pieces.iter().enumerate() {
             // A circle that another wall touches begins there, and has ends.

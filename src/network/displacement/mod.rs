@@ -337,12 +337,11 @@ impl Displacement {
         let mut wall = if hand == Hand::Left { next(index, slot) } else { slot };
         let mut found =
             Neighbor { front: (gate, to), shared: 0.0, offset: Vec2::zeros(), passed: vec![mesh.element_of[index]] };
-        let (to_crossing, from_crossing): (SeamOf, SeamOf) =
-            if hand == Hand::Left {
-                (Loop::wall_before, Loop::wall_after)
-            } else {
-                (Loop::wall_after, Loop::wall_before)
-            };
+        let (to_crossing, from_crossing): (SeamOf, SeamOf) = if hand == Hand::Left {
+            (Loop::wall_before, Loop::wall_after)
+        } else {
+            (Loop::wall_after, Loop::wall_before)
+        };
         found.offset += from_crossing(&mesh.loops[index], slot);
         // A wall has no more stretches than there are loops.
         for _ in 0..mesh.loops.len() {
