@@ -240,7 +240,7 @@ fn drainage(spec: &GeometrySpec, trapping: bool) -> (usize, usize, Vec<[f64; 2]>
     let is_filled = |&element: &usize| state.phase(element) == Phase::Invading;
     let mut filled: f64 = (0..areas.len()).filter(is_filled).map(|element| areas[element]).sum();
     let mut curve = vec![[filled / whole, 0.0]];
-    while let Some(event) = state.next() {
+    for event in state.by_ref() {
         filled += event.elements.iter().map(|&element| areas[element]).sum::<f64>();
         curve.push([filled / whole, event.applied]);
     }
