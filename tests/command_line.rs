@@ -33,11 +33,12 @@ fn a_wrong_argument_is_a_usage_error() {
 }
 
 #[test]
-fn commands_that_do_not_exist_yet_say_so() {
+fn a_network_of_no_file_is_bad_input() {
     let folder = tempfile::tempdir().unwrap();
     let output = meniscus(&["network", "shapes.toml", "--out", "x"], folder.path());
-    assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("not yet available"));
+    assert_eq!(output.status.code(), Some(3));
+    assert!(text(&output.stderr).contains("shapes.toml"));
+    assert!(!folder.path().join("x").exists(), "nothing is written before the shapes are known to be good");
 }
 
 #[test]

@@ -200,3 +200,28 @@ fn drainage_and_imbibition_leave_residuals_and_meet_no_contradiction() {
     let k = |outcome: &Outcome| outcome.breakthrough.map(|b| b.0).unwrap();
     assert!(-k(&imbibed) < k(&drained));
 }
+
+#[test]
+fn a_disc_that_faces_its_own_image_bursts_as_two_discs_do() {
+    // One disc a period and two discs in two periods are the same row.
+    let disc = |y: f64| ShapeSpec::Disc(Disc { center: [0.0, y], radius: 0.4 });
+    let row = |height: f64, shapes: Vec<ShapeSpec>| GeometrySpec {
+        min: [-2.0, 0.0],
+        max: [2.0, height],
+        solid: SolidSide::Inside,
+        shapes,
+    };
+    for angle in [20.0, 60.0, 90.0, 140.0] {
+        let [one, two] = [row(1.0, vec![disc(0.3)]), row(2.0, vec![disc(0.3), disc(1.3)])].map(|spec| {
+            let outcome = displaced(&spec, angle, false, Events::BurstOnly);
+            outcome.events.iter().map(|event| event.curvature).fold(f64::NEG_INFINITY, f64::max)
+        });
+        // r = √((L/2)² − R² sin²θ) − R cos θ for equal discs at the distance L.
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let exact = 1.0 / ((0.25 - 0.16 * sin * sin).sqrt() - 0.4 * cos);
+        assert!(
+            (one - exact).abs() < 1e-9 * exact && (two - exact).abs() < 1e-9 * exact,
+            "{angle}: {one} {two} {exact}"
+        );
+    }
+}

@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 
 #[path = "support/program.rs"]
-#[allow(dead_code, reason = "each test binary has its own copy of this module")]
 mod program;
 
 use program::{assert_code, meniscus, report, stderr};

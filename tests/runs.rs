@@ -198,7 +198,8 @@ fn wrong_files_and_keys_are_told_with_their_place_and_a_way_out() {
         (&["run", "drop.tml"], &["there is no file", "drop.tml"]),
         (&["run", "broken.toml"], &["broken.toml:2"]),
         (&["run", "picture.png"], &["picture.png"]),
-        (&["geometry", "drop.toml"], &["drop.toml"]),
+        (&["geometry", "broken.toml"], &["broken.toml:2"]),
+        (&["network", "picture.png"], &["picture.png"]),
     ] {
         let output = meniscus(folder.path(), arguments);
         assert_code(&output, 3);

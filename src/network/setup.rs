@@ -84,6 +84,9 @@ pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupEr
     Ok(assemble(wanted, &geometry, network, pores).timed(extraction))
 }
 
+/// Largest distance of the drawn walls from the walls, over the longer side of the domain: far below what a picture shows.
+const OUTLINE_ERROR: f64 = 1e-5;
+
 /// The solver of a network that is known.
 #[must_use]
 pub fn assemble(wanted: &PoreNetwork, geometry: &Geometry, network: Network, pores: Pores) -> NetworkSolver {
@@ -108,7 +111,7 @@ pub fn assemble(wanted: &PoreNetwork, geometry: &Geometry, network: Network, por
         periodic: geometry.periodic(),
         inlet: kinds(wanted).iter().position(|&side| side == Side::Inlet),
         outlet: kinds(wanted).iter().position(|&side| side == Side::Outlet),
-        outline: geometry.outline(),
+        outline: geometry.outline_within(OUTLINE_ERROR * geometry.bounds().size().max()),
         porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / geometry.bounds().area(),
         tension: wanted.interface.as_ref().map(|interface| interface.tension),
         viscosities: [wanted.wetting, wanted.non_wetting].map(|fluid| fluid.map(|fluid| fluid.viscosity)),

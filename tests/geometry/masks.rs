@@ -10,6 +10,9 @@ use meniscus::geometry::import::mask::{MaskOptions, read};
 use meniscus::math::Vec2;
 use tiff::encoder::{TiffEncoder, colortype};
 
+/// What is written into a TIFF file.
+type Encoded<'a> = &'a dyn Fn(&mut TiffEncoder<&mut Cursor<Vec<u8>>>);
+
 /// A gray image whose pixels are covered by the solid as `is_solid` says, sampled `fine` x `fine` times: 1 draws black and white.
 /// y runs up; solid is black.
 fn drawn([width, height]: [u32; 2], fine: u32, is_solid: impl Fn(Vec2) -> bool) -> GrayImage {
@@ -226,7 +229,7 @@ fn all_pixel_formats_give_the_same_disc() {
     let mut rgba = eight.to_rgba8();
     // Black on a transparent ground, as drawing programs write it.
     rgba.pixels_mut().filter(|p| p[0] > 0).for_each(|p| p.0 = [0, 0, 0, 0]);
-    let tiff = |write: &dyn Fn(&mut TiffEncoder<&mut Cursor<Vec<u8>>>)| {
+    let tiff = |write: Encoded<'_>| {
         let mut bytes = Cursor::new(Vec::new());
         write(&mut TiffEncoder::new(&mut bytes).unwrap());
         bytes.into_inner()

@@ -82,7 +82,7 @@ pub enum ExportError {
     },
     /// The mask would be too large, or has no pixel.
     #[error(
-        "a pixel of {pixel:e} m makes {width:.0} x {height:.0} pixels; a mask has 4 to 8192 a side: choose another --pixel-size"
+        "a pixel of {pixel:e} m makes {width:.0} x {height:.0} pixels; a mask has 4 to 8192 a side: choose another --mask-pixel"
     )]
     Pixels {
         /// Side of a pixel in m.

@@ -74,7 +74,8 @@ pub(super) fn loop_of(region: &Region) -> Loop {
     }
     // A whole side that no wall meets is no part of the way along the walls, which goes around a periodic domain.
     for k in (0..found.crossings.len()).rev() {
-        let is_apart = found.wall_before(k).norm() > 0.0 && matches!(found.crossings[k].gate, GateId::Opening(_));
+        let misses_walls = found.wall_before(k) != Vec2::zeros() || found.wall_after(k) != Vec2::zeros();
+        let is_apart = misses_walls && matches!(found.crossings[k].gate, GateId::Opening(_));
         if is_apart && found.crossings.len() > 1 {
             let opening = found.crossings.remove(k);
             found.apart.push(opening);

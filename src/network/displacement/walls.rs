@@ -86,12 +86,14 @@ fn ends(mesh: &Mesh, (index, slot): (usize, usize), center: Vec2) -> Ends {
         let both = [beyond(seam), beyond(-seam)].concat();
         others.extend(both);
     }
-    if slot != next {
+    // Around a periodic domain the other wall of a passage may be an image of the same one.
+    let goes_around = part.wall_before(slot) != part.wall_after(slot);
+    if slot != next || goes_around {
         let follow_on = |wall: usize, backwards: bool| {
             let by = if backwards { part.wall_before(slot) } else { part.wall_after(slot) };
             let stretch: Vec<WallPiece> = part.walls[wall].iter().map(|&piece| shifted(piece, by)).collect();
             let mut followed = follow(&stretch, backwards, center);
-            if count > 2 && followed.rest.is_empty() {
+            if (count > 2 || goes_around) && followed.rest.is_empty() {
                 extend(mesh, (index, wall, by), backwards, &mut followed.parts);
             }
             followed

@@ -183,7 +183,7 @@ fn layers_are_chosen_and_those_off_are_left_out() {
     let refusals = read(text.as_bytes(), Some(&["posts".to_owned()])).unwrap_err();
     assert_eq!(
         refusals[0].to_string(),
-        "layers: `posts`, which is not in the file; expected one of `0`, `cold`, `dark`, `walls`"
+        "layers: found `posts`, which is not in the file, expected one of `0`, `cold`, `dark`, `walls`"
     );
 }
 
@@ -267,35 +267,39 @@ fn bad_files_are_refused_with_place_and_reason() {
     let many =
         format!("{POST}; 0 BLOCK; 2 ROW; 10 0; 20 0; 0 INSERT; 2 POST; 10 0; 20 0; 70 30000; 71 30000; 0 ENDBLK");
     let cases = [
-        ("", "0 CIRCLE; 5 2F; 10 3; 20 4; 40 -2", "CIRCLE 2F: radius -2; expected a radius above 0"),
+        ("", "0 CIRCLE; 5 2F; 10 3; 20 4; 40 -2", "CIRCLE 2F: found radius -2, expected a radius above 0"),
         (
             "",
             "0 CIRCLE; 5 2F; 10 3; 20 4",
-            "CIRCLE 2F: an entity that is cut short; expected a value behind group code 40",
+            "CIRCLE 2F: found an entity that is cut short, expected a value behind group code 40",
         ),
         (
             "",
             "0 CIRCLE; 5 2F; 10 3,5; 20 4; 40 1",
-            "line 62, CIRCLE 2F: `3,5` behind group code 10; expected a finite number",
+            "line 62, CIRCLE 2F: `3,5` behind group code 10, expected a finite number",
         ),
         (
             "",
             "0 CIRCLE; 5 2F; 10 nan; 20 4; 40 1",
-            "line 62, CIRCLE 2F: `nan` behind group code 10; expected a finite number",
+            "line 62, CIRCLE 2F: `nan` behind group code 10, expected a finite number",
         ),
-        ("", "0 CIRCLE; 5 2F; 10 1e99; 20 4; 40 1", "CIRCLE 2F: a coordinate out of range; expected coordinates below"),
+        (
+            "",
+            "0 CIRCLE; 5 2F; 10 1e99; 20 4; 40 1",
+            "CIRCLE 2F: found a coordinate out of range, expected coordinates below",
+        ),
         (
             "",
             "0 SPLINE; 5 2F; 71 3; 72 1000000000; 10 0; 20 0",
-            "SPLINE 2F: 1 control points for degree 3; expected knots",
+            "SPLINE 2F: found 1 control points for degree 3, expected knots",
         ),
-        ("", "0 SPLINE; 5 2F; 71 3; 74 0", "SPLINE 2F: no points; expected control points or fit points"),
-        ("", "0 ELLIPSE; 5 2F; 10 0; 20 0; 11 1; 21 0; 40 0", "ELLIPSE 2F: an axis of no length"),
-        ("", "0 INSERT; 5 2F; 2 Nobody; 10 0; 20 0", "INSERT 2F: the block `NOBODY`, which is not in the file"),
+        ("", "0 SPLINE; 5 2F; 71 3; 74 0", "SPLINE 2F: found no points, expected control points or fit points"),
+        ("", "0 ELLIPSE; 5 2F; 10 0; 20 0; 11 1; 21 0; 40 0", "ELLIPSE 2F: found an axis of no length"),
+        ("", "0 INSERT; 5 2F; 2 Nobody; 10 0; 20 0", "INSERT 2F: found the block `NOBODY`, which is not in the file"),
         (
             "0 BLOCK; 2 A; 0 INSERT; 5 7; 2 A; 10 0; 20 0; 0 ENDBLK",
             "0 INSERT; 2 A; 10 0; 20 0",
-            "INSERT 7: the block `A` within itself",
+            "INSERT 7: found the block `A` within itself",
         ),
         (
             &chain,
@@ -306,7 +310,7 @@ fn bad_files_are_refused_with_place_and_reason() {
         (
             "0 BLOCK; 2 E; 0 ENDBLK",
             "0 INSERT; 5 7; 2 E; 10 0; 20 0; 70 1000000000; 71 1000000000",
-            "INSERT 7: blocks that unfold into",
+            "INSERT 7: found blocks that unfold into",
         ),
     ];
     for (blocks, entities, expected) in cases {
@@ -315,11 +319,11 @@ fn bad_files_are_refused_with_place_and_reason() {
     }
     let whole = file("", "0 CIRCLE; 10 3; 20 4; 40 2");
     for (text, expected) in [
-        (String::new(), "line 2: something else; expected `SECTION`"),
-        ("hello".to_owned(), "line 1: `hello`; expected a group code"),
-        ("0".to_owned(), "line 1: the end of the file; expected the value of a group"),
+        (String::new(), "line 2: found something else, expected `SECTION`"),
+        ("hello".to_owned(), "line 1: found `hello`, expected a group code"),
+        ("0".to_owned(), "line 1: found the end of the file, expected the value of a group"),
         (whole.replace("ENDSEC\n0\nEOF\n", "LINE\n"), "end of the file: a section without an end"),
-        (whole.replace("40\n2\n", "x\n2\n"), "line 65: `x`; expected a group code"),
+        (whole.replace("40\n2\n", "x\n2\n"), "line 65: found `x`, expected a group code"),
     ] {
         assert!(read(text.as_bytes(), None).unwrap_err()[0].to_string().starts_with(expected), "{expected}");
     }

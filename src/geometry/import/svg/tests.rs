@@ -282,7 +282,7 @@ fn layers_are_chosen_by_label_or_id_and_counted() {
     let refusals = read(&text, Some(&["pots".to_owned()])).unwrap_err();
     assert_eq!(
         refusals[0].to_string(),
-        "layers: `pots`, which is not in the file; expected the label or id of a group: `frame`, `posts`"
+        "layers: found `pots`, which is not in the file, expected the label or id of a group: `frame`, `posts`"
     );
 }
 
@@ -307,33 +307,37 @@ fn bad_files_are_refused_with_line_and_reason() {
     let copies: String =
         (1..12).map(|i| format!("<g id='g{i}'>{}</g>", format!("<use href='#g{}'/>", i - 1).repeat(9))).collect();
     let cases = [
-        ("", "", "line 1: "),
-        ("<a/>", "", "line 1: the element `a`; expected `svg` as the outermost element"),
-        ("<svg><circle></svg>", "", "line 1: expected 'circle' tag, not 'svg'"),
-        ("", "<circle r='-1'/>", "line 2: r=\"-1\"; expected numbers"),
-        ("", "<circle r='1furlong'/>", "line 2: r=\"1furlong\"; expected numbers"),
-        ("", "<circle r='1e999'/>", "line 2: "),
-        ("", "<circle r='2em'/>", "line 2: r=\"2em\"; expected numbers"),
+        ("", "", "line 1: found "),
+        ("<a/>", "", "line 1: found the element `a`, expected `svg` as the outermost element"),
+        ("<svg><circle></svg>", "", "line 1: found expected 'circle' tag, not 'svg'"),
+        ("", "<circle r='-1'/>", "line 2: found r=\"-1\", expected numbers"),
+        ("", "<circle r='1furlong'/>", "line 2: found r=\"1furlong\", expected numbers"),
+        ("", "<circle r='1e999'/>", "line 2: found "),
+        ("", "<circle r='2em'/>", "line 2: found r=\"2em\", expected numbers"),
         (
             "",
             "<circle r='1e30' transform='scale(1e30)'/>",
-            "line 2: a coordinate out of range; expected coordinates below",
+            "line 2: found a coordinate out of range, expected coordinates below",
         ),
-        ("", "<circle r='1' transform='turn(3)'/>", "line 2: transform=\"turn(3)\"; expected matrix, translate,"),
-        ("", "<path d='M0 0L1'/>", "line 2: path data, command 2: "),
-        ("", "<path d='L1 1'/>", "line 2: path data, command 1: "),
-        ("", "<path d='M0 0 nan 1'/>", "line 2: path data"),
-        ("", "<polygon points='0 0 1 0 1'/>", "line 2: points=\"...\" with 2 points and something else behind"),
-        ("", "<use href='#nobody'/>", "line 2: use of `#nobody`; expected `#` and the id of an element of this file"),
-        ("", "<use href='a.svg#b'/>", "line 2: use of `a.svg#b`"),
-        ("", "<g id='a'><use href='#a'/></g>", "line 2: `#a` copies itself"),
-        ("", "<g id='a'><use href='#b'/></g><g id='b'><use href='#a'/></g>", "line 2: `#b` copies itself"),
-        ("", deep.as_str(), "line 2: an element within 200 others"),
-        ("", &format!("<circle id='g0' r='1'/>{copies}"), "line 2: copies that unfold into more than"),
+        ("", "<circle r='1' transform='turn(3)'/>", "line 2: found transform=\"turn(3)\", expected matrix, translate,"),
+        ("", "<path d='M0 0L1'/>", "line 2: found path data, command 2: "),
+        ("", "<path d='L1 1'/>", "line 2: found path data, command 1: "),
+        ("", "<path d='M0 0 nan 1'/>", "line 2: found path data"),
+        ("", "<polygon points='0 0 1 0 1'/>", "line 2: found points=\"...\" with 2 points and something else behind"),
+        (
+            "",
+            "<use href='#nobody'/>",
+            "line 2: found use of `#nobody`, expected `#` and the id of an element of this file",
+        ),
+        ("", "<use href='a.svg#b'/>", "line 2: found use of `a.svg#b`"),
+        ("", "<g id='a'><use href='#a'/></g>", "line 2: found `#a` copies itself"),
+        ("", "<g id='a'><use href='#b'/></g><g id='b'><use href='#a'/></g>", "line 2: found `#b` copies itself"),
+        ("", deep.as_str(), "line 2: found an element within 200 others"),
+        ("", &format!("<circle id='g0' r='1'/>{copies}"), "line 2: found copies that unfold into more than"),
         (
             "<!DOCTYPE svg [<!ENTITY a \"x\"><!ENTITY b \"&a;&a;\">]><svg xmlns='http://www.w3.org/2000/svg'/>",
             "",
-            "DOCTYPE: entities made of entities",
+            "DOCTYPE: found entities made of entities",
         ),
     ];
     for (text, content, expected) in cases {
