@@ -276,12 +276,12 @@ fn bad_files_are_refused_with_place_and_reason() {
         (
             "",
             "0 CIRCLE; 5 2F; 10 3,5; 20 4; 40 1",
-            "line 62, CIRCLE 2F: `3,5` behind group code 10, expected a finite number",
+            "line 62, CIRCLE 2F: found `3,5` behind group code 10, expected a finite number",
         ),
         (
             "",
             "0 CIRCLE; 5 2F; 10 nan; 20 4; 40 1",
-            "line 62, CIRCLE 2F: `nan` behind group code 10, expected a finite number",
+            "line 62, CIRCLE 2F: found `nan` behind group code 10, expected a finite number",
         ),
         (
             "",
@@ -304,9 +304,9 @@ fn bad_files_are_refused_with_place_and_reason() {
         (
             &chain,
             "0 INSERT; 2 B0; 10 0; 20 0",
-            "INSERT at line 938: the block `B64` within itself, or within 64 others",
+            "INSERT at line 938: found the block `B64` within itself, or within 64 others",
         ),
-        (&many, "0 INSERT; 5 7; 2 ROW; 10 0; 20 0; 70 30000", ": blocks that unfold into more than"),
+        (&many, "0 INSERT; 5 7; 2 ROW; 10 0; 20 0; 70 30000", ": found blocks that unfold into more than"),
         (
             "0 BLOCK; 2 E; 0 ENDBLK",
             "0 INSERT; 5 7; 2 E; 10 0; 20 0; 70 1000000000; 71 1000000000",
@@ -322,7 +322,7 @@ fn bad_files_are_refused_with_place_and_reason() {
         (String::new(), "line 2: found something else, expected `SECTION`"),
         ("hello".to_owned(), "line 1: found `hello`, expected a group code"),
         ("0".to_owned(), "line 1: found the end of the file, expected the value of a group"),
-        (whole.replace("ENDSEC\n0\nEOF\n", "LINE\n"), "end of the file: a section without an end"),
+        (whole.replace("ENDSEC\n0\nEOF\n", "LINE\n"), "end of the file: found a section without an end"),
         (whole.replace("40\n2\n", "x\n2\n"), "line 65: found `x`, expected a group code"),
     ] {
         assert!(read(text.as_bytes(), None).unwrap_err()[0].to_string().starts_with(expected), "{expected}");
