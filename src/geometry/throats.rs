@@ -1,7 +1,7 @@
 //! The narrowest passages between solids.
 //!
 //! Definition. A throat is a pair of wall points with nothing but pore in the disc whose diameter they span, at a local
-//! minimum of the pore's width along the medial axis: a saddle of the wall distance ([`crate::geometry::critical`]). Its width is the
+//! minimum of the pore's width along the medial axis: a saddle of the wall distance (`critical`). Its width is the
 //! distance of the two points; for discs this is the gap of two neighboring grains on the line of their centers. Where walls run level, the
 //! middle of that part of the domain stands for all of it. Only throats whose middle lies in the domain count.
 //!

@@ -1,7 +1,7 @@
 //! Drawings of other programs.
 //!
 //! Each reader turns a file into a [`Drawing`](drawing::Drawing) in the file's own unit; what follows is the same for all: unit
-//! ([`units`]), fills and holes, circles and arcs behind polygons, domain ([`build`]), what a [`window`] leaves out, and [`cut`]s at its sides.
+//! ([`units`]), fills and holes, circles and arcs behind polygons, domain (`build`), what a [`window`] leaves out, and [`cut`]s at its sides.
 
 pub mod affine;
 pub mod biarc;
