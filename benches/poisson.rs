@@ -17,7 +17,8 @@ use faer::prelude::*;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
-use meniscus::sph::poisson::{Convergence, Matrix, Multigrid, conjugate_gradients};
+use meniscus::sph::conjugate_gradients::{Convergence, conjugate_gradients};
+use meniscus::sph::poisson::{Matrix, Multigrid};
 
 /// As cases have it by default.
 const RESIDUAL: f64 = 1e-6;

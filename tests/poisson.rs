@@ -4,9 +4,8 @@
 mod cloud;
 
 use cloud::{Cloud, pressure_matrix, right_side};
-use meniscus::sph::poisson::{
-    Matrix, Multigrid, PressureSolve, System, Tolerance, Unknowns, conjugate_gradients, parts,
-};
+use meniscus::sph::conjugate_gradients::conjugate_gradients;
+use meniscus::sph::poisson::{Matrix, Multigrid, PressureSolve, System, Tolerance, Unknowns, parts};
 use nalgebra::{DMatrix, DVector};
 
 /// Density of each particle in kg/m³, light in a stripe, heavy elsewhere: the shape the multigrid must cope with.

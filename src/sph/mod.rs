@@ -5,6 +5,7 @@
 pub mod boundary;
 mod cells;
 mod components;
+pub mod conjugate_gradients;
 pub mod domain;
 pub mod fields;
 pub mod fill;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::sph::conjugate_gradients::SymmetricMatrix;
 use crate::sph::pairs::each;
 
 /// M = D − A with A ≥ 0 off the diagonal: (M x)_a = D_a x_a − Σ_b A_ab x_b. Columns may repeat within a row.
@@ -58,5 +59,15 @@ impl Matrix {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.start.len() * 8 + self.column.len() * 4 + (self.coupling.len() + self.diagonal.len()) * 8
+    }
+}
+
+impl SymmetricMatrix<f64> for Matrix {
+    fn apply(&self, x: &[f64], y: &mut [f64]) {
+        self.apply(x, y);
+    }
+
+    fn residual(&self, b: &[f64], x: &[f64], r: &mut [f64]) {
+        self.residual(b, x, r);
     }
 }

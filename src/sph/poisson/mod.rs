@@ -5,14 +5,12 @@
 mod aggregation;
 mod assemble;
 mod cholesky;
-mod conjugate_gradients;
 mod given;
 mod matrix;
 mod multigrid;
 mod solve;
 
 pub use assemble::{assemble, parts};
-pub use conjugate_gradients::{Convergence, conjugate_gradients};
 pub use given::give;
 pub use matrix::Matrix;
 pub use multigrid::Multigrid;

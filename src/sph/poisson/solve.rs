@@ -1,9 +1,9 @@
 //! One pressure solve: the right side made compatible, the solver chosen by size, the result checked.
 
 use crate::math::Vec2;
+use crate::sph::conjugate_gradients::{Convergence, conjugate_gradients};
 use crate::sph::pairs::total;
 use crate::sph::poisson::cholesky::SparseCholesky;
-use crate::sph::poisson::conjugate_gradients::{Convergence, conjugate_gradients};
 use crate::sph::poisson::{Matrix, Multigrid};
 
 /// Systems up to this size are solved directly. Above it the factorization costs more than the iteration (benches/poisson.rs).

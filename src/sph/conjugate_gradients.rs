@@ -1,8 +1,12 @@
 //! Flexible preconditioned conjugate gradients (Notay 2000) with one dot product more than the plain form, since the
-//! K-cycle is not a fixed linear map.
+//! K-cycle of the pressure is not a fixed linear map. Unknowns are numbers (pressure) or vectors of the plane (viscosity).
 
-use crate::sph::pairs::total;
-use crate::sph::poisson::Matrix;
+use std::ops::{Add, AddAssign, Mul, SubAssign};
+
+use rayon::prelude::*;
+
+use crate::math::Vec2;
+use crate::sph::pairs::{GRAIN, total};
 
 /// Below this relative residual the recursion's r drifts away from b − M x by rounding: it is computed anew before it is
 /// believed, and after so many iterations.
@@ -11,6 +15,42 @@ const ANEW_AFTER: usize = 5;
 
 /// A residual computed anew that is not below this share of the one before is all that rounding allows.
 const PROGRESS: f64 = 0.5;
+
+/// One unknown: a number, or a vector of the plane.
+pub trait Unknown:
+    Copy + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self> + AddAssign + SubAssign
+{
+    /// Nothing.
+    const ZERO: Self;
+
+    /// The product of both; of vectors the inner one.
+    fn times(&self, other: &Self) -> f64;
+}
+
+impl Unknown for f64 {
+    const ZERO: Self = 0.0;
+
+    fn times(&self, other: &Self) -> f64 {
+        self * other
+    }
+}
+
+impl Unknown for Vec2 {
+    const ZERO: Self = Self::new(0.0, 0.0);
+
+    fn times(&self, other: &Self) -> f64 {
+        self.dot(other)
+    }
+}
+
+/// A symmetric positive (semi)definite matrix M.
+pub trait SymmetricMatrix<T> {
+    /// y = M x.
+    fn apply(&self, x: &[T], y: &mut [T]);
+
+    /// r = b − M x.
+    fn residual(&self, b: &[T], x: &[T], r: &mut [T]);
+}
 
 /// How a solve ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,23 +63,23 @@ pub struct Convergence {
 
 /// Solves M x = b from the given x until |b − M x| ≤ `tolerance` |b|, at most `most` iterations.
 ///
-/// `b` must be in the range of M: sum zero over each part without a fixed value. `precondition(r, z)` sets z ≈ M⁻¹ r.
+/// `b` must be in the range of M: of a pressure, sum zero over each part without a fixed value. `precondition(r, z)` sets z ≈ M⁻¹ r.
 /// Where rounding allows no smaller residual the iteration stops early.
-pub fn conjugate_gradients(
-    matrix: &Matrix,
-    b: &[f64],
-    x: &mut [f64],
+pub fn conjugate_gradients<T: Unknown>(
+    matrix: &impl SymmetricMatrix<T>,
+    b: &[T],
+    x: &mut [T],
     (tolerance, most): (f64, usize),
-    precondition: impl Fn(&[f64], &mut [f64]),
+    precondition: impl Fn(&[T], &mut [T]),
 ) -> Convergence {
     let n = b.len();
-    let dot = |a: &[f64], b: &[f64]| total(n, |i| a[i] * b[i]);
+    let dot = |a: &[T], b: &[T]| total(n, |i| a[i].times(&b[i]));
     let size = dot(b, b).sqrt();
     if size == 0.0 {
-        x.fill(0.0);
+        x.fill(T::ZERO);
         return Convergence { iterations: 0, residual: 0.0 };
     }
-    let [mut r, mut z, mut p, mut q, mut before] = [const { Vec::new() }; 5].map(|_: Vec<f64>| vec![0.0; n]);
+    let [mut r, mut z, mut p, mut q, mut before] = [const { Vec::new() }; 5].map(|_: Vec<T>| vec![T::ZERO; n]);
     matrix.residual(b, x, &mut r);
     let (mut rho, mut iterations) = (1.0, 0);
     let (mut age, mut last_fresh, mut best) = (0, f64::INFINITY, Vec::new());
@@ -68,13 +108,18 @@ pub fn conjugate_gradients(
         let next = dot(&z, &r);
         let beta = if age == 0 { 0.0 } else { (next - dot(&z, &before)) / rho };
         rho = next;
-        p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + beta * *p);
+        with(&mut p, &z, |p, z| *p = *z + *p * beta);
         matrix.apply(&p, &mut q);
         let alpha = rho / dot(&p, &q);
         before.copy_from_slice(&r);
-        x.iter_mut().zip(&p).for_each(|(x, p)| *x += alpha * p);
-        r.iter_mut().zip(&q).for_each(|(r, q)| *r -= alpha * q);
+        with(x, &p, |x, p| *x += *p * alpha);
+        with(&mut r, &q, |r, q| *r -= *q * alpha);
         age += 1;
         iterations += 1;
     }
+}
+
+/// Changes each of `to` with its partner in `by`, in parallel.
+fn with<T: Unknown>(to: &mut [T], by: &[T], change: impl Fn(&mut T, &T) + Sync) {
+    to.par_iter_mut().zip(by).with_min_len(GRAIN).for_each(|(to, by)| change(to, by));
 }
