@@ -328,6 +328,8 @@ pub struct Walls {
 pub struct Numerics {
     /// Form of the viscous term.
     pub viscous_term: ViscousTerm,
+    /// How viscosity goes on in time.
+    pub viscous_step: ViscousStep,
     /// Largest share of the density error taken back per step: gamma of the drift source, 0 to 1.
     pub drift_source: f64,
     /// Share of the density error taken back per step by moving particles, their velocities left as they are.
@@ -346,8 +348,18 @@ pub struct Numerics {
     pub fitted_interface: bool,
     /// Largest relative residual of the pressure solve.
     pub pressure_tolerance: f64,
-    /// Factor on all three limits of the time step, above 0 and at most 1.
+    /// Factor on all limits of the time step, above 0 and at most 10.
     pub time_step_factor: f64,
+}
+
+/// How viscosity goes on in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ViscousStep {
+    /// By the velocity at the end of the step.
+    Implicit,
+    /// By the velocity at its beginning.
+    Explicit,
 }
 
 /// Forms of the viscous term.

@@ -1,8 +1,8 @@
 //! Checks of `[sph.numerics]`, and its defaults.
 
 use super::check::Checker;
-use super::checked::{Numerics, SurfaceForce, ViscousTerm};
-use super::raw::{RawNumerics, RawViscousTerm};
+use super::checked::{Numerics, SurfaceForce, ViscousStep, ViscousTerm};
+use super::raw::{RawNumerics, RawViscousStep, RawViscousTerm};
 
 /// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and drift source,
 /// the others by shifting and either drift source or drift correction (docs/numerics).
@@ -14,6 +14,7 @@ pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
     };
     Numerics {
         viscous_term: ViscousTerm::Stress,
+        viscous_step: ViscousStep::Implicit,
         drift_source,
         drift_correction,
         background_pressure,
@@ -37,6 +38,11 @@ pub(super) fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numeri
             Some(RawViscousTerm::Stress) => ViscousTerm::Stress,
             Some(RawViscousTerm::Morris) => ViscousTerm::Morris,
             Some(RawViscousTerm::Szewc) => ViscousTerm::Szewc,
+        },
+        viscous_step: match raw.viscous_step {
+            None => default.viscous_step,
+            Some(RawViscousStep::Implicit) => ViscousStep::Implicit,
+            Some(RawViscousStep::Explicit) => ViscousStep::Explicit,
         },
         drift_source: within("drift-source", raw.drift_source, (0.0, 1.0), "a share", default.drift_source),
         drift_correction: within(
@@ -74,7 +80,7 @@ pub(super) fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numeri
         time_step_factor: within(
             "time-step-factor",
             raw.time_step_factor,
-            (1.0e-3, 1.0),
+            (1.0e-3, 10.0),
             "a factor",
             default.time_step_factor,
         ),

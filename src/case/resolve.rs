@@ -2,12 +2,12 @@
 
 use super::checked::{
     Case, Drive, Fluid, InitialVelocity, LineDelta, Model, Numerics, Open, Output, Profile, Side, Sides, Sph,
-    SurfaceForce, ViscousTerm,
+    SurfaceForce, ViscousStep, ViscousTerm,
 };
 use super::raw::{
     Empty, RawCase, RawCsf, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface,
     RawLineDelta, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawPressureJump, RawProfile,
-    RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousTerm, RawWallSpeeds,
+    RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousStep, RawViscousTerm, RawWallSpeeds,
     RawWalls,
 };
 use super::wetting;
@@ -175,6 +175,10 @@ fn raw_numerics(numerics: &Numerics) -> RawNumerics {
             ViscousTerm::Szewc => RawViscousTerm::Szewc,
             ViscousTerm::Morris => RawViscousTerm::Morris,
             ViscousTerm::Stress => RawViscousTerm::Stress,
+        }),
+        viscous_step: Some(match numerics.viscous_step {
+            ViscousStep::Implicit => RawViscousStep::Implicit,
+            ViscousStep::Explicit => RawViscousStep::Explicit,
         }),
         drift_source: Some(numerics.drift_source),
         drift_correction: Some(numerics.drift_correction),

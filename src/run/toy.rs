@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::simulation::{Progress, Watcher};
 use crate::case::checked::{
     Case, Expectation, Fluid, Initial, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides, Sph,
-    ViscousTerm, Walls,
+    ViscousStep, ViscousTerm, Walls,
 };
 use crate::geometry::spec::{GeometrySpec, SolidSide};
 use crate::math::{Vec2, perpendicular};
@@ -163,6 +163,7 @@ pub fn case() -> Case {
         initial: Initial { wetting: Vec::new(), wetting_is_background: true, velocity: InitialVelocity::Rest },
         numerics: Numerics {
             viscous_term: ViscousTerm::Szewc,
+            viscous_step: ViscousStep::Implicit,
             drift_source: 0.02,
             drift_correction: 0.0,
             background_pressure: 0.0,

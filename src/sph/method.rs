@@ -48,6 +48,15 @@ pub enum ViscousTerm {
     Stress,
 }
 
+/// How viscosity goes on in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ViscousStep {
+    /// By the velocity at the end of the step, with no limit of the time step.
+    Implicit,
+    /// By the velocity at its beginning.
+    Explicit,
+}
+
 /// All that does not change during a run.
 #[derive(Debug, Clone)]
 pub struct Method {
@@ -75,6 +84,8 @@ pub struct Method {
     pub no_slip: NoSlip,
     /// Viscous term.
     pub viscous_term: ViscousTerm,
+    /// How it goes on in time.
+    pub viscous_step: ViscousStep,
     /// Largest share γ of the density error that the pressure takes back per step.
     pub drift_source: f64,
     /// Share of the density error taken back per step by moving particles, their velocities left as they are.

@@ -152,6 +152,7 @@ impl Solver for SphSolver {
             counts: vec![
                 ("fluid-particles", self.flow.particles.fluids as f64),
                 ("ppe-iterations-per-step", per_step(work.iterations)),
+                ("viscous-iterations-per-step", per_step(work.viscous_iterations)),
                 ("ppe-relative-residual", work.residual),
                 ("bytes-per-particle", self.flow.bytes() as f64 / self.flow.particles.len().max(1) as f64),
                 ("particles-set-back-from-walls", work.set_back as f64),

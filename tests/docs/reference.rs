@@ -93,6 +93,7 @@ fn the_reference_names_every_word_that_a_key_can_be() {
         "RawSide",
         "RawPhase",
         "RawViscousTerm",
+        "RawViscousStep",
         "SolidSide",
         "Preset",
         "RawFilmWeights",

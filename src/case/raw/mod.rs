@@ -33,7 +33,7 @@ pub use measures::{RawExpectation, RawMeasures};
 pub use sides::{RawOpenSide, RawOpenSides, RawProfile, RawSide, RawSideName, RawSides, RawWallSpeeds};
 pub use sph::{
     RawCsf, RawFluid, RawInitial, RawInterface, RawLineDelta, RawNumerics, RawPhase, RawPhases, RawPressureJump,
-    RawSph, RawSurfaceForce, RawTaylorGreen, RawVelocity, RawViscousTerm, RawWalls,
+    RawSph, RawSurfaceForce, RawTaylorGreen, RawVelocity, RawViscousStep, RawViscousTerm, RawWalls,
 };
 pub use wetting::{
     RawAngleWindow, RawAxis, RawContactAngle, RawCoxVoinov, RawLineFriction, RawMolecularKinetic, RawStripes,

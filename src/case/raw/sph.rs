@@ -121,6 +121,8 @@ tables! {
     pub struct RawNumerics {
         /// Form of the viscous term (default `stress`).
         pub viscous_term: RawViscousTerm,
+        /// How viscosity goes on in time (default `implicit`).
+        pub viscous_step: RawViscousStep,
         /// Largest share of the density error taken back per step by the velocities, 0 to 1 (default 0.2, with `csf` 0.02, without tension 0).
         pub drift_source: f64,
         /// Share of the density error taken back per step by moving particles without their velocities, 0 to 1 (default 0, without tension 0.2).
@@ -143,7 +145,7 @@ tables! {
         pub fitted_interface: bool,
         /// Largest relative residual of the pressure solve (default 1e-6).
         pub pressure_tolerance: f64,
-        /// Factor on all limits of the time step, above 0 and at most 1 (default 1).
+        /// Factor on all limits of the time step, above 0 and at most 10 (default 1).
         pub time_step_factor: f64,
     }
 }
@@ -166,6 +168,16 @@ pub enum RawLineDelta {
     Normalized,
     /// In closed form, particle by particle.
     Local,
+}
+
+/// How viscosity goes on in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RawViscousStep {
+    /// By the velocity at the end of the step: no limit of the time step.
+    Implicit,
+    /// By the velocity at its beginning: steps are short where the fluid is thick or the spacing fine.
+    Explicit,
 }
 
 /// Forms of the viscous term.

@@ -58,16 +58,25 @@ impl NoSlip {
         self.slip_length + share * (self.line_slip_length - self.slip_length)
     }
 
+    /// Stretches of the velocity difference along the wall and across it, for the slip length `b` (m).
+    ///
+    /// Never below zero: along a wall that bends and slips far the first order could push what it is to hold.
+    #[must_use]
+    pub fn stretches(&self, distance: f64, wall: WallDepth, b: f64) -> [f64; 2] {
+        let across = self.stretch(distance, wall);
+        [if b == 0.0 { across } else { self.stretch_to(distance, wall, b).max(0.0) }, across]
+    }
+
     /// The stretched difference of the velocity `v_ab` = v_a − v_wall: with a slip length b (m), the part along the wall is stretched by
     /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `normal` is that of the wall.
     #[must_use]
     pub fn difference(&self, v_ab: Vec2, (distance, normal): (f64, Vec2), wall: WallDepth, b: f64) -> Vec2 {
-        let beta = self.stretch(distance, wall);
+        let [along, beta] = self.stretches(distance, wall, b);
         if b == 0.0 {
             return beta * v_ab;
         }
         let across = v_ab.dot(&normal) * normal;
-        beta * across + self.stretch_to(distance, wall, b) * (v_ab - across)
+        beta * across + along * (v_ab - across)
     }
 }
 

@@ -9,6 +9,17 @@ use crate::sph::terms::pressure_gradient;
 impl Flow {
     /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26].
     pub(super) fn correct(&self, predicted: &Predicted, pressure: &[f64]) -> Vec<Vec2> {
+        let acceleration = self.pressure_acceleration(pressure);
+        let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);
+        let mut velocity: Vec<Vec2> =
+            corrected.chain(std::iter::repeat_n(Vec2::zeros(), self.particles.open)).collect();
+        self.set_buffer_velocity(&predicted.feet, &mut velocity);
+        velocity
+    }
+
+    /// The acceleration of the fluid particles in m/s² by the gradient of a `pressure` (Pa), with the gravity that goes with it and the jump
+    /// across the interface.
+    pub(super) fn pressure_acceleration(&self, pressure: &[f64]) -> Vec<Vec2> {
         let (fluids, f) = (self.particles.fluids, &self.fields);
         let mut p = pressure.to_vec();
         let mut acceleration = vec![Vec2::zeros(); fluids];
@@ -37,10 +48,6 @@ impl Flow {
                 }
             }
         }
-        let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);
-        let mut velocity: Vec<Vec2> =
-            corrected.chain(std::iter::repeat_n(Vec2::zeros(), self.particles.open)).collect();
-        self.set_buffer_velocity(&predicted.feet, &mut velocity);
-        velocity
+        acceleration
     }
 }

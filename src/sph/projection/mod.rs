@@ -4,6 +4,7 @@
 
 mod at_rest;
 mod corrector;
+mod implicit_viscosity;
 mod predictor;
 mod pressure;
 mod viscous;
@@ -28,7 +29,7 @@ use crate::sph::wetting::wall::WallSpots;
 const REORDER_EVERY: u64 = 20;
 
 /// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
-/// fluid answers to that of the buffer by a small share, so that few will do.
+/// fluid answers to that of the buffer by a small share, so that few will do. Without them one does, for the viscous step.
 const FIRST_SOLVES: usize = 6;
 
 /// The curvature of a wall is the turn of its normal this far to both sides, over dx.
@@ -48,6 +49,8 @@ pub struct Work {
     pub iterations: u64,
     /// Relative residual of the last pressure solve.
     pub residual: f64,
+    /// Iterations of all viscous solves.
+    pub viscous_iterations: u64,
     /// Particles set back from a wall.
     pub set_back: u64,
     /// Wall time of neighbors, forces, pressure matrix and solve, move in s.
@@ -107,6 +110,8 @@ pub(super) struct Predicted {
     velocity: Vec<Vec2>,
     /// Where the buffers of open sides take the velocity from.
     feet: Feet,
+    /// Iterations of the viscous solve.
+    viscous_iterations: usize,
 }
 
 impl Flow {
@@ -214,13 +219,15 @@ impl Flow {
     /// See [`SolverError`]; positions, velocities and time are then those before the step.
     pub fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         let start = Instant::now();
-        let predicted = self.predict(until)?;
+        let mut predicted = self.predict(until)?;
         let after_forces = Instant::now();
-        if self.steps == 0 && !self.open.sides.is_empty() {
-            for _ in 0..FIRST_SOLVES {
+        if self.steps == 0 {
+            for _ in 0..if self.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
                 self.particles.pressure = self.project(&predicted)?.0;
+                predicted = self.predict(until)?;
             }
         }
+        self.work.viscous_iterations += predicted.viscous_iterations as u64;
         let (pressure, drift) = self.project(&predicted)?;
         let after_pressure = Instant::now();
         let velocity = self.correct(&predicted, &pressure);

@@ -1,9 +1,9 @@
 //! The predictor: all forces but the pressure [Huber2013, Eq. 25].
 
-use super::{Flow, Predicted};
+use super::{Flow, Predicted, implicit_viscosity};
 use crate::math::Vec2;
 use crate::solver::SolverError;
-use crate::sph::method::PressureGradient;
+use crate::sph::method::{PressureGradient, ViscousStep};
 use crate::sph::motion::relative_speed;
 use crate::sph::open::Feet;
 use crate::sph::pairs::{each, largest};
@@ -17,7 +17,9 @@ impl Flow {
         let (particles, fluids, moving) = (&self.particles, self.particles.fluids, self.particles.moving());
         let mut velocity = particles.velocity.clone();
         self.images.extend_velocity(&mut velocity);
-        let (viscous, rate) = self.viscous_acceleration(&velocity);
+        let viscous = self.viscous_acceleration(&velocity);
+        let is_implicit = self.method.viscous_step == ViscousStep::Implicit;
+        let rate = if is_implicit { 0.0 } else { self.viscous_rate() };
         let (place, speed) = largest(moving, |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
         let step = self.method.time_step(speed, rate);
         let smallest = self.method.smallest_time_step(rate);
@@ -38,16 +40,45 @@ impl Flow {
         let background = self.background_acceleration(speed);
         let f = &self.fields;
         let body = self.method.gravity - self.balanced_gravity();
-        each(&mut velocity[..fluids], |a| {
+        let mut acceleration = vec![Vec2::zeros(); fluids];
+        each(&mut acceleration, |a| {
             let forces = (f.surface_force[a] + f.line_force[a]) / f.density[a];
-            particles.velocity[a] + step.dt * (viscous[a] + body + forces + background[a])
+            viscous[a] + body + forces + background[a]
         });
+        let mut viscous_iterations = 0;
+        if is_implicit {
+            viscous_iterations = self.damp(&mut acceleration, step.dt)?;
+        }
+        each(&mut velocity[..fluids], |a| particles.velocity[a] + step.dt * acceleration[a]);
         let feet = Feet::new(particles, &self.open.sides, &self.domain, &self.method.kernel);
         self.set_buffer_velocity(&feet, &mut velocity);
         // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
         velocity[moving..particles.len()].fill(Vec2::zeros());
         self.images.extend_velocity(&mut velocity);
-        Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, feet })
+        Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, feet, viscous_iterations })
+    }
+
+    /// Makes of the `acceleration` (m/s²) of the forces at the beginning of a step of length `dt` (s) the one with which viscosity holds at its
+    /// end. The iterations it took.
+    ///
+    /// The pressure before the step takes part: what it balances is no motion that viscosity would have to slow down.
+    fn damp(&self, acceleration: &mut [Vec2], dt: f64) -> Result<usize, SolverError> {
+        let by_pressure = self.pressure_acceleration(&self.particles.pressure);
+        let mut net = vec![Vec2::zeros(); acceleration.len()];
+        each(&mut net, |a| acceleration[a] + by_pressure[a]);
+        let (change, found) = self.viscous_matrix().change(&net, dt);
+        if !(found.residual <= implicit_viscosity::RESIDUAL) {
+            return Err(SolverError::NotConverged {
+                system: "the viscous step",
+                residual: found.residual,
+                tolerance: implicit_viscosity::RESIDUAL,
+                iterations: found.iterations,
+                time: self.time,
+                step: self.steps,
+            });
+        }
+        each(acceleration, |a| change[a] / dt - by_pressure[a]);
+        Ok(found.iterations)
     }
 
     /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a

@@ -1,17 +1,16 @@
 //! Viscous forces between the particles of a flow, and on its walls.
 
 use super::Flow;
-use crate::math::Vec2;
+use crate::math::{Mat2, Vec2};
 use crate::sph::boundary::no_slip::WallDepth;
 use crate::sph::method::ViscousTerm;
 use crate::sph::terms::viscosity::Viscous;
 
 impl Flow {
-    /// The viscous acceleration of the fluid particles in m/s² and the largest viscous rate in 1/s.
-    pub(super) fn viscous_acceleration(&self, velocity: &[Vec2]) -> (Vec<Vec2>, f64) {
+    /// The viscous acceleration of the fluid particles in m/s².
+    pub(super) fn viscous_acceleration(&self, velocity: &[Vec2]) -> Vec<Vec2> {
         let (fluids, f) = (self.particles.fluids, &self.fields);
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
-        let stretch = |a: usize, b: usize| self.stretch(a, b);
         let v_ab = |a: usize, b: usize| self.velocity_difference(velocity, a, b);
         let mut acceleration = vec![Vec2::zeros(); fluids];
         match self.method.viscous_term {
@@ -22,9 +21,16 @@ impl Flow {
             ViscousTerm::Morris => viscous.morris(&self.pairs, v_ab, &mut acceleration),
             ViscousTerm::Szewc => viscous.szewc(&self.pairs, v_ab, &mut acceleration),
         }
-        let mut rate = vec![0.0; fluids];
-        viscous.rate(&self.pairs, stretch, &mut rate);
-        (acceleration, rate.iter().fold(0.0, |m: f64, r| m.max(*r)))
+        acceleration
+    }
+
+    /// The largest viscous rate in 1/s, see [`Viscous::rate`].
+    pub(super) fn viscous_rate(&self) -> f64 {
+        let f = &self.fields;
+        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
+        let mut rate = vec![0.0; self.particles.fluids];
+        viscous.rate(&self.pairs, |a, b| self.stretch(a, b), &mut rate);
+        rate.iter().fold(0.0, |m: f64, r| m.max(*r))
     }
 
     /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles and to the wall particles that
@@ -55,7 +61,7 @@ impl Flow {
     pub fn viscous_force(&self, is_meant: impl Fn(usize) -> bool) -> Vec2 {
         let mut velocity = self.particles.velocity.clone();
         self.images.extend_velocity(&mut velocity);
-        let (acceleration, _) = self.viscous_acceleration(&velocity);
+        let acceleration = self.viscous_acceleration(&velocity);
         let f = &self.fields;
         let meant = acceleration.iter().enumerate().filter(|(a, _)| is_meant(*a));
         meant.map(|(a, by)| f.density[a] * f.volume[a] * by).sum()
@@ -67,6 +73,15 @@ impl Flow {
         let f = &self.fields;
         let wall = (f.wall_distance[a], f.wall_normal[a]);
         self.wall_depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, wall, depth, f.slip_length[a]))
+    }
+
+    /// The matrix that stretches v_a − v_b as [`Self::velocity_difference`] does.
+    pub(super) fn stretch_matrix(&self, a: usize, b: usize) -> Mat2 {
+        let Some(depth) = self.wall_depth(b) else { return Mat2::identity() };
+        let (f, no_slip) = (&self.fields, &self.method.no_slip);
+        let [along, across] = no_slip.stretches(f.wall_distance[a], depth, f.slip_length[a]);
+        let normal = f.wall_normal[a];
+        Mat2::from_diagonal_element(along) + (across - along) * normal * normal.transpose()
     }
 
     /// The largest |v_ab| over the velocity difference: β at walls, 1 between fluid particles.

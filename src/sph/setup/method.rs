@@ -4,7 +4,7 @@ use crate::case::checked::{self, Sph, WettingModel};
 use crate::sph::boundary::no_slip::NoSlip;
 use crate::sph::fill::Lattice;
 use crate::sph::kernel::WendlandC2;
-use crate::sph::method::{Fluid, Method, ViscousTerm};
+use crate::sph::method::{Fluid, Method, ViscousStep, ViscousTerm};
 use crate::sph::poisson::Tolerance;
 use crate::sph::surface_force::SurfaceForce;
 use crate::sph::wetting::contact_line::LineDelta;
@@ -47,6 +47,10 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
             checked::ViscousTerm::Szewc => ViscousTerm::Szewc,
             checked::ViscousTerm::Morris => ViscousTerm::Morris,
             checked::ViscousTerm::Stress => ViscousTerm::Stress,
+        },
+        viscous_step: match numerics.viscous_step {
+            checked::ViscousStep::Implicit => ViscousStep::Implicit,
+            checked::ViscousStep::Explicit => ViscousStep::Explicit,
         },
         drift_source: numerics.drift_source,
         drift_correction: numerics.drift_correction,

@@ -48,14 +48,37 @@ impl Viscous<'_> {
         pairs.sum_into(acceleration, |a, ab| {
             let b = ab.b;
             let (rho_a, rho_b) = (self.density[a], self.density[b]);
-            let eta_a = self.viscosity[a] / rho_a;
-            let eta_b = if self.viscosity[b] > 0.0 { self.viscosity[b] / rho_b } else { eta_a };
             let m_b = rho_b * self.volume[b];
             let steepness = ab.grad_w.norm_squared();
             // Particles in one place have no direction, and their force vanishes.
             let along = if steepness > 0.0 { v_ab(a, b).dot(&ab.grad_w) * ab.slope / steepness } else { 0.0 };
-            8.0 * m_b * (eta_a + eta_b) / (rho_a + rho_b) * along * ab.grad_w
+            8.0 * m_b * self.both_kinematic(a, b) / (rho_a + rho_b) * along * ab.grad_w
         });
+    }
+
+    /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: what Morris's form multiplies v_ab with in the force that b
+    /// exerts on a. The same for a and b.
+    #[inline]
+    #[must_use]
+    pub fn coupling(&self, a: usize, ab: &Pair) -> f64 {
+        -self.volume[a] * self.friction(a, ab)
+    }
+
+    /// The same of Szewc's form, for the part of v_ab along the line of centers.
+    #[inline]
+    #[must_use]
+    pub fn central_coupling(&self, a: usize, ab: &Pair) -> f64 {
+        let b = ab.b;
+        let (rho_a, rho_b) = (self.density[a], self.density[b]);
+        let masses = rho_a * self.volume[a] * rho_b * self.volume[b];
+        -8.0 * masses * self.both_kinematic(a, b) / (rho_a + rho_b) * ab.slope
+    }
+
+    /// η_a + η_b in m²/s; walls take that of the fluid particle that sees them.
+    #[inline]
+    fn both_kinematic(&self, a: usize, b: usize) -> f64 {
+        let eta_a = self.viscosity[a] / self.density[a];
+        eta_a + if self.viscosity[b] > 0.0 { self.viscosity[b] / self.density[b] } else { eta_a }
     }
 
     /// λ_a = Σ_b |coefficient of v_ab| in 1/s of Morris's form: an explicit step with Δt λ_a ≤ 1 for all a is stable.

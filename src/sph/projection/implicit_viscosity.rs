@@ -1,0 +1,161 @@
+//! Viscosity by the velocity at the end of the step, so that it does not limit the step.
+//!
+//! The forces F(v) at the beginning of the step, that of the pressure before among them, give the change δ of the velocity,
+//! (m + θ Δt K) δ = Δt F(v), with the viscous matrix K: by −K v alone this is the θ method. What of the viscous force K leaves out (the
+//! transposed gradient, walls and images in Szewc's form) goes explicitly. Where F = 0, δ = 0: rest and steady flow do not hang on the step.
+//!
+//! θ = 1/(1 − e^{−z}) − 1/z with the largest rate z/Δt [Liniger1970] is exact for a mode of that rate, the trapezoidal rule for short
+//! steps and backward Euler for long ones, and no mode changes its sign.
+
+use rayon::prelude::*;
+
+use super::Flow;
+use crate::math::{Mat2, Vec2};
+use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, conjugate_gradients};
+use crate::sph::images::Images;
+use crate::sph::method::ViscousTerm;
+use crate::sph::pairs::{Pair, Pairs, each, largest, split_rows};
+use crate::sph::terms::viscosity::Viscous;
+
+/// Largest relative residual of the change of the velocity.
+pub(super) const RESIDUAL: f64 = 1e-6;
+
+/// Most iterations; a usual solve takes about ten, and one with steps a thousand times the explicit limit some hundreds.
+const ITERATIONS: usize = 2000;
+
+/// Below this product of step and rate θ is taken from its series, whose next term is z³/720.
+const SHORT: f64 = 1e-2;
+
+/// K over the masses, m^{-1/2} K m^{-1/2} in 1/s, over fluid particles. Walls and buffers stand still in it: what it acts on is a
+/// change of the velocity, and theirs is given.
+pub(super) struct ViscousMatrix<'a> {
+    pairs: &'a Pairs,
+    images: &'a Images,
+    /// Whether pairs act along their line of centers only.
+    is_central: bool,
+    /// √m of each fluid particle, m in kg/m.
+    root_mass: Vec<f64>,
+    /// The negative of the off-diagonal entry of each pair, 0 where the neighbor is no fluid; of central pairs over |∇W|².
+    coupling: Vec<f64>,
+    /// Diagonal blocks.
+    diagonal: Vec<Mat2>,
+}
+
+impl Flow {
+    /// The viscous matrix at the present positions.
+    pub(super) fn viscous_matrix(&self) -> ViscousMatrix<'_> {
+        let (pairs, images, fluids, f) = (&self.pairs, &self.images, self.particles.fluids, &self.fields);
+        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
+        let is_central = self.method.viscous_term == ViscousTerm::Szewc;
+        let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
+        let strength = |a: usize, ab: &Pair| {
+            if !is_central {
+                return viscous.coupling(a, ab);
+            }
+            let steepness = ab.grad_w.norm_squared();
+            if steepness > 0.0 { viscous.central_coupling(a, ab) / steepness } else { 0.0 }
+        };
+        let starts = &pairs.starts()[..=fluids];
+        let mut coupling = vec![0.0; starts[fluids]];
+        let parts: Vec<_> = split_rows(starts, &mut coupling).collect();
+        parts.into_par_iter().for_each(|(rows, coupling)| {
+            let all = rows.flat_map(|a| pairs.of(a).map(move |ab| (a, ab)));
+            for (out, (a, ab)) in coupling.iter_mut().zip(all) {
+                let b = images.source(ab.b);
+                // The image of a central pair acts along another line, so that its blocks would not be symmetric: the diagonal stands for it.
+                let is_coupled = b < fluids && (ab.b == b || !is_central);
+                *out = if is_coupled { strength(a, &ab) / (root_mass[a] * root_mass[b]) } else { 0.0 };
+            }
+        });
+        let mut diagonal = vec![Mat2::zeros(); fluids];
+        each(&mut diagonal, |a| {
+            let block = |ab: Pair| {
+                let stretch = self.stretch_matrix(a, ab.b);
+                if !is_central {
+                    return strength(a, &ab) * stretch;
+                }
+                let for_image = if ab.b < self.particles.len() { 1.0 } else { 2.0 };
+                for_image * stretch.norm() * strength(a, &ab) * ab.grad_w * ab.grad_w.transpose()
+            };
+            pairs.of(a).map(block).sum::<Mat2>() / (root_mass[a] * root_mass[a])
+        });
+        ViscousMatrix { pairs, images, is_central, root_mass, coupling, diagonal }
+    }
+}
+
+impl ViscousMatrix<'_> {
+    /// A bound of the rates in 1/s at which viscosity slows motions, by Gershgorin's theorem.
+    fn largest_rate(&self) -> f64 {
+        let rate = |a: usize| 2.0 * self.diagonal[a].symmetric_eigenvalues().max();
+        largest(self.diagonal.len(), rate).map_or(0.0, |l| l.1)
+    }
+
+    /// The change of the velocity in m/s over `dt` (s) under the `acceleration` (m/s²) of the forces at its beginning.
+    pub(super) fn change(&self, acceleration: &[Vec2], dt: f64) -> (Vec<Vec2>, Convergence) {
+        let system = System { viscous: self, weight: dt * theta(dt * self.largest_rate()) };
+        let fluids = self.diagonal.len();
+        let mut inverse = vec![Mat2::zeros(); fluids];
+        each(&mut inverse, |a| {
+            let block = Mat2::identity() + system.weight * self.diagonal[a];
+            block.try_inverse().unwrap_or_else(Mat2::identity)
+        });
+        let mut b = vec![Vec2::zeros(); fluids];
+        each(&mut b, |a| dt * self.root_mass[a] * acceleration[a]);
+        let mut change = vec![Vec2::zeros(); fluids];
+        let found = conjugate_gradients(&system, &b, &mut change, (RESIDUAL, ITERATIONS), |r, z| {
+            each(z, |a| inverse[a] * r[a]);
+        });
+        change.iter_mut().zip(&self.root_mass).for_each(|(change, root)| *change /= *root);
+        (change, found)
+    }
+}
+
+/// The weight of the end of the step, from 1/2 for short to 1 for long ones; `z` is the step times the largest rate.
+fn theta(z: f64) -> f64 {
+    if z < SHORT { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
+}
+
+/// 1 + `weight` m^{-1/2} K m^{-1/2} with the weight θ Δt in s.
+struct System<'a> {
+    viscous: &'a ViscousMatrix<'a>,
+    weight: f64,
+}
+
+impl System<'_> {
+    /// A row of the product with x, which is given over particles and images.
+    #[inline]
+    fn row(&self, a: usize, x: &[Vec2]) -> Vec2 {
+        let v = self.viscous;
+        let row = v.pairs.row(a);
+        let coupling = &v.coupling[row.clone()];
+        let coupled: Vec2 = if v.is_central {
+            let pairs = v.pairs.of(a).zip(coupling);
+            pairs.map(|(ab, coupling)| coupling * x[ab.b].dot(&ab.grad_w) * ab.grad_w).sum()
+        } else {
+            let neighbors = v.pairs.neighbors()[row].iter().zip(coupling);
+            neighbors.map(|(&b, &coupling)| coupling * x[b as usize]).sum()
+        };
+        x[a] + self.weight * (v.diagonal[a] * x[a] - coupled)
+    }
+
+    /// x over particles and images; walls and buffers do not change.
+    fn extended(&self, x: &[Vec2]) -> Vec<Vec2> {
+        let (pairs, images) = (self.viscous.pairs, self.viscous.images);
+        let mut all = x.to_vec();
+        all.resize(pairs.rows(), Vec2::zeros());
+        images.extend_velocity(&mut all);
+        all
+    }
+}
+
+impl SymmetricMatrix<Vec2> for System<'_> {
+    fn apply(&self, x: &[Vec2], y: &mut [Vec2]) {
+        let x = self.extended(x);
+        each(y, |a| self.row(a, &x));
+    }
+
+    fn residual(&self, b: &[Vec2], x: &[Vec2], r: &mut [Vec2]) {
+        let x = self.extended(x);
+        each(r, |a| b[a] - self.row(a, &x));
+    }
+}
