@@ -7,8 +7,8 @@ use super::checked::{
 use super::raw::{
     Empty, RawCase, RawCsf, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface,
     RawLineDelta, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawPressureJump, RawProfile,
-    RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousStep, RawViscousTerm, RawWallSpeeds,
-    RawWalls,
+    RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousStep, RawViscousTerm,
+    RawWallSpeeds, RawWalls,
 };
 use super::wetting;
 

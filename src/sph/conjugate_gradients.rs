@@ -17,9 +17,7 @@ const ANEW_AFTER: usize = 5;
 const PROGRESS: f64 = 0.5;
 
 /// One unknown: a number, or a vector of the plane.
-pub trait Unknown:
-    Copy + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self> + AddAssign + SubAssign
-{
+pub trait Unknown: Copy + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self> + AddAssign + SubAssign {
     /// Nothing.
     const ZERO: Self;
 

@@ -14,7 +14,7 @@ const LARGEST_SYMMETRIC_RATIO: f64 = 5.0;
 /// Above this ratio the light particles of the unweighted continuum force are too fast.
 const LARGEST_WEIGHTED_RATIO: f64 = 20.0;
 
-/// The drift source has its full rate where the fastest particle goes this far, over dx, in a step that is stable without viscosity.
+/// The drift source has its full rate where the fastest particle goes this far, over dx, in its time.
 const FULL_DRIFT_WAY: f64 = 0.005;
 
 /// Forms of the pressure gradient, see `terms::pressure_gradient`.
@@ -86,7 +86,7 @@ pub struct Method {
     pub viscous_term: ViscousTerm,
     /// How it goes on in time.
     pub viscous_step: ViscousStep,
-    /// Largest share γ of the density error that the pressure takes back per step.
+    /// Largest share γ of the density error that the pressure takes back in the time of the drift source.
     pub drift_source: f64,
     /// Share of the density error taken back per step by moving particles, their velocities left as they are.
     pub drift_correction: f64,
@@ -154,15 +154,15 @@ impl Method {
         if self.pressure_gradient() == PressureGradient::Difference { rho / self.mean_density() } else { 1.0 }
     }
 
-    /// The rate in 1/s at which the pressure takes back the density error: γ/Δt min(1, v Δt/(.005 dx)) with the step Δt that is stable
-    /// without viscosity. `fastest` is the largest velocity in m/s relative to the mean of all.
+    /// The rate in 1/s at which the pressure takes back the density error: γ/τ min(1, v τ/(.005 dx)) with the time τ of the drift source
+    /// ([`Method::drift_time`]). `fastest` is the largest velocity in m/s relative to the mean of all.
     ///
     /// Density errors come with motion. Where hardly anything moves, to push for errors that are there would be what moves the particles.
     /// And they come in time, not in steps: a light gas, whose viscosity asks for short steps, must not be pushed in every one as hard.
     #[must_use]
     pub fn drift_rate(&self, fastest: f64) -> f64 {
-        let dt = self.inviscid_time_step(fastest).dt / self.time_step_factor;
-        self.drift_source / dt * (fastest * dt / (FULL_DRIFT_WAY * self.spacing)).min(1.0)
+        let tau = self.drift_time(fastest);
+        self.drift_source / tau * (fastest * tau / (FULL_DRIFT_WAY * self.spacing)).min(1.0)
     }
 
     /// ∇κ = (ρ_w − ρ_n) g/σ in 1/m² of an interface at rest, κ positive where the wetting phase is convex (Young and Laplace).

@@ -155,6 +155,7 @@ impl Solver for SphSolver {
                 ("viscous-iterations-per-step", per_step(work.viscous_iterations)),
                 ("ppe-relative-residual", work.residual),
                 ("bytes-per-particle", self.flow.bytes() as f64 / self.flow.particles.len().max(1) as f64),
+                ("repeated-steps", work.repeats as f64),
                 ("particles-set-back-from-walls", work.set_back as f64),
             ],
         }

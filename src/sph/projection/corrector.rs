@@ -3,7 +3,6 @@
 use super::{Flow, Predicted};
 use crate::math::Vec2;
 use crate::sph::method::PressureGradient;
-use crate::sph::pairs::largest;
 use crate::sph::terms::pressure_gradient;
 
 impl Flow {
@@ -26,9 +25,8 @@ impl Flow {
         let form = self.method.pressure_gradient();
         if form != PressureGradient::Difference {
             // The constant matters in these forms: all pressures at or above the background order the particles.
-            let speed = largest(fluids, |a| self.particles.velocity[a].norm()).map_or(0.0, |l| l.1);
             let lowest = p.iter().fold(f64::INFINITY, |m, p| m.min(*p));
-            let shift = self.background_pressure(speed) - lowest;
+            let shift = self.background_pressure(self.fluid_speed()) - lowest;
             p.iter_mut().for_each(|p| *p += shift);
         }
         self.images.extend(&mut p);

@@ -17,9 +17,9 @@ use crate::sph::cells::Cells;
 use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::fields::{Fields, Place};
 use crate::sph::images::Images;
-use crate::sph::method::Method;
+use crate::sph::method::{Method, ViscousStep};
 use crate::sph::open::{self, Feet, Open};
-use crate::sph::pairs::Pairs;
+use crate::sph::pairs::{Pairs, largest};
 use crate::sph::particles::Particles;
 use crate::sph::poisson::{PressureSolve, parts};
 use crate::sph::wetting::lines::Line;
@@ -31,6 +31,9 @@ const REORDER_EVERY: u64 = 20;
 /// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
 /// fluid answers to that of the buffer by a small share, so that few will do. Without them one does, for the viscous step.
 const FIRST_SOLVES: usize = 6;
+
+/// A step is shortened so many times at most; one does where forces accelerate particles.
+const MOST_REPEATS: usize = 10;
 
 /// The curvature of a wall is the turn of its normal this far to both sides, over dx.
 const TURN_OVER: f64 = 0.25;
@@ -51,6 +54,8 @@ pub struct Work {
     pub residual: f64,
     /// Iterations of all viscous solves.
     pub viscous_iterations: u64,
+    /// Steps that were taken again, since a particle would have gone too far.
+    pub repeats: u64,
     /// Particles set back from a wall.
     pub set_back: u64,
     /// Wall time of neighbors, forces, pressure matrix and solve, move in s.
@@ -110,8 +115,19 @@ pub(super) struct Predicted {
     velocity: Vec<Vec2>,
     /// Where the buffers of open sides take the velocity from.
     feet: Feet,
-    /// Iterations of the viscous solve.
-    viscous_iterations: usize,
+    /// What comes of the viscous solve.
+    damped: Damped,
+}
+
+/// What comes of a viscous solve beside the acceleration; nothing of an explicit step.
+#[derive(Default)]
+pub(super) struct Damped {
+    /// Acceleration of the fluid in m/s² by the pressure before the step.
+    by_pressure: Vec<Vec2>,
+    /// The share of the step beyond the longest explicit one.
+    excess: f64,
+    /// Iterations.
+    iterations: usize,
 }
 
 impl Flow {
@@ -219,18 +235,24 @@ impl Flow {
     /// See [`SolverError`]; positions, velocities and time are then those before the step.
     pub fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         let start = Instant::now();
-        let mut predicted = self.predict(until)?;
-        let after_forces = Instant::now();
         if self.steps == 0 {
-            for _ in 0..if self.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
-                self.particles.pressure = self.project(&predicted)?.0;
-                predicted = self.predict(until)?;
-            }
+            self.find_first_pressure(until)?;
         }
-        self.work.viscous_iterations += predicted.viscous_iterations as u64;
-        let (pressure, drift) = self.project(&predicted)?;
+        let viscous_step = self.method.viscous_step;
+        let mut predicted = self.predict((until, f64::INFINITY), viscous_step)?;
+        let after_forces = Instant::now();
+        let (mut pressure, mut drift) = self.project(&predicted)?;
+        let mut velocity = self.correct(&predicted, &pressure);
+        for _ in 0..MOST_REPEATS {
+            let fastest = largest(velocity.len(), |a| velocity[a].norm()).map_or(0.0, |l| l.1);
+            let Some(dt) = self.method.shorter_step(predicted.dt, fastest * predicted.dt) else { break };
+            predicted = self.predict((until, dt), viscous_step)?;
+            (pressure, drift) = self.project(&predicted)?;
+            velocity = self.correct(&predicted, &pressure);
+            self.work.repeats += 1;
+        }
+        self.work.viscous_iterations += predicted.damped.iterations as u64;
         let after_pressure = Instant::now();
-        let velocity = self.correct(&predicted, &pressure);
         self.advance(&predicted, (velocity, &drift), until)?;
         self.particles.pressure = pressure;
         if !self.open.sides.is_empty() {
@@ -243,6 +265,16 @@ impl Flow {
         self.lines = std::mem::take(&mut self.fields.lines);
         self.prepare();
         Ok(self.last)
+    }
+
+    /// Finds the pressure that the viscous step and open sides take from the step before, where there is none: that which the forces at time
+    /// zero ask for.
+    fn find_first_pressure(&mut self, until: f64) -> Result<(), SolverError> {
+        for _ in 0..if self.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
+            let predicted = self.predict((until, f64::INFINITY), ViscousStep::Explicit)?;
+            self.particles.pressure = self.project(&predicted)?.0;
+        }
+        Ok(())
     }
 
     /// Wall time by part in s.

@@ -1,6 +1,6 @@
 //! The predictor: all forces but the pressure [Huber2013, Eq. 25].
 
-use super::{Flow, Predicted, implicit_viscosity};
+use super::{Damped, Flow, Predicted, implicit_viscosity};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::method::{PressureGradient, ViscousStep};
@@ -12,16 +12,22 @@ use crate::sph::time_step::landing;
 
 impl Flow {
     /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25], without the gravity that goes with the
-    /// pressure (`at_rest`).
-    pub(super) fn predict(&self, until: f64) -> Result<Predicted, SolverError> {
+    /// pressure (`at_rest`). The step ends at `until` (s) or before, and is at most `longest` (s) long. Viscosity goes on as
+    /// `viscous_step` says; how long the step is does not hang on it.
+    pub(super) fn predict(
+        &self,
+        (until, longest): (f64, f64),
+        viscous_step: ViscousStep,
+    ) -> Result<Predicted, SolverError> {
         let (particles, fluids, moving) = (&self.particles, self.particles.fluids, self.particles.moving());
         let mut velocity = particles.velocity.clone();
         self.images.extend_velocity(&mut velocity);
         let viscous = self.viscous_acceleration(&velocity);
-        let is_implicit = self.method.viscous_step == ViscousStep::Implicit;
-        let rate = if is_implicit { 0.0 } else { self.viscous_rate() };
-        let (place, speed) = largest(moving, |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
-        let step = self.method.time_step(speed, rate);
+        let is_limited = self.method.viscous_step == ViscousStep::Explicit;
+        let rate = if is_limited { self.viscous_rate() } else { 0.0 };
+        // Walls count: what they drag along has their velocity at the end of the step.
+        let (place, speed) = largest(particles.len(), |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
+        let step = self.method.time_step(speed, rate).tighter(longest, "acceleration");
         let smallest = self.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
             let place = particles.position.get(place).copied().unwrap_or_default();
@@ -37,7 +43,7 @@ impl Flow {
         }
         let step = landing(step, self.time, until);
         let fastest = relative_speed(&particles.velocity[..fluids]);
-        let background = self.background_acceleration(speed);
+        let background = self.background_acceleration();
         let f = &self.fields;
         let body = self.method.gravity - self.balanced_gravity();
         let mut acceleration = vec![Vec2::zeros(); fluids];
@@ -45,28 +51,29 @@ impl Flow {
             let forces = (f.surface_force[a] + f.line_force[a]) / f.density[a];
             viscous[a] + body + forces + background[a]
         });
-        let mut viscous_iterations = 0;
-        if is_implicit {
-            viscous_iterations = self.damp(&mut acceleration, step.dt)?;
-        }
+        let damped = match viscous_step {
+            ViscousStep::Implicit => self.damp(&mut acceleration, step.dt)?,
+            ViscousStep::Explicit => Damped::default(),
+        };
         each(&mut velocity[..fluids], |a| particles.velocity[a] + step.dt * acceleration[a]);
         let feet = Feet::new(particles, &self.open.sides, &self.domain, &self.method.kernel);
         self.set_buffer_velocity(&feet, &mut velocity);
         // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
         velocity[moving..particles.len()].fill(Vec2::zeros());
         self.images.extend_velocity(&mut velocity);
-        Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, feet, viscous_iterations })
+        Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, feet, damped })
     }
 
     /// Makes of the `acceleration` (m/s²) of the forces at the beginning of a step of length `dt` (s) the one with which viscosity holds at its
     /// end. The iterations it took.
     ///
     /// The pressure before the step takes part: what it balances is no motion that viscosity would have to slow down.
-    fn damp(&self, acceleration: &mut [Vec2], dt: f64) -> Result<usize, SolverError> {
+    fn damp(&self, acceleration: &mut [Vec2], dt: f64) -> Result<Damped, SolverError> {
         let by_pressure = self.pressure_acceleration(&self.particles.pressure);
         let mut net = vec![Vec2::zeros(); acceleration.len()];
         each(&mut net, |a| acceleration[a] + by_pressure[a]);
-        let (change, found) = self.viscous_matrix().change(&net, dt);
+        let matrix = self.viscous_matrix();
+        let (change, found) = matrix.change(&net, dt);
         if !(found.residual <= implicit_viscosity::RESIDUAL) {
             return Err(SolverError::NotConverged {
                 system: "the viscous step",
@@ -78,7 +85,7 @@ impl Flow {
             });
         }
         each(acceleration, |a| change[a] / dt - by_pressure[a]);
-        Ok(found.iterations)
+        Ok(Damped { by_pressure, excess: matrix.excess(dt), iterations: found.iterations })
     }
 
     /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
@@ -101,10 +108,15 @@ impl Flow {
         m.background_pressure * scale
     }
 
-    fn background_acceleration(&self, speed: f64) -> Vec<Vec2> {
+    /// The largest speed of the fluid in m/s.
+    pub(super) fn fluid_speed(&self) -> f64 {
+        largest(self.particles.fluids, |a| self.particles.velocity[a].norm()).map_or(0.0, |l| l.1)
+    }
+
+    fn background_acceleration(&self) -> Vec<Vec2> {
         let mut acceleration = vec![Vec2::zeros(); self.particles.fluids];
         if self.method.pressure_gradient() == PressureGradient::Difference && self.method.background_pressure > 0.0 {
-            let over_density = self.background_pressure(speed) / self.method.mean_density();
+            let over_density = self.background_pressure(self.fluid_speed()) / self.method.mean_density();
             pressure_gradient::background(&self.pairs, &self.fields.volume, over_density, &mut acceleration);
         }
         acceleration

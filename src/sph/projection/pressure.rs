@@ -1,11 +1,13 @@
 //! The pressure equation of a step [Huber2013, Eqs. 28-31].
 
-use super::{Flow, Predicted};
+use rayon::prelude::*;
+
+use super::{Damped, Flow, Predicted};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::open::Prescribed;
-use crate::sph::pairs::each;
-use crate::sph::poisson::{System, Tolerance, Unknowns, assemble, give};
+use crate::sph::pairs::{GRAIN, each};
+use crate::sph::poisson::{Matrix, System, Tolerance, Unknowns, assemble, give};
 use crate::sph::terms::divergence::divergence;
 use crate::sph::terms::pressure_gradient;
 
@@ -31,14 +33,15 @@ impl Flow {
     /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
     /// no open side gives it.
     ///
-    /// The right side gives a share of the density error back per step (the drift source, which the paper lacks). Beside the
+    /// The right side gives a share of the density error back (the drift source, which the paper lacks). Beside the
     /// pressure stands the way in m that each fluid particle goes for the drift correction, nothing where there is none.
     pub(super) fn project(&mut self, predicted: &Predicted) -> Result<(Vec<f64>, Vec<Vec2>), SolverError> {
         let (n, fluids, dt) = (self.particles.len(), self.particles.fluids, predicted.dt);
         let (method, f) = (&self.method, &self.fields);
         let mut source = vec![0.0; n];
         divergence(&self.pairs, &f.volume, &predicted.velocity, &mut source);
-        let drift = method.drift_rate(predicted.fastest) / dt;
+        // A long step takes back all there is, and no more.
+        let drift = method.drift_rate(predicted.fastest).min(1.0 / dt) / dt;
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
             if !self.sees_the_fluid(a) {
@@ -50,6 +53,7 @@ impl Flow {
         let facing = self.facing();
         assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
         self.at_rest().subtract_from(&mut b, &matrix, &self.pairs);
+        self.keep_tight(&predicted.damped, &matrix, &mut b);
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
         let given = |a: usize| prescribed.of(a, fluids);
@@ -96,6 +100,31 @@ impl Flow {
             });
         }
         Ok((p, self.drift_correction(potential)))
+    }
+
+    /// Takes out of the right side `b` what the pressure before leaks in the part of the step beyond the longest explicit one.
+    ///
+    /// The divergence of the gradient is not quite the Laplacian, so that a pressure leaves the divergence Δt (Laplacian − divergence of the
+    /// gradient): in a steady flow as much in any step, and through walls. So no step leaks more than an explicit one.
+    fn keep_tight(&self, damped: &Damped, matrix: &Matrix, b: &mut [f64]) {
+        if damped.excess == 0.0 {
+            return;
+        }
+        let (n, f) = (self.particles.len(), &self.fields);
+        let mut acceleration = damped.by_pressure.clone();
+        acceleration.resize(n, Vec2::zeros());
+        self.images.extend_velocity(&mut acceleration);
+        let mut of_gradient = vec![0.0; n];
+        divergence(&self.pairs, &f.volume, &acceleration, &mut of_gradient);
+        let mut at_rest = vec![0.0; n];
+        self.at_rest().subtract_from(&mut at_rest, matrix, &self.pairs);
+        let pressure = &self.particles.pressure;
+        b.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, b)| {
+            if self.sees_the_fluid(a) {
+                let laplacian = matrix.diagonal[a] * pressure[a] - matrix.coupled(a, pressure) - at_rest[a];
+                *b += damped.excess * (laplacian - f.volume[a] * of_gradient[a]);
+            }
+        });
     }
 
     /// Where each wall particle and its images face; zero on other particles.

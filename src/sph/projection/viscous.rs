@@ -25,7 +25,8 @@ impl Flow {
     }
 
     /// The largest viscous rate in 1/s, see [`Viscous::rate`].
-    pub(super) fn viscous_rate(&self) -> f64 {
+    #[must_use]
+    pub fn viscous_rate(&self) -> f64 {
         let f = &self.fields;
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let mut rate = vec![0.0; self.particles.fluids];
@@ -75,11 +76,11 @@ impl Flow {
         self.wall_depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, wall, depth, f.slip_length[a]))
     }
 
-    /// The matrix that stretches v_a − v_b as [`Self::velocity_difference`] does.
-    pub(super) fn stretch_matrix(&self, a: usize, b: usize) -> Mat2 {
+    /// The matrix that stretches v_a − v_b as [`Self::velocity_difference`] does, with `of` each stretch in place of the stretch.
+    pub(super) fn stretch_matrix(&self, a: usize, b: usize, of: impl Fn(f64) -> f64) -> Mat2 {
         let Some(depth) = self.wall_depth(b) else { return Mat2::identity() };
         let (f, no_slip) = (&self.fields, &self.method.no_slip);
-        let [along, across] = no_slip.stretches(f.wall_distance[a], depth, f.slip_length[a]);
+        let [along, across] = no_slip.stretches(f.wall_distance[a], depth, f.slip_length[a]).map(of);
         let normal = f.wall_normal[a];
         Mat2::from_diagonal_element(along) + (across - along) * normal * normal.transpose()
     }

@@ -30,8 +30,7 @@ impl Viscous<'_> {
     pub fn transposed(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, acceleration: &mut [Vec2]) {
         let mut force = vec![Vec2::zeros(); acceleration.len()];
         each(&mut force, |a| {
-            let step = |b: usize| 2.0 * self.volume[b] * (self.mean_viscosity(a, b) - self.viscosity[a]);
-            let toward: Vec2 = pairs.of(a).map(|ab| step(ab.b) * ab.grad_w).sum();
+            let toward = self.step_of_viscosity(pairs, a);
             if toward == Vec2::zeros() {
                 return Vec2::zeros();
             }
@@ -54,6 +53,22 @@ impl Viscous<'_> {
             let along = if steepness > 0.0 { v_ab(a, b).dot(&ab.grad_w) * ab.slope / steepness } else { 0.0 };
             8.0 * m_b * self.both_kinematic(a, b) / (rho_a + rho_b) * along * ab.grad_w
         });
+    }
+
+    /// s_a = Σ_b V_b 2 (μ_ab − μ_a) ∇_a W_ab in Pa s/m, nothing where the viscosity is even.
+    fn step_of_viscosity(&self, pairs: &Pairs, a: usize) -> Vec2 {
+        let step = |b: usize| 2.0 * self.volume[b] * (self.mean_viscosity(a, b) - self.viscosity[a]);
+        pairs.of(a).map(|ab| step(ab.b) * ab.grad_w).sum()
+    }
+
+    /// V_a |s_a| Σ_b V_b |∇_a W_ab| in Pa s, the sum over b of the sizes of what [`Self::transposed`] multiplies v_b with in the force on a.
+    #[must_use]
+    pub fn weight_of_transposed(&self, pairs: &Pairs, a: usize) -> f64 {
+        let s = self.step_of_viscosity(pairs, a).norm();
+        if s == 0.0 {
+            return 0.0;
+        }
+        self.volume[a] * s * pairs.of(a).map(|ab| self.volume[ab.b] * ab.grad_w.norm()).sum::<f64>()
     }
 
     /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: what Morris's form multiplies v_ab with in the force that b
