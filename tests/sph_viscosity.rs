@@ -118,7 +118,7 @@ fn steps_far_beyond_the_explicit_limit_bring_every_motion_to_rest() {
             }
             // Momentum stays where no wall takes it.
             let last = energy(&flow);
-            assert!(last < 0.1 * before, "{form}, {times} times the limit: {before:.3e} to {last:.3e} J/m");
+            assert!(last < 0.2 * before, "{form}, {times} times the limit: {before:.3e} to {last:.3e} J/m");
         }
     }
 }

@@ -26,9 +26,9 @@ const ITERATIONS: usize = 2000;
 /// Below this product of step and rate θ is taken from its series, whose next term is z³/720.
 const SHORT: f64 = 1e-2;
 
-/// Up to so many of the longest explicit steps the transposed part is stable by itself: measured, a drop a hundred times as viscous as the fluid
-/// around it is stable at 10 and not at 30.
-const EXPLICIT_FOR: f64 = 10.0;
+/// Up to this product of step and rate the transposed part is stable by itself: measured on a drop a hundred times as viscous as the
+/// fluid around it.
+const LARGEST_EXPLICIT: f64 = 10.0;
 
 /// K over the masses, m^{-1/2} K m^{-1/2} in 1/s, over fluid particles. Walls and buffers stand still in it: what it acts on is a
 /// change of the velocity, and theirs is given.
@@ -101,21 +101,17 @@ impl Flow {
 impl ViscousMatrix<'_> {
     /// The share of a step of length `dt` (s) that goes beyond the longest one that would be stable explicitly; 0 for shorter ones.
     pub(super) fn excess(&self, dt: f64) -> f64 {
-        self.excess_over(1.0, dt)
-    }
-
-    /// The same beyond so many times that step.
-    fn excess_over(&self, times: f64, dt: f64) -> f64 {
-        (1.0 - 2.0 * times / (dt * self.largest_rate)).max(0.0)
+        (1.0 - 2.0 / (dt * self.largest_rate)).max(0.0)
     }
 
     /// The change of the velocity in m/s over `dt` (s) under the `acceleration` (m/s²) of the forces at its beginning.
     pub(super) fn change(&self, acceleration: &[Vec2], dt: f64) -> (Vec<Vec2>, Convergence) {
-        let (weight, share) = (dt * theta(dt * self.largest_rate), self.excess_over(EXPLICIT_FOR, dt));
+        let weight = dt * theta(dt * self.largest_rate);
         let fluids = self.diagonal.len();
         let mut diagonal = vec![Mat2::identity(); fluids];
         each(&mut diagonal, |a| {
-            Mat2::from_diagonal_element(1.0 + weight * share * self.explicit[a]) + weight * self.diagonal[a]
+            let excess = (self.explicit[a] - LARGEST_EXPLICIT / dt).max(0.0);
+            Mat2::from_diagonal_element(1.0 + weight * excess) + weight * self.diagonal[a]
         });
         let mut inverse = vec![Mat2::zeros(); fluids];
         each(&mut inverse, |a| diagonal[a].try_inverse().unwrap_or_else(Mat2::identity));
