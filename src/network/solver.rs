@@ -109,7 +109,13 @@ impl NetworkSolver {
     pub fn entry_curvatures(&self) -> Option<&[f64]> {
         let Setting { network, pores, entry, .. } = &self.setting;
         let conditions = entry.as_ref()?;
-        let find = || Displacement::new(network, pores, conditions.clone()).entry_curvatures(network.throats.len());
+        let throats = network.throats.len();
+        let find = || {
+            let known = self.cycles.as_ref().map(Cycles::displacement).filter(|it| it.events() == conditions.events);
+            let new =
+                || Displacement::new(network, pores, conditions.clone()).entry_curvatures(&conditions.angle, throats);
+            known.map_or_else(new, |displacement| displacement.entry_curvatures(&conditions.angle, throats))
+        };
         Some(self.entry_curvatures.get_or_init(find))
     }
 
