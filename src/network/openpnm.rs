@@ -140,7 +140,7 @@ fn throat_columns(solver: &NetworkSolver) -> Vec<Column> {
     let conductances = solver.conductances();
     let viscosity = setting.viscosities[0].unwrap_or(1.0);
     columns.push(column("throat.hydraulic_conductance", &|it| match it.link {
-        Link::Throat { index, .. } => conductances[index].value / viscosity,
+        Link::Throat { index, .. } => conductances[index] / viscosity,
         Link::Opening(opening) => channel(setting, opening) / viscosity,
     }));
     if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
