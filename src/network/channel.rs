@@ -152,13 +152,13 @@ impl Channel {
             None => (cos > -ROUNDING).then(|| (1.0 / cos.max(ROUNDING), 1.0 / cos.max(ROUNDING), 0.0)),
             Some(radius) => {
                 let turned = radius * cos + 0.5 * d;
+                let least = ROUNDING * (d + radius.abs());
                 if radius >= 0.0 {
-                    (turned > ROUNDING * d).then(|| (1.0 / turned, radius / turned, 1.0 / turned))
-                } else {
-                    // Both walls on one circle: every arc meets it at right angles, and both ends move alike.
-                    let turned = turned.min(-ROUNDING * d).max(if turned > ROUNDING * d { f64::NAN } else { turned });
-                    (turned < 0.0).then(|| (-1.0 / turned, radius / turned, 1.0 / turned))
+                    return (turned > least).then(|| (1.0 / turned, radius / turned, 1.0 / turned));
                 }
+                // Both walls on one circle: every arc meets it at right angles, and both ends move alike.
+                let meets = turned.min(-least);
+                (turned <= least).then(|| (-1.0 / meets, radius / meets, 1.0 / meets))
             }
         };
         let ((one, length_one, turn_one), (other, length_other, turn_other)) = (rate(0)?, rate(1)?);
@@ -384,6 +384,30 @@ mod tests {
         let resistance = 2.0 * Channel { walls: [side(-1.0), side(1.0)] }.resistance(v(1e3, 0.0));
         let share = PI / 32.0 * resistance;
         assert!((share - 1.0).abs() < 0.1, "{share}");
+    }
+
+    #[test]
+    fn a_round_pore_behind_a_slit_resists_as_its_arcs_say() {
+        // The slit w = 2 sin γ0 in the circle of radius 1 around the origin; ends at the polar angles π ± γ. At the corners
+        // 12/h³ dl = 3 (sin α/α)³/cos²(α/2) dα/w², in the pore h = 2 γ' tan γ with γ' = π/2 - γ = α and the middle at -tan(γ'/2).
+        let start = 0.2_f64;
+        let w = 2.0 * start.sin();
+        let wall = |side: f64| {
+            let curve = Curve::Arc { center: Vec2::zeros(), radius: 1.0, start: PI - side * start, sweep: -side * 2.0 };
+            let piece = WallPiece { curve, whole: curve, shape: 0 };
+            Wall::new(&[piece], side, curve.point(0.0), Vec2::x())
+        };
+        let found = Channel { walls: [wall(-1.0), wall(1.0)] }.resistance(Vec2::zeros());
+        let count = 100_000;
+        let sum = |from: f64, to: f64, f: &dyn Fn(f64) -> f64| -> f64 {
+            let step = (to - from) / f64::from(count);
+            (0..count).map(|i| f(from + (f64::from(i) + 0.5) * step) * step).sum()
+        };
+        let alpha = FRAC_PI_2 - start;
+        let corners = sum(0.0, alpha, &|a| 3.0 * (a.sin() / a).powi(3) / ((0.5 * a).cos() * w).powi(2));
+        let pore = sum(0.0, alpha, &|a| 6.0 / (2.0 * a / a.tan()).powi(3) / (0.5 * a).cos().powi(2));
+        let expected = corners + pore;
+        assert!((found / expected - 1.0).abs() < 1e-3, "{found} and {expected}");
     }
 
     #[test]
