@@ -12,7 +12,7 @@ use crate::table::Table;
 /// States of a half cycle, its beginning and its end among them, at which relative permeabilities are found.
 const STATES: u32 = 9;
 
-/// Permeabilities of random packs are within 5 % of Stokes flow above this solid fraction; below, other shapes were up to 26 % off.
+/// Permeabilities of random packs are within 5 % of Stokes flow above this solid fraction; below, other shapes were up to 25 % off.
 pub const LEAST_SOLID: f64 = 0.3;
 
 /// What can drive a flow along an axis; none where its sides are closed.
