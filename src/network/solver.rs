@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use super::conductance::{Conductance, conductances};
+use super::conductance::conductances;
 use super::cycles::Cycles;
 use super::displacement::{Conditions, Displacement, EventKind};
 use super::graph::{Network, Pores};
@@ -54,7 +54,7 @@ pub struct NetworkSolver {
     setting: Setting,
     cycles: Option<Cycles>,
     entry_curvatures: OnceCell<Vec<f64>>,
-    conductances: OnceCell<Vec<Conductance>>,
+    conductances: OnceCell<Vec<f64>>,
     clock: f64,
     steps_before: u64,
     seconds: [f64; 2],
@@ -121,7 +121,7 @@ impl NetworkSolver {
 
     /// The conductances of all throats of the network.
     #[must_use]
-    pub fn conductances(&self) -> &[Conductance] {
+    pub fn conductances(&self) -> &[f64] {
         self.conductances.get_or_init(|| conductances(&self.setting.network))
     }
 
