@@ -173,12 +173,18 @@ impl Channel {
 
     /// ∫ 12/h³ along the middle line, from the chord until the center of the pore is abreast, in 1/m2.
     pub(super) fn resistance(&self, center: Vec2) -> f64 {
+        self.integral(center).0
+    }
+
+    /// The same, with the number of steps that it took.
+    fn integral(&self, center: Vec2) -> (f64, usize) {
         let mut places = [Place { piece: 0, at: 0.0 }; 2];
-        let mut sum = 0.0;
+        let (mut sum, mut steps) = (0.0, 0);
         if !self.settle(&mut places, center, &mut sum) {
-            return sum;
+            return (sum, steps);
         }
-        for _ in 0..MOST_STEPS {
+        while steps < MOST_STEPS {
+            steps += 1;
             let arc = self.arc(places);
             let ahead = self.ahead(center, &arc);
             if ahead.is_nan() || ahead <= REACHED * arc.h {
@@ -194,7 +200,7 @@ impl Channel {
                 break;
             }
         }
-        sum
+        (sum, steps)
     }
 
     /// How far the middle has to go until the center is abreast of it; 0 where the channel has turned off at nearly a right angle.
@@ -274,11 +280,11 @@ impl Channel {
             let Reached { at, rates, resistance } = self.runge_kutta(places, length, arc, first)?;
             let rounding = |wall: usize| ROUNDING * (at[wall] - places[wall].at);
             let beyond = |wall: usize| at[wall] - end(wall);
-            // Newton's method; the secant from the beginning where it leaves the step.
+            // The secant from the beginning of the step, and Newton's method close to the end: far from it, Newton's may come down at the beginning.
             let to_end = |wall: usize| {
                 let newton = length - beyond(wall) / rates[wall];
                 let secant = length * (end(wall) - places[wall].at) / (at[wall] - places[wall].at);
-                if newton > 0.0 && newton < length { newton } else { secant }
+                if newton > 0.5 * secant && newton < length { newton } else { secant }
             };
             let reached = self.arc([0, 1].map(|wall| Place { at: at[wall], ..places[wall] }));
             let left = |arc: &Arc| self.along.dot(&(center - arc.middle));
@@ -380,6 +386,25 @@ mod tests {
                 let found = resistance(radii, w, center);
                 // Fourth order in the length of a step.
                 assert!((found / expected - 1.0).abs() < 2e-4, "{radii:?}, {w}: {found} and {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_channel_takes_many_steps_wherever_its_walls_end() {
+        // Walls that end at any angle, pores at any distance.
+        for k in 1..400 {
+            let sweep = 1.5 * f64::from(k) / 400.0;
+            for j in 1..50 {
+                let wall = |side: f64, sweep: f64| {
+                    let center = Vec2::new(0.0, 1.04 * side);
+                    let curve = Curve::Arc { center, radius: 1.0, start: -FRAC_PI_2 * side, sweep: sweep * side };
+                    let piece = WallPiece { curve, whole: Curve::circle(center, 1.0), shape: 0 };
+                    Wall::new(&[piece], side, Vec2::new(0.0, 0.04 * side), Vec2::x())
+                };
+                let channel = Channel { walls: [wall(-1.0, sweep), wall(1.0, 1.6)], along: Vec2::x() };
+                let (resistance, steps) = channel.integral(Vec2::new(0.03 * f64::from(j), 0.1));
+                assert!(resistance > 0.0 && steps < 200, "{sweep}, {j}: {steps} steps");
             }
         }
     }
