@@ -225,3 +225,35 @@ fn a_disc_that_faces_its_own_image_bursts_as_two_discs_do() {
         );
     }
 }
+
+/// Discs of radius 1 on equal triangles of side `pitch`, rows along x, periodic along y, with free space on both sides.
+fn hexagonal(pitch: f64) -> GeometrySpec {
+    let (columns, rows) = (9, 6);
+    let height = 0.5 * 3.0_f64.sqrt() * pitch;
+    let disc = |i: i32, j: i32| {
+        let center = [(f64::from(i) + 1.5 + 0.5 * f64::from(j % 2)) * pitch, (f64::from(j) + 0.5) * height];
+        ShapeSpec::Disc(Disc { center, radius: 1.0 })
+    };
+    GeometrySpec {
+        min: [0.0; 2],
+        max: [(f64::from(columns) + 2.5) * pitch, f64::from(rows) * height],
+        solid: SolidSide::Inside,
+        shapes: (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j))).map(|(i, j)| disc(i, j)).collect(),
+    }
+}
+
+#[test]
+fn menisci_that_have_met_around_a_disc_wait_as_one_until_they_touch_the_disc_ahead() {
+    for pitch in [2.2, 2.4, 3.0] {
+        let outcome = displaced(&hexagonal(pitch), 180.0, false, Events::All);
+        // Both meet on the disc A between the discs B and D on the circle around the disc E ahead, which has the radius L - 1. The meniscus
+        // between B and D then flattens until it touches E: |C - B| = 1 + r with C = r - 1 from the center of E.
+        let (met, touched) = (1.0 / (pitch - 1.0), (4.0 - pitch) / (pitch * (pitch - 1.0)));
+        assert!(touched < met);
+        let joined: Vec<f64> =
+            outcome.events.iter().filter(|event| event.elements.len() == 2).map(|event| -event.curvature).collect();
+        println!("{pitch}: met {met} touched {touched}: {joined:?}");
+        assert!(joined.len() > 20, "{}", joined.len());
+        assert!(joined.iter().all(|k| (k / touched - 1.0).abs() < 1e-9), "{touched}: {joined:?}");
+    }
+}

@@ -83,6 +83,7 @@ pub(super) fn refuse_keys_of_import(checker: &mut Checker, raw: &RawGeometry) {
         ("smooth-below-deg", raw.smooth_below_deg.is_some()),
         ("columns", raw.columns.is_some()),
         ("separator", raw.separator.is_some()),
+        ("diameters", raw.diameters.is_some()),
     ];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
         let message = format!("`{key}` tells how a file is read, and no `file` is given");
@@ -108,6 +109,7 @@ pub(super) fn options(raw: &RawGeometry) -> Options {
         smooth_below_deg: raw.smooth_below_deg,
         columns: raw.columns,
         separator: raw.separator,
+        diameters: raw.diameters,
     }
 }
 

@@ -41,6 +41,9 @@ pub struct ImportArguments {
     /// The character between the columns of a list of discs
     #[arg(long, value_name = "CHAR")]
     pub separator: Option<char>,
+    /// The third column of a list of discs holds diameters
+    #[arg(long)]
+    pub diameters: bool,
 }
 
 impl ImportArguments {
@@ -58,6 +61,7 @@ impl ImportArguments {
             smooth_below_deg: self.smooth_below_deg,
             columns: self.columns,
             separator: self.separator,
+            diameters: self.diameters.then_some(true),
         }
     }
 }

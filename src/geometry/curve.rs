@@ -132,8 +132,9 @@ impl Curve {
                 if turned <= 1.0 {
                     return Foot { u: turned, point: center + r * (radius / distance) };
                 }
-                let ends = [self.point(0.0), self.point(1.0)];
-                let u = if (ends[0] - x).norm_squared() <= (ends[1] - x).norm_squared() { 0.0 } else { 1.0 };
+                // The end that is closer is the one under the smaller angle.
+                let (past_end, before_start) = (turned - 1.0, TAU / sweep.abs() - turned);
+                let u = if before_start <= past_end { 0.0 } else { 1.0 };
                 Foot { u, point: self.point(u) }
             }
         }

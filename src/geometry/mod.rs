@@ -5,6 +5,7 @@
 
 pub(crate) mod body;
 pub(crate) mod boundary;
+pub(crate) mod closest;
 pub(crate) mod cosine;
 pub(crate) mod critical;
 pub mod curve;

@@ -12,7 +12,7 @@ use crate::table::Table;
 /// States of a half cycle, its beginning and its end among them, at which relative permeabilities are found.
 const STATES: u32 = 9;
 
-/// The conductances are good to some ten percent above this solid fraction.
+/// Permeabilities of random packs are within 5 % of Stokes flow above this solid fraction; below, other shapes were up to 25 % off.
 pub const LEAST_SOLID: f64 = 0.3;
 
 /// What can drive a flow along an axis; none where its sides are closed.
@@ -34,7 +34,7 @@ fn of_phase(solver: &NetworkSolver, drive: Drive, holds: &[bool]) -> Result<f64,
         .throats
         .iter()
         .zip(solver.conductances())
-        .map(|(throat, conductance)| if is_open(throat.regions) { conductance.value } else { 0.0 })
+        .map(|(throat, &conductance)| if is_open(throat.regions) { conductance } else { 0.0 })
         .collect();
     permeability(&setting.network, Paths { conductance: &conductance, holds }, setting.bounds, drive)
 }

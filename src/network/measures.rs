@@ -54,7 +54,7 @@ fn permeabilities(solver: &NetworkSolver) -> Vec<Measure> {
     let solid = 1.0 - setting.porosity;
     let range = if solid < LEAST_SOLID {
         format!(
-            " (WARNING: the solid fraction is {solid:.2}, and conductances of throats are too high below {LEAST_SOLID})"
+            " (WARNING: the solid fraction is {solid:.2}; below {LEAST_SOLID} walls may be far apart, and Stokes flow may differ by up to 30 %)"
         )
     } else {
         String::new()

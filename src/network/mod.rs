@@ -1,5 +1,6 @@
 //! Pore networks: extraction from the exact geometry, menisci in throats, displacement, conductance and permeability.
 
+mod channel;
 pub mod conductance;
 pub mod cycles;
 pub mod displacement;

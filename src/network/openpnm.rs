@@ -4,6 +4,7 @@
 //! Each opening of an open side is a boundary pore of volume zero with a throat to the pore behind it. Leaves out throats from a
 //! pore to itself, which connect nothing.
 
+use super::conductance::opening_conductances;
 use super::graph::{Opening, Throat};
 use super::setup::SIDES;
 use super::solver::{NetworkSolver, Setting};
@@ -14,7 +15,7 @@ use crate::table::{Cells, Column, Table};
 /// A connection of two pores: a throat, or an opening.
 enum Link<'a> {
     Throat { index: usize, throat: &'a Throat },
-    Opening(&'a Opening),
+    Opening { index: usize, opening: &'a Opening },
 }
 
 struct Connection<'a> {
@@ -28,9 +29,10 @@ fn connections(setting: &Setting) -> Vec<Connection<'_>> {
         let [a, b] = pores_of(setting, throat);
         (a != b).then_some(Connection { ends: [a.min(b), a.max(b)], link: Link::Throat { index, throat } })
     });
-    let openings = openings(setting)
-        .enumerate()
-        .map(|(index, (opening, pore))| Connection { ends: [pore, pores + index], link: Link::Opening(opening) });
+    let openings = openings(setting).enumerate().map(|(index, (opening, pore))| Connection {
+        ends: [pore, pores + index],
+        link: Link::Opening { index, opening },
+    });
     throats.chain(openings).collect()
 }
 
@@ -38,33 +40,23 @@ impl Connection<'_> {
     fn width(&self) -> f64 {
         match &self.link {
             Link::Throat { throat, .. } => throat.width,
-            Link::Opening(opening) => (opening.ends[1] - opening.ends[0]).norm(),
+            Link::Opening { opening, .. } => (opening.ends[1] - opening.ends[0]).norm(),
         }
     }
 
     fn length(&self, setting: &Setting) -> f64 {
         match &self.link {
             Link::Throat { throat, .. } => length(setting, throat),
-            Link::Opening(opening) => (center(setting, self.ends[0]) - place(opening)).norm(),
+            Link::Opening { opening, .. } => (center(setting, self.ends[0]) - place(opening)).norm(),
         }
     }
 
     fn of_throat(&self, value: impl Fn(&Throat) -> f64, of_opening: f64) -> f64 {
         match &self.link {
             Link::Throat { throat, .. } => value(throat),
-            Link::Opening(_) => of_opening,
+            Link::Opening { .. } => of_opening,
         }
     }
-}
-
-/// Conductance in m2 of a channel of the width of an opening up to the center of the region behind it.
-fn channel(setting: &Setting, opening: &Opening) -> f64 {
-    /// A center on the side itself: next to no resistance, and still a number.
-    const SHORTEST: f64 = 1.0e-6;
-    let width = (opening.ends[1] - opening.ends[0]).norm();
-    let axis = opening.side / 2;
-    let length = (setting.network.regions[opening.region].center - opening.ends[0])[axis].abs();
-    width.powi(3) / (12.0 * length.max(SHORTEST * width))
 }
 
 fn place(opening: &Opening) -> Vec2 {
@@ -137,19 +129,19 @@ fn throat_columns(solver: &NetworkSolver) -> Vec<Column> {
         column("throat.wall_1", &|it| it.of_throat(|throat| f64::from(throat.shapes[0]), f64::NAN)),
         column("throat.wall_2", &|it| it.of_throat(|throat| f64::from(throat.shapes[1]), f64::NAN)),
     ];
-    let conductances = solver.conductances();
+    let (conductances, of_openings) = (solver.conductances(), opening_conductances(&setting.network));
     let viscosity = setting.viscosities[0].unwrap_or(1.0);
     columns.push(column("throat.hydraulic_conductance", &|it| match it.link {
-        Link::Throat { index, .. } => conductances[index].value / viscosity,
-        Link::Opening(opening) => channel(setting, opening) / viscosity,
+        Link::Throat { index, .. } => conductances[index] / viscosity,
+        Link::Opening { index, .. } => of_openings[index] / viscosity,
     }));
     if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
         // The meniscus at an opening is that of a reservoir: it has no entry pressure.
         columns.push(column("throat.entry_pressure", &|it| match it.link {
             Link::Throat { index, .. } => tension * curvatures[index],
-            Link::Opening(_) => 0.0,
+            Link::Opening { .. } => 0.0,
         }));
     }
-    columns.push(flags("throat.boundary", all.iter().map(|it| matches!(it.link, Link::Opening(_)))));
+    columns.push(flags("throat.boundary", all.iter().map(|it| matches!(it.link, Link::Opening { .. }))));
     columns
 }

@@ -10,6 +10,7 @@ use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
 
 use crate::math::{Bounds, factor_in_one_thread};
+use crate::network::conductance::opening_conductances;
 use crate::network::graph::Network;
 
 /// A network that does not fit into the memory as a matrix, or whose conductances are no numbers above 0.
@@ -79,21 +80,13 @@ fn graph(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> Graph
         }
     }
     if matches!(drive, Drive::Sides(_)) {
-        for opening in &network.openings {
+        for (opening, conductance) in network.openings.iter().zip(opening_conductances(network)) {
             let is_low = opening.side == 2 * axis;
             let is_held = paths.holds.get(opening.region).copied().unwrap_or(false);
             if !is_held || !(is_low || opening.side == 2 * axis + 1) {
                 continue;
             }
-            // A channel of the width of the opening up to the center of the region.
-            let width = (opening.ends[1] - opening.ends[0]).norm();
-            let center = network.regions[opening.region].center[axis];
-            let side = if is_low { domain.min[axis] } else { domain.max[axis] };
-            // A center on the side itself: next to no resistance, and still a number.
-            const SHORTEST: f64 = 1e-6;
-            let length = (center - side).abs().max(SHORTEST * width);
             let pressure = if is_low { domain.size()[axis] } else { 0.0 };
-            let conductance = width.powi(3) / (12.0 * length);
             conductors.push(Conductor { from: opening.region, to: None, conductance, jump: -pressure });
         }
     }
@@ -193,7 +186,7 @@ mod tests {
     use super::*;
     use crate::geometry::curve::Curve;
     use crate::math::Vec2;
-    use crate::network::conductance::{Method, conductances};
+    use crate::network::conductance::conductances;
     use crate::network::graph::{Edge, Opening, Region, Throat, WallPiece};
 
     fn wall(curve: Curve) -> Edge {
@@ -237,19 +230,15 @@ mod tests {
     const UNIT: Bounds = Bounds { min: Vec2::new(0.0, 0.0), max: Vec2::new(1.0, 1.0) };
 
     #[test]
-    fn square_arrays_are_as_far_from_exact_flow_as_the_method_note_says() {
-        // Drag of Sangani and Acrivos (1982); K = 1/F. Shares in percent.
-        for (solid, drag, high) in
-            [(0.6, 1763.6, 6.0), (0.5, 532.548, 10.0), (0.4, 217.894, 13.0), (0.3, 102.881, 18.0_f64)]
-        {
+    fn square_arrays_have_the_permeability_of_exact_flow_within_two_percent() {
+        // Drag of Sangani and Acrivos (1982); K = 1/F. Arcs miss a sixth of what the slope of walls adds.
+        for (solid, drag) in [(0.6, 1763.6), (0.5, 532.548), (0.4, 217.894), (0.3, 102.881), (0.2, 51.527)] {
             let network = square_array((solid / PI).sqrt());
-            let found = conductances(&network);
-            let values: Vec<f64> = found.iter().map(|c| c.value).collect();
+            let values = conductances(&network);
             for axis in [0, 1] {
                 let paths = Paths { conductance: &values, holds: &[true] };
                 let k = permeability(&network, paths, UNIT, Drive::Periodic(axis)).unwrap();
-                let error = 100.0 * (k * drag - 1.0);
-                assert!((error - high).abs() < 1.0, "{solid}: {error}");
+                assert!((k * drag - 1.0).abs() < 0.02, "{solid}: {}", k * drag - 1.0);
             }
         }
     }
@@ -301,9 +290,7 @@ mod tests {
         let domain = Bounds { min: Vec2::zeros(), max: Vec2::new(length, width) };
         for cuts in [vec![], vec![1.0], vec![0.5, 1.7, 2.9]] {
             let network = slit(length, width, &cuts);
-            let found = conductances(&network);
-            assert!(found.iter().all(|c| c.method == Method::Integral));
-            let values: Vec<f64> = found.iter().map(|c| c.value).collect();
+            let values = conductances(&network);
             let holds = vec![true; network.regions.len()];
             let paths = Paths { conductance: &values, holds: &holds };
             let k = permeability(&network, paths, domain, Drive::Sides(0)).unwrap();

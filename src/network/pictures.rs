@@ -99,8 +99,24 @@ fn pair(point: Vec2) -> [f64; 2] {
     point.into()
 }
 
-fn boundary(outline: &[Vec2]) -> Vec<[f64; 2]> {
-    outline.iter().copied().map(pair).collect()
+/// A line or an outline as often as it is seen in the domain: at each whole number of periods at which it reaches into it.
+fn images(setting: &Setting, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
+    let domain = setting.bounds;
+    let ends = line.iter().fold(None, |ends: Option<[Vec2; 2]>, point| {
+        Some(ends.map_or([*point; 2], |[low, high]| [low.inf(point), high.sup(point)]))
+    });
+    let Some([low, high]) = ends else { return Vec::new() };
+    let shifts = [0, 1].map(|axis| {
+        let size = domain.size()[axis];
+        if !setting.periodic[axis] || !(size > 0.0) {
+            return vec![0.0];
+        }
+        let first = ((domain.min[axis] - high[axis]) / size).ceil() as i32;
+        let last = ((domain.max[axis] - low[axis]) / size).floor() as i32;
+        (first..=last).map(|periods| f64::from(periods) * size).collect()
+    });
+    let moved = |x: f64, y: f64| line.iter().map(|point| pair(point + Vec2::new(x, y))).collect();
+    shifts[0].iter().flat_map(|&x| shifts[1].iter().map(move |&y| (x, y))).map(|(x, y)| moved(x, y)).collect()
 }
 
 /// The maps: the order of invasion, or the pores by their size where nothing is displaced.
@@ -136,9 +152,9 @@ fn order(setting: &Setting, cycles: &Cycles) -> Mosaic {
             None if cycles.fluid(index) == half.invading => Tone::Class(2),
             None => Tone::Class(0),
         };
-        Area { boundary: boundary(&element.outline), tone }
+        images(setting, &element.outline).into_iter().map(move |boundary| Area { boundary, tone })
     });
-    let areas: Vec<Area> = areas.collect();
+    let areas: Vec<Area> = areas.flatten().collect();
     let largest = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     let invaded_before = match half.invading {
         Fluid::NonWetting => "non-wetting before",
@@ -149,7 +165,7 @@ fn order(setting: &Setting, cycles: &Cycles) -> Mosaic {
         Fluid::Wetting => "non-wetting",
     };
     let applied = cycles.applied().map_or(0.0, |applied| half.towards_wetting(applied));
-    let menisci = displacement.menisci(applied).iter().map(|line| boundary(line)).collect();
+    let menisci = displacement.menisci(applied).iter().flat_map(|line| images(setting, line)).collect();
     Mosaic {
         name: "invasion",
         note: format!(
@@ -169,9 +185,10 @@ fn order(setting: &Setting, cycles: &Cycles) -> Mosaic {
 
 fn sizes(setting: &Setting) -> Mosaic {
     let pores = &setting.pores;
-    let areas = setting.network.regions.iter().zip(&pores.pore_of).map(|(region, &pore)| Area {
-        boundary: boundary(&super::displacement::outline(region)),
-        tone: Tone::Value(radius(setting, pore)),
+    let areas = setting.network.regions.iter().zip(&pores.pore_of).flat_map(|(region, &pore)| {
+        let tone = Tone::Value(radius(setting, pore));
+        let boundaries = images(setting, &super::displacement::outline(region));
+        boundaries.into_iter().map(move |boundary| Area { boundary, tone })
     });
     let largest = (0..pores.main_region.len()).map(|pore| radius(setting, pore)).fold(0.0, f64::max);
     Mosaic {
@@ -180,7 +197,7 @@ fn sizes(setting: &Setting) -> Mosaic {
         label: "inscribed radius in m",
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
         areas: areas.collect(),
-        lines: ("throats", kept(setting).map(|throat| throat.contacts.map(pair).to_vec()).collect()),
+        lines: ("throats", kept(setting).flat_map(|throat| images(setting, &throat.contacts)).collect()),
         ..empty(setting)
     }
 }

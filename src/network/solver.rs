@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use super::conductance::{Conductance, conductances};
+use super::conductance::conductances;
 use super::cycles::Cycles;
 use super::displacement::{Conditions, Displacement, EventKind};
 use super::graph::{Network, Pores};
@@ -54,7 +54,7 @@ pub struct NetworkSolver {
     setting: Setting,
     cycles: Option<Cycles>,
     entry_curvatures: OnceCell<Vec<f64>>,
-    conductances: OnceCell<Vec<Conductance>>,
+    conductances: OnceCell<Vec<f64>>,
     clock: f64,
     steps_before: u64,
     seconds: [f64; 2],
@@ -109,13 +109,19 @@ impl NetworkSolver {
     pub fn entry_curvatures(&self) -> Option<&[f64]> {
         let Setting { network, pores, entry, .. } = &self.setting;
         let conditions = entry.as_ref()?;
-        let find = || Displacement::new(network, pores, conditions.clone()).entry_curvatures(network.throats.len());
+        let throats = network.throats.len();
+        let find = || {
+            let known = self.cycles.as_ref().map(Cycles::displacement).filter(|it| it.events() == conditions.events);
+            let new =
+                || Displacement::new(network, pores, conditions.clone()).entry_curvatures(&conditions.angle, throats);
+            known.map_or_else(new, |displacement| displacement.entry_curvatures(&conditions.angle, throats))
+        };
         Some(self.entry_curvatures.get_or_init(find))
     }
 
     /// The conductances of all throats of the network.
     #[must_use]
-    pub fn conductances(&self) -> &[Conductance] {
+    pub fn conductances(&self) -> &[f64] {
         self.conductances.get_or_init(|| conductances(&self.setting.network))
     }
 

@@ -122,7 +122,7 @@ const DEFINITIONS: Definitions = Definitions {
     area: "of the pore region between walls and chords, in closed form; a volume per depth",
     length: "from pore center to pore center by way of the middle of the throat",
     curvature: "of the walls at both contacts, above 0 where the solid is convex; empty at an edge",
-    conductance: "flow per depth times viscosity over pressure difference, from pore to pore; good to some ten percent above a solid fraction of 0.3",
+    conductance: "flow per depth times viscosity over pressure difference, by lubrication along arcs that meet both walls at right angles, from pore center to pore center; permeabilities are within 5 % of Stokes flow for random packs above a solid fraction of 0.3",
     entry_pressure: "tension times the largest curvature of a meniscus that passes the throat in drainage, at the receding angle",
     sequence: "number of the event, from 1 on in the last half cycle, by which the invading phase came to hold more than half of the pore; 0 for what is filled at the beginning through an opening of the inlet; empty where none did",
     trapped: "more than half of the pore holds defending phase without a way to the outlet",

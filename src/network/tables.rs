@@ -156,7 +156,7 @@ fn throats(solver: &NetworkSolver) -> Table {
         numbers("wall_curvature_2_per_m", of(|throat| finite(throat.curvatures[1]))),
     ];
     let conductances = solver.conductances();
-    columns.push(numbers("conductance_m2", setting.pores.throats.iter().map(|&throat| conductances[throat].value)));
+    columns.push(numbers("conductance_m2", setting.pores.throats.iter().map(|&throat| conductances[throat])));
     if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
         let pressures = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]);
         columns.push(numbers("entry_pressure_Pa", pressures));

@@ -17,7 +17,7 @@ pub fn violations(geometry: &Geometry, network: &Network) -> Vec<String> {
     let domain = geometry.bounds();
     let pore_area = geometry.porosity().value * domain.area();
     let sum: f64 = network.regions.iter().map(|region| region.area).sum();
-    if (sum - pore_area).abs() > 1e-11 * domain.area() {
+    if (sum - pore_area).abs() > 1e-12 * domain.area() {
         found.push(format!("areas sum to {sum} and not to {pore_area}"));
     }
     let mut uses = vec![[0; 2]; network.throats.len()];

@@ -4,5 +4,6 @@ mod arrays;
 mod channels;
 mod invariants;
 mod packs;
+mod permeability;
 mod pores;
 mod scenes;

@@ -103,6 +103,8 @@ tables! {
         pub columns: [usize; 3],
         /// The character between the columns of a list of discs.
         pub separator: char,
+        /// Whether the third column of a list of discs holds diameters (default: no).
+        pub diameters: bool,
         /// Lower left corner of the domain in m; with `file`, in place of the file's.
         pub min: [f64; 2],
         /// Upper right corner of the domain in m; with `file`, in place of the file's.

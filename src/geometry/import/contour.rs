@@ -8,20 +8,13 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::affine::Affine;
 use super::biarc::{self, SmoothCurve};
-use super::drawing::Ring;
+use super::closing::circle_of_bulge;
 use super::spline::BSpline;
 use crate::geometry::curve::cross;
-use crate::math::{Vec2, perpendicular};
+use crate::math::Vec2;
 
 /// Conjugate radii as equal and as square to each other as this share of them make a circle: rounding of nested transforms.
 const CIRCULAR: f64 = 1e-9;
-/// Arcs whose centers and radii agree to this share of the radius lie on one circle: the center of a half circle moves by the
-/// square root of the rounding of its ends.
-const ONE_CIRCLE: f64 = 1e-6;
-/// Vertices closer than this share of the ring's size are one.
-const ONE_VERTEX: f64 = 1e-9;
-/// Share of the square of its size below which a ring has no area.
-const NO_AREA: f64 = 1e-12;
 
 /// A smooth part of a contour, from one point to another.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,24 +44,6 @@ pub struct EllipticArc {
     pub sweep: f64,
 }
 
-/// What a closed contour is.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Closed {
-    /// An exact circle.
-    Circle {
-        /// Center.
-        center: Vec2,
-        /// Radius.
-        radius: f64,
-        /// Whether the contour runs around it clockwise.
-        is_clockwise: bool,
-    },
-    /// A ring of segments and arcs.
-    Ring(Ring),
-    /// Nothing: it encloses no area.
-    Empty,
-}
-
 impl EllipticArc {
     /// The arc by center, radii and angles.
     pub fn new(center: Vec2, radii: [Vec2; 2], start: f64, sweep: f64) -> Self {
@@ -92,18 +67,18 @@ impl EllipticArc {
         Some(Self { ends: [a, b], center, radii, start, sweep })
     }
 
-    fn is_circular(&self) -> bool {
+    pub(super) fn is_circular(&self) -> bool {
         let [u, v] = self.radii;
         let (uu, vv) = (u.norm_squared(), v.norm_squared());
         (uu - vv).abs() <= CIRCULAR * uu && u.dot(&v).abs() <= CIRCULAR * uu
     }
 
     /// The radius of the circle of the same area.
-    fn mean_radius(&self) -> f64 {
+    pub(super) fn mean_radius(&self) -> f64 {
         cross(self.radii[0], self.radii[1]).abs().sqrt()
     }
 
-    fn append(&self, vertices: &mut Vec<[f64; 3]>) {
+    pub(super) fn append(&self, vertices: &mut Vec<[f64; 3]>) {
         if !self.is_circular() {
             let parts = (self.sweep.abs() / FRAC_PI_2 * (1.0 - CIRCULAR)).ceil().max(1.0);
             let size = 2.0 * (self.radii[0].norm_squared() + self.radii[1].norm_squared()).sqrt();
@@ -240,7 +215,7 @@ impl Piece {
         }
     }
 
-    fn append(&self, vertices: &mut Vec<[f64; 3]>) {
+    pub(super) fn append(&self, vertices: &mut Vec<[f64; 3]>) {
         match self {
             Self::Line([a, _]) => vertices.push([a.x, a.y, 0.0]),
             Self::Ellipse(arc) => arc.append(vertices),
@@ -259,119 +234,10 @@ impl Piece {
     }
 }
 
-/// The closed shape of pieces that follow each other; a last one that ends farther than `gap` from where the first begins is joined to it
-/// by a line.
-pub fn close(pieces: &[Piece], gap: f64) -> Closed {
-    if let [Piece::Ellipse(arc)] = pieces
-        && arc.sweep.abs() >= TAU
-        && arc.is_circular()
-    {
-        let radius = arc.mean_radius();
-        let is_clockwise = (arc.sweep < 0.0) != (cross(arc.radii[0], arc.radii[1]) < 0.0);
-        return if radius > 0.0 { Closed::Circle { center: arc.center, radius, is_clockwise } } else { Closed::Empty };
-    }
-    let mut vertices = Vec::new();
-    for piece in pieces {
-        piece.append(&mut vertices);
-    }
-    if let Some(piece) = pieces.last() {
-        let (start, end) = (pieces[0].ends()[0], piece.ends()[1]);
-        if !((end - start).norm() <= gap) {
-            vertices.push([end.x, end.y, 0.0]);
-        }
-    }
-    let size = extent(&vertices);
-    merge_vertices(&mut vertices, ONE_VERTEX * size);
-    if let Some((center, radius)) = one_circle(&vertices) {
-        let is_clockwise = vertices.first().is_some_and(|vertex| vertex[2] < 0.0);
-        return Closed::Circle { center, radius, is_clockwise };
-    }
-    if vertices.len() < 2 || !(area(&vertices).abs() > NO_AREA * size * size) {
-        return Closed::Empty;
-    }
-    Closed::Ring(Ring { vertices })
-}
-
-/// The diagonal of the box around the vertices.
-fn extent(vertices: &[[f64; 3]]) -> f64 {
-    let mut points = vertices.iter().map(|vertex| Vec2::new(vertex[0], vertex[1]));
-    let Some(first) = points.next() else { return 0.0 };
-    let (low, high) = points.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)));
-    (high - low).norm()
-}
-
-/// Leaves out each vertex that lies on the next one, also the last that lies on the first.
-fn merge_vertices(vertices: &mut Vec<[f64; 3]>, distance: f64) {
-    let is_near = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]) <= distance;
-    // The later one is kept with its bulge: the edge between both has no length. The first stays where it is.
-    let mut kept: Vec<[f64; 3]> = Vec::with_capacity(vertices.len());
-    for vertex in vertices.drain(..) {
-        match kept.last_mut() {
-            Some(last) if is_near(last, &vertex) => last[2] = vertex[2],
-            _ => kept.push(vertex),
-        }
-    }
-    while kept.len() > 1 && is_near(&kept[kept.len() - 1], &kept[0]) {
-        kept.pop();
-    }
-    *vertices = kept;
-}
-
-/// Pairs of neighboring vertices with the bulge between them, around the ring.
-fn edges(vertices: &[[f64; 3]]) -> impl Iterator<Item = ([Vec2; 2], f64)> + '_ {
-    let next = vertices.iter().cycle().skip(1);
-    vertices.iter().zip(next).map(|(a, b)| ([Vec2::new(a[0], a[1]), Vec2::new(b[0], b[1])], a[2]))
-}
-
-/// The signed area of a ring, by Green's theorem.
-fn area(vertices: &[[f64; 3]]) -> f64 {
-    let Some(first) = vertices.first() else { return 0.0 };
-    let origin = Vec2::new(first[0], first[1]);
-    let piece = |([a, b], bulge): ([Vec2; 2], f64)| {
-        let polygon = 0.5 * cross(a - origin, b - origin);
-        let Some((_, radius)) = circle_of_bulge([a, b], bulge) else { return polygon };
-        let angle = 4.0 * bulge.atan();
-        polygon + 0.5 * radius * radius * (angle - angle.sin())
-    };
-    edges(vertices).map(piece).sum()
-}
-
-/// Center and radius of the arc between two points; none where it is straight.
-fn circle_of_bulge([a, b]: [Vec2; 2], bulge: f64) -> Option<(Vec2, f64)> {
-    let chord = b - a;
-    let length = chord.norm();
-    if !(bulge != 0.0 && length > 0.0) {
-        return None;
-    }
-    let radius = 0.25 * length * (bulge + bulge.recip()).abs();
-    let center = 0.5 * (a + b) + perpendicular(chord) * (0.25 * (bulge.recip() - bulge));
-    (radius.is_finite()).then_some((center, radius))
-}
-
-/// The circle on which all edges lie, if it is one and they run around it once.
-fn one_circle(vertices: &[[f64; 3]]) -> Option<(Vec2, f64)> {
-    let turn: f64 = vertices.iter().map(|vertex| 4.0 * vertex[2].atan()).sum();
-    if (turn.abs() - TAU).abs() > ONE_CIRCLE {
-        return None;
-    }
-    let (mut center, mut radius, mut number) = (Vec2::zeros(), 0.0, 0.0);
-    let mut first = None;
-    for (ends, bulge) in edges(vertices) {
-        let (own_center, own_radius) = circle_of_bulge(ends, bulge)?;
-        let (first_center, first_radius): (Vec2, f64) = *first.get_or_insert((own_center, own_radius));
-        let distance = (own_center - first_center).norm().max((own_radius - first_radius).abs());
-        if !(distance <= ONE_CIRCLE * first_radius) {
-            return None;
-        }
-        center += own_center - first_center;
-        radius += own_radius;
-        number += 1.0;
-    }
-    first.map(|(first_center, _)| (first_center + center / number, radius / number))
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::closing::{Closed, area, close};
+    use super::super::drawing::Ring;
     use super::*;
 
     fn ring(pieces: &[Piece]) -> Ring {

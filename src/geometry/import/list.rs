@@ -1,7 +1,7 @@
 //! Lists of discs: `x y r` per line, separated by spaces, tabs, commas or semicolons; one header line is allowed.
 //!
 //! `columns` picks x, y and radius out of longer lines, and `separator` names the one character that separates them, so that empty
-//! columns and names with spaces keep their places.
+//! columns and names with spaces keep their places. With `diameters` the third number is a diameter; a header that names one asks for it.
 
 use crate::geometry::import::drawing::{Drawing, Entity, Outline, Refusal};
 use crate::geometry::import::options::Options;
@@ -26,9 +26,13 @@ pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal
         let is_header = may_be_header && columns.are_words();
         may_be_header = false;
         if is_header {
+            if columns.names_diameter() && options.diameters.is_none() {
+                let way_out = "`diameters = true` where the third column holds diameters, `diameters = false` where it holds radii";
+                lines.refuse(line, row.trim(), way_out.to_owned());
+            }
             continue;
         }
-        match columns.disc() {
+        match columns.disc(options.diameters.unwrap_or(false)) {
             Some(outline) => drawing.entities.push(Entity { outline, place: place(line) }),
             None => lines.refuse(line, row.trim(), expected(options)),
         }
@@ -59,9 +63,18 @@ impl<'t> Columns<'t> {
         self.0.is_some_and(|columns| columns.iter().all(|word| word.parse::<f64>().is_err()))
     }
 
-    fn disc(&self) -> Option<Outline> {
+    /// Whether the third word of a header is short for a diameter.
+    fn names_diameter(&self) -> bool {
+        self.0.is_some_and(|[_, _, size]| {
+            let name = size.trim_matches(['"', '\'']).to_lowercase();
+            name == "d" || name.starts_with("d_") || name.starts_with("d[") || name.starts_with("diam")
+        })
+    }
+
+    fn disc(&self, is_diameter: bool) -> Option<Outline> {
         let numbers: Vec<f64> = self.0?.iter().map(|word| word.parse()).collect::<Result<_, _>>().ok()?;
-        let [x, y, radius] = numbers.try_into().ok()?;
+        let [x, y, size] = numbers.try_into().ok()?;
+        let radius = if is_diameter { 0.5 * size } else { size };
         let is_good = [x, y, radius].iter().all(|v: &f64| v.is_finite()) && radius > 0.0;
         is_good.then_some(Outline::Disc { center: Vec2::new(x, y), radius })
     }
@@ -87,6 +100,20 @@ mod tests {
         let drawing = parse("x,y,r\n# a comment\n0 0 1 # first\n3,0,1\n\t0;3;\t1\n").unwrap();
         assert_eq!(drawing.entities.len(), 3);
         assert_eq!(drawing.entities[0].place, "line 3");
+    }
+
+    #[test]
+    fn diameters_are_halved_and_a_header_that_names_them_asks() {
+        let text = "x,y,Diameter\n0,0,2\n";
+        let radius = |diameters: bool| {
+            let drawing = read(text, &Options { diameters: Some(diameters), ..Options::default() }).unwrap();
+            let Outline::Disc { radius, .. } = drawing.entities[0].outline else { panic!("no disc") };
+            radius
+        };
+        assert_eq!((radius(true), radius(false)), (1.0, 2.0));
+        let bad = parse(text).unwrap_err();
+        assert_eq!(bad[0].place, "line 1");
+        assert!(bad[0].expected.contains("diameters = true"), "{}", bad[0]);
     }
 
     #[test]

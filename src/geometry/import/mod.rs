@@ -6,6 +6,7 @@
 pub mod affine;
 pub mod biarc;
 pub(crate) mod build;
+pub mod closing;
 pub mod contour;
 pub mod cut;
 pub mod drawing;

@@ -32,6 +32,8 @@ pub struct Options {
     pub columns: Option<[usize; 3]>,
     /// What separates the columns of a list.
     pub separator: Option<char>,
+    /// Whether the third column of a list holds diameters (default no).
+    pub diameters: Option<bool>,
 }
 
 impl Options {
@@ -67,6 +69,7 @@ impl Options {
         misplaced("threshold", self.threshold.is_some(), &[Format::Mask], "masks (PNG, TIFF)");
         misplaced("pixel-size", self.pixel_size.is_some(), &[Format::Mask], "masks (PNG, TIFF)");
         misplaced("columns", self.columns.is_some(), &[Format::List], "lists of discs");
+        misplaced("diameters", self.diameters.is_some(), &[Format::List], "lists of discs");
         misplaced("separator", self.separator.is_some(), &[Format::List], "lists of discs");
         let drawn = [Format::Wkt, Format::GeoJson, Format::Shapefile, Format::Svg, Format::Dxf, Format::Mask];
         misplaced("recognize-circles", self.recognize_circles.is_some(), &drawn, "drawings with polygons");

@@ -1,6 +1,8 @@
 //! A canvas in pixels: filled circles, polylines, rectangles (`tiny-skia`) and text (`ab_glyph`, DejaVu Sans built in).
 
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, Transform,
 };
@@ -155,6 +157,13 @@ impl Canvas {
 
     /// The canvas as a PNG file.
     pub fn png(&self) -> Result<Vec<u8>, PictureError> {
-        self.pixels.encode_png().map_err(|error| PictureError::Encode(error.to_string()))
+        // Opaque all over, so that three channels say it all.
+        let colors = self.pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
+        let (width, height) = (self.pixels.width(), self.pixels.height());
+        let mut bytes = Vec::new();
+        PngEncoder::new(&mut bytes)
+            .write_image(&colors.collect::<Vec<u8>>(), width, height, ExtendedColorType::Rgb8)
+            .map_err(|error| PictureError::Encode(error.to_string()))?;
+        Ok(bytes)
     }
 }

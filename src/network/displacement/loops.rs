@@ -5,7 +5,8 @@
 //! (for discs mostly the Delaunay edges of neighbors that no throat joins), until each part has three stretches of wall or no segment
 //! is left. The parts tile the region.
 
-use crate::geometry::curve::{Curve, cross};
+use crate::geometry::closest::closest_points as closest;
+use crate::geometry::curve::{Curve, Foot, cross};
 use crate::geometry::intersect::meeting_places;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
@@ -41,6 +42,8 @@ pub(super) struct Loop {
     pub crossings: Vec<Crossing>,
     /// Openings along whole sides that meet no wall.
     pub apart: Vec<Crossing>,
+    /// Whether somewhere one curve does not begin at the end of the one before: around a periodic domain.
+    pub has_seam: bool,
 }
 
 /// A point of a stretch of wall.
@@ -49,6 +52,12 @@ struct WallPoint {
     piece: usize,
     u: f64,
     point: Vec2,
+}
+
+impl WallPoint {
+    fn of(piece: usize, at: Foot) -> Self {
+        Self { piece, u: at.u, point: at.point }
+    }
 }
 
 impl Loop {
@@ -66,6 +75,9 @@ impl Loop {
     }
 
     fn seam(&self, end: Option<Vec2>, crossing: Vec2) -> Vec2 {
+        if !self.has_seam {
+            return Vec2::zeros();
+        }
         const ROUNDING: f64 = 1e-6;
         let chord = |c: &Crossing| (c.to - c.from).norm();
         let shortest = self.crossings.iter().map(chord).filter(|&length| length > 0.0).fold(f64::INFINITY, f64::min);
@@ -79,20 +91,23 @@ impl Loop {
     }
 
     /// The curves of the loop, and whether it has a seam.
-    fn connected(&self) -> (Vec<Curve>, bool) {
+    pub fn connected(&self) -> (Vec<Curve>, bool) {
         const ROUNDING: f64 = 1e-9;
         let mut curves: Vec<Curve> = Vec::new();
         let mut has_seam = false;
         let mut length = 0.0;
+        let mut ends: Option<[Vec2; 2]> = None;
         let mut add = |curve: Curve| {
+            let (start, end) = (curve.point(0.0), curve.point(1.0));
             length += curve.length();
-            if let Some(end) = curves.last().map(|last: &Curve| last.point(1.0))
-                && (curve.point(0.0) - end).norm() > ROUNDING * length
+            if let Some([_, last]) = ends
+                && (start - last).norm() > ROUNDING * length
             {
-                curves.push(Curve::Segment { a: end, b: curve.point(0.0) });
+                curves.push(Curve::Segment { a: last, b: start });
                 has_seam = true;
             }
             curves.push(curve);
+            ends = Some([ends.map_or(start, |[first, _]| first), end]);
         };
         for (k, wall) in self.walls.iter().enumerate() {
             wall.iter().for_each(|piece| add(piece.curve));
@@ -102,7 +117,7 @@ impl Loop {
                 add(chord);
             }
         }
-        if let (Some(first), Some(last)) = (curves.first().map(|c| c.point(0.0)), curves.last().map(|c| c.point(1.0)))
+        if let Some([first, last]) = ends
             && (first - last).norm() > ROUNDING * length
         {
             curves.push(Curve::Segment { a: last, b: first });
@@ -116,20 +131,6 @@ impl Loop {
         let curves = self.curves();
         let Some(origin) = curves.first().map(|curve| curve.point(0.0)) else { return 0.0 };
         -curves.iter().map(|curve| curve.area_about(origin)).sum::<f64>()
-    }
-
-    /// The loop as a polygon in m, arcs as chords of a few degrees.
-    pub fn outline(&self) -> Vec<Vec2> {
-        const LARGEST_ANGLE: f64 = 0.1;
-        let mut points = Vec::new();
-        for curve in self.curves() {
-            let count = match curve {
-                Curve::Segment { .. } => 1,
-                Curve::Arc { sweep, .. } => (sweep.abs() / LARGEST_ANGLE).ceil().max(1.0) as usize,
-            };
-            points.extend((0..count).map(|k| curve.point(k as f64 / count as f64)));
-        }
-        points
     }
 
     /// The two parts of the loop on both sides of the shortest segment that divides it; none where there is no such segment.
@@ -147,29 +148,9 @@ impl Loop {
             }
         }
         candidates.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
-        let found = candidates.into_iter().find(|(_, _, _, p, q)| self.holds_segment(p.point, q.point));
+        let curves = self.curves();
+        let found = candidates.into_iter().find(|(_, _, _, p, q)| holds_segment(&curves, p.point, q.point));
         found.map(|(_, a, b, p, q)| self.cut((a, p), (b, q), segment))
-    }
-
-    /// Whether the segment between two wall points lies in the loop without meeting any of its curves in between.
-    fn holds_segment(&self, p: Vec2, q: Vec2) -> bool {
-        // Share of the segment at both ends that may meet the walls it stands on.
-        const AT_ENDS: f64 = 1e-6;
-        let segment = Curve::Segment { a: p, b: q };
-        let length = segment.length();
-        if !(length > 0.0) {
-            return false;
-        }
-        let mut places = Vec::new();
-        for curve in self.curves() {
-            meeting_places(&segment, &curve, 1e-9 * length, &mut places);
-        }
-        places.iter().all(|&u| !(AT_ENDS..=1.0 - AT_ENDS).contains(&u)) && self.winds_around(0.5 * (p + q))
-    }
-
-    /// Whether the loop winds around `x`, the pore on its right.
-    fn winds_around(&self, x: Vec2) -> bool {
-        self.curves().iter().map(|curve| curve.winding(x)).sum::<f64>() < -std::f64::consts::PI
     }
 
     fn cut(&self, (a, p): (usize, WallPoint), (b, q): (usize, WallPoint), segment: usize) -> [Self; 2] {
@@ -192,11 +173,30 @@ impl Loop {
     }
 }
 
+/// Whether the segment between two points of the walls of a loop lies in it without meeting any of its curves in between.
+fn holds_segment(curves: &[Curve], p: Vec2, q: Vec2) -> bool {
+    // Share of the segment at both ends that may meet the walls it stands on.
+    const AT_ENDS: f64 = 1e-6;
+    let segment = Curve::Segment { a: p, b: q };
+    let length = segment.length();
+    if !(length > 0.0) {
+        return false;
+    }
+    let mut places = Vec::new();
+    for curve in curves {
+        meeting_places(&segment, curve, 1e-9 * length, &mut places);
+    }
+    let middle = 0.5 * (p + q);
+    // The pore lies on the right of the loop.
+    let winding: f64 = curves.iter().map(|curve| curve.winding(middle)).sum();
+    places.iter().all(|&u| !(AT_ENDS..=1.0 - AT_ENDS).contains(&u)) && winding < -std::f64::consts::PI
+}
+
 /// Divides a loop until each part has at most three stretches of wall, or no segment divides it any more. Segments are numbered from
 /// `segments` on, which counts them.
 pub(super) fn divide(whole: Loop, segments: &mut usize) -> Vec<Loop> {
     // Where the seam lies is nobody's choice, and segments must not depend on it.
-    if whole.connected().1 {
+    if whole.has_seam {
         return vec![whole];
     }
     let (mut open, mut done) = (vec![whole], Vec::new());
@@ -232,24 +232,40 @@ fn after(wall: &[WallPiece], start: WallPoint) -> Vec<WallPiece> {
 fn project(wall: &[WallPiece], x: Vec2) -> Option<WallPoint> {
     let closest = wall.iter().enumerate().map(|(piece, wall)| (piece, wall.curve.project(x)));
     let distance = |point: Vec2| (point - x).norm_squared();
-    closest.min_by(|a, b| distance(a.1.point).total_cmp(&distance(b.1.point))).map(|(piece, closest)| WallPoint {
-        piece,
-        u: closest.u,
-        point: closest.point,
-    })
+    let found = closest.min_by(|a, b| distance(a.1.point).total_cmp(&distance(b.1.point)));
+    found.map(|(piece, closest)| WallPoint::of(piece, closest))
 }
 
-/// The closest points of two stretches of wall: from samples, then back and forth until they rest.
+/// The closest points of two stretches of wall.
 fn closest_points(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, WallPoint)> {
+    // Up to so many pairs of pieces are all tried.
+    const FEW: usize = 256;
+    if one.len() * other.len() > FEW {
+        return closest_of_many(one, other);
+    }
+    let mut best: Option<(f64, WallPoint, WallPoint)> = None;
+    for (i, a) in one.iter().enumerate() {
+        for (j, b) in other.iter().enumerate() {
+            let [p, q] = closest(&a.curve, &b.curve);
+            let distance = (p.point - q.point).norm();
+            if best.is_none_or(|(least, ..)| distance < least) {
+                best = Some((distance, WallPoint::of(i, p), WallPoint::of(j, q)));
+            }
+        }
+    }
+    best.map(|(_, p, q)| (p, q))
+}
+
+/// The closest points of two stretches of many pieces: from samples, then back and forth until they rest.
+fn closest_of_many(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, WallPoint)> {
     const SAMPLES: usize = 16;
     const MOST_STEPS: usize = 60;
     let stride = one.len().div_ceil(SAMPLES).max(1);
-    let per_piece = (SAMPLES / one.len().max(1)).max(1);
     let mut best: Option<(f64, WallPoint, WallPoint)> = None;
-    for piece in one.iter().step_by(stride) {
-        for k in 0..=per_piece {
-            let p = piece.curve.point(k as f64 / per_piece as f64);
-            let (Some(q), Some(p)) = (project(other, p), project(one, p)) else { continue };
+    for (piece, wall) in one.iter().enumerate().step_by(stride) {
+        for u in [0.0, 0.5, 1.0] {
+            let p = WallPoint { piece, u, point: wall.curve.point(u) };
+            let Some(q) = project(other, p.point) else { continue };
             let distance = (p.point - q.point).norm();
             if best.is_none_or(|(least, ..)| distance < least) {
                 best = Some((distance, p, q));

@@ -54,7 +54,7 @@ pub(super) struct Mesh {
 
 /// The loop of a region.
 pub(super) fn loop_of(region: &Region) -> Loop {
-    let mut found = Loop::default();
+    let mut found = Loop { has_seam: true, ..Loop::default() };
     let mut wall = Vec::new();
     // Beginning after a crossing, so that no stretch of wall is split where the list of edges begins.
     let first = region.edges.iter().position(|edge| !matches!(edge, Edge::Wall(_))).map_or(0, |k| k + 1);
@@ -88,6 +88,7 @@ pub(super) fn loop_of(region: &Region) -> Loop {
         // A closed pore without any throat.
         found.walls.push(wall);
     }
+    found.has_seam = found.connected().1;
     found
 }
 

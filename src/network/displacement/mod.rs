@@ -3,24 +3,26 @@
 //! The applied pressure rises. Each meniscus advances through its gate until one of three events \[CieplakRobbins1988;
 //! CieplakRobbins1990\]: it passes the place of largest curvature (burst), it touches a wall ahead (touch), or it meets the meniscus
 //! in the neighboring gate on the wall between them (overlap). The event of the lowest curvature comes first; ties go to the lower
-//! number of the gate. An event fills the whole element ahead; an overlap all elements along the wall that both menisci close in on. Pressures are curvatures here: times the tension they are
-//! p_invading − p_defending. Areas swept by menisci between events are left out, and so are films and corner flow.
+//! number of the gate. An event fills the whole element ahead. Two menisci that meet become one between the outer walls of both: within
+//! one element they fill it; where several lie in between, a grain stands ahead, and the joined meniscus fills all of them once it
+//! bursts or touches. Pressures are curvatures here: times the tension they are p_invading − p_defending.
+//!
+//! Left out: areas swept by menisci between events, overlaps of a joined meniscus with a third one, films and corner flow.
 
+mod fronts;
 mod loops;
 mod mesh;
 mod outflow;
+mod outline;
 mod walls;
 
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-use self::loops::Loop;
+use self::fronts::{Candidate, Front};
 use self::mesh::Mesh;
 use self::outflow::Outflow;
-use self::walls::{Sides, gate_walls};
-use super::graph::{Network, Pores, Region, WallPiece};
-use super::menisci::{Hand, Passage, Wall, WallPart, overlap};
-use crate::geometry::curve::Curve;
+use super::graph::{Network, Pores, Region};
 use crate::math::Vec2;
 
 /// Which events move a meniscus.
@@ -99,56 +101,6 @@ pub struct Element {
     pub outline: Vec<Vec2>,
 }
 
-/// A meniscus that waits in a gate, entering the element on one side of it.
-#[derive(Debug, Clone)]
-struct Front {
-    passage: Passage,
-    /// Curvature of its own event in 1/m.
-    own: f64,
-}
-
-/// An event that will come unless another comes before it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Candidate {
-    curvature: f64,
-    kind: EventKind,
-    gate: usize,
-    to: usize,
-    /// The meniscus to meet, and on which hand.
-    partner: Option<((usize, usize), Hand)>,
-}
-
-/// What is added to a wall beside a crossing of a loop so that it meets it.
-type SeamOf = fn(&Loop, usize) -> Vec2;
-
-/// The next meniscus along a wall.
-struct Neighbor {
-    front: (usize, usize),
-    /// Length of wall between both gates in m.
-    shared: f64,
-    /// What is added to a position in its frame to get that in the frame of the meniscus it is the neighbor of, in m.
-    offset: Vec2,
-    /// The elements in between.
-    passed: Vec<usize>,
-}
-
-impl Eq for Candidate {}
-
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Candidate {
-    /// The greatest is the one that comes first.
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let number = |it: &Self| (it.gate, it.to, it.partner.map(|(front, hand)| (front, hand == Hand::Right)));
-        let by_number = number(other).cmp(&number(self));
-        other.curvature.total_cmp(&self.curvature).then(by_number)
-    }
-}
-
 /// A displacement in progress.
 #[derive(Debug, Clone)]
 pub struct Displacement {
@@ -177,8 +129,11 @@ impl Displacement {
         };
         let invaded = vec![false; mesh.elements.len()];
         let centers = Arc::new(network.regions.iter().map(|region| region.center).collect());
-        let element =
-            |k: usize| Element { region: mesh.region_of[k], area: mesh.area[k], outline: mesh.loops[k].outline() };
+        let element = |k: usize| Element {
+            region: mesh.region_of[k],
+            area: mesh.area[k],
+            outline: outline::outline(&mesh.loops[k]),
+        };
         let elements = Arc::new((0..mesh.loops.len()).map(element).collect());
         Self::begun(Arc::new(mesh), elements, centers, conditions, invaded)
     }
@@ -282,94 +237,10 @@ impl Displacement {
         }
     }
 
-    /// The passage of a gate for a meniscus that enters it at its end `to`, and the walls ahead, moved by `offset` in m.
-    fn passage(&self, mesh: &Mesh, gate: usize, to: usize, offset: Vec2) -> (Passage, Vec<Curve>) {
-        let walls = gate_walls(mesh, gate, to, &self.centers);
-        let wall = |sides: &Sides| {
-            let part =
-                |piece: &WallPiece| WallPart { curve: piece.curve.shifted(offset), angle: self.angle(piece.shape) };
-            let parts = sides.behind.iter().rev().chain(&sides.ahead).map(part).collect();
-            Wall { parts, behind: sides.behind.len() }
-        };
-        let obstacles = walls.ahead.iter().map(|piece| piece.curve.shifted(offset)).collect();
-        (Passage::new(wall(&walls.left), wall(&walls.right)), obstacles)
-    }
-
-    fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
-        let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
-        let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
-        let mut kind = EventKind::Burst;
-        let mut own = burst;
-        if self.conditions.events == Events::All
-            && let Some(touch) = passage.touch(&obstacles, burst)
-        {
-            (kind, own) = (EventKind::Touch, touch);
-        }
-        self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None });
-        if self.conditions.events == Events::All {
-            self.meet_neighbors(mesh, (gate, to), &passage, own);
-        }
-        self.fronts[gate][to] = Some(Front { passage, own });
-    }
-
-    /// Overlaps of a new meniscus with its neighbors on both walls.
-    fn meet_neighbors(&mut self, mesh: &Mesh, (gate, to): (usize, usize), passage: &Passage, own: f64) {
-        for hand in [Hand::Left, Hand::Right] {
-            let Some(neighbor) = self.neighbor(mesh, (gate, to), hand) else { continue };
-            let (other, end) = neighbor.front;
-            let Some(front) = &self.fronts[other][end] else { continue };
-            let moved = (neighbor.offset != Vec2::zeros()).then(|| self.passage(mesh, other, end, neighbor.offset).0);
-            let facing = moved.as_ref().unwrap_or(&front.passage);
-            let (a, b) = if hand == Hand::Left { (passage, facing) } else { (facing, passage) };
-            if let Some(curvature) = overlap(a, b, neighbor.shared, own.min(front.own)) {
-                let partner = Some((neighbor.front, hand));
-                self.queue.push(Candidate { curvature, kind: EventKind::Overlap, gate, to, partner });
-            }
-        }
-    }
-
-    /// The next meniscus along a wall of a gate, ahead of the meniscus that enters it, with nothing but the defending phase in between.
-    fn neighbor(&self, mesh: &Mesh, (gate, to): (usize, usize), hand: Hand) -> Option<Neighbor> {
-        let (mut index, slot) = mesh.gates[gate].places[to];
-        let next = |index: usize, k: usize| (k + 1) % mesh.loops[index].walls.len();
-        let before = |index: usize, k: usize| (k + mesh.loops[index].walls.len() - 1) % mesh.loops[index].walls.len();
-        // The wall on the left ahead leads to the next crossing, the one on the right to that before.
-        let mut wall = if hand == Hand::Left { next(index, slot) } else { slot };
-        let mut found =
-            Neighbor { front: (gate, to), shared: 0.0, offset: Vec2::zeros(), passed: vec![mesh.element_of[index]] };
-        let (to_crossing, from_crossing): (SeamOf, SeamOf) = if hand == Hand::Left {
-            (Loop::wall_before, Loop::wall_after)
-        } else {
-            (Loop::wall_after, Loop::wall_before)
-        };
-        found.offset += from_crossing(&mesh.loops[index], slot);
-        // A wall has no more stretches than there are loops.
-        for _ in 0..mesh.loops.len() {
-            found.shared += mesh.loops[index].walls[wall].iter().map(|piece| piece.curve.length()).sum::<f64>();
-            let crossing = if hand == Hand::Left { wall } else { before(index, wall) };
-            let front = mesh.gate_at[index][crossing]?;
-            if front == (gate, to) {
-                return None;
-            }
-            found.offset -= to_crossing(&mesh.loops[index], crossing);
-            if self.fronts[front.0][front.1].is_some() {
-                return Some(Neighbor { front, ..found });
-            }
-            let (beyond, twin, shift) = mesh.twins[index][crossing]?;
-            let element = mesh.element_of[beyond];
-            if self.invaded[element] || self.trapped[element] {
-                return None;
-            }
-            found.offset += from_crossing(&mesh.loops[beyond], twin) - shift;
-            found.passed.push(element);
-            index = beyond;
-            wall = if hand == Hand::Left { next(index, twin) } else { twin };
-        }
-        None
-    }
-
-    fn angle(&self, shape: u32) -> f64 {
-        self.conditions.angle.get(shape as usize).copied().unwrap_or(std::f64::consts::FRAC_PI_2)
+    /// Which events there are.
+    #[must_use]
+    pub fn events(&self) -> Events {
+        self.conditions.events
     }
 
     /// The elements; they tile the pore space.
@@ -404,16 +275,15 @@ impl Displacement {
         fronts.filter_map(|front| front.passage.at(applied.min(front.own))).map(|m| m.points(POINTS)).collect()
     }
 
-    /// Curvature in 1/m at which menisci burst through each throat, the larger one of both directions; NaN for throats that are no gates.
+    /// Curvature in 1/m at which menisci burst through each throat, the larger one of both directions, with the contact angles of
+    /// [`Conditions::angle`]; NaN for throats that are no gates.
     #[must_use]
-    pub fn entry_curvatures(&self, throats: usize) -> Vec<f64> {
+    pub fn entry_curvatures(&self, angles: &[f64], throats: usize) -> Vec<f64> {
         let mut found = vec![f64::NAN; throats];
         for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
             let burst = |to| {
-                self.passage(&self.mesh, gate, to, Vec2::zeros())
-                    .0
-                    .burst()
-                    .map_or(f64::NAN, |meniscus| meniscus.curvature)
+                let (passage, _) = self.passage_at(angles, &self.mesh, (gate, to), Vec2::zeros());
+                passage.burst().map_or(f64::NAN, |meniscus| meniscus.curvature)
             };
             found[throat] = burst(0).max(burst(1));
         }
@@ -424,7 +294,7 @@ impl Displacement {
 /// The boundary of a region as a polygon in m, arcs as chords, for pictures.
 #[must_use]
 pub fn outline(region: &Region) -> Vec<Vec2> {
-    mesh::loop_of(region).outline()
+    outline::outline(&mesh::loop_of(region))
 }
 
 /// The next event, which is done; none where no meniscus can move any more.
@@ -445,10 +315,21 @@ impl Iterator for Displacement {
                 None => break (candidate, vec![mesh.element(gate, to)]),
                 // Another meniscus may have come in between.
                 Some((front, hand)) => {
-                    if let Some(neighbor) = self.neighbor(&mesh, (gate, to), hand).filter(|found| found.front == front)
-                    {
-                        break (candidate, neighbor.passed);
+                    let Some(neighbor) =
+                        self.neighbor(&mesh, (gate, to), hand).filter(|neighbor| neighbor.front == front)
+                    else {
+                        continue;
+                    };
+                    let waits_until = if candidate.is_joined {
+                        candidate.curvature
+                    } else {
+                        self.joined_event(&mesh, (gate, to), hand, &neighbor)
+                    };
+                    if waits_until > candidate.curvature {
+                        self.queue.push(Candidate { curvature: waits_until, is_joined: true, ..candidate });
+                        continue;
                     }
+                    break (candidate, neighbor.passed);
                 }
             }
         };

@@ -230,8 +230,8 @@ fn shifted(piece: WallPiece, by: Vec2) -> WallPiece {
     WallPiece { curve: piece.curve.shifted(by), whole: piece.whole.shifted(by), shape: piece.shape }
 }
 
-/// Whether two closed curves are one; they are copied, and moved by whole periods only.
-fn is_same(a: &Curve, b: &Curve) -> bool {
+/// Whether two arcs are of one circle; they are copied, and moved by whole periods only.
+pub(super) fn is_same(a: &Curve, b: &Curve) -> bool {
     const ROUNDING: f64 = 1e-9;
     match (a, b) {
         (Curve::Arc { center, radius, .. }, Curve::Arc { center: other, radius: r, .. }) => {

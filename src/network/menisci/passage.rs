@@ -2,7 +2,7 @@
 //!
 //! All menisci that meet the walls under their angles form a path from behind the throat to ahead of it (see `path`). As the pressure
 //! rises slowly a meniscus goes along the path to the first place of the curvature that is applied; where the curvature of the path falls,
-//! it jumps. Where the path's curvature is largest it bursts: the throat is passed.
+//! it jumps. At the end of its largest rise it bursts: the throat is passed.
 //!
 //! Left out: a meniscus that touches its own two walls ahead of its contacts before these get there (in deep notches below 90 degrees);
 //! films; gravity.
@@ -25,7 +25,7 @@ pub struct Passage {
     walls: Walls,
     origin: Vec2,
     scale: f64,
-    /// The stable part of the path: from the smallest curvature before the burst to the burst.
+    /// The stable part of the path: along the largest rise of the curvature, up to the burst.
     path: Vec<Leg>,
     lowest: Option<Station>,
     highest: Option<Station>,
@@ -73,7 +73,7 @@ impl Passage {
         Self::new(turned(&self.right), turned(&self.left))
     }
 
-    /// The meniscus of the largest curvature on the whole path: beyond it the throat is passed. It may stand at the end of a wall.
+    /// The meniscus of the largest curvature on the way through: beyond it the throat is passed. It may stand at the end of a wall.
     #[must_use]
     pub fn burst(&self) -> Option<Meniscus> {
         self.highest.map(|station| self.meniscus(&station))
@@ -245,23 +245,23 @@ fn chord_end(wall: &Wall, hand: Hand) -> Option<Vec2> {
     ahead.or_else(|| wall.parts.last().map(|part| part.curve.point(1.0 - begin)))
 }
 
-/// The stations of the smallest curvature before the largest one and of the largest one, and the legs between them.
+/// The ends of the largest rise of the curvature along the path, and the legs in between. Behind the throat curvatures fall, and ahead of it they do so
+/// again: what is larger far behind is no part of the way through.
 fn stable_part(mut path: Vec<Leg>) -> (Option<Station>, Option<Station>, Vec<Leg>) {
-    let mut highest = path.first().map(|leg| leg.start);
-    let mut count = 0;
+    let Some(start) = path.first().map(|leg| leg.start) else { return (None, None, path) };
+    // Each end with the number of legs before it.
+    let mut low = (start, 0);
+    let (mut lowest, mut highest) = (low, low);
     for (i, leg) in path.iter().enumerate() {
-        if highest.is_some_and(|highest| leg.end.curvature > highest.curvature) {
-            (highest, count) = (Some(leg.end), i + 1);
+        let end = (leg.end, i + 1);
+        if end.0.curvature <= low.0.curvature {
+            low = end;
+        }
+        if end.0.curvature - low.0.curvature > highest.0.curvature - lowest.0.curvature {
+            (lowest, highest) = (low, end);
         }
     }
-    path.truncate(count);
-    let mut lowest = path.first().map_or(highest, |leg| Some(leg.start));
-    let mut first = 0;
-    for (i, leg) in path.iter().enumerate() {
-        if lowest.is_some_and(|lowest| leg.end.curvature <= lowest.curvature) {
-            (lowest, first) = (Some(leg.end), i + 1);
-        }
-    }
-    path.drain(..first);
-    (lowest, highest, path)
+    path.truncate(highest.1);
+    path.drain(..lowest.1);
+    (Some(lowest.0), Some(highest.0), path)
 }

@@ -1,5 +1,7 @@
 //! From the tree of SVG elements to filled areas: groups, copies (`use`), nested pages, what is visible and on which layer.
 
+mod area;
+
 use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node};
@@ -7,10 +9,9 @@ use roxmltree::{Document, Node};
 use super::Lines;
 use super::page::{self, Along, Page, Viewport};
 use super::shape;
-use super::style::{self, Fill, Style, StyleSheet};
+use super::style::{self, Style, StyleSheet};
 use crate::geometry::import::affine::Affine;
-use crate::geometry::import::contour::{Closed, close};
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring};
+use crate::geometry::import::drawing::{Drawing, Refusal};
 use crate::geometry::import::limits::Budget;
 use crate::math::Vec2;
 
@@ -296,76 +297,6 @@ impl<'a, 'input> Walk<'a, 'input> {
         self.copying.pop();
     }
 
-    fn shape(&mut self, node: Node<'a, 'input>, place: &Place<'a>) {
-        let style = place.style;
-        if !style.is_visible || (style.fill == Fill::None && !style.has_stroke) {
-            return self.count("hidden elements");
-        }
-        if let Some(layer) = place.layer {
-            *self.drawing.layers.entry(layer.to_owned()).or_default() += 1;
-        }
-        if !place.is_chosen {
-            return self.count("elements on other layers");
-        }
-        let subpaths = match shape::contours(node, place.viewport) {
-            Ok(subpaths) => subpaths,
-            Err(found) => {
-                return self.refuse(
-                    node,
-                    found,
-                    "numbers as SVG has them, lengths with a unit or none, sizes of 0 or more",
-                );
-            }
-        };
-        let mut rings = Vec::new();
-        let mut circles = Vec::new();
-        for subpath in subpaths {
-            let pieces: Vec<_> = subpath.pieces.iter().map(|piece| piece.mapped(&place.map)).collect();
-            if !pieces.iter().all(|piece| piece.is_in_range()) {
-                return self.refuse(node, "a coordinate out of range", "coordinates below 1e38 after all transforms");
-            }
-            // An outline that is only drawn and left open encloses nothing; a fill closes it.
-            if style.fill == Fill::None && !subpath.is_closed {
-                self.count("open lines");
-                continue;
-            }
-            if !self.budget.spend(pieces.len()) {
-                return self.refuse_size(node);
-            }
-            let closed = close(&pieces, 0.0);
-            let vertices = if let Closed::Ring(ring) = &closed { ring.vertices.len() } else { 1 };
-            if !self.budget.spend(vertices) {
-                return self.refuse_size(node);
-            }
-            match closed {
-                Closed::Circle { center, radius, is_clockwise } => {
-                    circles.push((center, radius));
-                    rings.push(full_circle(center, radius, is_clockwise));
-                }
-                Closed::Ring(ring) => rings.push(ring),
-                Closed::Empty if !subpath.is_closed => {
-                    self.count("open lines");
-                    continue;
-                }
-                Closed::Empty => {
-                    self.count("shapes without area");
-                    continue;
-                }
-            }
-            self.tally.not_closed += usize::from(!subpath.is_closed);
-        }
-        let rule = if style.fill == Fill::None { FillRule::NonZero } else { style.rule };
-        let outline = match (&circles[..], rings.len()) {
-            (_, 0) => return,
-            (&[(center, radius)], 1) => Outline::Disc { center, radius },
-            _ => Outline::Area { rings, rule },
-        };
-        self.tally.outlines += usize::from(style.fill == Fill::None);
-        self.tally.strokes += usize::from(style.fill != Fill::None && style.has_stroke);
-        self.whites.push(style.fill == Fill::White);
-        self.drawing.entities.push(Entity { outline, place: self.lines.place(node) });
-    }
-
     fn finish(mut self) -> Result<Drawing, Vec<Refusal>> {
         self.refusals.dedup();
         for (i, layer) in self.layers.unwrap_or_default().iter().enumerate() {
@@ -407,10 +338,4 @@ impl<'a, 'input> Walk<'a, 'input> {
         }
         Ok(self.drawing)
     }
-}
-
-/// A circle as a ring of two half circles, for areas of several rings.
-fn full_circle(center: Vec2, radius: f64, is_clockwise: bool) -> Ring {
-    let bulge = if is_clockwise { -1.0 } else { 1.0 };
-    Ring { vertices: vec![[center.x + radius, center.y, bulge], [center.x - radius, center.y, bulge]] }
 }

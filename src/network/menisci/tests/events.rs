@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::{Cell, Random, relative};
 use crate::geometry::curve::{Curve, cross};
 use crate::math::Vec2;
-use crate::network::menisci::{Hand, Passage, Wall, overlap};
+use crate::network::menisci::{Hand, Passage, Wall, WallPart, overlap};
 
 #[test]
 fn a_third_wall_is_touched_where_a_dense_scan_sees_it() {
@@ -32,6 +32,33 @@ fn a_third_wall_is_touched_where_a_dense_scan_sees_it() {
         }
     }
     assert!(counts[0] > 50 && counts[1] > 50, "{counts:?}");
+}
+
+#[test]
+fn walls_far_behind_a_throat_change_nothing_ahead_of_it() {
+    // A disc below a plate, and one beside it that is touched.
+    let (center, radius) = (Vec2::new(0.0, -1.3), 1.0);
+    let ahead = Curve::circle(Vec2::new(2.8, -1.6), 1.1);
+    for deg in [0.0_f64, 0.01, 3.0, 5.0, 20.0, 60.0, 120.0] {
+        let angle = PI - deg.to_radians();
+        let passage = |begin: f64| {
+            let part = |a: f64, b: f64| WallPart {
+                curve: Curve::Segment { a: Vec2::new(a, 0.0), b: Vec2::new(b, 0.0) },
+                angle,
+            };
+            let plate = Wall { parts: vec![part(begin, 0.0), part(0.0, 10.0)], behind: 1 };
+            Passage::new(plate, Wall::of_disc(center, radius, angle, Vec2::zeros(), Hand::Right))
+        };
+        let (near, far) = (passage(-5.0), passage(-50.0));
+        let burst = [&near, &far].map(|it| it.burst().unwrap().curvature);
+        assert!(relative(burst[1], burst[0]) < 1e-12, "{deg}: {burst:?}");
+        let touch = [&near, &far].map(|it| it.touch(&[ahead], burst[0]));
+        assert_eq!(touch[0].is_some(), touch[1].is_some(), "{deg}: {touch:?}");
+        assert!(deg > 90.0 || touch[0].is_some(), "{deg}");
+        if let [Some(one), Some(other)] = touch {
+            assert!(relative(other, one) < 1e-12, "{deg}: {touch:?}");
+        }
+    }
 }
 
 #[test]

@@ -1,0 +1,483 @@
+//! The channel between two walls as flow sees it: arcs that meet both walls at right angles, from a chord into a pore.
+//!
+//! Lubrication along these arcs: pressure is taken as equal along an arc, and the gradient is 12 μ q/h³ with the length h of the arc,
+//! per length of the line through the middles of the arcs. Arcs between ends P and Q with the distance d, whose walls diverge by 2α, have
+//! h = d α/sin α. As the line advances, the walls turn by dφ and the ends move by ds = R dφ with dφ ∝ 1/(R cos α + d/2) at a wall of radius R,
+//! and the line by (ds1 + ds2)/2 + d (dφ1 + dφ2)/(4 (1 + cos α)). A corner is a wall of radius 0.
+//!
+//! Against the exact expansion of Stokes flow in the slope H' of the walls, whose resistance is 12/h³ (1 + 6/5 H'²) per length for a
+//! channel of the width h = 2 H along a straight axis, this is 12/h³ (1 + H'²): arcs see the slope of walls, to a sixth of its effect.
+//! For parallel walls it is exact. Left out: how flows join in pores.
+
+use crate::geometry::curve::{Curve, cross};
+use crate::math::{Vec2, perpendicular};
+use crate::network::graph::WallPiece;
+
+/// Steps per length over which the width changes by its own size: conductances come out within 1e-4.
+const STEPS: f64 = 4.0;
+/// Angles in rad and shares of lengths below this are rounding.
+const ROUNDING: f64 = 1e-9;
+/// A center closer than this share of the width is reached: what is left of the way adds less than this to a resistance.
+const REACHED: f64 = 1e-4;
+/// More steps than any channel takes: the width grows from step to step.
+const MOST_STEPS: usize = 100_000;
+/// More corrections of a step's length than its end at that of a piece takes.
+const MOST_CORRECTIONS: usize = 50;
+
+/// A wall that begins at the end of a chord and leads into a pore.
+#[derive(Debug, Clone)]
+pub(super) struct Wall {
+    pieces: Vec<Piece>,
+    /// 1 where the wall turns away from the channel by turning left, else -1.
+    away: f64,
+}
+
+/// A part of a wall, run through by its length if it is straight, else by the angle of its turn.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    start: Vec2,
+    tangent: Vec2,
+    /// In m, below 0 where the solid is concave, 0 at a corner; none where it is straight.
+    radius: Option<f64>,
+    end: f64,
+}
+
+impl Wall {
+    /// A wall of pieces in order. Beyond its end it is a corner: there the wall of another throat begins.
+    pub(super) fn new(pieces: &[WallPiece], away: f64, begin: Vec2, along: Vec2) -> Self {
+        let mut wall = Self { pieces: Vec::with_capacity(2 * pieces.len() + 1), away };
+        let (mut end, mut tangent) = (begin, along);
+        for WallPiece { curve, .. } in pieces {
+            wall.turn(end, tangent, curve.tangent(0.0));
+            let (radius, size) = match *curve {
+                Curve::Segment { a, b } => (None, (b - a).norm()),
+                Curve::Arc { radius, sweep, .. } => (Some(radius * away * sweep.signum()), sweep.abs()),
+            };
+            wall.pieces.push(Piece { start: curve.point(0.0), tangent: curve.tangent(0.0), radius, end: size });
+            (end, tangent) = (curve.point(1.0), curve.tangent(1.0));
+        }
+        wall.pieces.push(Piece { start: end, tangent, radius: Some(0.0), end: std::f64::consts::PI });
+        wall
+    }
+
+    /// A convex corner between two tangents; a concave one is a step of the tangent, without a piece.
+    fn turn(&mut self, corner: Vec2, from: Vec2, to: Vec2) {
+        let angle = self.away * cross(from, to).atan2(from.dot(&to));
+        if angle > ROUNDING {
+            self.pieces.push(Piece { start: corner, tangent: from, radius: Some(0.0), end: angle });
+        }
+    }
+}
+
+/// A place on a wall: the piece and how far along it.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    piece: usize,
+    at: f64,
+}
+
+/// Where the arc stands: its ends and what follows from them.
+#[derive(Debug, Clone, Copy)]
+struct Arc {
+    chord: Vec2,
+    /// Length of the chord, d.
+    d: f64,
+    tangents: [Vec2; 2],
+    /// Cosine and sine of α, half the angle by which the walls diverge.
+    cos: f64,
+    sin: f64,
+    /// Length of the arc.
+    h: f64,
+    /// Middle of the arc.
+    middle: Vec2,
+    /// The direction of the flow there.
+    direction: Vec2,
+}
+
+impl Arc {
+    fn between(ends: [Vec2; 2], tangents: [Vec2; 2]) -> Self {
+        let ([p, q], [t1, t2]) = (ends, tangents);
+        // Walls diverge by less than 3/2 π, and converge by less than π/2: beyond π both tangents point backwards.
+        let (cross, dot) = (cross(t1, t2), t1.dot(&t2));
+        let is_beyond = cross < 0.0 && dot < 0.0;
+        let (sum, difference) = (t1 + t2, t2 - t1);
+        let cos = if is_beyond { -0.5 * sum.norm() } else { 0.5 * sum.norm() };
+        let sin = if cross < 0.0 && !is_beyond { -0.5 * difference.norm() } else { 0.5 * difference.norm() };
+        // Rounding is least in the longer one of both.
+        let direction = if dot > 0.0 { sum / (2.0 * cos) } else { -perpendicular(difference) / (2.0 * sin) };
+        let chord = q - p;
+        let d = chord.norm();
+        // α/sin α by its series where the quotient loses digits.
+        let h = if sin.abs() < 1e-4 && cos > 0.0 { d * (1.0 + sin * sin / 6.0) } else { d * sin.atan2(cos) / sin };
+        // tan(α/2) = sin α/(1 + cos α).
+        let middle = 0.5 * (p + q) + direction * (0.5 * d * sin / (1.0 + cos));
+        Self { chord, d, tangents, cos, sin, h, middle, direction }
+    }
+
+    /// 12/h³ in 1/m3.
+    fn gradient(&self) -> f64 {
+        12.0 / (self.h * self.h * self.h)
+    }
+}
+
+/// How fast both ends move along their pieces, per length of the middle line, and how fast the walls turn from each other.
+struct Rates {
+    ends: [f64; 2],
+    turn: f64,
+}
+
+/// Both walls of a channel, the first one on the right of the flow.
+pub(super) struct Channel {
+    pub(super) walls: [Wall; 2],
+    /// The direction at right angles to the chord, into the pore.
+    pub(super) along: Vec2,
+}
+
+impl Channel {
+    fn end(&self, wall: usize, place: Place) -> (Vec2, Vec2) {
+        let Wall { pieces, away } = &self.walls[wall];
+        let Piece { start, tangent, radius, .. } = pieces[place.piece];
+        let Some(radius) = radius else { return (start + tangent * place.at, tangent) };
+        let (sin, cos) = (away * place.at * if radius < 0.0 { -1.0 } else { 1.0 }).sin_cos();
+        let normal = perpendicular(tangent);
+        let arm = normal * (away * radius);
+        (start + arm * (1.0 - cos) + tangent * (away * radius * sin), tangent * cos + normal * sin)
+    }
+
+    fn arc(&self, places: [Place; 2]) -> Arc {
+        let ((p, t1), (q, t2)) = (self.end(0, places[0]), self.end(1, places[1]));
+        Arc::between([p, q], [t1, t2])
+    }
+
+    /// None where arcs no longer advance: walls that close around a focus, or straight ones that have turned away by more than a right angle.
+    fn rates(&self, places: [Place; 2], arc: &Arc) -> Option<Rates> {
+        let Arc { d, cos, .. } = *arc;
+        let rate = |wall: usize| match self.walls[wall].pieces[places[wall].piece].radius {
+            None => (cos > -ROUNDING).then(|| (1.0 / cos.max(ROUNDING), 1.0 / cos.max(ROUNDING), 0.0)),
+            Some(radius) => {
+                let turned = radius * cos + 0.5 * d;
+                let least = ROUNDING * (d + radius.abs());
+                if radius >= 0.0 {
+                    return (turned > least).then(|| (1.0 / turned, radius / turned, 1.0 / turned));
+                }
+                // Both walls on one circle: every arc meets it at right angles, and both ends move alike.
+                let meets = turned.min(-least);
+                (turned <= least).then(|| (-1.0 / meets, radius / meets, 1.0 / meets))
+            }
+        };
+        let ((one, length_one, turn_one), (other, length_other, turn_other)) = (rate(0)?, rate(1)?);
+        let turn = turn_one + turn_other;
+        let advance = 0.5 * (length_one + length_other) + d * turn / (4.0 * (1.0 + cos));
+        (advance > 0.0).then(|| Rates { ends: [one / advance, other / advance], turn: turn / advance })
+    }
+
+    /// ∫ 12/h³ along the middle line, from the chord until the center of the pore is abreast, in 1/m2.
+    pub(super) fn resistance(&self, center: Vec2) -> f64 {
+        self.integral(center).0
+    }
+
+    /// The same, with the number of steps that it took.
+    fn integral(&self, center: Vec2) -> (f64, usize) {
+        let mut places = [Place { piece: 0, at: 0.0 }; 2];
+        let (mut sum, mut steps) = (0.0, 0);
+        if !self.settle(&mut places, center, &mut sum) {
+            return (sum, steps);
+        }
+        while steps < MOST_STEPS {
+            steps += 1;
+            let arc = self.arc(places);
+            let ahead = self.ahead(center, &arc);
+            if ahead.is_nan() || ahead <= REACHED * arc.h {
+                break;
+            }
+            let Some(rates) = self.rates(places, &arc) else { break };
+            let scale = arc.h / (2.0 * arc.sin.abs() + (arc.h * rates.turn.abs()).sqrt());
+            let Some(step) = self.step(places, (scale / STEPS).min(ahead), center, (&arc, &rates)) else { break };
+            sum += step.resistance;
+            let Some((entered, is_concave)) = self.entered(step.places, step.ended) else { break };
+            places = entered;
+            if is_concave && !self.settle(&mut places, center, &mut sum) {
+                break;
+            }
+        }
+        (sum, steps)
+    }
+
+    /// How far the middle has to go until the center is abreast of it; 0 where the channel has turned off at nearly a right angle.
+    fn ahead(&self, center: Vec2, arc: &Arc) -> f64 {
+        /// Cosine of the angle at which nothing is left of the way ahead.
+        const OFF: f64 = 0.1;
+        let cos = self.along.dot(&arc.direction);
+        if cos < OFF { 0.0 } else { self.along.dot(&(center - arc.middle)) / cos }
+    }
+
+    /// Both places, that of a wall whose piece has ended at the beginning of its next one, and whether a wall turned towards the channel
+    /// there. None where a wall has no next piece.
+    fn entered(&self, mut places: [Place; 2], ended: [bool; 2]) -> Option<([Place; 2], bool)> {
+        let mut is_concave = false;
+        for (wall, place) in places.iter_mut().enumerate().filter(|&(wall, _)| ended[wall]) {
+            let (_, before) = self.end(wall, *place);
+            let next = Place { piece: place.piece + 1, at: 0.0 };
+            if next.piece == self.walls[wall].pieces.len() {
+                return None;
+            }
+            *place = next;
+            let (_, after) = self.end(wall, next);
+            is_concave |= self.walls[wall].away * cross(before, after) < -ROUNDING;
+        }
+        Some((places, is_concave))
+    }
+
+    /// Advances the end that lags behind until the chord leans as much on one wall as on the other. False where a wall ends before.
+    fn settle(&self, places: &mut [Place; 2], center: Vec2, sum: &mut f64) -> bool {
+        let lead = |places: [Place; 2]| {
+            let arc = self.arc(places);
+            arc.chord.dot(&(arc.tangents[0] + arc.tangents[1])) / arc.d
+        };
+        let first = lead(*places);
+        if first.abs() <= ROUNDING {
+            return true;
+        }
+        let lagging = usize::from(first < 0.0);
+        let sign = first.signum();
+        loop {
+            let Place { piece, at } = places[lagging];
+            let end = self.walls[lagging].pieces[piece].end;
+            let with = |at: f64| {
+                let mut moved = *places;
+                moved[lagging].at = at;
+                moved
+            };
+            let (mut low, mut high) = (at, end);
+            let reaches = sign * lead(with(end)) <= 0.0;
+            // A double has 53 bits.
+            for _ in 0..if reaches { 53 } else { 0 } {
+                let middle = 0.5 * (low + high);
+                if sign * lead(with(middle)) > 0.0 { low = middle } else { high = middle }
+            }
+            let (before, after) = (self.arc(*places), self.arc(with(high)));
+            let ahead = self.ahead(center, &before);
+            let advance = after.direction.dot(&(after.middle - before.middle)).min(ahead).max(0.0);
+            if advance > 0.0 {
+                *sum += advance * after.gradient();
+            }
+            *places = with(high);
+            if reaches {
+                return true;
+            }
+            if piece + 1 == self.walls[lagging].pieces.len() {
+                return false;
+            }
+            places[lagging] = Place { piece: piece + 1, at: 0.0 };
+        }
+    }
+
+    /// One step of the method of Runge and Kutta, shortened to the end of a piece or to where the center is abreast.
+    fn step(&self, places: [Place; 2], longest: f64, center: Vec2, (arc, first): (&Arc, &Rates)) -> Option<Step> {
+        let mut length = longest;
+        let end = |wall: usize| self.walls[wall].pieces[places[wall].piece].end;
+        for _ in 0..MOST_CORRECTIONS {
+            let Reached { at, rates, resistance } = self.runge_kutta(places, length, arc, first)?;
+            let rounding = |wall: usize| ROUNDING * (at[wall] - places[wall].at);
+            let beyond = |wall: usize| at[wall] - end(wall);
+            // The secant from the beginning of the step, and Newton's method close to the end: far from it, Newton's may come down at the beginning.
+            let to_end = |wall: usize| {
+                let newton = length - beyond(wall) / rates[wall];
+                let secant = length * (end(wall) - places[wall].at) / (at[wall] - places[wall].at);
+                if newton > 0.5 * secant && newton < length { newton } else { secant }
+            };
+            let reached = self.arc([0, 1].map(|wall| Place { at: at[wall], ..places[wall] }));
+            let left = |arc: &Arc| self.along.dot(&(center - arc.middle));
+            let to_center =
+                (left(&reached) < -REACHED * reached.h).then(|| length * left(arc) / (left(arc) - left(&reached)));
+            let ends = [0, 1].into_iter().filter(|&wall| beyond(wall) > rounding(wall)).map(to_end);
+            if let Some(shortened) = ends.chain(to_center).reduce(f64::min) {
+                length = shortened;
+                continue;
+            }
+            let ended = [0, 1].map(|wall| beyond(wall) >= -rounding(wall));
+            let place = |wall: usize| Place { at: if ended[wall] { end(wall) } else { at[wall] }, ..places[wall] };
+            return Some(Step { places: [place(0), place(1)], ended, resistance });
+        }
+        None
+    }
+
+    fn runge_kutta(&self, places: [Place; 2], length: f64, arc: &Arc, first: &Rates) -> Option<Reached> {
+        let moved = |rates: &[f64; 2], share: f64| {
+            [0, 1].map(|wall| Place { at: places[wall].at + share * length * rates[wall], ..places[wall] })
+        };
+        let at = |places: [Place; 2]| {
+            let arc = self.arc(places);
+            Some((self.rates(places, &arc)?.ends, arc.gradient()))
+        };
+        let (k1, g1) = (first.ends, arc.gradient());
+        let (k2, g2) = at(moved(&k1, 0.5))?;
+        let (k3, g3) = at(moved(&k2, 0.5))?;
+        let (k4, g4) = at(moved(&k3, 1.0))?;
+        let mean = |wall: usize| (k1[wall] + 2.0 * (k2[wall] + k3[wall]) + k4[wall]) / 6.0;
+        let at = [0, 1].map(|wall| places[wall].at + length * mean(wall));
+        Some(Reached { at, rates: k4, resistance: length * (g1 + 2.0 * (g2 + g3) + g4) / 6.0 })
+    }
+}
+
+/// What a step of the method of Runge and Kutta has reached, beyond the ends of pieces too.
+struct Reached {
+    at: [f64; 2],
+    /// How fast both ends move there.
+    rates: [f64; 2],
+    resistance: f64,
+}
+
+/// What a step has reached.
+struct Step {
+    places: [Place; 2],
+    ended: [bool; 2],
+    resistance: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use super::*;
+
+    /// Two discs or corners below and above the origin whose walls stand `w` apart, up to the center of a pore.
+    fn resistance([below, above]: [f64; 2], w: f64, center: Vec2) -> f64 {
+        let wall = |radius: f64, side: f64| {
+            let begin = Vec2::new(0.0, 0.5 * w * side);
+            let disc = Vec2::new(0.0, (0.5 * w + radius) * side);
+            let curve = Curve::Arc { center: disc, radius, start: -FRAC_PI_2 * side, sweep: PI * side };
+            let pieces = [WallPiece { curve, whole: Curve::circle(disc, radius), shape: 0 }];
+            Wall::new(if radius > 0.0 { &pieces } else { &[] }, side, begin, Vec2::x())
+        };
+        Channel { walls: [wall(below, -1.0), wall(above, 1.0)], along: Vec2::x() }.resistance(center)
+    }
+
+    /// The same up to the arc of a given t = tan(σ/2), with the middle of that arc, in bipolar coordinates, in which walls and arcs are
+    /// lines: h = a (1 + t²)(A1 + A2)/t with A = atan(k t), k = a/(R + √(R² + a²)).
+    fn in_bipolar_coordinates([below, above]: [f64; 2], w: f64, end: f64) -> (f64, Vec2) {
+        let d = below + above + w;
+        let squares = d * d - below * below - above * above;
+        let a = (squares * squares - 4.0 * (below * above).powi(2)).sqrt() / (2.0 * d);
+        let angles = |t: f64| [below, above].map(|radius| (t * a / (radius + radius.hypot(a))).atan());
+        let middle = |t: f64| (0.5 * (angles(t)[1] - angles(t)[0])).tan();
+        // The midpoint rule.
+        let count = 10_000;
+        let step = end / f64::from(count);
+        let part = |i: u32| {
+            let t = (f64::from(i) + 0.5) * step;
+            let m = middle(t);
+            let h = a * (1.0 + t * t) * angles(t).iter().sum::<f64>() / t;
+            12.0 / h.powi(3) * a * (1.0 - (m / t).powi(2)) / (1.0 + m * m) * step
+        };
+        let m = middle(end);
+        let q = m / end;
+        let chord = 0.5 * (above.hypot(a) - above - below.hypot(a) + below);
+        let x = a * end * (1.0 - q * q) / (1.0 + m * m);
+        let y = a * q * (1.0 + end * end) / (1.0 + m * m) - chord;
+        ((0..count).map(part).sum(), Vec2::new(x, y))
+    }
+
+    #[test]
+    fn two_discs_of_any_radii_resist_as_in_bipolar_coordinates() {
+        for radii in [[1.0, 1.0], [1.0, 0.4], [0.2, 3.0], [1.0, 0.0], [0.0, 0.0]] {
+            for (w, end) in [(0.01, 1.0), (0.1, 0.7), (1.0, 0.5)] {
+                let (expected, center) = in_bipolar_coordinates(radii, w, end);
+                let found = resistance(radii, w, center);
+                // Fourth order in the length of a step.
+                assert!((found / expected - 1.0).abs() < 2e-4, "{radii:?}, {w}: {found} and {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_channel_takes_many_steps_wherever_its_walls_end() {
+        // Walls that end at any angle, pores at any distance.
+        for k in 1..400 {
+            let sweep = 1.5 * f64::from(k) / 400.0;
+            for j in 1..50 {
+                let wall = |side: f64, sweep: f64| {
+                    let center = Vec2::new(0.0, 1.04 * side);
+                    let curve = Curve::Arc { center, radius: 1.0, start: -FRAC_PI_2 * side, sweep: sweep * side };
+                    let piece = WallPiece { curve, whole: Curve::circle(center, 1.0), shape: 0 };
+                    Wall::new(&[piece], side, Vec2::new(0.0, 0.04 * side), Vec2::x())
+                };
+                let channel = Channel { walls: [wall(-1.0, sweep), wall(1.0, 1.6)], along: Vec2::x() };
+                let (resistance, steps) = channel.integral(Vec2::new(0.03 * f64::from(j), 0.1));
+                assert!(resistance > 0.0 && steps < 200, "{sweep}, {j}: {steps} steps");
+            }
+        }
+    }
+
+    #[test]
+    fn narrow_throats_resist_as_close_cylinders() {
+        // 1/g = 4.5 π √2/(w^(5/2) √(1/R1 + 1/R2)) for w far below R, to the order w/R.
+        for w in [1e-2, 1e-3] {
+            let found = 2.0 * resistance([1.0, 0.5], w, Vec2::new(0.5, 0.0));
+            let leading = 4.5 * PI * 2.0_f64.sqrt() / (w.powf(2.5) * 3.0_f64.sqrt());
+            assert!((found / leading - 1.0).abs() < w, "{w}: {}", found / leading - 1.0);
+        }
+    }
+
+    #[test]
+    fn a_slit_in_a_thin_screen_resists_as_stokes_flow_through_it() {
+        // Exact is g = π w²/32 (Hasimoto 1958). Walls that turn about corners and stand back to back are the farthest from lubrication.
+        let v = Vec2::new;
+        let side = |sign: f64| {
+            let curve = Curve::Segment { a: v(0.0, sign * 0.5), b: v(0.0, sign * 1e4) };
+            Wall::new(&[WallPiece { curve, whole: curve, shape: 0 }], sign, v(0.0, sign * 0.5), v(1.0, 0.0))
+        };
+        let resistance = 2.0 * Channel { walls: [side(-1.0), side(1.0)], along: Vec2::x() }.resistance(v(1e3, 0.0));
+        let share = PI / 32.0 * resistance;
+        assert!((share - 1.0).abs() < 0.1, "{share}");
+    }
+
+    #[test]
+    fn a_round_pore_behind_a_slit_resists_as_its_arcs_say() {
+        // The slit w = 2 sin γ0 in the circle of radius 1 around the origin; ends at the polar angles π ± γ. At the corners
+        // 12/h³ dl = 3 (sin α/α)³/cos²(α/2) dα/w², in the pore h = 2 γ' tan γ with γ' = π/2 - γ = α and the middle at -tan(γ'/2).
+        let start = 0.2_f64;
+        let w = 2.0 * start.sin();
+        let wall = |side: f64| {
+            let curve = Curve::Arc { center: Vec2::zeros(), radius: 1.0, start: PI - side * start, sweep: -side * 2.0 };
+            let piece = WallPiece { curve, whole: curve, shape: 0 };
+            Wall::new(&[piece], side, curve.point(0.0), Vec2::x())
+        };
+        let found = Channel { walls: [wall(-1.0), wall(1.0)], along: Vec2::x() }.resistance(Vec2::zeros());
+        let count = 100_000;
+        let sum = |from: f64, to: f64, f: &dyn Fn(f64) -> f64| -> f64 {
+            let step = (to - from) / f64::from(count);
+            (0..count).map(|i| f(from + (f64::from(i) + 0.5) * step) * step).sum()
+        };
+        let alpha = FRAC_PI_2 - start;
+        let corners = sum(0.0, alpha, &|a| 3.0 * (a.sin() / a).powi(3) / ((0.5 * a).cos() * w).powi(2));
+        let pore = sum(0.0, alpha, &|a| 6.0 / (2.0 * a / a.tan()).powi(3) / (0.5 * a).cos().powi(2));
+        let expected = corners + pore;
+        assert!((found / expected - 1.0).abs() < 1e-3, "{found} and {expected}");
+    }
+
+    #[test]
+    fn a_channel_with_many_small_bends_resists_as_a_round_one() {
+        let v = Vec2::new;
+        let [radius, half] = [3.0, 0.5];
+        let point = |sign: f64, angle: f64| v(radius * angle.sin(), sign * (half + radius * (1.0 - angle.cos())));
+        let walls = |count: u32| {
+            [-1.0, 1.0].map(|sign| {
+                let at = |i: u32| point(sign, 0.6 * f64::from(i) / f64::from(count));
+                let pieces: Vec<WallPiece> = (0..count)
+                    .map(|i| Curve::Segment { a: at(i), b: at(i + 1) })
+                    .map(|curve| WallPiece { curve, whole: curve, shape: 0 })
+                    .collect();
+                Wall::new(&pieces, sign, at(0), v(1.0, 0.0))
+            })
+        };
+        let round = resistance([radius; 2], 2.0 * half, v(1.2, 0.0));
+        let errors: Vec<f64> = [8, 32]
+            .map(|count| {
+                (Channel { walls: walls(count), along: Vec2::x() }.resistance(v(1.2, 0.0)) / round - 1.0).abs()
+            })
+            .into();
+        // Vertices on the wall: second order.
+        assert!(errors[1] < 1e-3 && errors[1] < 0.2 * errors[0], "{errors:?}");
+    }
+}

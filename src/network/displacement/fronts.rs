@@ -1,0 +1,189 @@
+//! Menisci that wait in gates: their passages, the events that they wait for, and their neighbors along the walls.
+
+use super::loops::Loop;
+use super::mesh::Mesh;
+use super::walls::{Sides, gate_walls, is_same};
+use super::{Displacement, EventKind, Events};
+use crate::geometry::curve::Curve;
+use crate::math::Vec2;
+use crate::network::graph::WallPiece;
+use crate::network::menisci::{Hand, Passage, Wall, WallPart, overlap};
+
+/// A meniscus that waits in a gate, entering the element on one side of it.
+#[derive(Debug, Clone)]
+pub(super) struct Front {
+    /// Where it can stand.
+    pub passage: Passage,
+    /// Curvature of its own event in 1/m.
+    pub own: f64,
+}
+
+/// An event that will come unless another comes before it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Candidate {
+    /// Curvature of the meniscus in 1/m.
+    pub curvature: f64,
+    /// What will happen.
+    pub kind: EventKind,
+    /// The gate.
+    pub gate: usize,
+    /// The end of the gate at which the meniscus enters.
+    pub to: usize,
+    /// The meniscus to meet, and on which hand.
+    pub partner: Option<((usize, usize), Hand)>,
+    /// Whether both have met and wait as one.
+    pub is_joined: bool,
+}
+
+/// What is added to a wall beside a crossing of a loop so that it meets it.
+type SeamOf = fn(&Loop, usize) -> Vec2;
+
+/// The next meniscus along a wall.
+pub(super) struct Neighbor {
+    /// Its gate and the end at which it enters.
+    pub front: (usize, usize),
+    /// Length of wall between both gates in m.
+    shared: f64,
+    /// What is added to a position in its frame to get that in the frame of the meniscus it is the neighbor of, in m.
+    offset: Vec2,
+    /// The elements in between.
+    pub passed: Vec<usize>,
+}
+
+impl Eq for Candidate {}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Candidate {
+    /// The greatest is the one that comes first.
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let number = |it: &Self| (it.gate, it.to, it.partner.map(|(front, hand)| (front, hand == Hand::Right)));
+        let by_number = number(other).cmp(&number(self));
+        other.curvature.total_cmp(&self.curvature).then(by_number)
+    }
+}
+
+impl Displacement {
+    /// The passage of a gate for a meniscus that enters it at its end `to`, and the walls ahead, moved by `offset` in m.
+    fn passage(&self, mesh: &Mesh, gate: usize, to: usize, offset: Vec2) -> (Passage, Vec<Curve>) {
+        self.passage_at(&self.conditions.angle, mesh, (gate, to), offset)
+    }
+
+    /// The same with other contact angles in rad.
+    pub(super) fn passage_at(
+        &self,
+        angles: &[f64],
+        mesh: &Mesh,
+        (gate, to): (usize, usize),
+        offset: Vec2,
+    ) -> (Passage, Vec<Curve>) {
+        let walls = gate_walls(mesh, gate, to, &self.centers);
+        let angle = |shape: u32| angles.get(shape as usize).copied().unwrap_or(std::f64::consts::FRAC_PI_2);
+        let wall = |sides: &Sides| {
+            let part = |piece: &WallPiece| WallPart { curve: piece.curve.shifted(offset), angle: angle(piece.shape) };
+            let parts = sides.behind.iter().rev().chain(&sides.ahead).map(part).collect();
+            Wall { parts, behind: sides.behind.len() }
+        };
+        let obstacles = walls.ahead.iter().map(|piece| piece.curve.shifted(offset)).collect();
+        (Passage::new(wall(&walls.left), wall(&walls.right)), obstacles)
+    }
+
+    /// Lets a meniscus wait in a gate, about to enter it at its end `to`.
+    pub(super) fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
+        let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
+        let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
+        let mut kind = EventKind::Burst;
+        let mut own = burst;
+        if self.conditions.events == Events::All
+            && let Some(touch) = passage.touch(&obstacles, burst)
+        {
+            (kind, own) = (EventKind::Touch, touch);
+        }
+        self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None, is_joined: false });
+        if self.conditions.events == Events::All {
+            self.meet_neighbors(mesh, (gate, to), &passage, own);
+        }
+        self.fronts[gate][to] = Some(Front { passage, own });
+    }
+
+    /// Overlaps of a new meniscus with its neighbors on both walls.
+    fn meet_neighbors(&mut self, mesh: &Mesh, (gate, to): (usize, usize), passage: &Passage, own: f64) {
+        for hand in [Hand::Left, Hand::Right] {
+            let Some(neighbor) = self.neighbor(mesh, (gate, to), hand) else { continue };
+            let (other, end) = neighbor.front;
+            let Some(front) = &self.fronts[other][end] else { continue };
+            let moved = (neighbor.offset != Vec2::zeros()).then(|| self.passage(mesh, other, end, neighbor.offset).0);
+            let facing = moved.as_ref().unwrap_or(&front.passage);
+            let (a, b) = if hand == Hand::Left { (passage, facing) } else { (facing, passage) };
+            if let Some(curvature) = overlap(a, b, neighbor.shared, own.min(front.own)) {
+                let partner = Some((neighbor.front, hand));
+                let kind = EventKind::Overlap;
+                self.queue.push(Candidate { curvature, kind, gate, to, partner, is_joined: false });
+            }
+        }
+    }
+
+    /// The next meniscus along a wall of a gate, ahead of the meniscus that enters it, with nothing but the defending phase in between.
+    pub(super) fn neighbor(&self, mesh: &Mesh, (gate, to): (usize, usize), hand: Hand) -> Option<Neighbor> {
+        let (mut index, slot) = mesh.gates[gate].places[to];
+        let next = |index: usize, k: usize| (k + 1) % mesh.loops[index].walls.len();
+        let before = |index: usize, k: usize| (k + mesh.loops[index].walls.len() - 1) % mesh.loops[index].walls.len();
+        // The wall on the left ahead leads to the next crossing, the one on the right to that before.
+        let mut wall = if hand == Hand::Left { next(index, slot) } else { slot };
+        let mut found =
+            Neighbor { front: (gate, to), shared: 0.0, offset: Vec2::zeros(), passed: vec![mesh.element_of[index]] };
+        let (to_crossing, from_crossing): (SeamOf, SeamOf) = if hand == Hand::Left {
+            (Loop::wall_before, Loop::wall_after)
+        } else {
+            (Loop::wall_after, Loop::wall_before)
+        };
+        found.offset += from_crossing(&mesh.loops[index], slot);
+        // A wall has no more stretches than there are loops.
+        for _ in 0..mesh.loops.len() {
+            found.shared += mesh.loops[index].walls[wall].iter().map(|piece| piece.curve.length()).sum::<f64>();
+            let crossing = if hand == Hand::Left { wall } else { before(index, wall) };
+            let front = mesh.gate_at[index][crossing]?;
+            if front == (gate, to) {
+                return None;
+            }
+            found.offset -= to_crossing(&mesh.loops[index], crossing);
+            if self.fronts[front.0][front.1].is_some() {
+                return Some(Neighbor { front, ..found });
+            }
+            let (beyond, twin, shift) = mesh.twins[index][crossing]?;
+            let element = mesh.element_of[beyond];
+            if self.invaded[element] || self.trapped[element] {
+                return None;
+            }
+            found.offset += from_crossing(&mesh.loops[beyond], twin) - shift;
+            found.passed.push(element);
+            index = beyond;
+            wall = if hand == Hand::Left { next(index, twin) } else { twin };
+        }
+        None
+    }
+
+    /// Curvature in 1/m at which the meniscus goes on that two neighbors have become, between the outer walls of both: it bursts, or touches a
+    /// wall ahead of either. Within one element it has nothing to wait for.
+    pub(super) fn joined_event(&self, mesh: &Mesh, front: (usize, usize), hand: Hand, neighbor: &Neighbor) -> f64 {
+        if neighbor.passed.len() < 2 {
+            return f64::NEG_INFINITY;
+        }
+        let (one, mut obstacles) = self.passage(mesh, front.0, front.1, Vec2::zeros());
+        let (other, beyond) = self.passage(mesh, neighbor.front.0, neighbor.front.1, neighbor.offset);
+        obstacles.extend(beyond);
+        let (left, right) = if hand == Hand::Left { (&other, &one) } else { (&one, &other) };
+        let own = |curve: &Curve| {
+            let mut parts = left.left().parts.iter().chain(&right.right().parts);
+            parts.any(|part| part.curve == *curve || is_same(&part.curve, curve))
+        };
+        obstacles.retain(|curve| !own(curve));
+        let passage = Passage::new(left.left().clone(), right.right().clone());
+        let burst = passage.burst().map_or(f64::NEG_INFINITY, |meniscus| meniscus.curvature);
+        passage.touch(&obstacles, burst).unwrap_or(burst)
+    }
+}

@@ -1,0 +1,63 @@
+//! Damaged copies of all files are read or refused: no panic, no hang, and shapes that make sense where there are any.
+
+use std::cell::Cell;
+
+use cpu_time::ThreadTime;
+use meniscus::geometry::import::Options;
+use meniscus::geometry::load;
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
+
+use crate::contents::*;
+use crate::damage::{damage, damaged};
+use crate::files::*;
+
+/// Damaged copies of a file of tests/drawings are read or refused, each in less than a second of this thread.
+fn survives_damage(name: &str, options: &Options) {
+    let whole = std::fs::read(file(name)).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    let mut runner = TestRunner::new(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(512) });
+    let slowest = Cell::new(0.0_f64);
+    let outcome = runner.run(&damage(), |damages| {
+        std::fs::write(&path, damaged(&whole, &damages)).unwrap();
+        let clock = ThreadTime::now();
+        let found = load(&path, options);
+        let seconds = clock.elapsed().as_secs_f64();
+        slowest.set(seconds.max(slowest.get()));
+        prop_assert!(seconds < 1.0, "{seconds} s");
+        if let Ok(found) = found {
+            prop_assert!(found.spec.problems().is_empty());
+        }
+        Ok(())
+    });
+    println!("{name}: at most {:.0} ms", 1e3 * slowest.get());
+    if let Err(error) = outcome {
+        panic!("{name}: {error}");
+    }
+}
+
+macro_rules! survive {
+    ($($test:ident: $file:literal, $options:expr;)*) => {
+        $(#[test]
+        fn $test() {
+            survives_damage($file, &$options);
+        })*
+    };
+}
+
+survive! {
+    damaged_lists_are_read_or_refused: "pack.xyr", Options::default();
+    damaged_columns_are_read_or_refused: "pack-columns.csv", columns();
+    damaged_well_known_text_is_read_or_refused: "grains.wkt", unit("mm");
+    damaged_geojson_is_read_or_refused: "grains.geojson", unit("mm");
+    damaged_shapefiles_are_read_or_refused: "grains.shp", unit("mm");
+    damaged_svg_is_read_or_refused: "pack-inkscape.svg", Options::default();
+    damaged_svg_of_grains_is_read_or_refused: "grains.svg", in_box(Options::default(), GRAINS);
+    damaged_dxf_is_read_or_refused: "grains.dxf", unit("mm");
+    damaged_dxf_with_blocks_is_read_or_refused: "pack-blocks.dxf", unit("mm");
+    damaged_dxf_with_splines_is_read_or_refused: "grains-splines.dxf", unit("mm");
+    damaged_binary_dxf_is_read_or_refused: "pack-r2018-binary.dxf", unit("mm");
+    damaged_png_masks_are_read_or_refused: "pack-grey.png", Options { pixel_size: Some(2e-5), ..Options::default() };
+    damaged_tiff_masks_are_read_or_refused: "pack-1bit.tif", Options { pixel_size: Some(2e-5), ..Options::default() };
+}
