@@ -125,6 +125,19 @@ pub enum SolverError {
         /// Where the fastest particle is, in m.
         place: Vec2,
     },
+    /// A flow rate is asked for through a side, and nothing can flow.
+    #[error(
+        "no pressure drives the flow that is asked for through the side `{side}` at time {time:.6e} s (step {step}): open a way \
+         through the solids along it, wide enough for a few particles, or leave the flow out"
+    )]
+    Blocked {
+        /// Name of the side.
+        side: &'static str,
+        /// Time in s.
+        time: f64,
+        /// Step.
+        step: u64,
+    },
     /// A linear or nonlinear solve did not reach its tolerance.
     #[error(
         "{system} did not converge at time {time:.6e} s (step {step}): relative residual {residual:.3e} after {iterations} \

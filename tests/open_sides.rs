@@ -141,3 +141,89 @@ fn a_given_flow_through_periodic_sides_brings_back_one_phase() {
     let mean = flow.particles.velocity[..200].iter().map(|v| v.x).sum::<f64>() / 200.0;
     assert!((mean / 0.01 - 1.0).abs() < 1e-6, "{mean}");
 }
+
+/// The larger relative error of the flow rates over `count` steps of `dt` (s), by the ways of all particles.
+fn rate_error(flow: &mut Flow, count: usize, dt: f64) -> f64 {
+    flow.open.through.iter_mut().for_each(|through| through.state.largest_error = 0.0);
+    for _ in 0..count {
+        let (before, passed): (f64, Vec<f64>) =
+            (flow.time, flow.open.through.iter().map(|through| through.state.passed).collect());
+        flow.step(before + dt).unwrap();
+        for (through, passed) in flow.open.through.iter_mut().zip(passed) {
+            let rate = (through.state.passed - passed) / (flow.time - before);
+            let error = (rate / through.flow_rate() - 1.0).abs();
+            through.state.largest_error = through.state.largest_error.max(error);
+        }
+    }
+    flow.open.through.iter().map(|through| through.state.largest_error).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_given_flow_rate_holds_in_every_step_and_takes_the_pressure_of_a_parabola() {
+    // The step is twice as long as viscosity allows explicitly, and 16 times that.
+    for (dt, profile) in [(1.5e-3, "plug"), (1.2e-2, "parabolic")] {
+        let sides = format!(
+            "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.sides.open.left]\nvelocity = 1.0e-3\nprofile = \"{profile}\"\n"
+        );
+        let mut flow = flow(&channel(&sides).replace("spacing = 1.0e-4", "spacing = 5.0e-5"));
+        let error = rate_error(&mut flow, 4, dt);
+        assert!(error < 1e-9, "{error:.1e} at {dt} s from the start");
+        // Three times density H²/viscosity/π²: what is left of the start is exp(-12) of it.
+        run(&mut flow, 1.2);
+        let error = rate_error(&mut flow, 4, dt);
+        assert!(error < 1e-9, "{error:.1e} at {dt} s at the end");
+        let exact = 12.0 * 1.0e-3 * 1.0e-3 / 1.0e-6;
+        let gradient = flow.driving_gradient().x;
+        println!("{profile}: gradient over exact {:.5}", gradient / exact);
+        assert!((gradient / exact - 1.0).abs() < 0.01, "{gradient:.4} Pa/m, exact {exact:.4}");
+    }
+}
+
+#[test]
+fn given_flows_along_both_axes_pass_an_obstacle_and_a_second_phase() {
+    let text = channel(&format!(
+        "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n\
+         [sph.sides.open.left]\nvelocity = 1.0e-3\n[sph.sides.open.top]\nflow-rate = 3.0e-6\n{}",
+        OTHER_FLUID.replace("density = 1000.0", "density = 10.0").replace(
+            "rectangle = { center = [1.0e-3, 0.0], size = [4.0e-3, 1.0e-3] }",
+            "disc = { center = [4.0e-4, 5.0e-4], radius = 2.5e-4 }"
+        )
+    ));
+    let solid = "max = [2.0e-3, 1.0e-3]\nshapes = [{ disc = { center = [1.3e-3, 4.0e-4], radius = 2.5e-4 } }]\n";
+    let wetting = "[sph.wetting.young]\ncontact-angle-deg = 60.0\n";
+    let mut flow = flow(&(text.replace("max = [2.0e-3, 1.0e-3]\n", solid) + wetting));
+    let error = rate_error(&mut flow, 40, 1.0e-3);
+    println!("error {error:.1e}, particles set back {}", flow.work.set_back);
+    assert!(error < 1e-6, "{error:.1e}");
+    let (left, top) = (&flow.open.through[0].state, &flow.open.through[1].state);
+    assert!(left.gradient > 0.0 && top.gradient > 0.0, "{left:?}, {top:?}");
+}
+
+#[test]
+fn a_given_flow_that_solids_block_is_refused() {
+    let text = channel(
+        "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.sides.open.left]\nvelocity = 1.0e-3\n",
+    )
+    .replace(
+        "max = [2.0e-3, 1.0e-3]\n",
+        "max = [2.0e-3, 1.0e-3]\nshapes = [{ rectangle = { center = [1.0e-3, 5.0e-4], size = [8.0e-4, 2.0e-3] } }]\n",
+    );
+    let error = flow(&text).step(1.0).unwrap_err().to_string();
+    assert!(error.contains("through the side `left`"), "{error}");
+}
+
+#[test]
+fn a_resumed_flow_with_a_given_rate_takes_the_same_steps() {
+    let sides = "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.sides.open.left]\nvelocity = 0.01\n";
+    let text = channel(&format!("{sides}{OTHER_FLUID}"));
+    let (mut whole, mut first) = (flow(&text), flow(&text));
+    run(&mut first, 0.03);
+    run(&mut whole, 0.03);
+    let mut second = flow(&text);
+    meniscus::sph::state::load(&mut second, &meniscus::sph::state::save(&first)).unwrap();
+    for flow in [&mut whole, &mut second] {
+        run(flow, 0.06);
+    }
+    assert_eq!(whole.particles, second.particles);
+    assert_eq!(whole.open.through, second.open.through);
+}

@@ -253,9 +253,8 @@ fn momentum_is_kept_at_equal_densities() {
     let sizes: f64 = flow.fields.surface_force.iter().zip(&flow.fields.volume).map(|(f, v)| v * f.norm()).sum();
     // The continuum surface force is no sum of pair forces: on shaken particles this much of it is left over.
     println!("surface force left over: {:.1e}", force.norm() / sizes);
-    for _ in 0..10 {
-        flow.step(1.0).unwrap();
-    }
+    // What is left over acts as long as they move: these are a quarter of what surface tension allows.
+    steps(&mut flow, 10, 8.0e-5);
     let size: f64 = flow.particles.velocity.iter().map(|v| v.norm()).sum();
     println!("momentum over sizes after ten steps: {:.1e}", momentum(&flow).norm() / size);
     assert!(momentum(&flow).norm() < 0.02 * size, "{:.1e}", momentum(&flow).norm() / size);
@@ -301,9 +300,7 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.walls]\nslip-length = {slip}\n"
         )));
         // Three viscous times, density H²/viscosity: the slowest part has decayed by exp(-30), with slip by exp(-24).
-        while flow.time < 0.03 {
-            flow.step(0.03).unwrap();
-        }
+        steps(&mut flow, 120, 2.5e-4);
         let weight = 1000.0 * flow.method.volume * flow.particles.fluids as f64 * GRAVITY;
         let all = flow.friction(|_, _| true);
         assert!((all.x / weight - 1.0).abs() < 1e-6, "slip {slip} m: {:.6} of the weight", all.x / weight);

@@ -14,7 +14,7 @@ pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
     };
     Numerics {
         viscous_term: ViscousTerm::Stress,
-        viscous_step: ViscousStep::Explicit,
+        viscous_step: ViscousStep::Implicit,
         drift_source,
         drift_correction,
         background_pressure,

@@ -13,7 +13,7 @@ use crate::sph::surface_force::SurfaceForce;
 use crate::sph::surface_force::fit::InterfaceFit;
 use crate::sph::surface_force::jump::Jump;
 use crate::sph::surface_force::points::{PointFields, interface_points};
-use crate::sph::terms::{color, curvature, density, surface_tension};
+use crate::sph::terms::{color, curvature, density, pressure_gradient, surface_tension};
 use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
 use crate::sph::wetting::lines::{Following, LINE_REACH, Line, nearest};
 use crate::sph::wetting::wall::WallSpots;
@@ -59,6 +59,8 @@ pub struct Fields {
     pub wall_normal: Vec<Vec2>,
     /// Sides and curvatures for the pressure jump, in that form of the surface force.
     pub jump: Option<Jump>,
+    /// Moment of the sums of each fluid particle's pressure gradient, with the pressure jump.
+    pub moment: Vec<f64>,
     /// Slip length in m of the wall next to each fluid particle.
     pub slip_length: Vec<f64>,
     /// Number of contact lines that a line force acts on.
@@ -215,6 +217,8 @@ impl Fields {
         let r_ab = |a: usize, b: usize| domain.separation(position[a], images.position(b, position));
         let normal = &mut self.normal[..moving];
         color::consistent_gradient(pairs, &self.fluid_volume, &self.color, r_ab, normal);
+        self.moment.resize(fluids, 0.0);
+        pressure_gradient::moment(pairs, &self.volume, r_ab, &mut self.moment);
         images.extend_reflected(&mut self.normal);
         let mut velocity = particles.velocity.clone();
         images.extend_velocity(&mut velocity);

@@ -4,7 +4,7 @@ use crate::math::Vec2;
 use crate::solver::{SolverError, StepInfo};
 use crate::sph::pairs::largest;
 use crate::sph::particles::Phase;
-use crate::sph::projection::{Flow, Predicted};
+use crate::sph::projection::{Flow, Predicted, Response};
 use crate::sph::terms::shifting;
 use crate::sph::terms::strays::Strays;
 
@@ -25,11 +25,12 @@ pub(super) fn relative_speed(velocity: &[Vec2]) -> f64 {
 
 impl Flow {
     /// Moves the particles with the new velocity, and by `drift` (m), if there is any, which takes density errors back and leaves velocities
-    /// alone. The mean of old and new velocity [Huber2013, Eq. 27] would feed every swing that viscosity does not damp (docs/numerics/forces.md).
+    /// alone; `responses` are those of given flows. The mean of old and new velocity [Huber2013, Eq. 27] would feed every swing that viscosity does not damp (docs/numerics/forces.md).
     pub(super) fn advance(
         &mut self,
         predicted: &Predicted,
-        (mut velocity, drift): (Vec<Vec2>, &[Vec2]),
+        mut velocity: Vec<Vec2>,
+        (drift, responses): (&[Vec2], &[Response]),
         until: f64,
     ) -> Result<(), SolverError> {
         let (fluids, moving, dt) = (self.particles.fluids, self.particles.moving(), predicted.dt);
@@ -51,11 +52,12 @@ impl Flow {
         for (x, by) in position.iter_mut().zip(drift) {
             *x = self.domain.wrapped(*x + by);
         }
+        self.keep_flow_rates(responses, dt, &mut position[..fluids]);
         self.set_back_from_walls(&mut position[..fluids], &mut velocity[..fluids]);
-        for through in &self.open.through {
+        for through in &mut self.open.through {
             let (old, phase) = (&self.particles.position[..fluids], &mut self.particles.phase[..fluids]);
-            let moved = (&mut velocity[..fluids], phase);
-            through.apply(&self.domain, (old, &position[..fluids]), moved, &mut self.open.ledger);
+            let counted = (&mut self.open.ledger, self.method.volume, dt);
+            through.pass(&self.domain, (old, &position[..fluids]), phase, counted);
         }
         self.particles.position[..moving].copy_from_slice(&position);
         self.particles.velocity[..moving].copy_from_slice(&velocity);

@@ -64,11 +64,13 @@ fn particles(flow: &Flow) -> Cloud<'static> {
     let on_fluid = |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect();
     let (distance, normal) = p.position.iter().map(|&x| wall(flow, x)).unzip();
     let (surface_force, line_force) = volume_forces(flow);
+    let (driving, from) = (flow.driving_gradient(), flow.domain.bounds.min);
+    let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from))).collect();
     let fields = vec![
         integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
         integer("phase", p.phase.iter().map(|phase| phase.number()).collect()),
         vector("velocity", "m/s", p.velocity.clone()),
-        scalar("pressure", "Pa", p.pressure.clone()),
+        scalar("pressure", "Pa", pressure),
         scalar("density", "kg/m^3", f.density[..n].to_vec()),
         scalar("volume", "m^2", f.volume[..n].to_vec()),
         scalar("color", "", f.color[..n].to_vec()),

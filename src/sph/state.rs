@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::solver::{StateError, StepInfo};
-use crate::sph::open::Ledger;
+use crate::sph::open::{GivenFlow, Ledger};
 use crate::sph::particles::Particles;
 use crate::sph::projection::Flow;
 use crate::sph::wetting::lines::Line;
@@ -17,6 +17,7 @@ struct State {
     wall_depth: Vec<f64>,
     lines: Vec<Line>,
     ledger: Ledger,
+    given_flows: Vec<GivenFlow>,
 }
 
 /// The state of the flow as bytes.
@@ -30,6 +31,7 @@ pub fn save(flow: &Flow) -> Vec<u8> {
         wall_depth: flow.wall_depth.clone(),
         lines: flow.lines.clone(),
         ledger: flow.open.ledger,
+        given_flows: flow.open.through.iter().map(|through| through.state).collect(),
     };
     // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
     postcard::to_stdvec(&state).unwrap_or_default()
@@ -55,6 +57,9 @@ pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
     flow.face_walls();
     flow.lines = state.lines;
     flow.open.ledger = state.ledger;
+    for (through, state) in flow.open.through.iter_mut().zip(state.given_flows) {
+        through.state = state;
+    }
     flow.prepare();
     Ok(())
 }

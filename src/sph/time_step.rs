@@ -18,6 +18,12 @@ const CAPILLARY: f64 = 0.5;
 /// The same where viscosity is implicit. The curvature sees no waves shorter than four spacings, so that steps are stable up to 4.5.
 const LONG_CAPILLARY: f64 = 2.0;
 
+/// The same for a flow near rest, of which a longer step loses nothing.
+const RESTING_CAPILLARY: f64 = 4.0;
+
+/// A flow slower than this over the capillary speed is near rest.
+const SLOW: f64 = 1e-3;
+
 /// Szewc's form acts along the line of centers with four times the coefficient of Morris's, half of it on average.
 const SZEWC_OVER_MORRIS: f64 = 2.0;
 
@@ -54,6 +60,7 @@ impl Method {
     pub fn inviscid_time_step(&self, speed: f64) -> TimeStep {
         let f = self.time_step_factor;
         let capillary = match self.viscous_step {
+            ViscousStep::Implicit if speed < SLOW * self.capillary_speed() => RESTING_CAPILLARY,
             ViscousStep::Implicit => LONG_CAPILLARY,
             ViscousStep::Explicit => CAPILLARY,
         };

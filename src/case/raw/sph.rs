@@ -121,7 +121,7 @@ tables! {
     pub struct RawNumerics {
         /// Form of the viscous term (default `stress`).
         pub viscous_term: RawViscousTerm,
-        /// How viscosity goes on in time (default `explicit`).
+        /// How viscosity goes on in time (default `implicit`).
         pub viscous_step: RawViscousStep,
         /// Largest share of the density error taken back per step by the velocities, 0 to 1 (default 0.2, with `csf` 0.02, without tension 0).
         pub drift_source: f64,

@@ -2,7 +2,7 @@
 
 use super::{Subject, measure};
 use crate::solver::Measure;
-use crate::sph::open::{Drive, Ledger};
+use crate::sph::open::{Drive, Ledger, OpenSide, Through};
 use crate::sph::projection::Flow;
 
 fn is_open(flow: &Flow) -> bool {
@@ -16,12 +16,19 @@ pub fn columns(flow: &Flow) -> Vec<(&'static str, f64)> {
     }
     let (came, left) = flow.open.ledger.totals();
     let area = |count: u64| count as f64 * flow.method.volume;
-    vec![
+    let mut columns = vec![
         ("wetting_in_m2", area(came[0])),
         ("wetting_out_m2", area(left[0])),
         ("non_wetting_in_m2", area(came[1])),
         ("non_wetting_out_m2", area(left[1])),
-    ]
+    ];
+    let names = [("flow_rate_x_m2_per_s", "driving_gradient_x_Pa_per_m"), ("flow_rate_y_m2_per_s", "driving_gradient_y_Pa_per_m")];
+    for through in &flow.open.through {
+        let (rate, gradient) = names[through.side.axis()];
+        let sign = through.side.inwards();
+        columns.extend([(rate, sign * through.state.rate), (gradient, sign * through.state.gradient)]);
+    }
+    columns
 }
 
 /// Areas in m² of the wetting and the non-wetting phase that came in less those that left.
@@ -61,20 +68,48 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
             "change of the area of both phases less that of what passed through the sides, over the area at time zero",
         ),
     ];
-    for side in &flow.open.sides {
-        if let Drive::Velocity(profile) = &side.drive
-            && flow.time > 0.0
-        {
-            let came: u64 = ledger.came[side.number].iter().sum();
-            let ratio = came as f64 * flow.open.cell / (profile.flow_rate() * flow.time);
-            found.push(measure(
-                "inflow-ratio",
-                ratio,
-                "",
-                None,
-                "cells of the lattice that came in over flow rate times time",
-            ));
-        }
+    if flow.time > 0.0 {
+        found.extend(flow_rates(flow));
+    }
+    found
+}
+
+/// Rates since time zero beside those that were asked for.
+fn flow_rates(flow: &Flow) -> Vec<Measure> {
+    let (open, time) = (&flow.open, flow.time);
+    let count = |counts: &[[u64; 2]; 4], number: usize| counts[number].iter().sum::<u64>() as f64;
+    let through_open_side = |side: &OpenSide| {
+        let (came, left) = (count(&open.ledger.came, side.number), count(&open.ledger.left, side.number));
+        let asked = match &side.drive {
+            Drive::Velocity(profile) => Some(profile.flow_rate()),
+            Drive::Pressure(_) => None,
+        };
+        // Particles come in one by one as cells of the lattice, which are what the flow rate is in at an inlet.
+        let area = if asked.is_some() { open.cell } else { flow.method.volume };
+        ((came - left) * area / time, asked)
+    };
+    let through_period = |through: &Through| (through.state.passed / time, Some(through.flow_rate()));
+    let rates = open.sides.iter().map(through_open_side).chain(open.through.iter().map(through_period));
+    let (mut came_in, mut asked_in, mut given_in) = (0.0, 0.0, 0.0);
+    for (rate, asked) in rates {
+        came_in += f64::max(rate, 0.0);
+        asked_in += asked.unwrap_or(0.0);
+        given_in += asked.map_or(0.0, |_| rate);
+    }
+    let method = "area that came in, of each side less that which left through it, over the time since time zero";
+    let mut found = vec![measure("inflow-m2-per-s", came_in, "m2/s", None, method)];
+    if asked_in > 0.0 {
+        let method = "the flow rates inwards that the case gives";
+        found.push(measure("asked-inflow-m2-per-s", asked_in, "m2/s", None, method));
+        let method = "area that came in through the sides with a given velocity or flow rate, over that which was asked for";
+        found.push(measure("inflow-ratio", given_in / asked_in, "", None, method));
+    }
+    for through in &open.through {
+        let drop = through.state.gradient * flow.domain.bounds.size()[through.side.axis()];
+        let method = "largest relative error of the flow rate through the periodic side in a step, by the ways of all particles";
+        found.push(measure("largest-flow-rate-error", through.state.largest_error, "", None, method));
+        let method = "mean pressure gradient that drives the given flow at the end, times the period";
+        found.push(measure("driving-pressure-drop-Pa", drop, "Pa", None, method));
     }
     found
 }

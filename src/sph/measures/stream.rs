@@ -44,7 +44,8 @@ fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> 
     let other: Vec<usize> = (0..p.fluids).filter(|&a| p.phase[a] == Phase::NonWetting).collect();
     let points: Vec<Vec2> = other.iter().map(|&a| p.position[a]).collect();
     let cells = Cells::build(&points, &flow.domain, flow.method.kernel.support());
-    let weight = flow.method.other_fluid.density * flow.method.gravity;
+    // Without the weight of the fluid displaced, and with the mean gradient that drives a given flow.
+    let even = flow.method.other_fluid.density * flow.method.gravity + flow.driving_gradient();
     let (mut force, mut gained, mut length) = (0.0, 0.0, 0.0);
     for line in interface {
         let from = line.points.first()?;
@@ -52,7 +53,7 @@ fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> 
             // The wetting phase is on the left.
             let outwards = Vec2::new(b.y - a.y, a.x - b.x);
             let middle = 0.5 * (a + b);
-            let pressure = pressure_at(flow, (&cells, &other), middle)? - weight.dot(&(middle - from));
+            let pressure = pressure_at(flow, (&cells, &other), middle)? - even.dot(&(middle - from));
             force -= pressure * outwards.dot(&ahead);
             gained += outwards.dot(&ahead);
             length += outwards.norm();

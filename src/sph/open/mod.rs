@@ -19,14 +19,14 @@ pub use ledger::Ledger;
 pub use pressure::Prescribed;
 pub use profile::{Opening, Profile, Shape, openings};
 pub use side::{DEPTH, Drive, OpenSide};
-pub use through::Through;
+pub use through::{GivenFlow, Through};
 
 /// The open sides of a run with what passed through them.
 #[derive(Debug, Clone, Default)]
 pub struct Open {
     /// Inlets and outlets.
     pub sides: Vec<OpenSide>,
-    /// Periodic sides with a given flow.
+    /// Periodic sides with a given flow rate.
     pub through: Vec<Through>,
     /// What passed through the sides.
     pub ledger: Ledger,

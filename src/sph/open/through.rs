@@ -1,35 +1,83 @@
-//! Periodic sides with a given flow: the velocity near the side is set anew in each step [Huber2013, section 4].
+//! Periodic sides with a given flow rate: what leaves through the opposite side comes back in, and can change its phase there.
 //!
-//! What leaves through the opposite side comes back in, so that inflow equals outflow; it can change its phase there.
+//! The rate is kept by a mean pressure gradient (`src/sph/projection/given_flow.rs`), which is part of the state here.
+
+use serde::{Deserialize, Serialize};
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::open::{Ledger, OpenSide};
+use crate::sph::open::{Drive, Ledger, OpenSide, Shape};
 use crate::sph::particles::Phase;
 
-/// A periodic side that fluid comes in through at a given velocity.
+/// A periodic side that fluid comes in through at a given rate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Through {
-    /// Place, velocity and what comes in; its `depth` in m is the width of the strip inside in which the velocity is set.
+    /// Place, flow rate and what comes in.
     pub side: OpenSide,
+    /// What a resumed run needs.
+    pub state: GivenFlow,
+}
+
+/// How a given flow goes on.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct GivenFlow {
+    /// The mean pressure gradient that drives it, in Pa/m along the way in.
+    pub gradient: f64,
+    /// The area in m² that came in since time zero, by the ways of all particles.
+    pub passed: f64,
+    /// The rate of the last step in m²/s.
+    pub rate: f64,
+    /// The largest relative error of the rate of a step.
+    pub largest_error: f64,
 }
 
 impl Through {
-    /// Width of the strip over h: what comes in is within reach of nothing else.
-    pub const WIDTH: f64 = 2.0;
+    /// A side through which nothing has come in yet.
+    #[must_use]
+    pub fn new(side: OpenSide) -> Self {
+        Self { side, state: GivenFlow::default() }
+    }
 
-    /// Sets the velocities in the strip, and the phase of what came through the side from `old` to `new` (m).
-    pub fn apply(
-        &self,
+    /// The unit vector inwards.
+    #[must_use]
+    pub fn way(&self) -> Vec2 {
+        self.side.velocity(1.0)
+    }
+
+    /// The rate asked for in m²/s.
+    #[must_use]
+    pub fn flow_rate(&self) -> f64 {
+        match &self.side.drive {
+            Drive::Velocity(profile) => profile.flow_rate(),
+            Drive::Pressure(_) => 0.0,
+        }
+    }
+
+    /// The velocity in m/s at `x` (m) of the parabola that is given, if one is.
+    #[must_use]
+    pub fn parabola(&self, x: Vec2) -> Option<Vec2> {
+        match &self.side.drive {
+            Drive::Velocity(profile) if profile.shape != Shape::Plug => self.side.given_velocity(x),
+            _ => None,
+        }
+    }
+
+    /// Counts what comes in as particles of the area `volume` (m²) each go from `old` to `new` (m) in `dt` (s), and changes the phase of those
+    /// that come through the side.
+    pub fn pass(
+        &mut self,
         domain: &Domain,
         (old, new): (&[Vec2], &[Vec2]),
-        (velocity, phase): (&mut [Vec2], &mut [Phase]),
-        ledger: &mut Ledger,
+        phase: &mut [Phase],
+        (ledger, volume, dt): (&mut Ledger, f64, f64),
     ) {
-        let (side, half) = (&self.side, 0.5 * domain.bounds.size()[self.side.axis()]);
-        for (a, &x) in new.iter().enumerate() {
-            let moved = side.beyond(x) - side.beyond(old[a]);
-            if moved.abs() > half {
+        let (way, period) = (self.way(), domain.bounds.size()[self.side.axis()]);
+        let side = &self.side;
+        let mut gone = 0.0;
+        for (a, (&from, &to)) in old.iter().zip(new).enumerate() {
+            gone += domain.separation(to, from).dot(&way);
+            let moved = side.beyond(to) - side.beyond(from);
+            if moved.abs() > 0.5 * period {
                 let inwards = moved > 0.0;
                 ledger.leaves(if inwards { side.number ^ 1 } else { side.number }, phase[a]);
                 if let (true, Some(enters)) = (inwards, side.enters) {
@@ -37,11 +85,11 @@ impl Through {
                 }
                 ledger.comes(if inwards { side.number } else { side.number ^ 1 }, phase[a]);
             }
-            if -side.beyond(x) < side.depth
-                && let Some(given) = side.given_velocity(x)
-            {
-                velocity[a] = given;
-            }
         }
+        let passed = volume * gone / period;
+        let asked = self.flow_rate();
+        self.state.passed += passed;
+        self.state.rate = passed / dt;
+        self.state.largest_error = self.state.largest_error.max((self.state.rate / asked - 1.0).abs());
     }
 }

@@ -22,6 +22,8 @@ pub(super) struct AtRest<'a> {
     density: Vec<f64>,
     /// g·x in m²/s² over particles and images, empty without gravity.
     potential: Vec<f64>,
+    /// The mean gradient in Pa/m that drives given flows, with the flow whose places it acts between; none without.
+    driven: Option<(Vec2, &'a Flow)>,
 }
 
 impl Flow {
@@ -35,7 +37,9 @@ impl Flow {
         }
         let jump = self.fields.jump.as_ref();
         let density = if potential.is_empty() { Vec::new() } else { self.density_at_rest() };
-        AtRest { jump, tension: self.method.tension, density, potential }
+        let driving = self.driving_gradient();
+        let driven = (driving != Vec2::zeros() && self.gradient_in_pressure()).then_some((driving, self));
+        AtRest { jump, tension: self.method.tension, density, potential, driven }
     }
 
     /// The density in kg/m³ of the phase, over particles and images; walls have that of the side they take, or of the fluid nearby.
@@ -67,10 +71,12 @@ impl Flow {
 }
 
 impl AtRest<'_> {
-    /// p_b − p_a = σ κ̄_ab (c_b − c_a) + (ρ_a + ρ_b)/2 g·(x_b − x_a) in Pa.
+    /// p_b − p_a = σ κ̄_ab (c_b − c_a) + (ρ_a + ρ_b)/2 g·(x_b − x_a) + G·(x_b − x_a) in Pa; G drives given flows, and the pressure is
+    /// that without its mean gradient −G.
     #[inline]
     pub(super) fn rise(&self, a: usize, b: usize) -> f64 {
         let jump = self.jump.map_or(0.0, |jump| self.tension * jump.of(a, b));
+        let jump = self.driven.map_or(jump, |(gradient, flow)| jump - gradient.dot(&flow.separation(a, b)));
         if self.potential.is_empty() {
             return jump;
         }
@@ -79,7 +85,7 @@ impl AtRest<'_> {
 
     /// Takes Σ_b A_ab (p_b − p_a) of the fluid at rest off the right side of the pressure equation.
     pub(super) fn subtract_from(&self, right: &mut [f64], matrix: &Matrix, pairs: &Pairs) {
-        if self.jump.is_none() && self.potential.is_empty() {
+        if self.jump.is_none() && self.potential.is_empty() && self.driven.is_none() {
             return;
         }
         right.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, right)| {

@@ -1,19 +1,28 @@
 //! The corrector: the velocity at the end of a step [Huber2013, Eq. 26].
 
-use super::{Flow, Predicted};
+use super::given_flow::add_responses;
+use super::pressure::Projected;
+use super::{Corrected, Flow, Predicted};
 use crate::math::Vec2;
 use crate::sph::method::PressureGradient;
 use crate::sph::terms::pressure_gradient;
 
 impl Flow {
-    /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26].
-    pub(super) fn correct(&self, predicted: &Predicted, pressure: &[f64]) -> Vec<Vec2> {
-        let acceleration = self.pressure_acceleration(pressure);
+    /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26], with the given flow rates through
+    /// periodic sides.
+    pub(super) fn correct(&self, predicted: &Predicted, projected: Projected) -> Corrected {
+        let Projected { mut pressure, drift, responses } = projected;
+        let acceleration = self.pressure_acceleration(&pressure);
         let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);
-        let mut velocity: Vec<Vec2> =
-            corrected.chain(std::iter::repeat_n(Vec2::zeros(), self.particles.open)).collect();
+        let mut velocity: Vec<Vec2> = corrected.collect();
+        let gradient_changes = self.gradient_changes(&velocity, &responses, predicted.dt);
+        add_responses(&mut velocity, (&responses, &gradient_changes), predicted.dt);
+        for (response, change) in responses.iter().zip(&gradient_changes) {
+            pressure.iter_mut().zip(&response.potential).for_each(|(p, by)| *p += change * by);
+        }
+        velocity.extend(std::iter::repeat_n(Vec2::zeros(), self.particles.open));
         self.set_buffer_velocity(&predicted.feet, &mut velocity);
-        velocity
+        Corrected { velocity, pressure, drift, gradient_changes, responses }
     }
 
     /// The acceleration of the fluid particles in m/s² by the gradient of a `pressure` (Pa), with the gravity that goes with it and the jump
@@ -40,9 +49,7 @@ impl Flow {
                 pressure_gradient::difference(pairs, volume, density, &p, rise, &mut acceleration);
                 // Not without tension: there vortices keep their rate better as the sums are (docs/numerics/pressure.md).
                 if f.jump.is_some() {
-                    let x = &self.particles.position;
-                    let r_ab = |a: usize, b: usize| self.domain.separation(x[a], self.images.position(b, x));
-                    pressure_gradient::over_moment(pairs, volume, r_ab, &mut acceleration);
+                    pressure_gradient::over_moment(&f.moment, &mut acceleration);
                 }
             }
         }

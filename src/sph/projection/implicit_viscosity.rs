@@ -14,7 +14,7 @@ use crate::math::{Mat2, Vec2};
 use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, conjugate_gradients};
 use crate::sph::images::Images;
 use crate::sph::method::ViscousTerm;
-use crate::sph::pairs::{Pair, Pairs, each, largest, split_rows};
+use crate::sph::pairs::{GRAIN, Pair, Pairs, each, largest, split_rows};
 use crate::sph::terms::viscosity::Viscous;
 
 /// Largest relative residual of the change of the velocity.
@@ -63,30 +63,31 @@ impl Flow {
             let steepness = ab.grad_w.norm_squared();
             if steepness > 0.0 { viscous.central_coupling(a, ab) / steepness } else { 0.0 }
         };
-        let starts = &pairs.starts()[..=fluids];
-        let mut coupling = vec![0.0; starts[fluids]];
-        let parts: Vec<_> = split_rows(starts, &mut coupling).collect();
-        parts.into_par_iter().for_each(|(rows, coupling)| {
-            let all = rows.flat_map(|a| pairs.of(a).map(move |ab| (a, ab)));
-            for (out, (a, ab)) in coupling.iter_mut().zip(all) {
-                let b = images.source(ab.b);
-                // The image of a central pair acts along another line, so that its blocks would not be symmetric: the diagonal stands for it.
-                let is_coupled = b < fluids && (ab.b == b || !is_central);
-                *out = if is_coupled { strength(a, &ab) / (root_mass[a] * root_mass[b]) } else { 0.0 };
+        let block = |a: usize, ab: &Pair, strength: f64| {
+            if !is_central {
+                return strength * self.stretch_matrix(a, ab.b, |stretch| stretch);
             }
-        });
-        let mut diagonal = vec![Mat2::zeros(); fluids];
-        each(&mut diagonal, |a| {
-            let block = |ab: Pair| {
-                if !is_central {
-                    return strength(a, &ab) * self.stretch_matrix(a, ab.b, |stretch| stretch);
+            let for_image = if ab.b < self.particles.len() { 1.0 } else { 2.0 };
+            // With the same stretch along and across the wall this is what acts, and symmetric in any case.
+            let along = self.stretch_matrix(a, ab.b, f64::sqrt) * ab.grad_w;
+            for_image * strength * along * along.transpose()
+        };
+        let starts = &pairs.starts()[..=fluids];
+        let (mut coupling, mut diagonal) = (vec![0.0; starts[fluids]], vec![Mat2::zeros(); fluids]);
+        let parts: Vec<_> = split_rows(starts, &mut coupling).zip(diagonal.chunks_mut(GRAIN)).collect();
+        parts.into_par_iter().for_each(|((rows, coupling), diagonal)| {
+            let mut couplings = coupling.iter_mut();
+            for (a, diagonal) in rows.zip(diagonal) {
+                for (ab, coupling) in pairs.of(a).zip(&mut couplings) {
+                    let (b, strength) = (images.source(ab.b), strength(a, &ab));
+                    *diagonal += block(a, &ab, strength);
+                    // The image of a central pair acts along another line, so that its blocks would not be symmetric: the diagonal stands
+                    // for it.
+                    let is_coupled = b < fluids && (ab.b == b || !is_central);
+                    *coupling = if is_coupled { strength / (root_mass[a] * root_mass[b]) } else { 0.0 };
                 }
-                let for_image = if ab.b < self.particles.len() { 1.0 } else { 2.0 };
-                // With the same stretch along and across the wall this is what acts, and symmetric in any case.
-                let along = self.stretch_matrix(a, ab.b, f64::sqrt) * ab.grad_w;
-                for_image * strength(a, &ab) * along * along.transpose()
-            };
-            pairs.of(a).map(block).sum::<Mat2>() / (root_mass[a] * root_mass[a])
+                *diagonal /= root_mass[a] * root_mass[a];
+            }
         });
         let mut explicit = vec![0.0; fluids];
         if self.method.viscous_term == ViscousTerm::Stress {

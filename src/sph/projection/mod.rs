@@ -4,6 +4,7 @@
 
 mod at_rest;
 mod corrector;
+mod given_flow;
 mod implicit_viscosity;
 mod predictor;
 mod pressure;
@@ -11,6 +12,7 @@ mod viscous;
 
 use std::time::Instant;
 
+pub(in crate::sph) use self::given_flow::Response;
 use crate::math::{Vec2, perpendicular};
 use crate::solver::{PartTime, SolverError, StepInfo};
 use crate::sph::cells::Cells;
@@ -117,6 +119,20 @@ pub(super) struct Predicted {
     feet: Feet,
     /// What comes of the viscous solve.
     damped: Damped,
+}
+
+/// The end of a step before the particles move [Huber2013, Eq. 26].
+pub(super) struct Corrected {
+    /// Velocity of fluid and buffers in m/s.
+    velocity: Vec<Vec2>,
+    /// Pressure in Pa, without the mean gradients that drive given flows.
+    pressure: Vec<f64>,
+    /// The way in m that each fluid particle goes for the drift correction, empty where there is none.
+    drift: Vec<Vec2>,
+    /// By how much the mean gradients that drive given flows change, in Pa/m.
+    gradient_changes: Vec<f64>,
+    /// What unit gradients do.
+    responses: Vec<Response>,
 }
 
 /// What comes of a viscous solve beside the acceleration; nothing of an explicit step.
@@ -238,23 +254,22 @@ impl Flow {
         if self.steps == 0 {
             self.find_first_pressure(until)?;
         }
-        let viscous_step = self.method.viscous_step;
-        let mut predicted = self.predict((until, f64::INFINITY), viscous_step)?;
+        let mut predicted = self.predict((until, f64::INFINITY), self.method.viscous_step)?;
         let after_forces = Instant::now();
-        let (mut pressure, mut drift) = self.project(&predicted)?;
-        let mut velocity = self.correct(&predicted, &pressure);
+        let mut corrected = self.end_of(&predicted)?;
         for _ in 0..MOST_REPEATS {
+            let velocity = &corrected.velocity;
             let fastest = largest(velocity.len(), |a| velocity[a].norm()).map_or(0.0, |l| l.1);
             let Some(dt) = self.method.shorter_step(predicted.dt, fastest * predicted.dt) else { break };
-            predicted = self.predict((until, dt), viscous_step)?;
-            (pressure, drift) = self.project(&predicted)?;
-            velocity = self.correct(&predicted, &pressure);
+            predicted = self.predict((until, dt), self.method.viscous_step)?;
+            corrected = self.end_of(&predicted)?;
             self.work.repeats += 1;
         }
         self.work.viscous_iterations += predicted.damped.iterations as u64;
         let after_pressure = Instant::now();
-        self.advance(&predicted, (velocity, &drift), until)?;
-        self.particles.pressure = pressure;
+        let Corrected { velocity, pressure, drift, gradient_changes, responses } = corrected;
+        self.advance(&predicted, velocity, (&drift, &responses), until)?;
+        self.take_up(pressure, &gradient_changes);
         if !self.open.sides.is_empty() {
             open::exchange(&mut self.particles, &self.open.sides, &mut self.open.ledger, self.method.spacing);
         }
@@ -270,11 +285,27 @@ impl Flow {
     /// Finds the pressure that the viscous step and open sides take from the step before, where there is none: that which the forces at time
     /// zero ask for.
     fn find_first_pressure(&mut self, until: f64) -> Result<(), SolverError> {
+        self.start_given_flow()?;
         for _ in 0..if self.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
             let predicted = self.predict((until, f64::INFINITY), ViscousStep::Explicit)?;
-            self.particles.pressure = self.project(&predicted)?.0;
+            let corrected = self.end_of(&predicted)?;
+            self.take_up(corrected.pressure, &corrected.gradient_changes);
         }
         Ok(())
+    }
+
+    /// The end of the step that is predicted so.
+    fn end_of(&mut self, predicted: &Predicted) -> Result<Corrected, SolverError> {
+        let projected = self.project(predicted)?;
+        Ok(self.correct(predicted, projected))
+    }
+
+    /// Takes up the pressure (Pa) of a step with the changes of the mean gradients (Pa/m).
+    fn take_up(&mut self, pressure: Vec<f64>, gradient_changes: &[f64]) {
+        self.particles.pressure = pressure;
+        for (through, change) in self.open.through.iter_mut().zip(gradient_changes) {
+            through.state.gradient += change;
+        }
     }
 
     /// Wall time by part in s.

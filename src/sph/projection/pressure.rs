@@ -2,10 +2,11 @@
 
 use rayon::prelude::*;
 
+use super::given_flow::{RESPONSE_RESIDUAL, Response};
 use super::{Damped, Flow, Predicted};
 use crate::math::Vec2;
 use crate::solver::SolverError;
-use crate::sph::open::Prescribed;
+use crate::sph::open::{Prescribed, Through};
 use crate::sph::pairs::{GRAIN, each};
 use crate::sph::poisson::{Matrix, System, Tolerance, Unknowns, assemble, give};
 use crate::sph::terms::divergence::divergence;
@@ -23,6 +24,16 @@ const GIVEN: u8 = 2;
 /// Largest relative residual of the drift correction: what one step leaves, the next ones take.
 const DRIFT_RESIDUAL: f64 = 0.01;
 
+/// What one pressure solve finds.
+pub(super) struct Projected {
+    /// Pressure in Pa.
+    pub(super) pressure: Vec<f64>,
+    /// The way in m that each fluid particle goes for the drift correction, empty where there is none.
+    pub(super) drift: Vec<Vec2>,
+    /// What unit gradients along the periodic sides with a given flow do.
+    pub(super) responses: Vec<Response>,
+}
+
 /// Whether the pressures of two particles that are `facing` so are coupled: all but those of wall particles that belong to opposite sides of a thin
 /// solid, through which the pressure of one side would reach the other.
 pub(super) fn joined(facing: Vec2, other: Vec2) -> bool {
@@ -33,10 +44,9 @@ impl Flow {
     /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
     /// no open side gives it.
     ///
-    /// The right side gives a share of the density error back (the drift source, which the paper lacks). Beside the
-    /// pressure stands the way in m that each fluid particle goes for the drift correction, nothing where there is none.
-    pub(super) fn project(&mut self, predicted: &Predicted) -> Result<(Vec<f64>, Vec<Vec2>), SolverError> {
-        let (n, fluids, dt) = (self.particles.len(), self.particles.fluids, predicted.dt);
+    /// The right side gives a share of the density error back (the drift source, which the paper lacks).
+    pub(super) fn project(&mut self, predicted: &Predicted) -> Result<Projected, SolverError> {
+        let (n, dt) = (self.particles.len(), predicted.dt);
         let (method, f) = (&self.method, &self.fields);
         let mut source = vec![0.0; n];
         divergence(&self.pairs, &f.volume, &predicted.velocity, &mut source);
@@ -44,62 +54,109 @@ impl Flow {
         let drift = method.drift_rate(predicted.fastest).min(1.0 / dt) / dt;
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
-            if !self.sees_the_fluid(a) {
-                return 0.0;
-            }
-            -f.volume[a] * (source[a] / dt - drift * self.crowding(a))
+            if self.sees_the_fluid(a) { -f.volume[a] * (source[a] / dt - drift * self.crowding(a)) } else { 0.0 }
         });
-        let mut matrix = std::mem::take(&mut self.pressure.matrix);
-        let facing = self.facing();
-        assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
+        let matrix = self.assembled();
+        let (method, f) = (&self.method, &self.fields);
         self.at_rest().subtract_from(&mut b, &matrix, &self.pairs);
         self.keep_tight(&predicted.damped, &matrix, &mut b);
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
+        let mut others = Vec::new();
+        if method.drift_correction > 0.0 {
+            let mut crowding = vec![0.0; n];
+            each(&mut crowding, |a| {
+                let seen = if self.sees_the_fluid(a) { self.crowding(a) } else { 0.0 };
+                method.drift_correction * f.volume[a] * seen
+            });
+            others.push((crowding, Tolerance { residual: DRIFT_RESIDUAL, ..method.tolerance }));
+        }
+        let tolerance = Tolerance { residual: RESPONSE_RESIDUAL, ..method.tolerance };
+        let ways: Vec<Vec2> = self.open.through.iter().map(Through::way).collect();
+        others.extend(ways.iter().map(|&way| (self.right_side_of_gradient(way, &matrix), tolerance)));
+        let guess = self.particles.pressure.clone();
+        let (pressure, mut found) = self.solve((matrix, b), (&prescribed, guess), others)?;
+        let potentials = found.split_off(found.len() - ways.len());
+        let responses = ways.iter().zip(potentials).map(|(&way, potential)| self.response(way, potential)).collect();
+        Ok(Projected { pressure, drift: self.drift_correction(found.pop().unwrap_or_default()), responses })
+    }
+
+    /// The change of the velocity of the fluid particles in m/s that makes `velocity` (m/s) over particles and images free of divergence, and
+    /// what unit gradients along the periodic sides with a given flow do.
+    pub(super) fn project_kinematically(
+        &mut self,
+        velocity: &[Vec2],
+    ) -> Result<(Vec<Vec2>, Vec<Response>), SolverError> {
+        let n = self.particles.len();
+        let mut source = vec![0.0; n];
+        divergence(&self.pairs, &self.fields.volume, velocity, &mut source);
+        let mut b = vec![0.0; n];
+        each(&mut b, |a| if self.sees_the_fluid(a) { -self.fields.volume[a] * source[a] } else { 0.0 });
+        let matrix = self.assembled();
+        let ways: Vec<Vec2> = self.open.through.iter().map(Through::way).collect();
+        let others =
+            ways.iter().map(|&way| (self.right_side_of_gradient(way, &matrix), self.method.tolerance)).collect();
+        let given = Prescribed::new(&self.particles, &self.open.sides, |_| f64::NAN, self.method.kernel.h);
+        let value = given.value.iter().map(|value| 0.0 * value).collect();
+        let at_zero = Prescribed { value, reference: 0.0 };
+        let (potential, found) = self.solve((matrix, b), (&at_zero, vec![0.0; n]), others)?;
+        let responses = ways.iter().zip(found).map(|(&way, potential)| self.response(way, potential)).collect();
+        Ok((self.down(potential), responses))
+    }
+
+    /// The matrix of the pressure equation at the present positions.
+    fn assembled(&mut self) -> Matrix {
+        let mut matrix = std::mem::take(&mut self.pressure.matrix);
+        let (facing, f) = (self.facing(), &self.fields);
+        assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
+        matrix
+    }
+
+    /// Solves the pressure equation from the first guess (Pa) with the `prescribed` pressures, and for each right side of `others` with zero in
+    /// their place.
+    fn solve(
+        &mut self,
+        (mut matrix, mut b): (Matrix, Vec<f64>),
+        (prescribed, mut p): (&Prescribed, Vec<f64>),
+        mut others: Vec<(Vec<f64>, Tolerance)>,
+    ) -> Result<(Vec<f64>, Vec<Vec<f64>>), SolverError> {
+        let (fluids, tolerance) = (self.particles.fluids, self.method.tolerance);
         let given = |a: usize| prescribed.of(a, fluids);
         let mut kind = self.kinds();
         let mut anchored = vec![false; self.particles.part.iter().max().map_or(0, |last| *last as usize + 1)];
         for a in self.particles.buffer().filter(|&a| given(a).is_some()) {
             anchored[self.particles.part[a] as usize] = true;
             kind[a] = GIVEN;
+            others.iter_mut().for_each(|(right, _)| right[a] = 0.0);
         }
         give(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
         self.pressure.matrix = matrix;
         let part = &self.particles.part;
         let position = &self.particles.position;
-        let unknowns = Unknowns { position, kind: &kind, part, anchored: &anchored, spacing: method.spacing };
+        let unknowns = Unknowns { position, kind: &kind, part, anchored: &anchored, spacing: self.method.spacing };
         let offset = |a: usize| if anchored[part[a] as usize] { prescribed.reference } else { 0.0 };
-        let relative = |a: usize| if given(a).is_some() { 0.0 } else { self.particles.pressure[a] - offset(a) };
-        let mut p: Vec<f64> = (0..n).map(relative).collect();
-        let volume = &self.fields.volume[..n];
-        let mut crowding = vec![0.0; if method.drift_correction > 0.0 { n } else { 0 }];
-        each(&mut crowding, |a| {
-            let is_free = self.sees_the_fluid(a) && given(a).is_none();
-            if is_free { method.drift_correction * volume[a] * self.crowding(a) } else { 0.0 }
-        });
-        let mut potential = vec![0.0; crowding.len()];
-        let mut systems = vec![System { b: &mut b, x: &mut p, tolerance: method.tolerance }];
-        if !crowding.is_empty() {
-            let tolerance = Tolerance { residual: DRIFT_RESIDUAL, ..method.tolerance };
-            systems.push(System { b: &mut crowding, x: &mut potential, tolerance });
-        }
+        p.iter_mut().enumerate().for_each(|(a, p)| *p = if given(a).is_some() { 0.0 } else { *p - offset(a) });
+        let volume = &self.fields.volume[..p.len()];
+        let mut found: Vec<Vec<f64>> = others.iter().map(|(right, _)| vec![0.0; right.len()]).collect();
+        let mut systems = vec![System { b: &mut b, x: &mut p, tolerance }];
+        systems.extend(others.iter_mut().zip(&mut found).map(|((b, tolerance), x)| System { b, x, tolerance: *tolerance }));
         let solved = self.pressure.solve(&unknowns, volume, &mut systems);
         let convergence = solved[0];
         p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
         self.work.last_iterations = convergence.iterations;
         self.work.iterations += solved.iter().map(|solved| solved.iterations as u64).sum::<u64>();
         self.work.residual = convergence.residual;
-        if !(convergence.residual <= method.tolerance.residual) {
+        if !(convergence.residual <= tolerance.residual) {
             return Err(SolverError::NotConverged {
                 system: "the pressure equation",
                 residual: convergence.residual,
-                tolerance: method.tolerance.residual,
+                tolerance: tolerance.residual,
                 iterations: convergence.iterations,
                 time: self.time,
                 step: self.steps,
             });
         }
-        Ok((p, self.drift_correction(potential)))
+        Ok((p, found))
     }
 
     /// Takes out of the right side `b` what the pressure before leaks in the part of the step beyond the longest explicit one.
@@ -141,17 +198,19 @@ impl Flow {
     }
 
     /// The way −(∇ψ/ρ)_a in m down the gradient of the `potential` ψ (kg/m) of the drift correction, the same on both sides of an interface.
-    fn drift_correction(&self, mut potential: Vec<f64>) -> Vec<Vec2> {
-        if potential.is_empty() {
-            return Vec::new();
-        }
+    fn drift_correction(&self, potential: Vec<f64>) -> Vec<Vec2> {
+        if potential.is_empty() { Vec::new() } else { self.down(potential) }
+    }
+
+    /// −∇φ/ρ of the fluid particles.
+    fn down(&self, mut potential: Vec<f64>) -> Vec<Vec2> {
         self.images.extend(&mut potential);
         let f = &self.fields;
         pressure_gradient::down(&self.pairs, &f.volume, &f.density, &potential, self.particles.fluids)
     }
 
     /// Whether the divergence at particle `a` counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.
-    fn sees_the_fluid(&self, a: usize) -> bool {
+    pub(super) fn sees_the_fluid(&self, a: usize) -> bool {
         let (x, support) = (self.particles.position[a], self.method.kernel.support());
         self.open.sides.iter().all(|side| side.beyond(x) < support)
     }

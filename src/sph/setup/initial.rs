@@ -7,7 +7,7 @@ use crate::case::checked::{Case, InitialVelocity, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use crate::math::{Bounds, Vec2};
-use crate::sph::open::OpenSide;
+use crate::sph::open::Open;
 use crate::sph::particles::Particles;
 
 /// Shapes of the initial wetting phase as a solid: negative distance inside of them.
@@ -16,18 +16,23 @@ pub fn region(case: &Case, shapes: &[ShapeSpec]) -> Geometry {
     Geometry::unchecked(&GeometrySpec { shapes: shapes.to_vec(), solid: SolidSide::Inside, ..case.geometry.clone() })
 }
 
-/// Sets velocities and pressures. Beyond open sides both are those of the side; `inside` is the place from which walls are seen.
+/// Sets velocities and pressures. Beyond open sides both are those of the side; `inside` is the place from which walls are seen. Fluid at
+/// rest that is to pass periodic sides begins with the parabola, where one is given.
 pub(super) fn set(
     particles: &mut Particles,
     sph: &Sph,
-    sides: &[OpenSide],
+    Open { sides, through, .. }: &Open,
     inside: impl Fn(Vec2) -> Vec2,
     bounds: Bounds,
 ) {
     for a in 0..particles.moving() {
         let x = particles.position[a];
         let given = sides.iter().filter(|side| side.beyond(x) > 0.0).find_map(|side| side.given_velocity(x));
-        particles.velocity[a] = given.unwrap_or_else(|| velocity(&sph.initial.velocity, inside(x), bounds));
+        let begins = || match sph.initial.velocity {
+            InitialVelocity::Rest => through.iter().filter_map(|through| through.parabola(x)).sum(),
+            moving => velocity(&moving, inside(x), bounds),
+        };
+        particles.velocity[a] = given.unwrap_or_else(begins);
     }
     for a in particles.moving()..particles.len() {
         particles.velocity[a] = wall_velocity(sph.wall_speeds, inside(particles.position[a]), bounds);

@@ -81,7 +81,7 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
         phase: &phase,
     };
     open::fill(&mut particles, &mut depth, &open.sides, &around);
-    initial::set(&mut particles, sph, &open.sides, &inside, bounds);
+    initial::set(&mut particles, sph, &open, &inside, bounds);
     let ledger = Ledger::new(&particles.phase[..particles.fluids], u32::try_from(particles.len()).unwrap_or(u32::MAX));
     let open = Open { ledger, cell: lattice.step.x * lattice.step.y, ..open };
     let surroundings = surroundings(case, sph, &geometry);

@@ -64,8 +64,7 @@ pub(super) fn open_sides(
             checked::Drive::FlowRate(rate, form) => profile(rate / width, form)?,
         };
         if kinds[number] == Side::Periodic {
-            side.depth = open::Through::WIDTH * h;
-            open.through.push(open::Through { side });
+            open.through.push(open::Through::new(side));
         } else {
             open.sides.push(side);
         }

@@ -31,12 +31,12 @@ pub fn consistent_gradient(
     gradient: &mut [Vec2],
 ) {
     each(gradient, |a| {
-        let (mut plain, mut moment) = (Vec2::zeros(), Mat2::zeros());
-        for ab in pairs.of(a) {
-            let v_b = fluid_volume[ab.b];
-            plain += v_b * (color[ab.b] - color[a]) * ab.grad_w;
-            moment -= v_b * ab.grad_w * r_ab(a, ab.b).transpose();
+        let plain: Vec2 = pairs.of(a).map(|ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w).sum();
+        // Away from the interface, where most particles are.
+        if plain == Vec2::zeros() {
+            return plain;
         }
+        let moment: Mat2 = pairs.of(a).map(|ab| -fluid_volume[ab.b] * ab.grad_w * r_ab(a, ab.b).transpose()).sum();
         let is_regular = moment.determinant() > SMALLEST_DETERMINANT;
         moment.try_inverse().filter(|_| is_regular).map_or(plain, |inverse| inverse * plain)
     });

@@ -46,19 +46,17 @@ pub fn difference(
     });
 }
 
-/// Divides what [`difference`] gives by the moment −½ Σ_b V_b r_ab·∇_a W_ab of its sums, 1 on the lattice and a little less in disorder.
+/// −½ Σ_b V_b r_ab·∇_a W_ab, 1 on the lattice and a little less in disorder. `r_ab(a, b)` in m.
+pub fn moment(pairs: &Pairs, volume: &[f64], r_ab: impl Fn(usize, usize) -> Vec2 + Sync, moment: &mut [f64]) {
+    pairs.sum_into(moment, |a, ab| -0.5 * volume[ab.b] * r_ab(a, ab.b).dot(&ab.grad_w));
+}
+
+/// Divides what [`difference`] gives by the [`moment`] of its sums.
 ///
 /// Divergence, gradient and the Laplacian of Eq. (30) all have this factor. Once taken out of the gradient, the divergence of the gradient
-/// is the Laplacian, on the mean over directions. `r_ab(a, b)` in m; a particle with few neighbors keeps what it has.
-pub fn over_moment(
-    pairs: &Pairs,
-    volume: &[f64],
-    r_ab: impl Fn(usize, usize) -> Vec2 + Sync,
-    acceleration: &mut [Vec2],
-) {
-    let mut moment = vec![0.0; acceleration.len()];
-    pairs.sum_into(&mut moment, |a, ab| -0.5 * volume[ab.b] * r_ab(a, ab.b).dot(&ab.grad_w));
-    for (acceleration, moment) in acceleration.iter_mut().zip(moment) {
+/// is the Laplacian, on the mean over directions. A particle with few neighbors keeps what it has.
+pub fn over_moment(moment: &[f64], acceleration: &mut [Vec2]) {
+    for (acceleration, &moment) in acceleration.iter_mut().zip(moment) {
         if moment > SMALLEST_MOMENT {
             *acceleration /= moment;
         }
