@@ -188,6 +188,36 @@ impl Series {
     }
 }
 
+/// A quantity of the time series that has come to its end where a run is steady.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Watched {
+    /// Its column of `series.csv`.
+    pub column: &'static str,
+    /// What it is, which says what its changes are compared with.
+    pub kind: Quantity,
+}
+
+/// Kinds of quantities that are watched.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Quantity {
+    /// A contact angle in degrees.
+    Angle,
+    /// A difference of pressures in Pa, compared with its value, or with `scale` in Pa where that is larger.
+    Pressure {
+        /// What counts as a small pressure, in Pa.
+        scale: f64,
+    },
+    /// A share of the pore space, compared with 1.
+    Saturation,
+    /// Kinetic energy, compared with its value, unless all particles rest.
+    Energy {
+        /// Column of the largest speed in m/s.
+        speed: &'static str,
+        /// Speed in m/s at a capillary number of 1; absent without a tension.
+        capillary_speed: Option<f64>,
+    },
+}
+
 /// A solver that the simulation loop can run. It does no I/O and prints nothing; time advances in `step` only.
 pub trait Solver {
     /// Where the run stands on its [`clock`](Self::clock): the time in s, for most solvers.
@@ -221,6 +251,11 @@ pub trait Solver {
 
     /// One row of the time series: the clock (`time_s`) and `step` first, always the same names in the same order.
     fn sample(&self) -> Vec<Sample>;
+
+    /// What of the time series tells that nothing changes any more; nothing: the solver cannot tell.
+    fn watched(&self) -> Vec<Watched> {
+        Vec::new()
+    }
 
     /// The final results; `series` holds all rows recorded so far.
     fn measures(&self, series: &Series) -> Vec<Measure>;

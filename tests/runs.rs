@@ -91,6 +91,34 @@ fn an_interrupted_and_resumed_run_leaves_the_same_bytes_as_an_unbroken_one() {
 }
 
 #[test]
+fn a_run_that_is_steady_ends_and_says_so_and_one_that_is_not_says_what_changes() {
+    let folder = folder_with_small_case();
+    // A row every 0.1 ms and hundred times the time of the case, which a drop at rest does not need.
+    let until_steady = ["run", "drop.toml", "--set=time.steady={}", "--set=time.end=3e-2", "--out"];
+    let output = meniscus(folder.path(), &[&until_steady[..], &["rest"]].concat());
+    assert_code(&output, 0);
+    let rest = report(&folder.path().join("rest"));
+    let time = rest["measures"]["steady-at-s"]["value"].as_f64().unwrap();
+    assert!(time < 2.0e-2 && rest["time-s"].as_f64() == Some(time), "{time}");
+    assert!(stdout(&output).contains("steady at t = "), "{}", stdout(&output));
+    // What was left to change by then is within the tolerance: 0.3 degrees.
+    let to_the_end = ["--set=time.steady.stop=false", "--set=time.end=3e-2"];
+    let output = meniscus(folder.path(), &[&["run", "drop.toml", "--out", "end"], &to_the_end[..]].concat());
+    assert_code(&output, 0);
+    let end = report(&folder.path().join("end"));
+    assert_eq!(end["measures"]["steady-at-s"], rest["measures"]["steady-at-s"]);
+    assert!(stdout(&output).contains(", steady since "), "{}", stdout(&output));
+    let angle = |report: &serde_json::Value| report["measures"]["contact-angle-deg"]["value"].as_f64().unwrap();
+    assert!((angle(&rest) - angle(&end)).abs() < 0.3, "{} {}", angle(&rest), angle(&end));
+
+    let early = ["--set=time.steady={}", "--set=output.series.every-time=1e-5", "--out", "early"];
+    let output = meniscus(folder.path(), &[&["run", "drop.toml"], &early[..]].concat());
+    assert_code(&output, 0);
+    assert!(stdout(&output).contains("not steady: "), "{}", stdout(&output));
+    assert!(stdout(&output).contains("kinetic_energy_J_per_m, "), "{}", stdout(&output));
+}
+
+#[test]
 fn a_run_that_blows_up_says_when_and_where_and_keeps_its_last_good_state() {
     let folder = folder_with_small_case();
     // Blown along the floor at nearly the largest speed that is accepted, some particles get past it within 400 steps.

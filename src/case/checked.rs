@@ -3,6 +3,8 @@
 use super::film::checked::ThinFilm;
 pub use super::measures::MeasureSet;
 use super::network::checked::PoreNetwork;
+pub use super::patches::{PatchedWall, Stripes, WettingPatch};
+pub use super::steady::{FEWEST_ROWS, SteadyStop};
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::math::Vec2;
 
@@ -17,6 +19,9 @@ pub struct Case {
     pub model: Model,
     /// End of the simulation in s; of a network the most that it can displace, in pore volumes.
     pub end: f64,
+    /// When the run counts as steady, and whether it then ends (`[time.steady]`); absent: it goes on to its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steady: Option<SteadyStop>,
     /// What is written and when.
     pub output: Output,
     /// What the run must give.
@@ -180,52 +185,6 @@ impl WettingModel {
             | Self::Jiang { contact_angle } => [contact_angle; 2],
             Self::Tadmor { advancing, receding } | Self::Hysteresis { advancing, receding } => [receding, advancing],
         }
-    }
-}
-
-/// A part of the walls with angles of its own (`[[sph.wetting.patches]]`); later ones lie over earlier ones.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct WettingPatch {
-    /// Which walls.
-    pub on: PatchedWall,
-    /// Which part of them; absent: all.
-    pub stripes: Option<Stripes>,
-    /// The model with the angles of the patch.
-    pub model: WettingModel,
-}
-
-/// The walls that a patch lies on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PatchedWall {
-    /// All of them.
-    All,
-    /// A shape by its number, from 0 on.
-    Shape(u32),
-    /// The left, right, bottom or top side, 0 to 3.
-    Side(u32),
-}
-
-/// Stripes across an axis: where the coordinate less `start`, modulo `period`, is below `width`.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct Stripes {
-    /// 0: along x, 1: along y.
-    pub axis: usize,
-    /// Where one of them begins, in m.
-    pub start: f64,
-    /// Width in m.
-    pub width: f64,
-    /// From one to the next in m; absent: a single stripe.
-    pub period: Option<f64>,
-}
-
-impl Stripes {
-    /// Whether a point of the wall with the given coordinates in m lies in a stripe.
-    #[must_use]
-    pub fn contains(&self, x: Vec2) -> bool {
-        let along = x[self.axis] - self.start;
-        let along = self.period.map_or(along, |period| along.rem_euclid(period));
-        (0.0..self.width).contains(&along)
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::check::{self, Checker};
 use super::checked::{Case, Model};
 use super::raw::{RawCase, RawGeometry, RawShapeFile};
-use super::{film, network, resolve, shapes, sph};
+use super::{film, network, resolve, shapes, sph, steady};
 use crate::geometry::ShapeFileError;
 use crate::geometry::import::{self, Beyond, Format, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
@@ -93,6 +93,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     let model = model(&mut checker, raw, geometry.as_ref());
     let end = check::end(&mut checker, raw, model.as_ref());
     let output = check::output(&mut checker, raw, end);
+    let steady = steady::steady(&mut checker, raw, end, &output);
     let expect = check::expectations(&mut checker, raw);
     let mut mistakes = reading.refuse(checker.problems);
     mistakes.append(&mut elsewhere);
@@ -101,7 +102,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     else {
         return Err(InputError { mistakes });
     };
-    let case = Case { title, geometry, model, end, output, expect };
+    let case = Case { title, geometry, model, end, steady, output, expect };
     let resolved = resolve::text(&case);
     Ok(Loaded { case, resolved, sources, notes, document })
 }

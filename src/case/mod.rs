@@ -13,6 +13,7 @@ mod measures;
 pub mod network;
 mod numerics;
 mod open;
+mod patches;
 pub mod preset;
 pub mod raw;
 mod resolve;
@@ -20,6 +21,7 @@ mod schema;
 mod shapes;
 mod sides;
 mod sph;
+mod steady;
 mod wetting;
 
 pub(crate) use check::Checker;

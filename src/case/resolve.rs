@@ -10,7 +10,7 @@ use super::raw::{
     RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousStep, RawViscousTerm,
     RawWallSpeeds, RawWalls,
 };
-use super::wetting;
+use super::{steady, wetting};
 
 /// The case as TOML that loads to the same case (angles to the last bit of a degree).
 pub(super) fn text(case: &Case) -> String {
@@ -37,7 +37,9 @@ fn raw(case: &Case) -> RawCase {
         }),
         sph,
         thin_film,
-        time: network.is_none().then_some(RawTime { end: Some(case.end) }),
+        time: network
+            .is_none()
+            .then_some(RawTime { end: Some(case.end), steady: case.steady.as_ref().map(steady::raw) }),
         output: Some(raw_output(&case.output, network.is_some())),
         network,
         expect: Some(

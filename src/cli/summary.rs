@@ -7,6 +7,7 @@ use crate::analysis::laws::drops::tadmor;
 use crate::case::checked::{Case, Model, WettingModel};
 use crate::run::execute::Finished;
 use crate::run::report::{Reading, Report, Status};
+use crate::run::steady::Steadiness;
 use crate::solver::Clock;
 
 /// Name of the measure that stands beside the angle that the case asks for.
@@ -45,9 +46,17 @@ pub fn summary(finished: &Finished) -> String {
 fn ending(report: &Report) -> String {
     let Clock { symbol, unit, .. } = report.clock.clock;
     let at = format!("{symbol} = {} {unit}, step {}", readable(report.clock.value), report.steps);
+    // A run that was steady and went on all the same is done at its end.
+    let reached = match &report.steady {
+        Some(steady) if steady.at_s == Some(report.clock.value) => format!("steady at {at}"),
+        Some(Steadiness { at_s: Some(since), .. }) => format!("done at {at}, steady since {}", readable(*since)),
+        Some(steady) if !steady.quantities.is_empty() => format!("done at {at}, not steady: {}", steady.unsettled()),
+        Some(_) => format!("done at {at}, too early to tell whether it is steady"),
+        None => format!("done at {at}"),
+    };
     match report.status {
-        Status::Done => format!("done at {at}"),
-        Status::ExpectationFailed => format!("done at {at}, but not as expected"),
+        Status::Done => reached,
+        Status::ExpectationFailed => format!("{reached}; not as expected"),
         Status::Interrupted => format!("interrupted at {at}; go on with --resume"),
         Status::Failed => format!("FAILED at {at}; the last good state is in the output folder"),
     }

@@ -11,6 +11,7 @@ use super::report::{self, Machine, Reached, Report, SolverReport, Status, readin
 use super::schedule::Schedule;
 use super::simulation::{Outcome, Records, Simulation, Watcher};
 use super::sink::Start;
+use super::steady::Steadiness;
 use crate::case::checked::Case;
 use crate::io::checksum::fnv1a;
 use crate::io::picture::{PictureError, mosaic_picture, picture};
@@ -91,13 +92,14 @@ pub fn execute(
     let (clock, mut processor_time) = (Instant::now(), ProcessorTime::start());
     let hash = case_hash(job.case)?;
     let start = prepare(job, solver, hash)?;
-    let was_at_end = start != Start::New && (solver.time() >= job.case.end || solver.is_done());
     if start != Start::New {
         processor_time = processor_time.after_that_in(&job.folder);
     }
     let mut records = Records::new(&job.folder, hash, start, processor_time)?;
     let schedule = Schedule::new(&job.case.output, job.case.end);
-    let mut simulation = Simulation { solver, schedule, records: &mut records, interrupt, watcher };
+    let steady = job.case.steady;
+    let mut simulation = Simulation { solver, schedule, steady, records: &mut records, interrupt, watcher };
+    let was_at_end = start != Start::New && simulation.is_at_end();
     let begun = if start == Start::New { simulation.begin(&job.folder) } else { Ok(()) };
     let ended = begun.and_then(|()| simulation.run());
     let (status, error) = match &ended {
@@ -139,7 +141,9 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
     let statistics = solver.statistics();
     let fastest = records.series().column("max_speed_m_per_s").filter(|speed| speed.is_finite()).fold(0.0, f64::max);
     let length = Length::of(job.case);
-    let measures = readings(solver.measures(records.series()));
+    let steady = job.case.steady.map(|steady| Steadiness::of(records.series(), &solver.watched(), &steady));
+    let mut measures = readings(solver.measures(records.series()));
+    measures.extend(steady.iter().map(report::steady_reading));
     let mut expectations = verdicts(&job.case.expect, &measures);
     let mut status = status;
     if status != Status::Done {
@@ -154,6 +158,7 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
         time_s: (solver.clock() == Clock::TIME).then(|| solver.time()),
         clock: Reached { clock: solver.clock(), value: solver.time() },
         steps: solver.steps(),
+        steady,
         measures,
         expectations,
         numbers: numbers::numbers(job.case, length, fastest),

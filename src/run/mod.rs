@@ -13,6 +13,7 @@ pub mod schedule;
 pub mod setup;
 pub mod simulation;
 pub mod sink;
+pub mod steady;
 #[cfg(test)]
 pub(crate) mod toy;
 pub mod trial;

@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::numbers::{Length, Number};
+use super::steady::Steadiness;
 use crate::case::checked::{Case, Expectation};
 use crate::io::{FileError, atomic};
 use crate::solver::{Clock, Measure, PartTime, Statistics};
@@ -113,6 +114,8 @@ pub struct Report {
     pub clock: Reached,
     /// Steps since time zero.
     pub steps: u64,
+    /// Whether the run was steady, and what still changed; absent where the case does not ask.
+    pub steady: Option<Steadiness>,
     /// The final measures by name.
     pub measures: BTreeMap<String, Reading>,
     /// Expectations of the case.
@@ -179,6 +182,20 @@ pub fn readings(measures: Vec<Measure>) -> BTreeMap<String, Reading> {
             (m.name, Reading { value: finite(m.value), unit: m.unit, uncertainty, method: m.method })
         })
         .collect()
+}
+
+/// The measure that tells when a run was steady.
+pub const STEADY_AT: &str = "steady-at-s";
+
+/// When the run was steady, as a measure with its name.
+#[must_use]
+pub fn steady_reading(steady: &Steadiness) -> (String, Reading) {
+    let method = match (steady.at_s, steady.quantities.is_empty()) {
+        (Some(_), _) => format!("first record that ends three windows of {:.3e} s without a change", steady.window_s),
+        (None, true) => "the run was too short to tell: a window holds too few records".to_owned(),
+        (None, false) => format!("not steady by the end: {}", steady.unsettled()),
+    };
+    (STEADY_AT.to_owned(), Reading { value: steady.at_s, unit: "s".into(), uncertainty: None, method })
 }
 
 /// Each expectation beside what was measured; a measure that is missing or NaN misses.

@@ -7,13 +7,15 @@ use std::time::Instant;
 use super::processor_time::ProcessorTime;
 use super::schedule::{Due, Schedule};
 use super::sink::{Frame, RestartSink, SeriesSink, Sink, Start, vtk_sinks};
+use super::steady::is_steady;
+use crate::case::checked::SteadyStop;
 use crate::io::{FileError, atomic, vtk};
 use crate::solver::{Clock, PartTime, Series, Solver, SolverError};
 
 /// How a run ended.
 #[derive(Debug)]
 pub enum Outcome {
-    /// It reached the end.
+    /// It reached the end, or was steady before.
     Done,
     /// It was asked to stop, and can be resumed.
     Interrupted,
@@ -124,6 +126,8 @@ pub struct Simulation<'a> {
     pub solver: &'a mut dyn Solver,
     /// When to record.
     pub schedule: Schedule,
+    /// When the run ends before its end, where it does.
+    pub steady: Option<SteadyStop>,
     /// What records.
     pub records: &'a mut Records,
     /// Set by others to stop the run after the present step.
@@ -145,14 +149,36 @@ impl Simulation<'_> {
         self.records.record(self.solver, Due::ALL)
     }
 
-    /// Runs to the end, to an interrupt or to an error of the solver; in the last two cases a state is saved.
+    /// Whether the run ends here as it is steady: as its last row tells.
+    fn ends_steady(&self) -> bool {
+        let series = self.records.series();
+        self.steady.is_some_and(|steady| steady.stop && is_steady(series, &self.solver.watched(), &steady))
+    }
+
+    /// Whether nothing is left to do.
+    #[must_use]
+    pub fn is_at_end(&self) -> bool {
+        self.solver.time() >= self.schedule.end() || self.solver.is_done() || self.ends_steady()
+    }
+
+    /// Records what is due at a stop, row first, and everything where the run is steady by then.
+    fn record_stop(&mut self, due: Due) -> Result<bool, FileError> {
+        self.records.record(self.solver, Due { vtk: false, restart: false, ..due })?;
+        let is_steady = due.series && self.ends_steady();
+        let rest = if is_steady { Due::ALL } else { due };
+        self.records.record(self.solver, Due { series: false, ..rest })?;
+        Ok(is_steady)
+    }
+
+    /// Runs to the end, to steady state, to an interrupt or to an error of the solver; in the last two cases a state is saved.
     ///
     /// # Errors
     /// [`FileError`] where a record cannot be written.
     pub fn run(&mut self) -> Result<Outcome, FileError> {
-        while let Some(stop) = self.schedule.next_after(self.solver.time())
-            && !self.solver.is_done()
-        {
+        if self.is_at_end() {
+            return Ok(Outcome::Done);
+        }
+        while let Some(stop) = self.schedule.next_after(self.solver.time()) {
             while self.solver.time() < stop.time {
                 if self.interrupt.load(Ordering::Relaxed) {
                     self.records.record(self.solver, Due::TO_RESUME)?;
@@ -177,7 +203,9 @@ impl Simulation<'_> {
                     return Ok(Outcome::Done);
                 }
             }
-            self.records.record(self.solver, stop.due)?;
+            if self.record_stop(stop.due)? {
+                break;
+            }
         }
         Ok(Outcome::Done)
     }

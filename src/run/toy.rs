@@ -11,7 +11,9 @@ use crate::case::checked::{
 use crate::geometry::spec::{GeometrySpec, SolidSide};
 use crate::math::{Vec2, perpendicular};
 use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
-use crate::solver::{Measure, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo};
+use crate::solver::{
+    Measure, Quantity, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
+};
 
 /// Angular speed in rad/s.
 const TURN: f64 = 2.0;
@@ -101,6 +103,12 @@ impl Solver for ToySolver {
         ]
     }
 
+    /// The speed of the circles is the same for ever.
+    fn watched(&self) -> Vec<Watched> {
+        let speed = "max_speed_m_per_s";
+        vec![Watched { column: speed, kind: Quantity::Energy { speed, capillary_speed: None } }]
+    }
+
     fn measures(&self, series: &Series) -> Vec<Measure> {
         let measure = |name: &str, value, unit: &str, method: &str| Measure {
             name: name.into(),
@@ -182,6 +190,7 @@ pub fn case() -> Case {
         geometry: GeometrySpec { min: [0.0; 2], max: [1.0; 2], solid: SolidSide::Inside, shapes: Vec::new() },
         model: Model::Sph(Box::new(sph)),
         end: 1.0,
+        steady: None,
         output: Output { series_every: 0.1, vtk_every: 0.2, grid_ratio: 1.0, restart_every: 0.4 },
         expect: vec![Expectation { measure: "radius-m".into(), value: 1.0 / 3.0, tolerance: 1.0e-9 }],
     }

@@ -6,7 +6,9 @@ use crate::analysis::phases::{WallSample, density_error};
 use crate::case::checked::MeasureSet;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot};
-use crate::solver::{Measure, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo};
+use crate::solver::{
+    Measure, Quantity, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
+};
 use crate::sph::measures::{DiscOf, Subject, all, columns};
 use crate::sph::observe::Observation;
 use crate::sph::projection::Flow;
@@ -117,6 +119,22 @@ impl Solver for SphSolver {
         ];
         let asked = columns(flow, seen, &self.surroundings.measures);
         row.into_iter().chain(asked).map(|(name, value)| Sample { name, value }).collect()
+    }
+
+    fn watched(&self) -> Vec<Watched> {
+        let (m, size) = (&self.flow.method, self.flow.domain.bounds.size());
+        let capillary_speed =
+            (m.tension > 0.0).then(|| m.tension / m.wetting_fluid.viscosity.max(m.other_fluid.viscosity));
+        let energy = Quantity::Energy { speed: "max_speed_m_per_s", capillary_speed };
+        let mut watched = vec![Watched { column: "kinetic_energy_J_per_m", kind: energy }];
+        if m.tension > 0.0 {
+            // An interface as curved as the domain is wide.
+            let pressure = Quantity::Pressure { scale: m.tension / size.max() };
+            watched.push(Watched { column: "capillary_pressure_Pa", kind: pressure });
+            watched.push(Watched { column: "saturation", kind: Quantity::Saturation });
+            watched.push(Watched { column: "contact_angle_deg", kind: Quantity::Angle });
+        }
+        watched
     }
 
     fn measures(&self, series: &Series) -> Vec<Measure> {

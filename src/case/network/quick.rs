@@ -24,7 +24,7 @@ pub fn quick(title: &str, geometry: GeometrySpec, raw: &RawNetwork) -> Result<(C
     };
     // An interval above the end leaves the end; it must stay above 0 where nothing is displaced.
     (output.vtk_every, output.restart_every) = (end.max(1.0), end.max(1.0));
-    let case = Case { title: title.to_owned(), geometry, model, end, output, expect: Vec::new() };
+    let case = Case { title: title.to_owned(), geometry, model, end, steady: None, output, expect: Vec::new() };
     let resolved = resolve::text(&case);
     Ok((case, resolved))
 }

@@ -119,6 +119,27 @@ tables! {
     pub struct RawTime {
         /// End of the simulation in s.
         pub end: f64,
+        /// Ends the simulation when it is steady, and at `end` at the latest; with `[sph]`.
+        pub steady: RawSteady,
+    }
+
+    /// When a simulation counts as steady: what is left to change of each quantity, and how far it moves within the last
+    /// window, are both below its tolerance.
+    pub struct RawSteady {
+        /// Length in s of each of the three windows that are compared (default: a fifth of the time so far).
+        pub window: f64,
+        /// Tolerance of the mean contact angle in degrees (default 0.3).
+        pub contact_angle_deg: f64,
+        /// Tolerance of the capillary pressure over its value (default 0.005).
+        pub capillary_pressure: f64,
+        /// Tolerance of the saturation (default 0.001).
+        pub saturation: f64,
+        /// Largest viscosity x speed / tension at which all particles count as at rest (default 1e-4).
+        pub capillary_number: f64,
+        /// Tolerance of the kinetic energy over its value, for flows that do not come to rest (default 0.005).
+        pub kinetic_energy: f64,
+        /// Whether the run ends when it is steady (default), or only says so.
+        pub stop: bool,
     }
 
     /// What is written and when.

@@ -3,6 +3,7 @@
 use super::super::toy::{Interrupter, ToySolver, case};
 use super::files::files;
 use super::*;
+use crate::case::checked::SteadyStop;
 use crate::run::simulation::Unwatched;
 
 fn job<'a>(case: &'a Case, folder: &Path, mode: Mode) -> Job<'a> {
@@ -98,6 +99,67 @@ fn a_run_killed_between_its_last_state_and_its_report_is_told_anew() {
     let done = std::fs::read(folder.path().join("report.json")).unwrap();
     run(&case(), folder.path(), Mode::Resume).unwrap();
     assert!(std::fs::read(folder.path().join("report.json")).unwrap() == done);
+}
+
+/// A case that is steady at 0.24 s: the first record with five rows in each of three windows.
+fn steady_case() -> Case {
+    let mut case = case();
+    case.steady = Some(SteadyStop::default());
+    case.output.series_every = 0.01;
+    case
+}
+
+#[test]
+fn a_steady_run_ends_early_with_all_its_records() {
+    let folder = tempfile::tempdir().unwrap();
+    let finished = run(&steady_case(), folder.path(), Mode::New).unwrap();
+    assert_eq!((finished.report.status, finished.report.clock.value), (Status::Done, 0.24));
+    let report = json(folder.path());
+    assert_eq!(report["measures"]["steady-at-s"]["value"], 0.24);
+    assert_eq!(report["steady"]["at-s"], 0.24);
+    assert_eq!(report["steady"]["quantities"][0]["column"], "max_speed_m_per_s");
+    assert_eq!(crate::io::restart::load(folder.path()).unwrap().time, 0.24);
+    assert!(std::fs::read_to_string(folder.path().join("particles.pvd")).unwrap().contains("timestep=\"0.24\""));
+    // There is nothing left to do, and nothing is changed.
+    let before = files(folder.path());
+    assert!(run(&steady_case(), folder.path(), Mode::Resume).unwrap().was_at_end);
+    assert!(files(folder.path()) == before);
+}
+
+#[test]
+fn a_broken_and_resumed_run_is_steady_at_the_same_moment() {
+    let unbroken = tempfile::tempdir().unwrap();
+    run(&steady_case(), unbroken.path(), Mode::New).unwrap();
+    for steps in [1, 12, 23] {
+        let folder = tempfile::tempdir().unwrap();
+        let (case, interrupt) = (steady_case(), AtomicBool::new(false));
+        let mut after = Interrupter { steps, interrupt: &interrupt };
+        execute(&job(&case, folder.path(), Mode::New), &mut ToySolver::new(), &interrupt, &mut after).unwrap();
+        assert_eq!(json(folder.path())["status"], "interrupted");
+        assert!(!run(&case, folder.path(), Mode::Resume).unwrap().was_at_end);
+        assert!(files(folder.path()) == files(unbroken.path()), "the bytes differ after a stop at step {steps}");
+        assert_eq!(json(folder.path())["steady"], json(unbroken.path())["steady"]);
+    }
+}
+
+#[test]
+fn a_run_that_only_says_when_it_is_steady_goes_on_to_its_end() {
+    let mut case = steady_case();
+    case.steady = Some(SteadyStop { stop: false, ..SteadyStop::default() });
+    let folder = tempfile::tempdir().unwrap();
+    let report = run(&case, folder.path(), Mode::New).unwrap().report;
+    assert_eq!(report.clock.value, 1.0);
+    assert_eq!(report.measures["steady-at-s"].value, Some(0.24));
+}
+
+#[test]
+fn a_run_with_too_few_records_says_that_it_cannot_tell() {
+    let mut case = steady_case();
+    case.output.series_every = 0.1;
+    let folder = tempfile::tempdir().unwrap();
+    let report = run(&case, folder.path(), Mode::New).unwrap().report;
+    assert_eq!((report.clock.value, report.measures["steady-at-s"].value), (1.0, None));
+    assert!(report.measures["steady-at-s"].method.contains("too short"), "{:?}", report.measures["steady-at-s"]);
 }
 
 #[test]
