@@ -100,6 +100,8 @@ pub fn execute(
     let mut simulation = Simulation { solver, schedule, records: &mut records, interrupt, watcher };
     let begun = if start == Start::New { simulation.begin(&job.folder) } else { Ok(()) };
     let ended = begun.and_then(|()| simulation.run());
+    let written = records.finish();
+    let ended = ended.and_then(|outcome| written.map(|()| outcome));
     let (status, error) = match &ended {
         Ok(Outcome::Done) => (Status::Done, None),
         Ok(Outcome::Interrupted) => (Status::Interrupted, None),

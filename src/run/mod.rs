@@ -16,3 +16,4 @@ pub mod sink;
 #[cfg(test)]
 pub(crate) mod toy;
 pub mod trial;
+mod writer;
