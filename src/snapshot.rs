@@ -15,6 +15,18 @@ pub enum Values<'a> {
     Integer(Cow<'a, [i64]>),
 }
 
+impl Values<'_> {
+    /// The same with values of their own.
+    #[must_use]
+    pub fn into_owned(self) -> Values<'static> {
+        match self {
+            Self::Scalar(values) => Values::Scalar(Cow::Owned(values.into_owned())),
+            Self::Vector(values) => Values::Vector(Cow::Owned(values.into_owned())),
+            Self::Integer(values) => Values::Integer(Cow::Owned(values.into_owned())),
+        }
+    }
+}
+
 /// A named field with its unit.
 #[derive(Debug, Clone)]
 pub struct Field<'a> {
@@ -26,6 +38,19 @@ pub struct Field<'a> {
     pub values: Values<'a>,
 }
 
+impl Field<'_> {
+    /// The same with values of its own.
+    #[must_use]
+    pub fn into_owned(self) -> Field<'static> {
+        Field { name: self.name, unit: self.unit, values: self.values.into_owned() }
+    }
+}
+
+/// Fields with values of their own.
+fn owned(fields: Vec<Field<'_>>) -> Vec<Field<'static>> {
+    fields.into_iter().map(Field::into_owned).collect()
+}
+
 /// Scattered points with fields.
 #[derive(Debug, Clone, Default)]
 pub struct Cloud<'a> {
@@ -33,6 +58,14 @@ pub struct Cloud<'a> {
     pub points: Cow<'a, [Vec2]>,
     /// Fields, each as long as `points`.
     pub fields: Vec<Field<'a>>,
+}
+
+impl Cloud<'_> {
+    /// The same with values of its own.
+    #[must_use]
+    pub fn into_owned(self) -> Cloud<'static> {
+        Cloud { points: Cow::Owned(self.points.into_owned()), fields: owned(self.fields) }
+    }
 }
 
 /// Fields on the nodes of a regular grid, x running fastest.
@@ -48,6 +81,14 @@ pub struct Grid<'a> {
     pub fields: Vec<Field<'a>>,
 }
 
+impl Grid<'_> {
+    /// The same with values of its own.
+    #[must_use]
+    pub fn into_owned(self) -> Grid<'static> {
+        Grid { origin: self.origin, spacing: self.spacing, counts: self.counts, fields: owned(self.fields) }
+    }
+}
+
 /// Polylines with fields on their vertices.
 #[derive(Debug, Clone, Default)]
 pub struct Lines<'a> {
@@ -57,6 +98,14 @@ pub struct Lines<'a> {
     pub lines: Vec<Vec<u32>>,
     /// Fields on the vertices, each as long as `points`.
     pub fields: Vec<Field<'a>>,
+}
+
+impl Lines<'_> {
+    /// The same with values of their own.
+    #[must_use]
+    pub fn into_owned(self) -> Lines<'static> {
+        Lines { points: Cow::Owned(self.points.into_owned()), lines: self.lines, fields: owned(self.fields) }
+    }
 }
 
 /// What the cells of a layer are.
@@ -85,6 +134,15 @@ pub struct Layer<'a> {
     pub fields: Vec<Field<'a>>,
 }
 
+impl Layer<'_> {
+    /// The same with values of its own.
+    #[must_use]
+    pub fn into_owned(self) -> Layer<'static> {
+        let (points, fields) = (Cow::Owned(self.points.into_owned()), owned(self.fields));
+        Layer { name: self.name, kind: self.kind, points, cells: self.cells, fields }
+    }
+}
+
 /// The state of a solver at one time, as output needs it.
 #[derive(Debug, Clone)]
 pub struct Snapshot<'a> {
@@ -98,4 +156,18 @@ pub struct Snapshot<'a> {
     pub grid: Option<Grid<'a>>,
     /// The interface between the fluids, where there is one.
     pub interface: Option<Lines<'a>>,
+}
+
+impl Snapshot<'_> {
+    /// The same with values of its own, which outlives the solver's next step.
+    #[must_use]
+    pub fn into_owned(self) -> Snapshot<'static> {
+        Snapshot {
+            time: self.time,
+            step: self.step,
+            particles: self.particles.into_owned(),
+            grid: self.grid.map(Grid::into_owned),
+            interface: self.interface.map(Lines::into_owned),
+        }
+    }
 }

@@ -11,9 +11,14 @@ const SPACING: f64 = 2.0e-5;
 
 /// A box of 1 mm with one fluid; `shapes` in m.
 fn pore(shapes: &str, sides: &str, numerics: &str) -> Flow {
+    pore_of(SPACING, shapes, sides, numerics)
+}
+
+/// The same with another `spacing` (m).
+fn pore_of(spacing: f64, shapes: &str, sides: &str, numerics: &str) -> Flow {
     flow(&format!(
         "format = 1\ntitle = \"A pore\"\n[geometry]\nmin = [-5.0e-4, -5.0e-4]\nmax = [5.0e-4, 5.0e-4]\nshapes = [{shapes}]\n\
-         [time]\nend = 1.0\n[sph]\nspacing = {SPACING:e}\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n\
+         [time]\nend = 1.0\n[sph]\nspacing = {spacing:e}\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n\
          [sph.sides]\n{sides}\n[sph.numerics]\n{numerics}\n"
     ))
 }
@@ -58,6 +63,26 @@ fn the_density_of_a_packed_pore_is_even() {
         // Half a particle of two thousand, and what sums over layers of another period than the fluid's leave.
         assert!(
             mean.abs() < 2.5e-3 && rms < 4e-3 && largest < 0.03,
+            "{name}: mean {mean:.1e}, spread {rms:.1e}, largest {largest:.1e}"
+        );
+    }
+}
+
+#[test]
+fn the_lattice_far_from_walls_stays_and_all_is_as_even_as_in_a_pore_without_such_places() {
+    let fine = 0.2 * SPACING;
+    for (name, shapes, sides) in [PORES[0], PORES[2]] {
+        let flow = pore_of(fine, shapes, sides, "");
+        let fluid = &flow.particles.position[..flow.particles.fluids];
+        // A particle is in the middle of a cell of the lattice.
+        let is_on_lattice = |x: &Vec2| x.iter().all(|v| ((v / fine - 0.5).round() - (v / fine - 0.5)).abs() < 1e-9);
+        let far: Vec<&Vec2> = fluid.iter().filter(|x| (flow.wall)(**x).0 > 60.0 * fine).collect();
+        assert!(far.len() > 1000 && far.into_iter().all(is_on_lattice), "{name}");
+        let moved = fluid.iter().filter(|x| !is_on_lattice(x)).count();
+        assert!(moved > 5000 && 2 * moved < fluid.len() * 3 / 2, "{name}: {moved} of {} were packed", fluid.len());
+        let [mean, rms, largest] = spread(&density_errors(&flow));
+        assert!(
+            mean.abs() < 1e-4 && rms < 1e-3 && largest < 0.03,
             "{name}: mean {mean:.1e}, spread {rms:.1e}, largest {largest:.1e}"
         );
     }

@@ -70,9 +70,9 @@ fn a_channel_starts_as_with_the_explicit_form() {
             flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.x).sum::<f64>()
         };
         let oracle = after(ViscousStep::Explicit, 2000);
-        // Steps of 2 and 1 times the explicit limit, whose errors are between the first and the second order.
-        let [long, short] = [100, 200].map(|count| (after(ViscousStep::Implicit, count) / oracle - 1.0).abs());
-        assert!(long < 0.005 && short < 0.6 * long, "{form}: off by {long:.1e}, with half the step {short:.1e}");
+        // Steps of 4 and 2 times the explicit limit, whose errors are between the first and the second order.
+        let [long, short] = [50, 100].map(|count| (after(ViscousStep::Implicit, count) / oracle - 1.0).abs());
+        assert!(long < 0.01 && short < 0.6 * long, "{form}: off by {long:.1e}, with half the step {short:.1e}");
     }
 }
 
@@ -94,7 +94,7 @@ fn a_shear_wave_decays_by_the_factor_of_the_method() {
     let short = 1.0e-6;
     let (left, limit) = shear(ViscousStep::Explicit, short);
     let rate = (1.0 - left) / short;
-    for dt in [0.5 * limit, 20.0 * limit] {
+    for dt in [2.0 * limit, 20.0 * limit] {
         // The largest rate is twice the inverse of the limit.
         let z = 2.0 * dt / limit;
         let theta = 1.0 / (1.0 - (-z).exp()) - 1.0 / z;

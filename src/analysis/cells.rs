@@ -3,6 +3,8 @@
 //! The order in which neighbors come depends on the points alone, so sums over them have the same bits for any number
 //! of threads. Periodic sides are handled by nearest images. Leaves out: any ordering for cache use.
 
+use rayon::prelude::*;
+
 use crate::math::Vec2;
 
 /// Scattered points sorted into square cells.
@@ -43,7 +45,7 @@ impl<'a> Cells<'a> {
     }
 
     fn sort(&mut self) {
-        let cell: Vec<Option<usize>> = self.points.iter().map(|&p| self.cell_of(p)).collect();
+        let cell: Vec<Option<usize>> = self.points.par_iter().map(|&p| self.cell_of(p)).collect();
         let mut start = vec![0; self.counts[0] * self.counts[1] + 1];
         cell.iter().flatten().for_each(|&c| start[c + 1] += 1);
         for c in 1..start.len() {

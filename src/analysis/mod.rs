@@ -17,6 +17,7 @@ pub mod laws;
 pub mod lines;
 pub mod meniscus;
 pub mod moments;
+pub mod near_level;
 pub mod phases;
 pub mod resample;
 pub mod roots;

@@ -2,6 +2,8 @@
 //!
 //! Colors are sharp here: above 0.5 is the wetting phase. Solid particles are left out by the caller.
 
+use rayon::prelude::*;
+
 use super::cells::Cells;
 use super::contour::Polyline;
 use super::wall::WallPoint;
@@ -129,14 +131,14 @@ const ENOUGH: usize = 25;
 pub fn capillary_pressure(
     samples: &PressureSamples,
     contours: &[Polyline],
-    wall: &dyn Fn(Vec2) -> WallPoint,
+    wall: &(dyn Fn(Vec2) -> WallPoint + Sync),
 ) -> CapillaryPressure {
     let h = samples.smoothing_length;
     let vertices: Vec<Vec2> = contours.iter().flat_map(|line| line.points.iter().copied()).collect();
     let cells = Cells::new(&vertices, FROM_INTERFACE * h, samples.period);
     let far: Vec<bool> = samples
         .points
-        .iter()
+        .par_iter()
         .map(|&x| {
             // Vertices stand closer than a spacing, so their distance serves for that of the line.
             let mut near = false;
@@ -145,7 +147,7 @@ pub fn capillary_pressure(
         })
         .collect();
     let off_wall: Vec<bool> =
-        samples.points.iter().zip(&far).map(|(&x, &far)| far && wall(x).distance > FROM_WALLS * h).collect();
+        samples.points.par_iter().zip(&far).map(|(&x, &far)| far && wall(x).distance > FROM_WALLS * h).collect();
     let strict = difference_of_means(samples, &off_wall, true);
     if strict.counts.iter().all(|&count| count >= ENOUGH) { strict } else { difference_of_means(samples, &far, false) }
 }

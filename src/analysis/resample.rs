@@ -15,6 +15,9 @@ use crate::snapshot::{Field, Values};
 /// Support of the kernel in smoothing lengths.
 pub const SUPPORT: f64 = 2.0;
 
+/// Somewhat more than the particles in reach of a node at the usual smoothing length of 1.5 spacings.
+const USUAL: usize = 32;
+
 /// Particles to interpolate from.
 #[derive(Debug, Clone, Copy)]
 pub struct Samples<'a> {
@@ -26,6 +29,14 @@ pub struct Samples<'a> {
     pub smoothing_length: f64,
     /// Period in m along each axis, where it has one.
     pub period: [Option<f64>; 2],
+}
+
+impl<'a> Samples<'a> {
+    /// The particles in cells, to be searched for those in reach of a node.
+    #[must_use]
+    pub fn cells(&self) -> Cells<'a> {
+        Cells::new(self.points, SUPPORT * self.smoothing_length, self.period)
+    }
 }
 
 /// The normalized weights of particles at nodes.
@@ -49,12 +60,17 @@ impl Stencils {
     /// Weights of `samples` at `nodes` (m).
     #[must_use]
     pub fn new(samples: &Samples, nodes: &[Vec2]) -> Self {
+        Self::in_cells(samples, &samples.cells(), nodes)
+    }
+
+    /// [`Stencils::new`] with the cells of the samples at hand.
+    #[must_use]
+    pub fn in_cells(samples: &Samples, cells: &Cells, nodes: &[Vec2]) -> Self {
         let h = samples.smoothing_length;
-        let cells = Cells::new(samples.points, SUPPORT * h, samples.period);
         let rows: Vec<(Vec<(usize, f64)>, f64)> = nodes
             .par_iter()
             .map(|&x| {
-                let mut row = Vec::new();
+                let mut row = Vec::with_capacity(USUAL);
                 cells.for_each_near(x, SUPPORT * h, |b, d| row.push((b, samples.volumes[b] * kernel(d.norm(), h))));
                 let support: f64 = row.iter().map(|(_, weight)| weight).sum();
                 row.iter_mut().for_each(|(_, weight)| *weight /= support);

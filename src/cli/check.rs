@@ -1,13 +1,16 @@
 //! `meniscus check`: builds the solver, does a few steps without any file, and tells what a run would be like.
 
 use super::arguments::CheckArguments;
-use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED};
-use super::output::{duration, readable, say};
+use super::exit::{BUG, DONE, Failure, SOLVER_FAILED};
+use super::output::{duration, readable, say, tell};
+use super::progress::ProgressDisplay;
+use super::run::built;
 use super::source;
 use crate::case::checked::{Case, Model};
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
-use crate::run::trial::trial;
+use crate::run::trial::{Trial, trial};
+use crate::solver::Solver;
 
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: f64 = 1048576.0;
@@ -16,8 +19,8 @@ const BYTES_PER_MEBIBYTE: f64 = 1048576.0;
 pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let case = &source.case;
-    let mut solver = setup::build(case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
-    let found = trial(case, solver.as_mut()).map_err(|error| Failure::new(SOLVER_FAILED, &error))?;
+    let mut solver = built(case)?;
+    let found = tried(case, solver.as_mut())?;
     if arguments.json {
         let text = serde_json::to_string_pretty(&found).map_err(|error| Failure::new(BUG, &error))?;
         say(text);
@@ -65,6 +68,20 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     say(format_args!("  L           = {} m, {}", readable(length.value), length.name));
     say(format_args!("  U           = {} m/s, {formula}", readable(speed)));
     Ok(DONE)
+}
+
+/// Tries the first steps; says so before and in between where they take long.
+fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Trial, Failure> {
+    /// From so many particles or nodes on a step takes a tenth of a second and more.
+    const MANY: usize = 100_000;
+    let unknowns = solver.statistics().unknowns;
+    if unknowns >= MANY {
+        tell(format_args!("the first steps of {unknowns} particles are tried: five, or as many as ten seconds allow"));
+    }
+    let mut display = ProgressDisplay::new();
+    let found = trial(case, solver, &mut |share| display.tried(share));
+    display.finish();
+    found.map_err(|error| Failure::new(SOLVER_FAILED, &error))
 }
 
 /// Initial distance of particles or nodes in m.

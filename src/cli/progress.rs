@@ -31,6 +31,33 @@ impl ProgressDisplay {
         Self { bar, begun: Instant::now(), shown: Instant::now(), from: None }
     }
 
+    /// Shows which share of the packing of particles before time zero is done.
+    pub fn packed(&mut self, share: f64) {
+        const TEXT: &str = "particles are packed to walls and interfaces";
+        self.show(share, || TEXT.to_owned());
+    }
+
+    /// Shows which share of the steps that are tried is done.
+    pub fn tried(&mut self, share: f64) {
+        self.show(share, || "first steps are tried".to_owned());
+    }
+
+    /// Shows a share of the work with a text, where enough time has passed since the last one.
+    fn show(&mut self, share: f64, text: impl FnOnce() -> String) {
+        let pause = if self.bar.is_some() { BETWEEN_UPDATES } else { BETWEEN_LINES };
+        if self.shown.elapsed() < pause {
+            return;
+        }
+        self.shown = Instant::now();
+        match &self.bar {
+            Some(bar) => {
+                bar.set_position((LENGTH as f64 * share) as u64);
+                bar.set_message(text());
+            }
+            None => tell(format_args!("{:3.0} %  {}", 100.0 * share, text())),
+        }
+    }
+
     /// Removes the bar.
     pub fn finish(&self) {
         if let Some(bar) = &self.bar {
@@ -73,19 +100,8 @@ fn line(progress: &Progress, left: Option<f64>) -> String {
 impl Watcher for ProgressDisplay {
     fn stepped(&mut self, progress: &Progress) {
         self.from.get_or_insert(progress.time - progress.dt);
-        let pause = if self.bar.is_some() { BETWEEN_UPDATES } else { BETWEEN_LINES };
-        if self.shown.elapsed() < pause {
-            return;
-        }
-        self.shown = Instant::now();
-        let text = line(progress, self.left(progress));
-        match &self.bar {
-            Some(bar) => {
-                bar.set_position((LENGTH as f64 * progress.time / progress.end) as u64);
-                bar.set_message(text);
-            }
-            None => tell(format_args!("{:3.0} %  {text}", 100.0 * progress.time / progress.end)),
-        }
+        let left = self.left(progress);
+        self.show(progress.time / progress.end, || line(progress, left));
     }
 }
 

@@ -10,9 +10,11 @@ use super::progress::ProgressDisplay;
 use super::source::Source;
 use super::summary::summary;
 use super::{interrupt, source};
+use crate::case::checked::Case;
 use crate::run::execute::{Finished, Job, Mode, RunError, execute};
 use crate::run::report::Status;
 use crate::run::{folder, setup};
+use crate::solver::Solver;
 
 /// Runs a case; the exit code says how it ended.
 pub fn run(arguments: &RunArguments) -> Result<u8, Failure> {
@@ -42,7 +44,7 @@ pub(super) fn finish(
 ) -> Result<u8, Failure> {
     let job = Job { case: &source.case, resolved: &source.resolved, folder, mode };
     let finished = pool(threads)?.install(|| -> Result<Finished, Failure> {
-        let mut solver = setup::build(job.case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+        let mut solver = built(job.case)?;
         tell(format_args!("{} -> {}", job.case.title, job.folder.display()));
         let flag = interrupt::flag();
         let mut display = ProgressDisplay::new();
@@ -55,6 +57,14 @@ pub(super) fn finish(
     }
     say(summary(&finished).trim_end());
     ending(&finished)
+}
+
+/// The solver of a case; a long packing of particles is shown.
+pub(super) fn built(case: &Case) -> Result<Box<dyn Solver>, Failure> {
+    let mut display = ProgressDisplay::new();
+    let solver = setup::build_watched(case, &mut |share| display.packed(share));
+    display.finish();
+    solver.map_err(|error| Failure::new(BAD_INPUT, &error))
 }
 
 /// The thread pool that the run works in.

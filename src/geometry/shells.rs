@@ -6,6 +6,8 @@
 //! Straight parts that the caller's lattice fits already are left out. The interface between two phases is the surface of the region that one
 //! of them fills.
 
+use rayon::prelude::*;
+
 use crate::geometry::boundary::{Nearest, Piece, chains, followers};
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::solid::Geometry;
@@ -158,7 +160,7 @@ impl<'a> UnfittedSurface<'a> {
 
     /// The lines at `depth` below the surface, or above it where that is negative, as far as `within` holds, sampled every `step`; all in m.
     #[must_use]
-    pub fn shells(&self, depth: f64, step: f64, within: impl Fn(Vec2) -> bool) -> Vec<Shell> {
+    pub fn shells(&self, depth: f64, step: f64, within: impl Fn(Vec2) -> bool + Sync) -> Vec<Shell> {
         let mut shells = Vec::new();
         for (chain, is_closed) in chains(&self.geometry.boundary.pieces, &self.next) {
             let samples = self.samples(&chain, is_closed, depth, step);
@@ -200,13 +202,13 @@ impl<'a> UnfittedSurface<'a> {
         samples: &[Option<Vec2>],
         is_closed: bool,
         (depth, step): (f64, f64),
-        within: impl Fn(Vec2) -> bool,
+        within: impl Fn(Vec2) -> bool + Sync,
     ) -> Vec<Shell> {
         let has_depth = |x: Vec2| {
             let is_at_depth = |near: Near| (near.distance + depth).abs() < SAME_DEPTH * step && near.is_unfitted;
             within(x) && self.near(x, 2.0 * depth.abs()).is_some_and(is_at_depth)
         };
-        let good: Vec<bool> = samples.iter().map(|x| x.is_some_and(has_depth)).collect();
+        let good: Vec<bool> = samples.par_iter().map(|x| x.is_some_and(has_depth)).collect();
         let place = |i: usize| samples[i].unwrap_or_default();
         // The last good place between a good sample and a bad one.
         let end = |good: usize, bad: usize| {

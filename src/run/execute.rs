@@ -102,6 +102,8 @@ pub fn execute(
     let was_at_end = start != Start::New && simulation.is_at_end();
     let begun = if start == Start::New { simulation.begin(&job.folder) } else { Ok(()) };
     let ended = begun.and_then(|()| simulation.run());
+    let written = records.finish();
+    let ended = ended.and_then(|outcome| written.map(|()| outcome));
     let (status, error) = match &ended {
         Ok(Outcome::Done) => (Status::Done, None),
         Ok(Outcome::Interrupted) => (Status::Interrupted, None),

@@ -17,3 +17,4 @@ pub mod steady;
 #[cfg(test)]
 pub(crate) mod toy;
 pub mod trial;
+mod writer;

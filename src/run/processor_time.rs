@@ -43,15 +43,15 @@ impl ProcessorTime {
     pub fn seconds(&self) -> Option<f64> {
         Some(self.before? + self.begun?.try_elapsed().ok()?.as_secs_f64())
     }
+}
 
-    /// Keeps it for the process that goes on with the run in `folder`.
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn save(&self, folder: &Path) -> Result<(), FileError> {
-        let text = self.seconds().map_or("unknown\n".to_owned(), |seconds| format!("{seconds}\n"));
-        atomic::write(&file(folder), text.as_bytes())
-    }
+/// Keeps `seconds` of processor time for the process that goes on with the run in `folder`.
+///
+/// # Errors
+/// [`FileError`].
+pub fn save(folder: &Path, seconds: Option<f64>) -> Result<(), FileError> {
+    let text = seconds.map_or("unknown\n".to_owned(), |seconds| format!("{seconds}\n"));
+    atomic::write(&file(folder), text.as_bytes())
 }
 
 #[cfg(test)]
@@ -71,8 +71,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let first = ProcessorTime::start();
         work(0.02);
-        first.save(folder.path()).unwrap();
         let saved = first.seconds().unwrap();
+        save(folder.path(), Some(saved)).unwrap();
         let second = ProcessorTime::start().after_that_in(folder.path());
         work(0.02);
         // Other tests of this process may work at the same time: there is no upper bound.
@@ -84,7 +84,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let resumed = ProcessorTime::start().after_that_in(folder.path());
         assert_eq!(resumed.seconds(), None);
-        resumed.save(folder.path()).unwrap();
+        save(folder.path(), resumed.seconds()).unwrap();
         assert_eq!(ProcessorTime::start().after_that_in(folder.path()).seconds(), None);
     }
 }

@@ -26,8 +26,16 @@ pub enum SetupError {
 /// # Errors
 /// [`SetupError`].
 pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
+    build_watched(case, &mut |_| {})
+}
+
+/// The solver of a case, in its initial state; `packed` is told the share of the packing of particles that is done, where there is one.
+///
+/// # Errors
+/// [`SetupError`].
+pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
-        Model::Sph(sph) => Ok(Box::new(sph::setup::build(case, sph)?)),
+        Model::Sph(sph) => Ok(Box::new(sph::setup::build_watched(case, sph, packed)?)),
         Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
         Model::Network(network) => Ok(Box::new(network::setup::build(case, network)?)),
     }

@@ -1,14 +1,16 @@
 //! The loop of a run: steps the solver to each stop of the schedule and records what is due.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use super::processor_time::ProcessorTime;
 use super::schedule::{Due, Schedule};
-use super::sink::{Frame, RestartSink, SeriesSink, Sink, Start, vtk_sinks};
+use super::sink::{Frame, SeriesSink, Start, vtk_sinks};
 use super::steady::is_steady;
+use super::writer::{Record, Writer};
 use crate::case::checked::SteadyStop;
+use crate::io::restart::Saved;
 use crate::io::{FileError, atomic, vtk};
 use crate::solver::{Clock, PartTime, Series, Solver, SolverError};
 
@@ -56,10 +58,9 @@ impl Watcher for Unwatched {
 /// All that a run writes while it goes on, and the wall time it takes.
 pub struct Records {
     series: SeriesSink,
-    vtk: Vec<Box<dyn Sink>>,
-    restart: RestartSink,
+    writer: Writer,
     processor_time: ProcessorTime,
-    folder: PathBuf,
+    case_hash: u64,
     seconds: [f64; 3],
 }
 
@@ -71,10 +72,9 @@ impl Records {
     pub fn new(folder: &Path, case_hash: u64, start: Start, processor_time: ProcessorTime) -> Result<Self, FileError> {
         Ok(Self {
             series: SeriesSink::new(folder, start)?,
-            vtk: vtk_sinks(folder, start)?,
-            restart: RestartSink::new(folder, case_hash),
+            writer: Writer::start(folder, vtk_sinks(folder, start)?)?,
             processor_time,
-            folder: folder.to_path_buf(),
+            case_hash,
             seconds: [0.0; 3],
         })
     }
@@ -91,29 +91,38 @@ impl Records {
         self.processor_time.seconds()
     }
 
-    /// Wall time of writing, by part, in s.
+    /// Waits until all records are written.
+    ///
+    /// # Errors
+    /// [`FileError`] where one could not be written.
+    pub fn finish(&mut self) -> Result<(), FileError> {
+        self.writer.finish()
+    }
+
+    /// Wall time that records took from the solver, by part, in s.
     #[must_use]
     pub fn parts(&self) -> Vec<PartTime> {
         let names = ["output: series", "output: vtk", "output: restart"];
         names.into_iter().zip(self.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
     }
 
-    /// Records what is due. The saved state comes last: it never runs ahead of the other files.
+    /// Records what is due. The saved state comes last: it never runs ahead of the other files. Files other than the series are written while the
+    /// solver goes on.
     fn record(&mut self, solver: &dyn Solver, due: Due) -> Result<(), FileError> {
-        let frame = Frame::new(solver);
         let mut clock = Instant::now();
         let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
         if due.series {
-            self.series.record(&frame)?;
+            self.series.record(solver)?;
         }
         self.seconds[0] += lap();
         if due.vtk {
-            self.vtk.iter_mut().try_for_each(|sink| sink.record(&frame))?;
+            self.writer.write(Record::Frame(Box::new(Frame::of(solver))))?;
         }
         self.seconds[1] += lap();
         if due.restart {
-            self.processor_time.save(&self.folder)?;
-            self.restart.record(&frame)?;
+            let (time, step, state) = (solver.time(), solver.steps(), solver.state());
+            let saved = Saved { case_hash: self.case_hash, time, step, state };
+            self.writer.write(Record::State(saved, self.processor_time.seconds()))?;
         }
         self.seconds[2] += lap();
         Ok(())

@@ -1,50 +1,39 @@
-//! Sinks: what is written at a stop. Each sees a [`Frame`], the solver at rest with its snapshot made at most once.
+//! Sinks: what is written at a stop. Those of VTK files see a [`Frame`], a copy of what they need of the solver.
 
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::io::pvd::Collection;
-use crate::io::restart::{self, Saved};
 use crate::io::series::SeriesFile;
 use crate::io::vtk::{self, VtkError};
 use crate::io::{FileError, atomic};
 use crate::snapshot::{Layer, Snapshot};
 use crate::solver::{Series, Solver};
 
-/// The solver between two steps.
-pub struct Frame<'a> {
-    /// The solver.
-    pub solver: &'a dyn Solver,
-    snapshot: OnceCell<Snapshot<'a>>,
-    layers: OnceCell<Vec<Layer<'a>>>,
+/// What the VTK files need of the solver between two steps, without the solver: it goes on while they are written.
+pub struct Frame {
+    /// Where the run stands, in s.
+    time: f64,
+    snapshot: Snapshot<'static>,
+    layers: Vec<Layer<'static>>,
 }
 
-impl<'a> Frame<'a> {
+impl Frame {
     /// A frame of the solver's present state.
     #[must_use]
-    pub fn new(solver: &'a dyn Solver) -> Self {
-        Self { solver, snapshot: OnceCell::new(), layers: OnceCell::new() }
-    }
-
-    /// The snapshot; computed when first asked for.
-    pub fn snapshot(&self) -> &Snapshot<'a> {
-        self.snapshot.get_or_init(|| self.solver.snapshot())
-    }
-
-    /// The layers of cells; computed when first asked for.
-    pub fn layers(&self) -> &[Layer<'a>] {
-        self.layers.get_or_init(|| self.solver.layers())
+    pub fn of(solver: &dyn Solver) -> Self {
+        let layers = solver.layers().into_iter().map(Layer::into_owned).collect();
+        Self { time: solver.time(), snapshot: solver.snapshot().into_owned(), layers }
     }
 }
 
 /// Something that records a frame in a file.
-pub trait Sink {
+pub trait Sink: Send {
     /// Records the frame. A time that was recorded before is replaced, never doubled.
     ///
     /// # Errors
     /// [`FileError`] with the path and a way out.
-    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError>;
+    fn record(&mut self, frame: &Frame) -> Result<(), FileError>;
 }
 
 /// Where a run's files begin.
@@ -106,8 +95,8 @@ pub fn vtk_sinks(folder: &Path, start: Start) -> Result<Vec<Box<dyn Sink>>, File
 }
 
 impl Sink for ParticleFiles {
-    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
-        let snapshot = frame.snapshot();
+    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+        let snapshot = &frame.snapshot;
         // A solver without particles has no fields of them either.
         if snapshot.particles.fields.is_empty() && snapshot.particles.points.is_empty() {
             return Ok(());
@@ -118,8 +107,8 @@ impl Sink for ParticleFiles {
 }
 
 impl Sink for GridFiles {
-    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
-        let snapshot = frame.snapshot();
+    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+        let snapshot = &frame.snapshot;
         let Some(grid) = &snapshot.grid else { return Ok(()) };
         let content = vtk::grid(grid, snapshot.time).map_err(format_error(self.0.path()))?;
         self.0.record(snapshot.time, &content)
@@ -127,8 +116,8 @@ impl Sink for GridFiles {
 }
 
 impl Sink for InterfaceFiles {
-    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
-        let snapshot = frame.snapshot();
+    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+        let snapshot = &frame.snapshot;
         let Some(interface) = &snapshot.interface else { return Ok(()) };
         let content = vtk::lines(interface, snapshot.time).map_err(format_error(self.0.path()))?;
         self.0.record(snapshot.time, &content)
@@ -136,9 +125,9 @@ impl Sink for InterfaceFiles {
 }
 
 impl Sink for LayerFiles {
-    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
-        let time = frame.solver.time();
-        for layer in frame.layers() {
+    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+        let time = frame.time;
+        for layer in &frame.layers {
             let place = match self.collections.iter().position(|(name, _)| *name == layer.name) {
                 Some(place) => place,
                 None => {
@@ -156,14 +145,14 @@ impl Sink for LayerFiles {
 }
 
 impl Sink for UnitFile {
-    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
-        let snapshot = frame.snapshot();
+    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+        let snapshot = &frame.snapshot;
         let groups = [
             ("particles", Some(&snapshot.particles.fields).filter(|fields| !fields.is_empty())),
             ("grid", snapshot.grid.as_ref().map(|grid| &grid.fields)),
             ("interface", snapshot.interface.as_ref().map(|lines| &lines.fields)),
         ];
-        let layers = frame.layers().iter().map(|layer| (layer.name, Some(&layer.fields)));
+        let layers = frame.layers.iter().map(|layer| (layer.name, Some(&layer.fields)));
         let units: BTreeMap<&str, BTreeMap<&str, &str>> = groups
             .into_iter()
             .chain(layers)
@@ -190,40 +179,19 @@ impl SeriesSink {
         }))
     }
 
+    /// Adds the row of the solver's present state. A time that was recorded before is replaced, never doubled.
+    ///
+    /// # Errors
+    /// [`FileError`] with the path and a way out.
+    pub fn record(&mut self, solver: &dyn Solver) -> Result<(), FileError> {
+        let (columns, row): (Vec<&str>, Vec<f64>) =
+            solver.sample().iter().map(|sample| (sample.name, sample.value)).unzip();
+        self.0.record(&columns, row)
+    }
+
     /// All rows so far.
     #[must_use]
     pub fn series(&self) -> &Series {
         self.0.series()
-    }
-}
-
-impl Sink for SeriesSink {
-    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
-        let (columns, row): (Vec<&str>, Vec<f64>) =
-            frame.solver.sample().iter().map(|sample| (sample.name, sample.value)).unzip();
-        self.0.record(&columns, row)
-    }
-}
-
-/// `restart/`.
-pub struct RestartSink {
-    folder: PathBuf,
-    case_hash: u64,
-}
-
-impl RestartSink {
-    /// Saves states of the case with the given hash.
-    #[must_use]
-    pub fn new(folder: &Path, case_hash: u64) -> Self {
-        Self { folder: folder.to_path_buf(), case_hash }
-    }
-}
-
-impl Sink for RestartSink {
-    fn record(&mut self, frame: &Frame<'_>) -> Result<(), FileError> {
-        let solver = frame.solver;
-        let saved =
-            Saved { case_hash: self.case_hash, time: solver.time(), step: solver.steps(), state: solver.state() };
-        restart::save(&self.folder, &saved)
     }
 }

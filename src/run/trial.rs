@@ -10,6 +10,9 @@ use crate::solver::{Solver, SolverError};
 /// Steps that are tried; the first ones set up what later ones reuse.
 const TRIAL_STEPS: usize = 5;
 
+/// No further step is tried after so long, in s: those of many particles take long, and one of them tells enough.
+const PATIENCE: f64 = 10.0;
+
 /// What a run would take.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -28,15 +31,28 @@ pub struct Trial {
     pub memory_bytes: Option<u64>,
 }
 
-/// Does the first steps of a case with its solver at time zero.
+/// Does the first steps of a case with its solver at time zero: five, or as many as ten seconds allow, at least one. `tried` is told the
+/// share of the five that is done, after each and before the first.
 ///
 /// # Errors
 /// [`SolverError`] of a step that fails.
-pub fn trial(case: &Case, solver: &mut dyn Solver) -> Result<Trial, SolverError> {
+pub fn trial(case: &Case, solver: &mut dyn Solver, tried: &mut dyn FnMut(f64)) -> Result<Trial, SolverError> {
+    trial_within(case, solver, PATIENCE, tried)
+}
+
+/// [`trial`] with as many steps as `patience` (s) allows.
+fn trial_within(
+    case: &Case,
+    solver: &mut dyn Solver,
+    patience: f64,
+    tried: &mut dyn FnMut(f64),
+) -> Result<Trial, SolverError> {
     let clock = Instant::now();
+    tried(0.0);
     let mut info = solver.step(case.end)?;
-    for _ in 1..TRIAL_STEPS {
-        if solver.time() >= case.end || solver.is_done() {
+    for step in 1..TRIAL_STEPS {
+        tried(step as f64 / TRIAL_STEPS as f64);
+        if solver.time() >= case.end || solver.is_done() || clock.elapsed().as_secs_f64() > patience {
             break;
         }
         info = solver.step(case.end)?;
@@ -71,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_trial_counts_the_steps_that_are_left() {
-        let found = trial(&case(), &mut ToySolver::new()).unwrap();
+        let found = trial(&case(), &mut ToySolver::new(), &mut |_| {}).unwrap();
         // The toy takes steps of 0.0234 s through 1 s.
         assert_eq!((found.unknowns, found.steps), (36, 43.0));
         assert!(found.duration_s > 0.0);
@@ -81,6 +97,16 @@ mod tests {
     fn a_solver_that_fails_at_once_is_told() {
         let mut solver = ToySolver::new();
         solver.fails_after = Some(2);
-        assert!(trial(&case(), &mut solver).is_err());
+        assert!(trial(&case(), &mut solver, &mut |_| {}).is_err());
+    }
+
+    #[test]
+    fn steps_that_take_long_are_tried_once_and_tell_as_much() {
+        for (patience, steps) in [(f64::INFINITY, 5), (0.0, 1)] {
+            let (mut solver, mut told) = (ToySolver::new(), Vec::new());
+            let found = trial_within(&case(), &mut solver, patience, &mut |share| told.push(share)).unwrap();
+            assert_eq!((solver.steps(), found.steps), (steps, 43.0));
+            assert_eq!(told[..2], [0.0, 0.2]);
+        }
     }
 }

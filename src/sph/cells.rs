@@ -1,7 +1,10 @@
 //! Counting-sort cell list: finds the points within the kernel's support, through periodic sides too.
 
+use rayon::prelude::*;
+
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
+use crate::sph::pairs::GRAIN;
 
 /// Points sorted into cells at least as wide as the support.
 #[derive(Debug, Clone, Default)]
@@ -58,7 +61,7 @@ impl Cells {
     }
 
     fn sort(&mut self, points: &[Vec2]) {
-        let cell_of: Vec<u32> = points.iter().map(|&x| self.cell_of(x)).collect();
+        let cell_of: Vec<u32> = points.par_iter().with_min_len(GRAIN).map(|&x| self.cell_of(x)).collect();
         self.start = vec![0; self.counts[0] * self.counts[1] + 1];
         for &cell in &cell_of {
             self.start[cell as usize + 1] += 1;
@@ -72,7 +75,7 @@ impl Cells {
             self.order[next[cell as usize] as usize] = i as u32;
             next[cell as usize] += 1;
         }
-        self.sorted = self.order.iter().map(|&i| points[i as usize]).collect();
+        self.sorted = self.order.par_iter().with_min_len(GRAIN).map(|&i| points[i as usize]).collect();
     }
 
     fn column_and_row(&self, x: Vec2) -> [usize; 2] {

@@ -5,6 +5,7 @@ use crate::analysis::blobs::{Blob, LINK, blobs};
 use crate::analysis::contact::{AngleSummary, ContactLine, ContactSettings, contact_lines, summarize};
 use crate::analysis::contour::{Polyline, contour};
 use crate::analysis::lattice::Lattice;
+use crate::analysis::near_level::nodes_near_level;
 use crate::analysis::phases::{
     CapillaryPressure, PhaseAreas, PressureSamples, WallSample, capillary_pressure, interface_length, wetted_length,
 };
@@ -53,7 +54,7 @@ impl Observation {
             WallPoint { distance, normal }
         };
         let two_phases = flow.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
-        let interface = if two_phases { interface(flow, &all, &wall_point) } else { vec![] };
+        let (interface, wall_color) = interface_and_walls(flow, (&all, two_phases), wall, &wall_point);
         let settings = ContactSettings::for_smoothing_length(flow.method.kernel.h);
         let samples = PressureSamples {
             points: &flow.particles.position[..fluids],
@@ -62,8 +63,6 @@ impl Observation {
             smoothing_length: flow.method.kernel.h,
             period: flow.domain.periods(),
         };
-        let points: Vec<Vec2> = wall.iter().map(|s| s.point).collect();
-        let wall_color = Stencils::new(&fluid_samples(flow), &points).scalar(&all);
         let is_wetting: Vec<bool> = color.iter().map(|c| *c > 0.5).collect();
         let link = LINK * flow.method.spacing;
         Self {
@@ -129,9 +128,25 @@ pub fn nodes(flow: &Flow, spacing: f64) -> Lattice {
     lattice
 }
 
-fn interface(flow: &Flow, color: &[f64], wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
-    let lattice = nodes(flow, flow.method.spacing);
-    let values = Stencils::new(&fluid_samples(flow), &lattice.nodes()).scalar(color);
+/// The interface, and the smoothed color on the walls. The color is interpolated to the nodes near the interface only, so that the work there
+/// grows with its length and not with the area.
+fn interface_and_walls(
+    flow: &Flow,
+    (color, two_phases): (&[f64], bool),
+    walls: &[WallSample],
+    wall: &dyn Fn(Vec2) -> WallPoint,
+) -> (Vec<Polyline>, Vec<f64>) {
+    let (samples, lattice) = (fluid_samples(flow), nodes(flow, flow.method.spacing));
+    let near = if two_phases { nodes_near_level(&lattice, &samples, color, 0.5) } else { Vec::new() };
+    let on_nodes = near.iter().map(|&node| lattice.position(node % lattice.counts[0], node / lattice.counts[0]));
+    let places: Vec<Vec2> = on_nodes.chain(walls.iter().map(|sample| sample.point)).collect();
+    let mut found = Stencils::new(&samples, &places).scalar(color);
+    let on_walls = found.split_off(near.len());
+    if !two_phases {
+        return (vec![], on_walls);
+    }
+    let mut values = vec![f64::NAN; lattice.len()];
+    near.iter().zip(found).for_each(|(&node, value)| values[node] = value);
     let level = clip(&contour(&lattice, &values, 0.5), wall);
-    level.iter().map(|line| line.on_interface(flow.method.kernel.h)).collect()
+    (level.iter().map(|line| line.on_interface(flow.method.kernel.h)).collect(), on_walls)
 }

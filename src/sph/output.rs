@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use crate::analysis::contour::Polyline;
 use crate::analysis::resample::Stencils;
 use crate::math::Vec2;
@@ -13,6 +15,9 @@ use crate::sph::surface_force::equivalent::volume_forces;
 
 /// Reach of the circle fit for the curvature along the interface, over h.
 const CURVATURE_REACH: f64 = 2.5;
+
+/// Nodes of the grid that are interpolated to at once.
+const NODES_AT_ONCE: usize = 1 << 15;
 
 fn scalar(name: &'static str, unit: &'static str, values: Vec<f64>) -> Field<'static> {
     Field { name, unit, values: Values::Scalar(Cow::Owned(values)) }
@@ -62,7 +67,7 @@ fn wall(flow: &Flow, x: Vec2) -> (f64, Vec2) {
 fn particles(flow: &Flow) -> Cloud<'static> {
     let (p, f, n) = (&flow.particles, &flow.fields, flow.particles.len());
     let on_fluid = |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect();
-    let (distance, normal) = p.position.iter().map(|&x| wall(flow, x)).unzip();
+    let (distance, normal) = p.position.par_iter().map(|&x| wall(flow, x)).unzip();
     let (surface_force, line_force) = volume_forces(flow);
     let (driving, from) = (flow.driving_gradient(), flow.domain.bounds.min);
     let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from))).collect();
@@ -95,21 +100,32 @@ fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
     }
     lattice.periodic = [false; 2];
     let places = lattice.nodes();
-    let stencils = Stencils::new(&fluid_samples(flow), &places);
+    let interpolated = |field: &&Field| !matches!(field.name, "wall-distance" | "wall-normal" | "id" | "phase");
+    let given: Vec<&Field> = particles.fields.iter().filter(interpolated).collect();
+    let empty = |field: &&Field| match field.values {
+        Values::Vector(_) => vector(field.name, field.unit, Vec::with_capacity(places.len())),
+        _ => scalar(field.name, field.unit, Vec::with_capacity(places.len())),
+    };
+    let mut fields: Vec<Field> = given.iter().map(empty).collect();
     let finite = |v: f64| if v.is_finite() { v } else { 0.0 };
-    let mut fields: Vec<Field> = Vec::new();
-    for field in &particles.fields {
-        match (&field.values, field.name) {
-            (_, "wall-distance" | "wall-normal" | "id" | "phase") | (Values::Integer(_), _) => {}
-            (Values::Scalar(values), name) => {
-                fields.push(scalar(name, field.unit, stencils.scalar(values).into_iter().map(finite).collect()));
-            }
-            (Values::Vector(values), name) => {
-                fields.push(vector(name, field.unit, stencils.vector(values).iter().map(|v| v.map(finite)).collect()));
+    let samples = fluid_samples(flow);
+    let cells = samples.cells();
+    // The weights of all nodes at once would take more memory than the flow.
+    for places in places.chunks(NODES_AT_ONCE) {
+        let stencils = Stencils::in_cells(&samples, &cells, places);
+        for (field, given) in fields.iter_mut().zip(&given) {
+            match (&mut field.values, &given.values) {
+                (Values::Scalar(to), Values::Scalar(of)) => {
+                    to.to_mut().extend(stencils.scalar(of).into_iter().map(finite));
+                }
+                (Values::Vector(to), Values::Vector(of)) => {
+                    to.to_mut().extend(stencils.vector(of).iter().map(|v| v.map(finite)));
+                }
+                _ => {}
             }
         }
     }
-    let (distance, normal) = places.iter().map(|&x| wall(flow, x)).unzip();
+    let (distance, normal) = places.par_iter().map(|&x| wall(flow, x)).unzip();
     fields.push(scalar("wall-distance", "m", distance));
     fields.push(vector("wall-normal", "", normal));
     lattice.grid(fields)

@@ -4,11 +4,15 @@
 //! concentration (Lind et al. 2012) and orders neighbors; walls hold still, and straight walls on the lattice have no gradient and
 //! leave it as it is. The other is the gradient of a potential whose Laplacian is the density error, as the drift
 //! source of the pressure equation: it evens out what is too much in one part of the pore and too little in another, which
-//! the first, a diffusion, would take long for.
+//! the first, a diffusion, would take long for. What is far from such walls and interfaces is a lattice already and holds still.
 
+mod band;
+
+use self::band::Band;
 use crate::geometry::Geometry;
 use crate::geometry::shells::UnfittedSurface;
 use crate::math::Vec2;
+use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::kernel::WendlandC2;
@@ -40,6 +44,13 @@ const LAST_ROUNDS: usize = 10;
 /// Share of the density error that is taken away at a time.
 const SHARE: f64 = 0.5;
 
+/// Particles farther than this from all that is no lattice hold still, in spacings: they are at rest there, and what a wall has too much
+/// or too little spreads over no more.
+const BAND: f64 = 24.0;
+
+/// Where the first displacement is longer than this share of the spacing there is no lattice.
+const DISTURBED: f64 = 1e-6;
+
 /// The potential need not be exact: the next round takes what is left.
 const TOLERANCE: Tolerance = Tolerance { residual: 1e-3, iterations: 100 };
 
@@ -63,35 +74,96 @@ pub struct Packing<'a> {
     pub sides: &'a [(usize, f64)],
 }
 
+/// The particles of a round with all that they see.
+struct Neighborhood {
+    /// Fluid, what holds still, and the images of both, in m.
+    points: Vec<Vec2>,
+    /// Points that are no images.
+    count: usize,
+    images: Images,
+    cells: Cells,
+}
+
+/// What becomes of a particle in a round.
+#[derive(Debug, Clone, Copy)]
+struct Move {
+    /// Displacement in m, as far as nothing is in its way.
+    by: Vec2,
+    /// Whether a particle that holds still is within the support.
+    sees_fixed: bool,
+}
+
 impl Packing<'_> {
-    /// Moves the particles `fluid` (m) to their places.
-    pub fn pack(&self, fluid: &mut [Vec2]) {
+    /// Moves the particles `fluid` (m) to their places; `done` is told the share of the rounds that are done.
+    ///
+    /// Those farther than [`BAND`] from all that is no lattice stay where they are.
+    pub fn pack(&self, fluid: &mut [Vec2], done: &mut dyn FnMut(f64)) {
+        let moves = self.order(&self.neighborhood(fluid, self.fixed), fluid.len());
+        let disturbed =
+            fluid.iter().zip(&moves).filter(|(_, m)| m.by.norm() > DISTURBED * self.spacing).map(|(x, _)| *x);
+        let band = Band::around(disturbed, BAND * self.spacing, self.domain);
+        let near: Vec<usize> = (0..fluid.len()).filter(|&a| band.holds(fluid[a])).collect();
+        if near.len() == fluid.len() {
+            return self.pack_all(fluid, self.fixed, done);
+        }
+        let mut packed: Vec<Vec2> = near.iter().map(|&a| fluid[a]).collect();
+        let far = fluid.iter().filter(|x| !band.holds(**x)).copied().collect::<Vec<_>>();
+        let seen = band.grown(self.kernel.support());
+        let fixed: Vec<Vec2> = self.fixed.iter().chain(&far).filter(|x| seen.holds(**x)).copied().collect();
+        self.pack_all(&mut packed, &fixed, done);
+        near.iter().zip(packed).for_each(|(&a, x)| fluid[a] = x);
+    }
+
+    /// Moves all of the particles `fluid`, while those at `fixed` hold still; all in m.
+    fn pack_all(&self, fluid: &mut [Vec2], fixed: &[Vec2], done: &mut dyn FnMut(f64)) {
         let mut solve = PressureSolve::default();
         for round in 0..ROUNDS + LAST_ROUNDS {
-            let mut points: Vec<Vec2> = fluid.iter().chain(self.fixed).copied().collect();
-            let count = points.len();
-            let images = Images::append(&mut points, self.domain, self.kernel.support());
-            let pairs = Pairs::find(&points, count, self.domain, self.kernel);
-            let mut by = vec![Vec2::zeros(); fluid.len()];
-            if round < ROUNDS {
-                self.order(&pairs, &mut by);
+            let around = self.neighborhood(fluid, fixed);
+            let mut moves = self.order(&around, fluid.len());
+            if round >= ROUNDS {
+                moves.iter_mut().for_each(|m| m.by = Vec2::zeros());
             }
             if round % EVENED_EVERY == EVENED_EVERY - 1 || round >= ROUNDS {
-                self.even(&pairs, &images, &points[..count], &mut solve, &mut by);
+                self.even(&around, &mut solve, &mut moves);
             }
-            self.advance(&pairs, &images, &by, fluid);
+            self.advance(&moves, fluid);
+            done((round + 1) as f64 / (ROUNDS + LAST_ROUNDS) as f64);
         }
     }
 
-    /// −D ∇C_a, ∇C_a = Σ_b V_0 ∇_a W_ab, in m.
-    fn order(&self, pairs: &Pairs, by: &mut [Vec2]) {
+    fn neighborhood(&self, fluid: &[Vec2], fixed: &[Vec2]) -> Neighborhood {
+        let mut points = [fluid, fixed].concat();
+        let count = points.len();
+        let images = Images::append(&mut points, self.domain, self.kernel.support());
+        let cells = Cells::build(&points, self.domain, self.kernel.support());
+        Neighborhood { points, count, images, cells }
+    }
+
+    /// −D ∇C_a, ∇C_a = Σ_b V_0 ∇_a W_ab, of the first `fluids` particles. No pair is kept: most rounds need nothing else of them.
+    fn order(&self, around: &Neighborhood, fluids: usize) -> Vec<Move> {
         let diffusion = DIFFUSION * self.kernel.h * self.kernel.h * self.volume;
-        pairs.sum_into(by, |_, ab| -diffusion * ab.grad_w);
+        let reach2 = self.kernel.support() * self.kernel.support();
+        let mut moves = vec![Move { by: Vec2::zeros(), sees_fixed: false }; fluids];
+        each(&mut moves, |a| {
+            let mut found = Move { by: Vec2::zeros(), sees_fixed: false };
+            let x = around.points[a];
+            around.cells.visit_near(x, |b, r_ab| {
+                if r_ab.norm_squared() < reach2 && b as usize != a {
+                    let r_ab = self.domain.separation(x, around.points[b as usize]);
+                    found.by += -diffusion * self.kernel.grad_w(r_ab);
+                    found.sees_fixed |= around.images.source(b as usize) >= fluids;
+                }
+            });
+            found
+        });
+        moves
     }
 
     /// Adds −∇φ with −∇²φ = the density error V_0/V − 1 of the fluid.
-    fn even(&self, pairs: &Pairs, images: &Images, points: &[Vec2], solve: &mut PressureSolve, by: &mut [Vec2]) {
-        let (n, fluids) = (points.len(), by.len());
+    fn even(&self, around: &Neighborhood, solve: &mut PressureSolve, moves: &mut [Move]) {
+        let Neighborhood { points, count, images, cells } = around;
+        let pairs = &Pairs::find_in(cells, points, *count, self.domain, self.kernel);
+        let (n, fluids) = (*count, moves.len());
         let mut volume = vec![self.volume; n];
         density::volume(pairs, &mut volume[..fluids]);
         let crowding = |a: usize| if a < fluids { self.volume / volume[a] - 1.0 } else { 0.0 };
@@ -101,24 +173,24 @@ impl Packing<'_> {
         assemble(&mut solve.matrix, (pairs, images), &volume, &ones, |_, _| true);
         let part = parts(pairs, images, |_, _| true);
         let unknowns =
-            Unknowns { position: points, kind: &vec![0; n], part: &part, anchored: &[], spacing: self.spacing };
+            Unknowns { position: &points[..n], kind: &vec![0; n], part: &part, anchored: &[], spacing: self.spacing };
         let mut potential = vec![0.0; n];
         // What the solve leaves over, the next round takes.
         let system = System { b: &mut source, x: &mut potential, tolerance: TOLERANCE };
         solve.solve(&unknowns, &volume[..n], &mut [system]);
         images.extend(&mut potential);
         let down = pressure_gradient::down(pairs, &volume, &ones, &potential, fluids);
-        by.iter_mut().zip(&down).for_each(|(by, down)| *by += down);
+        moves.iter_mut().zip(&down).for_each(|(m, down)| m.by += down);
     }
 
     /// Moves the particles and keeps them off the interface, the walls and the sides.
-    fn advance(&self, pairs: &Pairs, images: &Images, by: &[Vec2], fluid: &mut [Vec2]) {
+    fn advance(&self, moves: &[Move], fluid: &mut [Vec2]) {
         let [largest, closest] = [LARGEST_MOVE, CLOSEST_TO_WALL].map(|share| share * self.spacing);
-        let fluids = fluid.len();
         let old = fluid.to_vec();
         each(fluid, |a| {
-            let mut x = old[a] + by[a] * (largest / by[a].norm()).min(1.0);
-            if pairs.of(a).any(|ab| images.source(ab.b) >= fluids) {
+            let Move { by, sees_fixed } = moves[a];
+            let mut x = old[a] + by * (largest / by.norm()).min(1.0);
+            if sees_fixed {
                 x += self.interface.map_or(Vec2::zeros(), |interface| self.back_from(interface, old[a], x));
                 let wall = self.pore.wall(x);
                 x += (closest - wall.distance).max(0.0) * wall.normal;

@@ -47,7 +47,17 @@ impl Pairs {
     /// Finds the neighbors of the first `count` of `points` among all of them.
     #[must_use]
     pub fn find(points: &[Vec2], count: usize, domain: &Domain, kernel: &WendlandC2) -> Self {
-        let cells = Cells::build(points, domain, kernel.support());
+        Self::find_in(&Cells::build(points, domain, kernel.support()), points, count, domain, kernel)
+    }
+
+    /// [`Pairs::find`] with the `cells` of all `points` at hand.
+    pub(in crate::sph) fn find_in(
+        cells: &Cells,
+        points: &[Vec2],
+        count: usize,
+        domain: &Domain,
+        kernel: &WendlandC2,
+    ) -> Self {
         let reach2 = kernel.support() * kernel.support();
         let chunks: Vec<(Vec<u32>, Vec<u32>)> = points[..count]
             .par_chunks(GRAIN)

@@ -215,8 +215,10 @@ struct Spoiler<'a>(&'a Path);
 impl Watcher for Spoiler<'_> {
     fn stepped(&mut self, progress: &crate::run::simulation::Progress) {
         if progress.step == 12 {
-            std::fs::remove_dir_all(self.0.join("grid")).unwrap();
-            std::fs::write(self.0.join("grid"), "").unwrap();
+            // The files of an earlier record may be on their way still, and make the folder anew.
+            while std::fs::write(self.0.join("grid"), "").is_err() {
+                let _ = std::fs::remove_dir_all(self.0.join("grid"));
+            }
         }
     }
 }

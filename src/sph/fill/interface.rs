@@ -1,5 +1,6 @@
 //! Fills both sides of an interface that no lattice fits: a layer of particles on either side of it, and as many in each phase as it has room for.
 
+use super::lattice::each_with;
 use super::{CLOSEST, EQUAL, Lattice, Places, SAMPLING, apart, deepest};
 use crate::geometry::Geometry;
 use crate::geometry::shells::UnfittedSurface;
@@ -53,11 +54,12 @@ impl<'a> Interface<'a> {
             Some(_) => f64::INFINITY,
             None => self.region.signed_distance(x).abs().max(DOUBTFUL * spacing),
         };
-        let (inside, outside): (Vec<Vec2>, Vec<Vec2>) =
-            places.fluid.iter().partition(|x| self.region.signed_distance(**x) < 0.0);
-        let farthest = |points: Vec<Vec2>, count| {
-            deepest(points.into_iter().map(|x| (far(x), x)).collect(), count, EQUAL * spacing)
-        };
+        let found = each_with(places.fluid.drain(..), |x| (far(x), self.region.signed_distance(x) < 0.0));
+        let (mut inside, mut outside) = (Vec::new(), Vec::new());
+        for (x, (far, is_inside)) in found {
+            if is_inside { &mut inside } else { &mut outside }.push((far, x));
+        }
+        let farthest = |points, count| deepest(points, count, EQUAL * spacing);
         places.fluid = [farthest(inside, core), farthest(outside, rest)].concat();
         [inner, outer].concat()
     }
@@ -94,7 +96,7 @@ impl<'a> Interface<'a> {
             let shares = middles.map(|by| (1.0 - above(self.region, x + by, size)) * above(self.pore, x + by, size));
             shares.sum::<f64>() / (parts * parts) as f64
         };
-        lattice.points(0.0, [false; 4]).map(share).sum::<f64>() * lattice.volume()
+        each_with(lattice.points(0.0, [false; 4]), share).map(|(_, share)| share).sum::<f64>() * lattice.volume()
     }
 }
 

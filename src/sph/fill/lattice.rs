@@ -1,5 +1,7 @@
 //! The square lattice of particles, and filling on it.
 
+use rayon::prelude::*;
+
 use crate::math::{Bounds, Vec2};
 use crate::sph::fill::Places;
 use crate::sph::kernel::WendlandC2;
@@ -91,14 +93,28 @@ impl Lattice {
     }
 }
 
+/// The `points` (m) in their order, each with what `find` tells of it; that is found in parallel.
+pub(super) fn each_with<T: Send>(
+    points: impl Iterator<Item = Vec2>,
+    find: impl Fn(Vec2) -> T + Sync,
+) -> impl Iterator<Item = (Vec2, T)> {
+    let points: Vec<Vec2> = points.collect();
+    let found: Vec<T> = points.par_iter().map(|&x| find(x)).collect();
+    points.into_iter().zip(found)
+}
+
 /// Fills the domain on the lattice: fluid where the signed distance is above zero, wall particles down to a depth of the
 /// support.
 ///
 /// `signed_distance` in m; `walls` tells which sides (left, right, bottom, top) are walls, so that wall particles stand beyond them.
-pub fn on_lattice(lattice: &Lattice, support: f64, walls: [bool; 4], signed_distance: impl Fn(Vec2) -> f64) -> Places {
+pub fn on_lattice(
+    lattice: &Lattice,
+    support: f64,
+    walls: [bool; 4],
+    signed_distance: impl Fn(Vec2) -> f64 + Sync,
+) -> Places {
     let mut places = Places::default();
-    for x in lattice.points(support, walls) {
-        let d = signed_distance(x);
+    for (x, d) in each_with(lattice.points(support, walls), signed_distance) {
         if d > 0.0 && lattice.holds(x) {
             places.fluid.push(x);
         } else if d <= 0.0 && d > -support {

@@ -1,5 +1,6 @@
 //! Fills the pore along walls that no lattice fits.
 
+use super::lattice::each_with;
 use super::{CLOSEST, EQUAL, Lattice, Places, SAMPLING, apart, deepest};
 use crate::geometry::shells::UnfittedSurface;
 use crate::math::Vec2;
@@ -16,14 +17,13 @@ pub fn along_walls(
     (lattice, domain): (&Lattice, &Domain),
     (support, walls): (f64, [bool; 4]),
     unfitted: &UnfittedSurface,
-    signed_distance: impl Fn(Vec2) -> f64,
+    signed_distance: impl Fn(Vec2) -> f64 + Sync,
     pore_area: f64,
 ) -> Places {
     let spacing = lattice.step.product().sqrt();
     let mut places = Places::default();
     let mut doubtful: Vec<(f64, Vec2)> = Vec::new();
-    for x in lattice.points(support, walls) {
-        let (d, own) = (signed_distance(x), unfitted.own(x));
+    for (x, (d, own)) in each_with(lattice.points(support, walls), |x| (signed_distance(x), unfitted.own(x))) {
         if own && d.abs() < DOUBTFUL * spacing && lattice.holds(x) {
             doubtful.push((d, x));
         } else if d > 0.0 && lattice.holds(x) {

@@ -44,6 +44,14 @@ pub fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
 /// # Errors
 /// See [`SetupError`].
 pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
+    build_watched(case, sph, &mut |_| {})
+}
+
+/// The solver of a case at time zero; `packed` is told the share of the packing of particles that is done, which takes most of the time.
+///
+/// # Errors
+/// See [`SetupError`].
+pub fn build_watched(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Result<SphSolver, SetupError> {
     let geometry = Arc::new(geometry(case, sph)?);
     let bounds = geometry.bounds();
     let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
@@ -64,7 +72,7 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
     };
     let walls = sides.map(|side| side == Side::Wall);
     let interface = (sph.non_wetting.is_some() && sph.numerics.fitted_interface).then_some(&region);
-    let places = places((&geometry, &domain), interface, &lattice, (&method, sph.numerics.fitted_walls), sides);
+    let places = places((&geometry, &domain), interface, &lattice, (&method, sph.numerics.fitted_walls), sides, packed);
     let mut particles = places.particles(phase);
     let mut depth = places.depth;
     if particles.fluids == 0 {

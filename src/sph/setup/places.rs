@@ -11,13 +11,14 @@ use crate::sph::method::Method;
 use crate::sph::packing::Packing;
 
 /// Where the particles stand: along walls and, with a `region` that one phase fills, along its interface, where the lattice does not fit these, and packed to
-/// them.
+/// them; `done` is told the share of the packing that is done.
 pub(super) fn places(
     (geometry, domain): (&Geometry, &Domain),
     region: Option<&Geometry>,
     lattice: &Lattice,
     (method, fitted_walls): (&Method, bool),
     sides: [Side; 4],
+    done: &mut dyn FnMut(f64),
 ) -> Places {
     let support = method.kernel.support();
     let signed_distance = |x| geometry.signed_distance(x);
@@ -48,7 +49,7 @@ pub(super) fn places(
             interface: interface.as_ref().filter(|_| !layers.is_empty()).map(Interface::surface),
             sides: &held.collect::<Vec<_>>(),
         };
-        packing.pack(&mut places.fluid);
+        packing.pack(&mut places.fluid, done);
     }
     places.fluid.extend(layers);
     places

@@ -1,0 +1,78 @@
+//! Where a smoothed field can cross a level: the work of a contour grows with the length of the interface, not with the area.
+
+use super::lattice::Lattice;
+use super::resample::{SUPPORT, Samples};
+use crate::math::Vec2;
+
+/// The nodes of `lattice` that [`contour`](super::contour::contour) needs of a field smoothed from `values` of `samples`, in order: those with values on both sides of
+/// `level` near them. Elsewhere the smoothed field lies on one side, so that it may as well be missing (NaN) there.
+#[must_use]
+pub fn nodes_near_level(lattice: &Lattice, samples: &Samples, values: &[f64], level: f64) -> Vec<usize> {
+    /// A contour asks for nodes so many spacings from an edge that it crosses.
+    const BESIDE_EDGES: f64 = 2.0;
+    const HIGH: u8 = 1;
+    const LOW: u8 = 2;
+    let reach = SUPPORT * samples.smoothing_length + (BESIDE_EDGES + 1.0) * lattice.spacing.max();
+    // Squares no smaller than the reach: what is in reach of a node lies in the nine around it.
+    let nodes =
+        [0, 1].map(|i| if lattice.periodic[i] { lattice.counts[i] } else { lattice.counts[i].saturating_sub(1) });
+    let extent = [0, 1].map(|i| nodes[i] as f64 * lattice.spacing[i]);
+    let counts = extent.map(|extent| (extent / reach).floor().max(1.0) as usize);
+    let square = |x: Vec2| {
+        let [column, row] = [0, 1].map(|i| {
+            let k = ((x[i] - lattice.origin[i]) / extent[i] * counts[i] as f64).floor();
+            let k = if lattice.periodic[i] { k.rem_euclid(counts[i] as f64) } else { k };
+            k.clamp(0.0, (counts[i] - 1) as f64) as usize
+        });
+        column + counts[0] * row
+    };
+    let mut sides = vec![0; counts[0] * counts[1]];
+    for (&x, &value) in samples.points.iter().zip(values) {
+        sides[square(x)] |= if value >= level { HIGH } else { LOW };
+    }
+    let squares = Lattice { counts, ..*lattice };
+    let both = |at: usize| {
+        let (i, j) = ((at % counts[0]) as isize, (at / counts[0]) as isize);
+        let around = (-1..=1).flat_map(|dj| (-1..=1).filter_map(move |di| squares.index(i + di, j + dj)));
+        around.fold(0, |found, square| found | sides[square]) == HIGH | LOW
+    };
+    let both: Vec<bool> = (0..sides.len()).map(both).collect();
+    let place = |node: usize| lattice.position(node % lattice.counts[0], node / lattice.counts[0]);
+    (0..lattice.len()).filter(|&node| both[square(place(node))]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::contour::contour;
+    use crate::analysis::resample::Stencils;
+
+    #[test]
+    fn a_contour_has_the_same_bits_with_the_nodes_near_the_level_alone() {
+        let n = 80;
+        let dx = 1.0 / n as f64;
+        for periodic in [[false; 2], [true, false], [true; 2]] {
+            let scatter =
+                |i: usize| 0.4 * dx * Vec2::new((i as f64 * 0.754_877).fract(), (i as f64 * 0.569_84).fract());
+            let points: Vec<Vec2> = Lattice::open(Vec2::repeat(0.2 * dx), Vec2::repeat(dx), [n, n]).nodes();
+            let points: Vec<Vec2> = points.iter().enumerate().map(|(i, x)| x + scatter(i)).collect();
+            // A void, a drop across a corner of the box, another one, and a single particle.
+            let points: Vec<Vec2> = points.into_iter().filter(|x| (x - Vec2::new(0.5, 0.2)).norm() > 0.06).collect();
+            let is_in = |x: &Vec2, (at, r): (Vec2, f64)| (x - at).norm() < r;
+            let drops = [(Vec2::zeros(), 0.2), (Vec2::new(0.5, 0.27), 0.11), (Vec2::new(0.8, 0.7), 0.8 * dx)];
+            let color: Vec<f64> = points.iter().map(|x| f64::from(drops.iter().any(|d| is_in(x, *d)))).collect();
+            let volumes = vec![dx * dx; points.len()];
+            let period = periodic.map(|periodic| periodic.then_some(1.0));
+            let samples = Samples { points: &points, volumes: &volumes, smoothing_length: 1.5 * dx, period };
+            let lattice = Lattice { periodic, ..Lattice::open(Vec2::zeros(), Vec2::repeat(dx), [n, n]) };
+            let nodes = lattice.nodes();
+            let all = Stencils::new(&samples, &nodes).scalar(&color);
+            let near = nodes_near_level(&lattice, &samples, &color, 0.5);
+            assert!(near.len() < nodes.len() / 2, "{} of {}", near.len(), nodes.len());
+            let mut some = vec![f64::NAN; nodes.len()];
+            near.iter().for_each(|&node| some[node] = all[node]);
+            let lines = contour(&lattice, &all, 0.5);
+            assert!(lines.len() > 1 && lines == contour(&lattice, &some, 0.5), "{periodic:?}");
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Writes files on a thread of its own, so that the solver goes on meanwhile.
+//!
+//! Records are written one after the other in the order in which they were handed over: a saved state never runs ahead of the files that were
+//! handed over before it. The first error ends the thread, and whoever hands over the next record or waits for the end is told.
+
+use std::panic::resume_unwind;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
+
+use super::processor_time;
+use super::sink::{Frame, Sink};
+use crate::io::FileError;
+use crate::io::restart::{self, Saved};
+
+/// Records that may wait while another one is written; who hands over one more waits too. Each takes as much memory as the flow.
+const WAITING: usize = 1;
+
+/// What is handed over.
+pub enum Record {
+    /// A frame for the VTK files.
+    Frame(Box<Frame>),
+    /// A state to resume from, and the processor time in s until then.
+    State(Saved, Option<f64>),
+}
+
+/// A thread that writes.
+pub struct Writer {
+    records: Option<SyncSender<Record>>,
+    thread: Option<JoinHandle<Result<(), FileError>>>,
+}
+
+impl Writer {
+    /// Writes frames to `sinks` and states to `folder`.
+    ///
+    /// # Errors
+    /// [`FileError::Write`] where the system starts no thread.
+    pub fn start(folder: &Path, sinks: Vec<Box<dyn Sink>>) -> Result<Self, FileError> {
+        let (sender, receiver) = sync_channel(WAITING);
+        let place = folder.to_path_buf();
+        let thread = std::thread::Builder::new()
+            .name("output".into())
+            .spawn(move || write_all(&place, sinks, &receiver))
+            .map_err(FileError::write(folder))?;
+        Ok(Self { records: Some(sender), thread: Some(thread) })
+    }
+
+    /// Hands over a record; waits while too many are left to be written.
+    ///
+    /// # Errors
+    /// The [`FileError`] of a record before, which ended the thread.
+    pub fn write(&mut self, record: Record) -> Result<(), FileError> {
+        match self.records.as_ref().map(|records| records.send(record)) {
+            Some(Ok(())) => Ok(()),
+            // The other end is gone: something went wrong there.
+            Some(Err(_)) | None => self.finish(),
+        }
+    }
+
+    /// Waits until all is written.
+    ///
+    /// # Errors
+    /// The [`FileError`] of the record that could not be written, once.
+    pub fn finish(&mut self) -> Result<(), FileError> {
+        self.records = None;
+        match self.thread.take().map(JoinHandle::join) {
+            Some(Ok(written)) => written,
+            Some(Err(panic)) => resume_unwind(panic),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Drop for Writer {
+    /// What was handed over is still written where the run ends early.
+    fn drop(&mut self) {
+        self.records = None;
+        if let Some(thread) = self.thread.take() {
+            // There is no one left to tell.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn write_all(folder: &Path, mut sinks: Vec<Box<dyn Sink>>, records: &Receiver<Record>) -> Result<(), FileError> {
+    for record in records {
+        match record {
+            Record::Frame(frame) => sinks.iter_mut().try_for_each(|sink| sink.record(&frame))?,
+            Record::State(saved, processor_time) => {
+                processor_time::save(folder, processor_time)?;
+                restart::save(folder, &saved)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sink::{Start, vtk_sinks};
+    use super::super::toy::ToySolver;
+    use super::*;
+    use crate::io::atomic;
+    use crate::solver::Solver;
+
+    fn state(step: u64) -> Record {
+        Record::State(Saved { case_hash: 1, time: step as f64, step, state: vec![7; 1000] }, Some(1.0))
+    }
+
+    fn writer(folder: &Path) -> Writer {
+        Writer::start(folder, vtk_sinks(folder, Start::New).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn records_are_written_in_their_order_and_all_before_the_end() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut writer, mut solver) = (writer(folder.path()), ToySolver::new());
+        for step in 0..5 {
+            writer.write(Record::Frame(Box::new(Frame::of(&solver)))).unwrap();
+            writer.write(state(step)).unwrap();
+            solver.step(1.0).unwrap();
+        }
+        writer.finish().unwrap();
+        assert_eq!(restart::load(folder.path()).unwrap().step, 4);
+        assert!(folder.path().join("particles/particles-000004.vtu").exists());
+    }
+
+    #[test]
+    fn a_state_behind_a_frame_that_cannot_be_written_is_not_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        atomic::write(&folder.path().join("grid"), b"").unwrap();
+        let mut writer = writer(folder.path());
+        let mut told = writer.write(Record::Frame(Box::new(Frame::of(&ToySolver::new()))));
+        for step in 0..5 {
+            told = told.and_then(|()| writer.write(state(step)));
+        }
+        let error = told.and_then(|()| writer.finish()).unwrap_err().to_string();
+        assert!(error.contains("grid"), "{error}");
+        assert!(!restart::path(folder.path()).exists());
+        assert!(writer.finish().is_ok(), "an error is told once");
+    }
+
+    #[test]
+    fn what_was_handed_over_is_written_where_no_one_waits_for_it() {
+        let folder = tempfile::tempdir().unwrap();
+        drop({
+            let mut writer = writer(folder.path());
+            writer.write(state(3)).unwrap();
+            writer
+        });
+        assert_eq!(restart::load(folder.path()).unwrap().step, 3);
+    }
+}
