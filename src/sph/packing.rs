@@ -96,7 +96,7 @@ struct Move {
 impl Packing<'_> {
     /// Moves the particles `fluid` (m) to their places; `done` is told the share of the rounds that are done.
     ///
-    /// Those farther than [`BAND`] from all that is no lattice stay where they are.
+    /// Those farther than 24 spacings from all that is no lattice stay where they are.
     pub fn pack(&self, fluid: &mut [Vec2], done: &mut dyn FnMut(f64)) {
         let moves = self.order(&self.neighborhood(fluid, self.fixed), fluid.len());
         let disturbed =
