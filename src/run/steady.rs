@@ -15,7 +15,7 @@ use crate::solver::{Quantity, Series, Watched};
 pub const SHARE: f64 = 0.2;
 
 /// Largest ratio of the changes from window to window.
-const SLOWEST: f64 = 0.9;
+pub const SLOWEST: f64 = 0.9;
 
 /// Rows nearer to the end of a window than this share of it lie on it.
 const SAME: f64 = 1.0e-6;
