@@ -15,7 +15,7 @@ use crate::solver::{Quantity, Series, Watched};
 pub const SHARE: f64 = 0.2;
 
 /// Largest ratio of the changes from window to window.
-const SLOWEST: f64 = 0.9;
+pub const SLOWEST: f64 = 0.9;
 
 /// Rows nearer to the end of a window than this share of it lie on it.
 const SAME: f64 = 1.0e-6;
@@ -267,7 +267,7 @@ mod tests {
 
     #[test]
     fn a_quantity_that_comes_and_goes_is_not_steady_and_one_that_is_nowhere_does_not_count() {
-        assert_eq!(angle(|time| if (time * 40.0) as u32 % 2 == 0 { 60.0 } else { f64::NAN }).at_s, None);
+        assert_eq!(angle(|time| if ((time * 40.0) as u32).is_multiple_of(2) { 60.0 } else { f64::NAN }).at_s, None);
         assert_eq!(angle(|_| f64::NAN), Steadiness { at_s: None, window_s: 0.2, quantities: Vec::new() });
     }
 

@@ -1,4 +1,4 @@
-//! Python environments for the scripts in `postprocess`, made once from their requirements and kept under `target`.
+//! Python environments for the scripts in `postprocess` and `benches/peers`, made once from their requirements and kept under `target`.
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -14,19 +14,25 @@ pub fn root() -> &'static Path {
 ///
 /// Fails the test with what to install where Python 3.11 or later with venv is missing.
 pub fn interpreter() -> PathBuf {
-    environment("postprocess-venv", "requirements.txt", &[])
+    environment("postprocess-venv", "postprocess/requirements.txt", &[])
 }
 
 /// The same with OpenPNM and PoreSpy, in `target/postprocess-network-venv`. Its requirements name all that is needed: what they
 /// depend on beside that, a solver of 1 GB, is left out.
 #[allow(dead_code, reason = "each test binary has its own copy of this module")]
 pub fn network_interpreter() -> PathBuf {
-    environment("postprocess-network-venv", "requirements-network.txt", &["--no-deps"])
+    environment("postprocess-network-venv", "postprocess/requirements-network.txt", &["--no-deps"])
+}
+
+/// The same with the programs that `benches/peers.rs` compares with, in `target/peers-venv`.
+#[allow(dead_code, reason = "each test binary has its own copy of this module")]
+pub fn peers_interpreter() -> PathBuf {
+    environment("peers-venv", "benches/peers/requirements.txt", &[])
 }
 
 fn environment(name: &str, requirements: &str, options: &[&str]) -> PathBuf {
-    let file = root().join("postprocess").join(requirements);
-    let text = fs::read_to_string(&file).unwrap_or_else(|error| panic!("postprocess/{requirements}: {error}"));
+    let file = root().join(requirements);
+    let text = fs::read_to_string(&file).unwrap_or_else(|error| panic!("{requirements}: {error}"));
     let mut hasher = DefaultHasher::new();
     text.hash(&mut hasher);
     let wanted = format!("{:016x}", hasher.finish());
@@ -61,7 +67,7 @@ fn environment(name: &str, requirements: &str, options: &[&str]) -> PathBuf {
     run(
         &mut install,
         &format!(
-            "the packages of postprocess/{requirements} could not be installed: is the package index reachable, is Python 3.11 or later?"
+            "the packages of {requirements} could not be installed: is the package index reachable, is Python 3.11 or later?"
         ),
     );
     fs::write(&stamp, wanted).expect("the Python environment is writable");
