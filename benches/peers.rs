@@ -5,8 +5,8 @@
 //! `benches/peers/requirements.txt`. A drop without gravity, 20 particles or cells per radius, goes from 90 to 60 and to 120 degrees in 20
 //! capillary times √(ρR³/σ), or as many as `-- --capillary-times 5` says, Ohnesorge number 0.035. Settled: from then on within a degree of the mean of the last fifth of the run.
 //!
-//! The other program is lbmpy, with kernels compiled for the processor. PySPH is not here: its equations of surface tension know no
-//! contact angle at a wall.
+//! The other program is lbmpy, with kernels compiled for the processor. PySPH is not here: of its latest version there are sources only,
+//! whose build did not end within half an hour.
 
 #[path = "../tests/support/python.rs"]
 #[expect(dead_code, reason = "the other environments serve tests")]
