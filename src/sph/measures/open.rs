@@ -22,7 +22,10 @@ pub fn columns(flow: &Flow) -> Vec<(&'static str, f64)> {
         ("non_wetting_in_m2", area(came[1])),
         ("non_wetting_out_m2", area(left[1])),
     ];
-    let names = [("flow_rate_x_m2_per_s", "driving_gradient_x_Pa_per_m"), ("flow_rate_y_m2_per_s", "driving_gradient_y_Pa_per_m")];
+    let names = [
+        ("flow_rate_x_m2_per_s", "driving_gradient_x_Pa_per_m"),
+        ("flow_rate_y_m2_per_s", "driving_gradient_y_Pa_per_m"),
+    ];
     for through in &flow.open.through {
         let (rate, gradient) = names[through.side.axis()];
         let sign = through.side.inwards();
@@ -101,12 +104,14 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
     if asked_in > 0.0 {
         let method = "the flow rates inwards that the case gives";
         found.push(measure("asked-inflow-m2-per-s", asked_in, "m2/s", None, method));
-        let method = "area that came in through the sides with a given velocity or flow rate, over that which was asked for";
+        let method =
+            "area that came in through the sides with a given velocity or flow rate, over that which was asked for";
         found.push(measure("inflow-ratio", given_in / asked_in, "", None, method));
     }
     for through in &open.through {
         let drop = through.state.gradient * flow.domain.bounds.size()[through.side.axis()];
-        let method = "largest relative error of the flow rate through the periodic side in a step, by the ways of all particles";
+        let method =
+            "largest relative error of the flow rate through the periodic side in a step, by the ways of all particles";
         found.push(measure("largest-flow-rate-error", through.state.largest_error, "", None, method));
         let method = "mean pressure gradient that drives the given flow at the end, times the period";
         found.push(measure("driving-pressure-drop-Pa", drop, "Pa", None, method));

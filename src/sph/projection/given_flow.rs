@@ -67,7 +67,8 @@ impl Flow {
             divergence(&self.pairs, &f.volume, &by, &mut right);
             right.iter_mut().zip(&f.volume).enumerate().for_each(|(a, (right, volume))| {
                 *right = if self.sees_the_fluid(a) { -volume * *right } else { 0.0 };
-            });        }
+            });
+        }
         right
     }
 
@@ -146,17 +147,13 @@ impl Flow {
 
     /// Sets the places `new` (m) of the fluid particles anew, so that what went through the sides in a step of length `dt` (s) from the places at
     /// its beginning is what is asked for: shifting and drift correction carry some along.
-    pub(in crate::sph) fn keep_flow_rates(
-        &self,
-        responses: &[Response],
-        dt: f64,
-        new: &mut [Vec2],
-    ) {
+    pub(in crate::sph) fn keep_flow_rates(&self, responses: &[Response], dt: f64, new: &mut [Vec2]) {
         if responses.is_empty() {
             return;
         }
         let old = &self.particles.position;
-        let mut mean: Vec<Vec2> = new.iter().zip(old).map(|(&to, &from)| self.domain.separation(to, from) / dt).collect();
+        let mut mean: Vec<Vec2> =
+            new.iter().zip(old).map(|(&to, &from)| self.domain.separation(to, from) / dt).collect();
         let changes = self.gradient_changes(&mean, responses, dt);
         add_responses(&mut mean, (responses, &changes), dt);
         new.iter_mut().zip(old).zip(mean).for_each(|((to, from), mean)| *to = self.domain.wrapped(from + dt * mean));

@@ -139,7 +139,11 @@ impl Flow {
         let volume = &self.fields.volume[..p.len()];
         let mut found: Vec<Vec<f64>> = others.iter().map(|(right, _)| vec![0.0; right.len()]).collect();
         let mut systems = vec![System { b: &mut b, x: &mut p, tolerance }];
-        systems.extend(others.iter_mut().zip(&mut found).map(|((b, tolerance), x)| System { b, x, tolerance: *tolerance }));
+        systems.extend(others.iter_mut().zip(&mut found).map(|((b, tolerance), x)| System {
+            b,
+            x,
+            tolerance: *tolerance,
+        }));
         let solved = self.pressure.solve(&unknowns, volume, &mut systems);
         let convergence = solved[0];
         p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
