@@ -112,17 +112,21 @@ fn the_phase_of_an_inlet_drives_the_other_one_out() {
 
 #[test]
 fn a_resumed_flow_with_open_sides_takes_the_same_steps() {
-    let text = channel(&format!("{PLUG}{OTHER_FLUID}"));
-    let (mut whole, mut first) = (flow(&text), flow(&text));
-    run(&mut first, 0.03);
-    run(&mut whole, 0.03);
-    let mut second = flow(&text);
-    meniscus::sph::state::load(&mut second, &meniscus::sph::state::save(&first)).unwrap();
-    for flow in [&mut whole, &mut second] {
-        run(flow, 0.06);
+    let given_rate = "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.sides.open.left]\nvelocity = 0.01\n";
+    for sides in [PLUG, given_rate] {
+        let text = channel(&format!("{sides}{OTHER_FLUID}"));
+        let (mut whole, mut first) = (flow(&text), flow(&text));
+        run(&mut first, 0.03);
+        run(&mut whole, 0.03);
+        let mut second = flow(&text);
+        meniscus::sph::state::load(&mut second, &meniscus::sph::state::save(&first)).unwrap();
+        for flow in [&mut whole, &mut second] {
+            run(flow, 0.06);
+        }
+        assert_eq!(whole.particles, second.particles);
+        assert_eq!(whole.open.ledger, second.open.ledger);
+        assert_eq!(whole.open.through, second.open.through);
     }
-    assert_eq!(whole.particles, second.particles);
-    assert_eq!(whole.open.ledger, second.open.ledger);
 }
 
 #[test]
@@ -210,20 +214,4 @@ fn a_given_flow_that_solids_block_is_refused() {
     );
     let error = flow(&text).step(1.0).unwrap_err().to_string();
     assert!(error.contains("through the side `left`"), "{error}");
-}
-
-#[test]
-fn a_resumed_flow_with_a_given_rate_takes_the_same_steps() {
-    let sides = "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.sides.open.left]\nvelocity = 0.01\n";
-    let text = channel(&format!("{sides}{OTHER_FLUID}"));
-    let (mut whole, mut first) = (flow(&text), flow(&text));
-    run(&mut first, 0.03);
-    run(&mut whole, 0.03);
-    let mut second = flow(&text);
-    meniscus::sph::state::load(&mut second, &meniscus::sph::state::save(&first)).unwrap();
-    for flow in [&mut whole, &mut second] {
-        run(flow, 0.06);
-    }
-    assert_eq!(whole.particles, second.particles);
-    assert_eq!(whole.open.through, second.open.through);
 }

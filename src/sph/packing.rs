@@ -166,8 +166,8 @@ impl Packing<'_> {
         let (n, fluids) = (*count, moves.len());
         let mut volume = vec![self.volume; n];
         density::volume(pairs, &mut volume[..fluids]);
-        let crowding = |a: usize| if a < fluids { self.volume / volume[a] - 1.0 } else { 0.0 };
-        let mut source: Vec<f64> = (0..n).map(|a| SHARE * volume[a] * crowding(a)).collect();
+        let density_error = |a: usize| if a < fluids { self.volume / volume[a] - 1.0 } else { 0.0 };
+        let mut source: Vec<f64> = (0..n).map(|a| SHARE * volume[a] * density_error(a)).collect();
         images.extend(&mut volume);
         let ones = vec![1.0; volume.len()];
         assemble(&mut solve.matrix, (pairs, images), &volume, &ones, |_, _| true);

@@ -130,7 +130,7 @@ tables! {
         /// Background pressure in units of tension over smoothing length, or of density times speed squared (default
         /// 0, with `csf` 0.5).
         pub background_pressure: f64,
-        /// Particle shifting against crowding, over h times the largest speed times the step (default 2, with `csf` 0).
+        /// Particle shifting against uneven density, over h times the largest speed times the step (default 2, with `csf` 0).
         pub shifting: f64,
         /// Strength of the push at short range in the shifting, from 0 (none) to 1 (default 0.2 with the pressure jump, else 0).
         pub short_range_push: f64,

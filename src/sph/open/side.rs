@@ -34,6 +34,12 @@ pub struct OpenSide {
 }
 
 impl OpenSide {
+    /// Name in case files.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        ["left", "right", "bottom", "top"][self.number]
+    }
+
     /// 0: normal along x, 1: along y.
     #[must_use]
     pub fn axis(&self) -> usize {

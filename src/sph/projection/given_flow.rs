@@ -5,15 +5,13 @@
 //! profile is not given: it develops.
 
 use nalgebra::{Matrix2, Vector2};
-use rayon::prelude::*;
 
 use super::Flow;
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::open::Through;
-use crate::sph::pairs::{GRAIN, total};
+use crate::sph::pairs::{each, total};
 use crate::sph::poisson::Matrix;
-use crate::sph::terms::divergence::divergence;
 use crate::sph::terms::pressure_gradient;
 
 /// Largest relative residual of a response: the change of G in a step is small, and so is the divergence that this leaves of it.
@@ -23,7 +21,6 @@ pub(super) const RESPONSE_RESIDUAL: f64 = 1e-3;
 const NEXT: f64 = 1.5;
 
 /// What a mean pressure gradient of 1 Pa/m does.
-#[derive(Default)]
 pub(in crate::sph) struct Response {
     /// The periodic part of the pressure in m (Pa per Pa/m).
     pub(super) potential: Vec<f64>,
@@ -52,23 +49,18 @@ impl Flow {
 
     /// The right side of the pressure equation for the unit gradient along `way`; `matrix` as assembled.
     pub(super) fn right_side_of_gradient(&self, way: Vec2, matrix: &Matrix) -> Vec<f64> {
-        let (n, f) = (self.particles.len(), &self.fields);
-        let mut right = vec![0.0; n];
-        if self.gradient_in_pressure() {
-            right.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, right)| {
-                let coupling = &matrix.coupling[self.pairs.row(a)];
-                let rise = |b: usize| -way.dot(&self.separation(a, b));
-                *right = -self.pairs.of(a).zip(coupling).map(|(ab, coupling)| coupling * rise(ab.b)).sum::<f64>();
-            });
-        } else {
+        let n = self.particles.len();
+        if !self.gradient_in_pressure() {
             let mut by = vec![Vec2::zeros(); n];
-            (0..self.particles.moving()).for_each(|a| by[a] = way / f.density[a]);
+            (0..self.particles.moving()).for_each(|a| by[a] = way / self.fields.density[a]);
             self.images.extend_velocity(&mut by);
-            divergence(&self.pairs, &f.volume, &by, &mut right);
-            right.iter_mut().zip(&f.volume).enumerate().for_each(|(a, (right, volume))| {
-                *right = if self.sees_the_fluid(a) { -volume * *right } else { 0.0 };
-            });
+            return self.minus_outflow(&by);
         }
+        let mut right = vec![0.0; n];
+        each(&mut right, |a| {
+            let coupling = &matrix.coupling[self.pairs.row(a)];
+            self.pairs.of(a).zip(coupling).map(|(ab, coupling)| coupling * way.dot(&self.separation(a, ab.b))).sum()
+        });
         right
     }
 
@@ -169,8 +161,7 @@ impl Flow {
             return Ok(());
         }
         if let Some(through) = self.open.through.iter().find(|through| !self.is_open(through)) {
-            let side = ["left", "right", "bottom", "top"][through.side.number];
-            return Err(SolverError::Blocked { side, time: self.time, step: self.steps });
+            return Err(SolverError::Blocked { side: through.side.name(), time: self.time, step: self.steps });
         }
         let mut velocity = self.particles.velocity.clone();
         velocity[self.particles.moving()..].fill(Vec2::zeros());

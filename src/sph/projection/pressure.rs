@@ -54,7 +54,7 @@ impl Flow {
         let drift = method.drift_rate(predicted.fastest).min(1.0 / dt) / dt;
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
-            if self.sees_the_fluid(a) { -f.volume[a] * (source[a] / dt - drift * self.crowding(a)) } else { 0.0 }
+            if self.sees_the_fluid(a) { -f.volume[a] * (source[a] / dt - drift * self.density_error(a)) } else { 0.0 }
         });
         let matrix = self.assembled();
         let (method, f) = (&self.method, &self.fields);
@@ -64,12 +64,12 @@ impl Flow {
         let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
         let mut others = Vec::new();
         if method.drift_correction > 0.0 {
-            let mut crowding = vec![0.0; n];
-            each(&mut crowding, |a| {
-                let seen = if self.sees_the_fluid(a) { self.crowding(a) } else { 0.0 };
+            let mut error = vec![0.0; n];
+            each(&mut error, |a| {
+                let seen = if self.sees_the_fluid(a) { self.density_error(a) } else { 0.0 };
                 method.drift_correction * f.volume[a] * seen
             });
-            others.push((crowding, Tolerance { residual: DRIFT_RESIDUAL, ..method.tolerance }));
+            others.push((error, Tolerance { residual: DRIFT_RESIDUAL, ..method.tolerance }));
         }
         let tolerance = Tolerance { residual: RESPONSE_RESIDUAL, ..method.tolerance };
         let ways: Vec<Vec2> = self.open.through.iter().map(Through::way).collect();
@@ -87,11 +87,7 @@ impl Flow {
         &mut self,
         velocity: &[Vec2],
     ) -> Result<(Vec<Vec2>, Vec<Response>), SolverError> {
-        let n = self.particles.len();
-        let mut source = vec![0.0; n];
-        divergence(&self.pairs, &self.fields.volume, velocity, &mut source);
-        let mut b = vec![0.0; n];
-        each(&mut b, |a| if self.sees_the_fluid(a) { -self.fields.volume[a] * source[a] } else { 0.0 });
+        let b = self.minus_outflow(velocity);
         let matrix = self.assembled();
         let ways: Vec<Vec2> = self.open.through.iter().map(Through::way).collect();
         let others =
@@ -99,7 +95,7 @@ impl Flow {
         let given = Prescribed::new(&self.particles, &self.open.sides, |_| f64::NAN, self.method.kernel.h);
         let value = given.value.iter().map(|value| 0.0 * value).collect();
         let at_zero = Prescribed { value, reference: 0.0 };
-        let (potential, found) = self.solve((matrix, b), (&at_zero, vec![0.0; n]), others)?;
+        let (potential, found) = self.solve((matrix, b), (&at_zero, vec![0.0; self.particles.len()]), others)?;
         let responses = ways.iter().zip(found).map(|(&way, potential)| self.response(way, potential)).collect();
         Ok((self.down(potential), responses))
     }
@@ -163,6 +159,16 @@ impl Flow {
         Ok((p, found))
     }
 
+    /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s) over particles and images, where there is fluid to see.
+    pub(super) fn minus_outflow(&self, velocity: &[Vec2]) -> Vec<f64> {
+        let mut outflow = vec![0.0; self.particles.len()];
+        divergence(&self.pairs, &self.fields.volume, velocity, &mut outflow);
+        outflow.iter_mut().zip(&self.fields.volume).enumerate().for_each(|(a, (outflow, volume))| {
+            *outflow = if self.sees_the_fluid(a) { -volume * *outflow } else { 0.0 };
+        });
+        outflow
+    }
+
     /// Takes out of the right side `b` what the pressure before leaks in the part of the step beyond the longest explicit one.
     ///
     /// The divergence of the gradient is not quite the Laplacian, so that a pressure leaves the divergence Δt (Laplacian − divergence of the
@@ -197,7 +203,7 @@ impl Flow {
     }
 
     /// V_0/V_a − 1, the density error of a fluid particle; 0 on others.
-    fn crowding(&self, a: usize) -> f64 {
+    fn density_error(&self, a: usize) -> f64 {
         if a < self.particles.fluids { self.method.volume / self.fields.volume[a] - 1.0 } else { 0.0 }
     }
 
@@ -214,7 +220,7 @@ impl Flow {
     }
 
     /// Whether the divergence at particle `a` counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.
-    pub(super) fn sees_the_fluid(&self, a: usize) -> bool {
+    fn sees_the_fluid(&self, a: usize) -> bool {
         let (x, support) = (self.particles.position[a], self.method.kernel.support());
         self.open.sides.iter().all(|side| side.beyond(x) < support)
     }
