@@ -110,7 +110,7 @@ fn a_gradient_over_its_moment_has_the_mean_of_a_linear_field() {
         let plain: Vec<f64> = gradient.iter().map(|g| -g.dot(&slope)).collect();
         let mut moment = vec![0.0; n];
         pressure_gradient::moment(&cloud.pairs, &cloud.volume, |a, b| cloud.separation(a, b), &mut moment);
-        pressure_gradient::over_moment(&moment, &mut gradient);
+        pressure_gradient::normalize_by_moment(&moment, &mut gradient);
         (plain, gradient.iter().map(|g| -g.dot(&slope)).collect::<Vec<f64>>())
     };
     let (slope, across) = (Vec2::new(0.6, -0.8), Vec2::new(0.8, 0.6));

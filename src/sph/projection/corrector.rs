@@ -49,7 +49,7 @@ impl Flow {
                 pressure_gradient::difference(pairs, volume, density, &p, rise, &mut acceleration);
                 // Not without tension: there vortices keep their rate better as the sums are (docs/numerics/pressure.md).
                 if f.jump.is_some() {
-                    pressure_gradient::over_moment(&f.moment, &mut acceleration);
+                    pressure_gradient::normalize_by_moment(&f.moment, &mut acceleration);
                 }
             }
         }
