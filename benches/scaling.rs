@@ -14,6 +14,11 @@ use std::time::Instant;
 
 use flow::flow;
 use meniscus::sph::projection::{Flow, PARTS};
+use mimalloc::MiMalloc;
+
+/// That of the program.
+#[global_allocator]
+static ALLOCATOR: MiMalloc = MiMalloc;
 
 /// Side of the square in m.
 const SIDE: f64 = 2.0e-3;

@@ -260,6 +260,11 @@ pub trait Solver {
     /// The final results; `series` holds all rows recorded so far.
     fn measures(&self, series: &Series) -> Vec<Measure>;
 
+    /// What a reader must know before trusting the measures, now: what is not resolved, what is out of the model's reach.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Diagrams of the run so far, where the solver kept what they show.
     fn diagrams(&self) -> Vec<Diagram> {
         Vec::new()

@@ -297,13 +297,18 @@ fn normal_equations(p: &Parameters, points: &[Vec2]) -> (Matrix3<f64>, Vector3<f
 fn covariance(p: &Parameters, points: &[Vec2]) -> Option<Matrix3<f64>> {
     let inverse = normal_equations(p, points).0.try_inverse()?;
     let residuals: Vec<f64> = points.iter().map(|&y| p.distance(y)).collect();
+    Some(inverse * variance_of(&residuals))
+}
+
+/// The variance with which the residuals of three unknowns, in order along a curve, count.
+pub(super) fn variance_of(residuals: &[f64]) -> f64 {
     let sum: f64 = residuals.iter().map(|r| r * r).sum();
     let lagged: f64 = residuals.windows(2).map(|w| w[0] * w[1]).sum();
     // Neighboring residuals of a smoothed field repeat each other; 0.9 keeps the error bar finite.
     let correlation = if sum > 0.0 { (lagged / sum).clamp(0.0, 0.9) } else { 0.0 };
     // Three points leave no freedom; one is the least that can be divided by.
-    let freedom = (points.len() as f64 - 3.0).max(1.0);
-    Some(inverse * (sum / freedom * (1.0 + correlation) / (1.0 - correlation)))
+    let freedom = (residuals.len() as f64 - 3.0).max(1.0);
+    sum / freedom * (1.0 + correlation) / (1.0 - correlation)
 }
 
 #[cfg(test)]

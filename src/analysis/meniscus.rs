@@ -115,7 +115,13 @@ mod tests {
     use super::*;
     use nalgebra::Rotation2;
 
-    const SETTINGS: ContactSettings = ContactSettings { exclusion: 0.1, reach: 0.2, window: f64::INFINITY };
+    const SETTINGS: ContactSettings = ContactSettings {
+        exclusion: 0.1,
+        reach: 0.2,
+        window: f64::INFINITY,
+        force: Vec2::new(0.0, 0.0),
+        accuracy: 0.0,
+    };
 
     fn floor(x: Vec2) -> WallPoint {
         WallPoint { distance: x.y, normal: Vec2::y() }

@@ -119,6 +119,27 @@ pub struct CapillaryPressure {
     pub away_from_walls: bool,
 }
 
+/// Error of a capillary pressure by the resolution, over the pressure and (hκ)², κ the curvature that the pressure belongs to. Calibrated:
+/// docs/numerics/error-bars.md.
+pub const PRESSURE_RESOLUTION: f64 = 0.05;
+
+/// What lattice and walls leave of it however fine the spacing, over the pressure.
+pub const PRESSURE_FLOOR: f64 = 5e-4;
+
+impl CapillaryPressure {
+    /// Standard uncertainty in Pa: the scatter of the particles, and what is lost to the smoothing length `h` (m) at the `tension` (N/m).
+    #[must_use]
+    pub fn uncertainty(&self, tension: f64, h: f64) -> f64 {
+        self.standard_error.hypot(resolution_error(self.value, tension, h))
+    }
+}
+
+/// The error in Pa of a capillary `pressure` (Pa) by the resolution.
+#[must_use]
+pub fn resolution_error(pressure: f64, tension: f64, h: f64) -> f64 {
+    pressure * (PRESSURE_RESOLUTION * (h * pressure / tension).powi(2)).hypot(PRESSURE_FLOOR)
+}
+
 /// Smoothing lengths that are left out beside the interface.
 const FROM_INTERFACE: f64 = 3.0;
 /// Smoothing lengths that are left out beside walls, where enough particles remain.

@@ -59,6 +59,8 @@ pub struct Sph {
     pub wetting_model: Option<WettingModel>,
     /// Parts of the walls with angles of their own.
     pub wetting_patches: Vec<WettingPatch>,
+    /// The length L of the dimensionless numbers in m, where the case gives one.
+    pub reference_length: Option<f64>,
     /// Body force per mass in m/s².
     pub gravity: Vec2,
     /// What stands at the four sides of the domain.

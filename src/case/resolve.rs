@@ -79,6 +79,7 @@ fn raw_sph(sph: &Sph) -> RawSph {
     RawSph {
         spacing: Some(sph.spacing),
         smoothing_ratio: Some(sph.smoothing_ratio),
+        reference_length: sph.reference_length,
         gravity: Some(sph.gravity.into()),
         phases: Some(RawPhases {
             wetting: Some(raw_fluid(&sph.wetting)),

@@ -30,6 +30,10 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
     }
     let ratio =
         checker.within("sph.smoothing-ratio", raw.smoothing_ratio, SMOOTHING_RATIO, "smoothing length over spacing");
+    let reference_length = raw.reference_length.and_then(|length| {
+        let example = "reference-length = 1.0e-3 # m";
+        checker.require_positive("sph.reference-length", Some(length), example, "a length in m")
+    });
     let phases = raw.phases.clone().unwrap_or_default();
     let fluid_of_drop = phases.wetting.as_ref().map(|fluid| self::fluid(checker, "sph.phases.wetting", fluid));
     let liquid = checker.require(
@@ -72,6 +76,7 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         surface_force,
         wetting_model,
         wetting_patches: patches,
+        reference_length,
         gravity: Vec2::from(raw.gravity.unwrap_or_default()),
         sides,
         walls,

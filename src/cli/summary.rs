@@ -22,6 +22,10 @@ pub fn summary(finished: &Finished) -> String {
     push_measures(&mut text, report);
     push_expectations(&mut text, report);
     push_numbers(&mut text, report);
+    for warning in &report.warnings {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {:<11} {warning}", "WARNING");
+    }
     let show = |name: &str| finished.folder.join(name).display().to_string();
     let picture = match &finished.picture {
         Ok(path) => path.display().to_string(),
@@ -84,7 +88,9 @@ fn with_uncertainty(reading: &Reading) -> String {
         return format!("{value:.0}");
     }
     let uncertainty = reading.uncertainty.map_or(String::new(), |u| format!(" +- {}", readable(u)));
-    format!("{}{uncertainty} {}", readable(value), reading.unit).trim_end().to_owned()
+    let motion = reading.not_at_rest.as_ref();
+    let motion = motion.map_or(String::new(), |m| format!(", not at rest: {} {}", readable(m.rate), m.unit));
+    format!("{}{uncertainty} {}", readable(value), reading.unit).trim_end().to_owned() + &motion
 }
 
 fn push_angles(text: &mut String, report: &Report) {
@@ -134,6 +140,7 @@ fn push_numbers(text: &mut String, report: &Report) {
 mod tests {
     use super::*;
     use crate::run::execute::{Job, Mode, execute};
+    use crate::run::report::Motion;
     use crate::run::simulation::Unwatched;
     use crate::run::toy::{ToySolver, case};
 
@@ -147,18 +154,32 @@ mod tests {
         let never = std::sync::atomic::AtomicBool::new(false);
         let mut finished = execute(&job, &mut ToySolver::new(), &never, &mut Unwatched).unwrap();
         assert!(summary(&finished).contains("requested 40.0 deg, not measured\n"));
-        let none = Reading { value: None, unit: "deg".into(), uncertainty: None, method: "no line".into() };
+        let none =
+            Reading { value: None, unit: "deg".into(), uncertainty: None, method: "no line".into(), not_at_rest: None };
         finished.report.measures.insert(ANGLE.into(), none);
         assert!(summary(&finished).contains("requested 40.0 deg, not measured (no line)\n"));
-        let angle =
-            Reading { value: Some(41.3), unit: "deg".into(), uncertainty: Some(1.2), method: "circle fit".into() };
+        let angle = Reading {
+            value: Some(41.3),
+            unit: "deg".into(),
+            uncertainty: Some(1.2),
+            method: "circle fit".into(),
+            not_at_rest: Some(Motion { rate: -7.0, unit: "deg/s".into() }),
+        };
+        finished.report.warnings.push("three particles fly alone".into());
         finished.report.measures.insert(ANGLE.into(), angle);
-        let blobs = Reading { value: Some(2.0), unit: String::new(), uncertainty: None, method: "counted".into() };
+        let blobs = Reading {
+            value: Some(2.0),
+            unit: String::new(),
+            uncertainty: None,
+            method: "counted".into(),
+            not_at_rest: None,
+        };
         finished.report.measures.insert("blobs".into(), blobs);
         let text = summary(&finished);
         for words in [
             "Particles on circles\ndone at t = 1.000 s, step 50",
-            "requested 40.0 deg, measured 41.30 +- 1.200 deg",
+            "requested 40.0 deg, measured 41.30 +- 1.200 deg, not at rest: -7.000 deg/s",
+            "  WARNING     three particles fly alone\n",
             "radius-m           0.3333 +- 1.000e-9 m",
             "blobs              2\n",
             "missing-angle-deg  not measured (there is no contact line)",

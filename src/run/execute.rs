@@ -144,7 +144,7 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
     let fastest = records.series().column("max_speed_m_per_s").filter(|speed| speed.is_finite()).fold(0.0, f64::max);
     let length = Length::of(job.case);
     let steady = job.case.steady.map(|steady| Steadiness::of(records.series(), &solver.watched(), &steady));
-    let mut measures = readings(solver.measures(records.series()));
+    let mut measures = readings(solver.measures(records.series()), records.series(), &solver.watched());
     measures.extend(steady.iter().map(report::steady_reading));
     let mut expectations = verdicts(&job.case.expect, &measures);
     let mut status = status;
@@ -170,6 +170,7 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
         machine: Machine::present(),
         wall_time_s: wall_time(0.0, statistics.parts.iter().copied().chain(records.parts())),
         cpu_s: None,
+        warnings: solver.warnings(),
         solver: SolverReport::from(&statistics),
     }
 }

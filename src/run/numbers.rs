@@ -1,14 +1,14 @@
 //! The dimensionless numbers of a case and the limits of its time step, by formulas that are stated with them.
 //!
-//! With rho, mu of the wetting phase, sigma the tension, L the width of the narrowest throat (without one: the shorter side of
-//! the domain), U a speed:
+//! With rho, mu of the wetting phase, sigma the tension, L the length that the case names, else the width of the narrowest throat, else the
+//! square root of the area of a drop or bubble, else the shorter side of the domain, and U a speed:
 //! Re = rho U L/mu, Ca = mu U/sigma, We = rho U² L/sigma, Bo = |rho_w - rho_n| g L²/sigma (rho_w alone in single-phase flow),
 //! La = sigma rho L/mu², Oh = La^(-1/2).
 
 use serde::Serialize;
 
 use super::setup;
-use crate::case::checked::{Case, InitialVelocity, Model};
+use crate::case::checked::{Case, Drive, InitialVelocity, Model, Sph};
 use crate::case::film::checked::{FilmDroplet, FilmEquation, ThinFilm};
 use crate::math::Vec2;
 
@@ -33,16 +33,22 @@ pub struct Length {
 }
 
 impl Length {
-    /// The width of the narrowest throat of a case, or the shorter side of its domain where there is no throat.
+    /// The length that the physics of a case has: see the head of this file.
     #[must_use]
     pub fn of(case: &Case) -> Self {
-        match setup::throat(case) {
-            Some(value) => Self { value, name: "width of the narrowest throat" },
-            None => {
-                let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
-                Self { value: size.min(), name: "shorter side of the domain" }
-            }
+        if let Model::Sph(sph) = &case.model
+            && let Some(value) = sph.reference_length
+        {
+            return Self { value, name: "given by the case" };
         }
+        if let Some(value) = setup::throat(case) {
+            return Self { value, name: "width of the narrowest throat" };
+        }
+        if let Some(area) = setup::drop_area(case) {
+            return Self { value: area.sqrt(), name: "square root of the area of the drop" };
+        }
+        let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
+        Self { value: size.min(), name: "shorter side of the domain" }
     }
 }
 
@@ -60,7 +66,10 @@ pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
         InitialVelocity::Uniform(v) => v.norm(),
         InitialVelocity::TaylorGreen(speed) => speed,
     };
-    if initial > 0.0 {
+    let driven = sph.wall_speeds.iter().map(|speed| speed.abs()).chain(given_speeds(case, sph)).fold(0.0, f64::max);
+    if driven > 0.0 {
+        (driven, "fastest wall or inflow")
+    } else if initial > 0.0 {
         (initial, "initial speed")
     } else if sph.tension > 0.0 {
         ((sph.tension / (rho * l)).sqrt(), "sqrt(sigma / rho L)")
@@ -69,6 +78,17 @@ pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
         let (viscous, free) = (rho * g * l * l / (8.0 * mu), (2.0 * g * l).sqrt());
         if viscous < free { (viscous, "rho g L^2 / 8 mu") } else { (free, "sqrt(2 g L)") }
     }
+}
+
+/// The mean speeds in m/s that are given at open sides.
+fn given_speeds<'a>(case: &Case, sph: &'a Sph) -> impl Iterator<Item = f64> + use<'a> {
+    let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
+    let given = sph.open.iter().enumerate().filter_map(|(number, open)| Some((number, open.as_ref()?.drive)));
+    given.map(move |(number, drive)| match drive {
+        Drive::Pressure(_) => 0.0,
+        Drive::Velocity(speed, _) => speed.abs(),
+        Drive::FlowRate(rate, _) => rate.abs() / size[1 - number / 2],
+    })
 }
 
 /// The numbers of a case at the speed `speed` in m/s; those that need a tension are absent without one.

@@ -5,11 +5,12 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::drift::Drift;
 use super::numbers::{Length, Number};
 use super::steady::Steadiness;
 use crate::case::checked::{Case, Expectation};
 use crate::io::{FileError, atomic};
-use crate::solver::{Clock, Measure, PartTime, Statistics};
+use crate::solver::{Clock, Measure, PartTime, Series, Statistics, Watched};
 
 /// Name of the file.
 pub const REPORT: &str = "report.json";
@@ -53,6 +54,7 @@ impl Machine {
 
 /// A measure without its name, which is the key in the report.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub struct Reading {
     /// Value in `unit`; absent where it could not be measured.
     pub value: Option<f64>,
@@ -62,6 +64,18 @@ pub struct Reading {
     pub uncertainty: Option<f64>,
     /// How it was measured.
     pub method: String,
+    /// How it still moves, where that is by more than the uncertainty of its value at one time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_at_rest: Option<Motion>,
+}
+
+/// The motion of a measure at the end of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Motion {
+    /// Its rate over the last fifth of the run.
+    pub rate: f64,
+    /// Unit of the rate.
+    pub unit: String,
 }
 
 /// An expectation and what came out.
@@ -135,6 +149,8 @@ pub struct Report {
     /// Processor time in s of all processes that worked at the run, but for steps that a kill undid; absent where it is
     /// not known.
     pub cpu_s: Option<f64>,
+    /// What a reader must know before trusting the measures.
+    pub warnings: Vec<String>,
     /// Unknowns, steps and counts of the solver, of this process.
     pub solver: SolverReport,
 }
@@ -170,16 +186,21 @@ pub fn wall_time(total: f64, parts: impl Iterator<Item = PartTime>) -> WallTime 
     WallTime { total, parts: parts.map(|part| (part.part, part.seconds)).collect() }
 }
 
-/// Measures by name.
+/// Measures by name. Those that stand in the `series` too, as one of the `watched` quantities, are as uncertain as these still move.
 #[must_use]
-pub fn readings(measures: Vec<Measure>) -> BTreeMap<String, Reading> {
+pub fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) -> BTreeMap<String, Reading> {
     // Adding zero turns minus zero, which means nothing to people, into zero.
     let finite = |value: f64| value.is_finite().then_some(value + 0.0);
     measures
         .into_iter()
         .map(|m| {
-            let uncertainty = m.uncertainty.and_then(finite);
-            (m.name, Reading { value: finite(m.value), unit: m.unit, uncertainty, method: m.method })
+            let at_one_time = m.uncertainty.and_then(finite);
+            let column = m.name.replace('-', "_");
+            let drift = watched.iter().any(|one| one.column == column).then(|| Drift::of(series, &column)).flatten();
+            let uncertainty = drift.map_or(at_one_time, |drift| Some(at_one_time.unwrap_or(0.0).hypot(drift.left)));
+            let moves = drift.filter(|drift| at_one_time.is_some_and(|known| drift.left > known));
+            let not_at_rest = moves.map(|drift| Motion { rate: drift.rate, unit: format!("{}/s", m.unit) });
+            (m.name, Reading { value: finite(m.value), unit: m.unit, uncertainty, method: m.method, not_at_rest })
         })
         .collect()
 }
@@ -195,7 +216,10 @@ pub fn steady_reading(steady: &Steadiness) -> (String, Reading) {
         (None, true) => "the run was too short to tell: a window holds too few records".to_owned(),
         (None, false) => format!("not steady by the end: {}", steady.unsettled()),
     };
-    (STEADY_AT.to_owned(), Reading { value: steady.at_s, unit: "s".into(), uncertainty: None, method })
+    (
+        STEADY_AT.to_owned(),
+        Reading { value: steady.at_s, unit: "s".into(), uncertainty: None, method, not_at_rest: None },
+    )
 }
 
 /// Each expectation beside what was measured; a measure that is missing or NaN misses.

@@ -4,6 +4,7 @@ use crate::case::checked::{Case, Model};
 use crate::case::{Facts, check_against};
 use crate::geometry::Geometry;
 use crate::input::Problem;
+use crate::math::{Bounds, Vec2};
 use crate::solver::Solver;
 use crate::{network, sph, thin_film};
 
@@ -68,6 +69,36 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
         Model::Network(network) => Ok(network::setup::geometry(case, network)?),
         Model::ThinFilm(_) => Ok(Geometry::new(&case.geometry).map_err(sph::setup::SetupError::from)?),
     }
+}
+
+/// Nodes along each axis on which the fluids of the initial state are looked up.
+const NODES: usize = 160;
+
+/// Area in m² of the drop or bubble that a case starts with: of the phase with the smaller area, where that does not reach from one side of
+/// the domain to the opposite one.
+#[must_use]
+pub fn drop_area(case: &Case) -> Option<f64> {
+    let Model::Sph(sph) = &case.model else { return None };
+    if sph.initial.wetting.is_empty() {
+        return None;
+    }
+    let pore = sph::setup::geometry(case, sph).ok()?;
+    let region = sph::setup::region(case, &sph.initial.wetting);
+    let (min, max) = (Vec2::from(case.geometry.min), Vec2::from(case.geometry.max));
+    let cell = (max - min) / NODES as f64;
+    let mut seen = [(0, Bounds { min: max, max: min }); 2];
+    for (i, j) in (0..NODES).flat_map(|i| (0..NODES).map(move |j| (i, j))) {
+        let x = min + cell.component_mul(&Vec2::new(i as f64 + 0.5, j as f64 + 0.5));
+        if pore.signed_distance(x) > 0.0 {
+            let is_wetting = (region.signed_distance(x) < 0.0) != sph.initial.wetting_is_background;
+            let (count, around) = &mut seen[usize::from(is_wetting)];
+            *count += 1;
+            *around = Bounds { min: around.min.inf(&x), max: around.max.sup(&x) };
+        }
+    }
+    let (count, around) = if seen[0].0 < seen[1].0 { seen[0] } else { seen[1] };
+    let spans = [0, 1].map(|k| around.min[k] < min[k] + cell[k] && around.max[k] > max[k] - cell[k]);
+    (count > 0 && spans == [false; 2]).then(|| count as f64 * cell.x * cell.y)
 }
 
 /// Width of the narrowest throat of a case in m; none where there is no throat, or no usable geometry.

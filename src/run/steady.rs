@@ -102,7 +102,7 @@ fn window(time: f64, steady: &SteadyStop) -> f64 {
 
 /// What is known of each quantity that exists at the last of `rows`; nothing where a window holds too few of them.
 fn changes(rows: &[Vec<f64>], columns: &[String], watched: &[Watched], steady: &SteadyStop) -> Vec<Change> {
-    let Some(windows) = windows(rows, steady) else { return Vec::new() };
+    let Some(windows) = last_windows(rows, steady) else { return Vec::new() };
     let column = |name: &str| columns.iter().position(|column| column == name);
     let values = |name: &str| {
         let column = column(name)?;
@@ -113,7 +113,7 @@ fn changes(rows: &[Vec<f64>], columns: &[String], watched: &[Watched], steady: &
 }
 
 /// The rows of the three windows that end at the last row.
-fn windows<'r>(rows: &'r [Vec<f64>], steady: &SteadyStop) -> Option<[&'r [Vec<f64>]; 3]> {
+pub(super) fn last_windows<'r>(rows: &'r [Vec<f64>], steady: &SteadyStop) -> Option<[&'r [Vec<f64>]; 3]> {
     let now = *rows.last()?.first()?;
     let length = window(now, steady);
     // A window holds its end, not its beginning.
@@ -153,11 +153,16 @@ fn change(
         Quantity::Saturation => steady.saturation,
         Quantity::Energy { .. } => steady.kinetic_energy * mean.abs(),
     };
-    let range = |value: fn(f64, f64) -> f64, from: f64| values[2].iter().copied().fold(from, value);
-    let range = range(f64::max, f64::NEG_INFINITY) - range(f64::min, f64::INFINITY);
+    let range = range(&values[2]);
     // A value that does not exist in one of the windows leaves it open.
     let change = if means.iter().all(|mean| mean.is_finite()) { left(means).max(range) } else { f64::NAN };
     Change { column: watched.column, mean, change, tolerance }
+}
+
+/// The largest less the smallest of `values`.
+pub(super) fn range(values: &[f64]) -> f64 {
+    let over = |pick: fn(f64, f64) -> f64, from: f64| values.iter().copied().fold(from, pick);
+    over(f64::max, f64::NEG_INFINITY) - over(f64::min, f64::INFINITY)
 }
 
 /// What is left to change after the last of three windows with these means.

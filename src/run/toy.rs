@@ -156,6 +156,7 @@ pub fn case() -> Case {
     let wetting = Fluid { density: 1000.0, viscosity: 1.0e-3 };
     let sph = Sph {
         spacing: 1.0 / 6.0,
+        reference_length: None,
         smoothing_ratio: 1.5,
         wetting,
         non_wetting: None,

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use super::schedule::Schedule;
 use crate::case::checked::Case;
 use crate::solver::{Solver, SolverError};
 
@@ -49,15 +50,31 @@ fn trial_within(
 ) -> Result<Trial, SolverError> {
     let clock = Instant::now();
     tried(0.0);
-    let mut info = solver.step(case.end)?;
+    // The steps of a run land on its records: the first one may be shorter for them.
+    let schedule = Schedule::new(&case.output, case.end);
+    let next = |solver: &dyn Solver| schedule.next_after(solver.time()).map_or(case.end, |stop| stop.time);
+    let until = next(solver);
+    let mut info = solver.step(until)?;
+    let first_s = clock.elapsed().as_secs_f64();
     for step in 1..TRIAL_STEPS {
         tried(step as f64 / TRIAL_STEPS as f64);
         if solver.time() >= case.end || solver.is_done() || clock.elapsed().as_secs_f64() > patience {
             break;
         }
-        info = solver.step(case.end)?;
+        let until = next(solver);
+        let after = solver.step(until)?;
+        // A step that ends at a record tells nothing of those between records.
+        if after.limit != "record" || info.limit == "record" {
+            info = after;
+        }
     }
-    let per_step = clock.elapsed().as_secs_f64() / solver.steps().max(1) as f64;
+    let more = solver.steps().saturating_sub(1);
+    // The first step sets up what the others reuse.
+    let per_step = if more == 0 { first_s } else { (clock.elapsed().as_secs_f64() - first_s) / more as f64 };
+    // What a record takes, in time and memory.
+    let before_record = clock.elapsed().as_secs_f64();
+    drop((solver.sample(), solver.snapshot().time, solver.state().len()));
+    let per_record = clock.elapsed().as_secs_f64() - before_record;
     // Steps that grow with the time are cut at every record, most of them late in the run.
     let records = case.end / case.output.series_every.min(case.output.vtk_every).min(case.output.restart_every);
     let known = solver.steps_to(case.end).map(|left| (left + solver.steps() as f64 + records).ceil());
@@ -67,7 +84,7 @@ fn trial_within(
         time_step_s: info.dt,
         limit: info.limit.to_owned(),
         steps,
-        duration_s: steps * per_step,
+        duration_s: steps * per_step + records * per_record,
         memory_bytes: memory(),
     })
 }

@@ -28,4 +28,5 @@ pub mod state;
 pub mod surface_force;
 pub mod terms;
 pub mod time_step;
+pub mod warnings;
 pub mod wetting;

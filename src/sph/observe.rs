@@ -55,10 +55,12 @@ impl Observation {
         };
         let two_phases = flow.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
         let (interface, wall_color) = interface_and_walls(flow, (&all, two_phases), wall, &wall_point);
-        let settings = ContactSettings::for_smoothing_length(flow.method.kernel.h);
+        let settings =
+            ContactSettings::for_smoothing_length(flow.method.kernel.h).under(flow.method.curvature_gradient());
+        let pressures = pressures_at_interface(flow, &interface);
         let samples = PressureSamples {
             points: &flow.particles.position[..fluids],
-            pressures: &flow.particles.pressure[..fluids],
+            pressures: &pressures,
             colors: color,
             smoothing_length: flow.method.kernel.h,
             period: flow.domain.periods(),
@@ -86,6 +88,19 @@ impl Observation {
     pub fn interface_length(&self) -> f64 {
         interface_length(&self.interface)
     }
+}
+
+/// The pressures in Pa of the fluid particles, each less the weight of its phase below or above the mean height of the interface.
+fn pressures_at_interface(flow: &Flow, interface: &[Polyline]) -> Vec<f64> {
+    let (p, m) = (&flow.particles, &flow.method);
+    let vertices: Vec<Vec2> = interface.iter().flat_map(|line| &line.points).copied().collect();
+    let pressures = &p.pressure[..p.fluids];
+    if m.gravity == Vec2::zeros() || vertices.is_empty() {
+        return pressures.to_vec();
+    }
+    let middle = vertices.iter().sum::<Vec2>() / vertices.len() as f64;
+    let weight = |a: usize| m.fluid(p.phase[a]).density * m.gravity.dot(&(p.position[a] - middle));
+    pressures.iter().enumerate().map(|(a, pressure)| pressure - weight(a)).collect()
 }
 
 /// Color of the particles of fluid and buffers: 1 in the wetting phase, else 0.

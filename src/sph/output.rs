@@ -12,6 +12,7 @@ use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
 use crate::sph::observe::{Observation, fluid_samples, nodes};
 use crate::sph::projection::Flow;
 use crate::sph::surface_force::equivalent::volume_forces;
+use crate::sph::warnings::Unresolved;
 
 /// Reach of the circle fit for the curvature along the interface, over h.
 const CURVATURE_REACH: f64 = 2.5;
@@ -73,6 +74,7 @@ fn particles(flow: &Flow) -> Cloud<'static> {
     let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from))).collect();
     let fields = vec![
         integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
+        integer("below-resolution", below_resolution(flow)),
         integer("phase", p.phase.iter().map(|phase| phase.number()).collect()),
         vector("velocity", "m/s", p.velocity.clone()),
         scalar("pressure", "Pa", pressure),
@@ -89,6 +91,13 @@ fn particles(flow: &Flow) -> Cloud<'static> {
     Cloud { points: Cow::Owned(p.position.clone()), fields }
 }
 
+/// 1 where a phase is thinner than about three particles, else 0.
+fn below_resolution(flow: &Flow) -> Vec<i64> {
+    let mut thin: Vec<i64> = Unresolved::of(flow).thin.into_iter().map(i64::from).collect();
+    thin.resize(flow.particles.len(), 0);
+    thin
+}
+
 /// The particles' fields on a regular grid over the box, with the signed distance; zero where no fluid is near.
 fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
     let mut lattice = nodes(flow, spacing);
@@ -100,7 +109,8 @@ fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
     }
     lattice.periodic = [false; 2];
     let places = lattice.nodes();
-    let interpolated = |field: &&Field| !matches!(field.name, "wall-distance" | "wall-normal" | "id" | "phase");
+    let interpolated =
+        |field: &&Field| !matches!(field.name, "wall-distance" | "wall-normal" | "id" | "phase" | "below-resolution");
     let given: Vec<&Field> = particles.fields.iter().filter(interpolated).collect();
     let empty = |field: &&Field| match field.values {
         Values::Vector(_) => vector(field.name, field.unit, Vec::with_capacity(places.len())),

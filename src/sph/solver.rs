@@ -12,6 +12,7 @@ use crate::solver::{
 use crate::sph::measures::{DiscOf, Subject, all, columns};
 use crate::sph::observe::Observation;
 use crate::sph::projection::Flow;
+use crate::sph::warnings::warnings;
 use crate::sph::{output, state};
 
 /// A flow with all that is needed to observe it.
@@ -149,6 +150,10 @@ impl Solver for SphSolver {
             wall_speeds: around.wall_speeds,
         };
         all(&subject, &around.measures)
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        warnings(&self.flow, self.observe())
     }
 
     fn state(&self) -> Vec<u8> {

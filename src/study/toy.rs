@@ -18,7 +18,8 @@ pub fn study(text: &str) -> Study {
 pub fn complete(study: &Study, value: impl Fn(&Run) -> f64) -> Vec<RunResult> {
     let result = |run: Run| {
         let value = Some(value(&run)).filter(|value| value.is_finite());
-        let reading = Reading { value, unit: "deg".into(), uncertainty: Some(0.1), method: String::new() };
+        let reading =
+            Reading { value, unit: "deg".into(), uncertainty: Some(0.1), method: String::new(), not_at_rest: None };
         let report = RunReport {
             status: Status::Done,
             error: None,

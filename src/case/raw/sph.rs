@@ -14,6 +14,8 @@ tables! {
         pub spacing: f64,
         /// Smoothing length over spacing, 1 to 3 (default 1.5).
         pub smoothing_ratio: f64,
+        /// The length L of the dimensionless numbers in m (default of the narrowest throat, of the drop, or of the gap).
+        pub reference_length: f64,
         /// Body force per mass along x and y in m/s² (default none).
         pub gravity: [f64; 2],
         /// The one or two fluids.

@@ -24,9 +24,9 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     let method_of_mean = "velocity along the force averaged over the whole cell, solids at rest, at the end";
     let method_of_permeability = "viscosity times mean velocity over force per volume";
     let pull = force.norm() * s.seen.areas.wetting;
-    let unsteady = acceleration(s, along) / pull;
-    let method_of_unsteady = "rate of the momentum along the force between the last two records over the force on the fluid; the drag of a \
-                              flow that still gathers speed is too high";
+    let unsteady = acceleration(s) / pull;
+    let method_of_unsteady = "magnitude of the rate of the momentum, across the force too, between the last two records over the force on the \
+                              fluid; the drag of a flow that still gathers speed is too high";
     vec![
         measure("drag-over-mu-u", drag, "", None, method),
         measure("mean-velocity-m-per-s", mean, "m/s", None, method_of_mean),
@@ -35,13 +35,13 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     ]
 }
 
-/// Rate in N/m at which the fluid gathered momentum along a unit vector between the last two records.
-fn acceleration(s: &Subject, along: Vec2) -> f64 {
+/// Magnitude in N/m of the rate at which the fluid gathered momentum between the last two records.
+fn acceleration(s: &Subject) -> f64 {
     let (times, x) = pairs(s.series, "momentum_x_kg_per_m_s");
     let (_, y) = pairs(s.series, "momentum_y_kg_per_m_s");
-    let momenta: Vec<f64> = x.into_iter().zip(y).map(|(x, y)| Vec2::new(x, y).dot(&along)).collect();
+    let momenta: Vec<Vec2> = x.into_iter().zip(y).map(|(x, y)| Vec2::new(x, y)).collect();
     match (&times[..], &momenta[..]) {
-        ([.., before, now], [.., was, is]) => (is - was) / (now - before),
+        ([.., before, now], [.., was, is]) => (is - was).norm() / (now - before),
         _ => f64::NAN,
     }
 }

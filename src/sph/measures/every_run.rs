@@ -2,8 +2,10 @@
 
 use super::{Subject, measure};
 use crate::analysis::phases::{PhaseAreas, density_error};
+use crate::math::Vec2;
 use crate::solver::Measure;
 use crate::sph::projection::Flow;
+use crate::sph::warnings::Unresolved;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
     let fluids = s.flow.particles.fluids;
@@ -59,8 +61,8 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
             "capillary-pressure-Pa",
             pressure.value,
             "Pa",
-            Some(pressure.standard_error),
-            "mean p of the non-wetting less that of the wetting particles farther than 3h from the interface",
+            Some(pressure.uncertainty(s.flow.method.tension, s.flow.method.kernel.h)),
+            "mean p of the non-wetting less that of the wetting particles farther than 3h from the interface, each taken to the mean height of the interface",
         ),
         measure("interface-length-m", s.seen.interface_length(), "m", None, "length of the c = 0.5 contour"),
         measure(
@@ -72,6 +74,21 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
         ),
         measure("wetting-blobs", s.seen.wetting_blobs.len() as f64, "", None, "connected parts, links up to 1.6 dx"),
     ];
+    let unresolved = Unresolved::of(s.flow);
+    found.push(measure(
+        "below-resolution-share",
+        unresolved.share,
+        "",
+        None,
+        "particles where their phase is thinner than about three of them, over the particles of the smaller phase",
+    ));
+    found.push(measure(
+        "small-pieces",
+        unresolved.small_pieces as f64,
+        "",
+        None,
+        "connected parts of either phase with fewer than 20 particles",
+    ));
     if s.flow.method.wetting.is_some() {
         let angle = s.seen.angle();
         let method = how_the_angle_was_measured(s);
@@ -89,9 +106,9 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
 fn how_the_angle_was_measured(s: &Subject) -> String {
     let angle = s.seen.angle();
     if angle.measured > 0 {
+        let shape = if s.flow.method.gravity == Vec2::zeros() { "circles" } else { "arcs of Young and Laplace" };
         return format!(
-            "circles fitted to the c = 0.5 contour farther than 2h from walls, extrapolated to the wall; mean of {} contact \
-             lines ({} without a fit), spread {:.2} degrees",
+            "{shape} fitted to the c = 0.5 contour farther than 2h from walls, down to h for short menisci, and extrapolated to the wall; mean of {} contact lines ({} without a fit), spread {:.2} degrees",
             angle.measured, angle.failed, angle.spread_deg
         );
     }

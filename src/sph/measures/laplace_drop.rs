@@ -2,7 +2,7 @@
 
 use super::{Subject, measure, wetting_points};
 use crate::analysis::moments::Moments;
-use crate::analysis::phases::{PressureSamples, laplace_jump};
+use crate::analysis::phases::{PressureSamples, laplace_jump, resolution_error};
 use crate::math::Vec2;
 use crate::solver::Measure;
 use crate::sph::observe::sharp_color;
@@ -32,7 +32,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
             "laplace-jump-ratio",
             jump.mean / scale,
             "",
-            Some(jump.error / scale),
+            Some(jump.error.hypot(resolution_error(jump.mean, flow.method.tension, flow.method.kernel.h)) / scale),
             "mean p over r < R - 3h less mean p over r > R + 3h, over tension/R with R from the drop's area",
         ),
         measure(

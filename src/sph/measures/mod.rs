@@ -171,9 +171,49 @@ fn pairs(series: &Series, column: &str) -> (Vec<f64>, Vec<f64>) {
     series.column("time_s").zip(series.column(column)).unzip()
 }
 
+/// A largest or smallest value between records.
+struct Extremum {
+    time: f64,
+    value: f64,
+    /// Standard uncertainties: what the parabola changes, and half of the interval of the records over √3.
+    value_error: f64,
+    time_error: f64,
+}
+
+/// The vertex of the parabola through the record `row` and its neighbors, where `row` is the largest or smallest of the three; else the record.
+fn extremum(times: &[f64], values: &[f64], row: usize) -> Extremum {
+    let at = |row: usize| Some((*times.get(row)?, *values.get(row)?));
+    let (time, value) = at(row).unwrap_or((f64::NAN, f64::NAN));
+    let vertex = || {
+        let ((t0, v0), (t2, v2)) = (at(row.checked_sub(1)?)?, at(row + 1)?);
+        let (before, after) = ((value - v0) / (time - t0), (v2 - value) / (t2 - time));
+        let bend = (after - before) / (t2 - t0);
+        let slope = before + bend * (time - t0);
+        let step = -slope / (2.0 * bend);
+        let inside = (t0 - time..=t2 - time).contains(&step);
+        inside.then(|| Extremum {
+            time: time + step,
+            value: value + 0.5 * slope * step,
+            value_error: (0.5 * slope * step).abs(),
+            time_error: 0.25 * (t2 - t0) / 3.0_f64.sqrt(),
+        })
+    };
+    vertex().unwrap_or(Extremum { time, value, value_error: 0.0, time_error: f64::NAN })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_peak_between_records_is_found() {
+        let times: Vec<f64> = (0..=20).map(|i| 0.1 * f64::from(i)).collect();
+        let values: Vec<f64> = times.iter().map(|t| (t * 1.5).sin()).collect();
+        let peak = extremum(&times, &values, 10);
+        assert!((peak.time - std::f64::consts::FRAC_PI_2 / 1.5).abs() < 1e-3 && (peak.value - 1.0).abs() < 1e-4);
+        let end = extremum(&times, &values, 20);
+        assert_eq!((end.time, end.value), (times[20], values[20]));
+    }
 
     #[test]
     fn the_mean_on_a_circle_lies_in_the_middle_of_a_part_across_the_seam() {

@@ -1,6 +1,6 @@
 //! Filling of a slit between two open sides by the wetting phase (C5 of the benchmarks), and rise in one (C4).
 
-use super::{Subject, measure, pairs};
+use super::{Subject, extremum, measure, pairs};
 use crate::analysis::laws::slit::SlitFilling;
 use crate::math::Vec2;
 use crate::solver::Measure;
@@ -88,16 +88,29 @@ pub fn rise(s: &Subject) -> Vec<Measure> {
     };
     let peak = turn(0, 1.0).unwrap_or_default();
     let low = turn(peak, -1.0).unwrap_or(peak);
-    let method = "the point of the interface that is nearest to the side of entry, over all records";
+    let [highest, lowest] = [peak, low].map(|row| extremum(&times, &heights, row));
+    let method = "the point of the interface that is nearest to the side of entry, over all records, by the parabola through the three records there";
     vec![
-        measure("peak-apex-m", heights[peak], "m", None, &format!("largest distance of {method}")),
-        measure("peak-time-s", times[peak], "s", None, &format!("time of the largest distance of {method}")),
-        measure("minimum-apex-m", heights[low], "m", None, &format!("least distance after the peak of {method}")),
+        measure("peak-apex-m", highest.value, "m", Some(highest.value_error), &format!("largest distance of {method}")),
+        measure(
+            "peak-time-s",
+            highest.time,
+            "s",
+            Some(highest.time_error),
+            &format!("time of the largest distance of {method}"),
+        ),
+        measure(
+            "minimum-apex-m",
+            lowest.value,
+            "m",
+            Some(lowest.value_error),
+            &format!("least distance after the peak of {method}"),
+        ),
         measure(
             "minimum-time-s",
-            times[low],
+            lowest.time,
             "s",
-            None,
+            Some(lowest.time_error),
             &format!("time of the least distance after the peak of {method}"),
         ),
         measure(

@@ -4,6 +4,8 @@
 //! k/√(1 + b² − 2ka): linear in a, b and k, and exact for circles. At a wall the circle leaves the contact point with the
 //! angle θ of the wetting law, so that only its curvature and the place of the contact point along the wall are free.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use crate::math::{Vec2, perpendicular};
@@ -11,11 +13,11 @@ use crate::math::{Vec2, perpendicular};
 /// Fewest points of a free fit: three unknowns and some redundancy.
 const FEWEST: usize = 5;
 
-/// Angles nearer than this to 0 or 180 degrees have no contact point to hold on to, in rad.
-const SMALLEST_ANGLE: f64 = 0.2;
-
-/// Steps of the fixed-point iteration for the place of the contact point; each gains about a digit at small angles.
+/// Most steps of the search for the contact point; a few do.
 const ITERATIONS: usize = 12;
+
+/// The contact point is found when it moves by less than this share of the window.
+const CONVERGED: f64 = 1e-9;
 
 /// A point of the window relative to the nearest one, with its weight.
 #[derive(Debug, Clone, Copy)]
@@ -81,32 +83,42 @@ impl Circle {
 
 /// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.
 ///
-/// `contact` in m from the point that `near` is relative to; ν along the wall and its normal.
+/// `contact` in m from the point that `near` is relative to; ν along the wall and its normal. With the contact point right, the circle
+/// v = k (u² + v²)/2 passes through it; a fit of v = a + k (u² + v²)/2 misses it by a, and Newton's method moves it until a = 0. At 0 and
+/// 180 degrees the circle touches the wall: moved along the wall by δ the circle then moves by k u δ alone, which is what the points
+/// farther from the wall tell.
 pub(super) fn fit_from_contact(
     near: &[Near],
     contact: Vec2,
     (outwards, normal): (Vec2, Vec2),
     angle: f64,
 ) -> Option<(f64, f64)> {
-    let angle = angle.clamp(SMALLEST_ANGLE, std::f64::consts::PI - SMALLEST_ANGLE);
-    let n_e = -angle.sin() * outwards - angle.cos() * normal;
-    let t_e = angle.sin() * normal - angle.cos() * outwards;
-    let (mut delta, mut kappa) = (0.0, None);
+    let (sin, cos) = angle.clamp(0.0, PI).sin_cos();
+    let extent = near.iter().map(|q| (q.x - contact).norm()).fold(0.0, f64::max);
+    let mut delta = 0.0;
+    let mut found = None;
     for _ in 0..ITERATIONS {
-        let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
+        let (mut matrix, mut missed, mut moved) = (Matrix2::zeros(), Vector2::zeros(), Vector2::zeros());
         for q in near {
             let x = q.x - contact;
-            let v_0 = x.dot(&n_e);
-            let (u, v) = (x.dot(&t_e) + delta * angle.cos(), v_0 + delta * angle.sin());
-            let row = Vector2::new(1.0, 0.5 * (u * u + v * v));
+            let (along, above) = (x.dot(&outwards) - delta, x.dot(&normal));
+            let row = Vector2::new(1.0, 0.5 * (along * along + above * above));
             matrix += q.weight * row * row.transpose();
-            right += q.weight * v_0 * row;
+            missed -= q.weight * (sin * along + cos * above) * row;
+            moved += q.weight * along * row;
         }
-        let solution = matrix.cholesky()?.solve(&right);
-        delta = -solution[0] / angle.sin();
-        kappa = Some((solution[1], delta));
+        let matrix = matrix.cholesky()?;
+        let [offset, kappa] = matrix.solve(&missed).into();
+        found = Some(kappa);
+        // Beyond the top of a low drop the circle would move backwards: there the angle alone says how far.
+        let slope = (sin + kappa * matrix.solve(&moved)[0]).max(0.5 * sin);
+        let step = -offset / slope;
+        if !(step.abs() > CONVERGED * extent) || !(slope > 0.0) {
+            break;
+        }
+        delta += step.clamp(-0.5 * extent, 0.5 * extent);
     }
-    kappa
+    found.map(|kappa| (kappa, delta))
 }
 
 /// Angle in rad at which the circle through `anchor` (m, from the point that `near` is relative to) meets the wall with the

@@ -1,0 +1,107 @@
+//! What of a flow is out of the reach of its resolution, in words for the reader of its measures.
+
+use crate::analysis::blobs::{LINK, blobs};
+use crate::analysis::laws::drops::cap;
+use crate::analysis::resolution::thin_parts;
+use crate::sph::observe::Observation;
+use crate::sph::particles::Phase;
+use crate::sph::projection::Flow;
+
+/// Pieces of fewer particles than this, five across, have no curvature that a fit could find.
+const SMALLEST_PIECE: usize = 20;
+
+/// Share of the smaller phase in thin parts from which a reader must know: the wedges at contact lines stay below it.
+const LARGEST_THIN_SHARE: f64 = 0.01;
+
+/// Spacings across a drop or a film that its measures need.
+const ENOUGH: f64 = 8.0;
+
+/// Angles nearer than this to 0 or 180 degrees are told apart by the place of the interface to the second order only, in degrees.
+const LIMITING_ANGLE: f64 = 10.0;
+
+/// The parts of both phases that the particles do not resolve.
+pub struct Unresolved {
+    /// Whether the phase around each fluid particle is thinner than about three particles.
+    pub thin: Vec<bool>,
+    /// Thin particles over the number of particles of the phase that has fewer.
+    pub share: f64,
+    /// Connected pieces of either phase with fewer particles than have a curvature.
+    pub small_pieces: usize,
+}
+
+impl Unresolved {
+    /// Looks at the fluid of a flow.
+    #[must_use]
+    pub fn of(flow: &Flow) -> Self {
+        let (p, fluids) = (&flow.particles, flow.particles.fluids);
+        let (points, volumes, period) = (&p.position[..fluids], &flow.fields.volume[..fluids], flow.domain.periods());
+        let is_wetting: Vec<bool> = p.phase[..fluids].iter().map(|phase| *phase == Phase::Wetting).collect();
+        let wetting = is_wetting.iter().filter(|wetting| **wetting).count();
+        let smaller = wetting.min(fluids - wetting);
+        if smaller == 0 || flow.method.tension == 0.0 {
+            return Self { thin: vec![false; fluids], share: 0.0, small_pieces: 0 };
+        }
+        let thin = thin_parts(points, &is_wetting, flow.method.spacing, period);
+        let small = |member: &[bool]| {
+            let pieces = blobs(points, volumes, member, LINK * flow.method.spacing, period);
+            pieces.iter().filter(|piece| piece.count < SMALLEST_PIECE).count()
+        };
+        let others: Vec<bool> = is_wetting.iter().map(|wetting| !wetting).collect();
+        let small_pieces = small(&is_wetting) + small(&others);
+        let share = thin.iter().filter(|thin| **thin).count() as f64 / smaller as f64;
+        Self { thin, share, small_pieces }
+    }
+}
+
+/// The warnings that a flow asks for now.
+#[must_use]
+pub fn warnings(flow: &Flow, seen: &Observation) -> Vec<String> {
+    if flow.method.tension == 0.0 {
+        return Vec::new();
+    }
+    [pieces_and_films(flow), low_drop(flow, seen), limiting_angle(flow)].into_iter().flatten().collect()
+}
+
+fn pieces_and_films(flow: &Flow) -> Option<String> {
+    let Unresolved { share, small_pieces, .. } = Unresolved::of(flow);
+    if small_pieces == 0 && share < LARGEST_THIN_SHARE {
+        return None;
+    }
+    let (percent, half) = (100.0 * share, 0.5 * flow.method.spacing);
+    Some(format!(
+        "{small_pieces} pieces of fewer than {SMALLEST_PIECE} particles, and films thinner than three particles with {percent:.1} % of the \
+         smaller phase, are not resolved: what hangs on them (pieces counted, trapped fluid, angles beside them) is not a result; compare \
+         with sph.spacing = {half:.4e}"
+    ))
+}
+
+/// A drop on a plane of the asked-for angle that is only a few spacings high.
+fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
+    let angle = flow.method.wetting?.static_angle();
+    let areas = seen.areas;
+    let is_wetting = areas.wetting < areas.non_wetting;
+    let (area, through) =
+        if is_wetting { (areas.wetting, angle) } else { (areas.non_wetting, std::f64::consts::PI - angle) };
+    // Between walls the drop is no cap.
+    if seen.contact_lines.len() != 2 || !(area > 0.0 && through > 0.0) {
+        return None;
+    }
+    let across = cap(area, through).height / flow.method.spacing;
+    let spacing = flow.method.spacing * across / ENOUGH;
+    (across < ENOUGH).then(|| {
+        format!(
+            "a drop of this area at this angle is {across:.1} spacings high on a plane, and {ENOUGH:.0} are needed: use \
+             sph.spacing = {spacing:.3e} or a thin film"
+        )
+    })
+}
+
+fn limiting_angle(flow: &Flow) -> Option<String> {
+    let angle = flow.method.wetting?.static_angle().to_degrees();
+    (angle < LIMITING_ANGLE || angle > 180.0 - LIMITING_ANGLE).then(|| {
+        format!(
+            "at an angle of {angle:.1} degrees pressures and places are those asked for, but an angle measured from the interface has an \
+             error bar of some degrees: within {LIMITING_ANGLE:.0} degrees of complete wetting or drying it hardly changes the shape"
+        )
+    })
+}
