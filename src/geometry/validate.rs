@@ -5,6 +5,7 @@
 use crate::geometry::body::{Body, Place, bulged_ring};
 use crate::geometry::boundary::split;
 use crate::geometry::curve::{Curve, cross};
+use crate::geometry::extent;
 use crate::geometry::pack::PackError;
 use crate::geometry::rings::{RingFault, faults};
 use crate::geometry::solid::Geometry;
@@ -24,7 +25,7 @@ impl GeometrySpec {
     pub fn problems(&self) -> Vec<Problem> {
         let mut problems = self.domain_problems();
         for (i, shape) in self.shapes.iter().enumerate() {
-            problems.extend(shape.problems(&format!("shapes[{i}]")));
+            problems.extend(shape.problems_in(self, &format!("shapes[{i}]")));
         }
         if problems.is_empty() {
             problems.extend(self.position_problems());
@@ -46,6 +47,9 @@ impl GeometrySpec {
                     "`min` is the lower left corner of the domain and `max` the upper right one, in m",
                 ));
             }
+        }
+        if found.is_empty() {
+            found.extend(extent::domain_problems(self));
         }
         found
     }
@@ -110,6 +114,17 @@ impl ShapeSpec {
             Self::RandomPack(_) => "random-pack",
             Self::Array(_) => "array",
         }
+    }
+
+    /// All that is wrong with the shape in the domain of a geometry; `at` is its place, such as `shapes[2]`.
+    #[must_use]
+    pub fn problems_in(&self, geometry: &GeometrySpec, at: &str) -> Vec<Problem> {
+        let domain = Bounds { min: Vec2::from(geometry.min), max: Vec2::from(geometry.max) };
+        let is_domain = geometry.domain_problems().is_empty();
+        let extents = if is_domain { extent::shape_problems(domain, self, at) } else { Vec::new() };
+        let own = self.problems(at);
+        // What is no size at all is told once.
+        if own.is_empty() { extents } else { own }
     }
 
     /// All that is wrong with the shape by itself; `at` is its place, such as `shapes[2]`.

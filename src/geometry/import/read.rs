@@ -7,6 +7,7 @@ use crate::geometry::import::format::Format;
 use crate::geometry::import::mask::{self, MaskOptions};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::{dxf, esri, geojson, list, svg, wkt};
+use crate::input::file;
 
 /// Reads the bytes of a file; `path` tells where files beside it are looked for.
 pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options) -> Result<Drawing, Vec<Refusal>> {
@@ -16,7 +17,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options)
         Format::GeoJson => geojson::read(text(bytes)?),
         Format::Shapefile => {
             // A projection that is not text is a damaged one, which the reader of its text refuses.
-            let projection = std::fs::read(path.with_extension("prj")).ok();
+            let projection = file::read(&path.with_extension("prj"), file::LARGEST_TEXT).ok();
             esri::read(bytes, projection.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).as_deref())
         }
         // The case reader, which knows places in TOML, reads these.
