@@ -95,7 +95,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     let end = check::end(&mut checker, raw, model.as_ref());
     let output = check::output(&mut checker, raw, end);
     let steady = steady::steady(&mut checker, raw, end, &output);
-    let expect = check::expectations(&mut checker, raw);
+    let expect = check::expectations(&mut checker, raw, model.as_ref());
     let mut mistakes = reading.refuse(checker.problems);
     mistakes.append(&mut elsewhere);
     let (Some(title), Some(geometry), Some(model), Some(end), true) =
@@ -234,8 +234,31 @@ fn read_shapes(path: &Path, options: &Options) -> Result<Imported, NotRead> {
     crate::geometry::load(path, options).map_err(|error| match error {
         ShapeFileError::Keys { problems, .. } => NotRead::Keys(problems),
         ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, BESIDE)),
+        ShapeFileError::Parts { path, refusals } => NotRead::File(each_part(&name, &path, &refusals, |refusal| {
+            (format!("{}: found {}", refusal.place, refusal.found), format!("expected {}", refusal.expected))
+        })),
+        ShapeFileError::Shapes { path, problems } => NotRead::File(each_part(&name, &path, &problems, |problem| {
+            (format!("{}: {}", problem.path, problem.message), problem.help.clone())
+        })),
         error => NotRead::File(Mistake::of_file(&name, error.to_string(), "").into()),
     })
+}
+
+/// Most parts of a file that are told.
+const MOST_PARTS: usize = 50;
+
+/// A mistake for each part of a file that is refused.
+fn each_part<T>(name: &str, path: &Path, parts: &[T], told: impl Fn(&T) -> (String, String)) -> InputError {
+    let one = |part: &T| {
+        let (message, help) = told(part);
+        Mistake::of_file(name, format!("{}, {message}", path.display()), &help)
+    };
+    let mut mistakes: Vec<Mistake> = parts.iter().take(MOST_PARTS).map(one).collect();
+    if parts.len() > MOST_PARTS {
+        let more = format!("{}: there are {} more mistakes", path.display(), parts.len() - MOST_PARTS);
+        mistakes.push(Mistake::of_file(name, more, ""));
+    }
+    InputError { mistakes }
 }
 
 /// Loads a shape file; the ending of its name says its format.

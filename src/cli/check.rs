@@ -65,6 +65,9 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     for number in numbers::numbers(case, length, speed) {
         say(format_args!("  {:<11} {:<12} {}", number.symbol, readable(number.value), number.formula));
     }
+    for note in notes(case) {
+        say(format_args!("  note        {note}"));
+    }
     say(format_args!("  L           = {} m, {}", readable(length.value), length.name));
     say(format_args!("  U           = {} m/s, {formula}", readable(speed)));
     Ok(DONE)
@@ -82,6 +85,14 @@ fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Trial, Failure> {
     let found = trial(case, solver, &mut |share| display.tried(share));
     display.finish();
     found.map_err(|error| Failure::new(SOLVER_FAILED, &error))
+}
+
+/// What the user should know of the run, one sentence each.
+pub(super) fn notes(case: &Case) -> Vec<String> {
+    match &case.model {
+        Model::ThinFilm(film) => film.notes(case.end),
+        Model::Sph(_) | Model::Network(_) => Vec::new(),
+    }
 }
 
 /// Initial distance of particles or nodes in m.

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::check::notes;
 use super::output::{duration, readable};
 use crate::analysis::laws::drops::tadmor;
 use crate::case::checked::{Case, Model, WettingModel};
@@ -22,6 +23,9 @@ pub fn summary(finished: &Finished) -> String {
     push_measures(&mut text, report);
     push_expectations(&mut text, report);
     push_numbers(&mut text, report);
+    for note in notes(&report.case) {
+        let _ = writeln!(text, "  note        {note}");
+    }
     let show = |name: &str| finished.folder.join(name).display().to_string();
     let picture = match &finished.picture {
         Ok(path) => path.display().to_string(),

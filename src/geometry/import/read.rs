@@ -39,9 +39,13 @@ fn one(found: &str, expected: &str) -> Vec<Refusal> {
 fn text(bytes: &[u8]) -> Result<&str, Vec<Refusal>> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(text.trim_start_matches('\u{feff}')),
-        Err(error) => {
-            let place = format!("byte {}", error.valid_up_to());
-            Err(vec![Refusal { place, found: "no letter of UTF-8".into(), expected: "text in UTF-8".into() }])
+        Err(_) => {
+            let place = file::not_text(bytes).unwrap_or_default();
+            Err(vec![Refusal::new(
+                place,
+                "no letter of UTF-8",
+                "text in UTF-8: save the file as such; is it the right file?",
+            )])
         }
     }
 }
