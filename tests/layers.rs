@@ -36,7 +36,7 @@ const ONE_PLACE: [(&str, &[&str]); 15] = [
     ("indicatif", &["cli/"]),
     ("ctrlc", &["cli/"]),
     // Errors in input carry their place as `miette` wants it; only the command line prints them.
-    ("miette", &["cli/", "input/error.rs"]),
+    ("miette", &["cli/", "input/error.rs", "input/excerpt.rs"]),
     ("println!", &["cli/"]),
     ("eprintln!", &["cli/"]),
     ("print!", &["cli/"]),

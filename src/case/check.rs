@@ -1,8 +1,9 @@
 //! Checks of a case: end, output, expectations; and the tools that all checks share.
 
 use super::checked::{Expectation, Model, Output};
+use super::measures::{Offer, offers};
 use super::raw::{RawCase, RawEvery, RawExpectation};
-use crate::input::Problem;
+use crate::input::{Problem, nearest};
 
 /// The format of case and shape files that this program reads.
 const FORMAT: u32 = 1;
@@ -177,18 +178,44 @@ fn every(
 }
 
 /// The expectations that are whole.
-pub(super) fn expectations(checker: &mut Checker, raw: &RawCase) -> Vec<Expectation> {
+pub(super) fn expectations(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -> Vec<Expectation> {
+    let is_steady = raw.time.as_ref().is_some_and(|time| time.steady.is_some());
+    let offers = model.map(|model| offers(model, is_steady));
     let raw = raw.expect.iter().flatten().enumerate();
-    raw.filter_map(|(index, raw)| expectation(checker, &format!("expect[{index}]"), raw)).collect()
+    let one = |(index, raw)| expectation(checker, &format!("expect[{index}]"), raw, offers.as_deref());
+    raw.filter_map(one).collect()
 }
 
-fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation) -> Option<Expectation> {
+/// Refuses the name of a measure that the case does not have.
+fn refuse_unmeasured(checker: &mut Checker, path: String, name: &str, offers: &[Offer]) {
+    let with_name = || offers.iter().filter(|offer| offer.names.contains(&name));
+    if with_name().any(|offer| offer.is_given) {
+        return;
+    }
+    let given_by: Vec<&str> = with_name().map(|offer| offer.given_by.as_str()).collect();
+    if !given_by.is_empty() {
+        let help = format!("it comes with {}", given_by.join(" or "));
+        checker.refuse(path, format!("`{name}` is not measured in this case"), help);
+        return;
+    }
+    let known = || offers.iter().filter(|offer| offer.is_given).flat_map(|offer| offer.names.iter().copied());
+    let list = known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let meant = nearest(name, offers.iter().flat_map(|offer| offer.names.iter().copied()));
+    let meant = meant.map_or(String::new(), |meant| format!("did you mean `{meant}`? "));
+    checker.refuse(path, format!("unknown measure `{name}`"), format!("{meant}measured in this case: {list}"));
+}
+
+fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation, offers: Option<&[Offer]>) -> Option<Expectation> {
     let measure = checker.require(&format!("{at}.measure"), raw.measure.clone(), "measure = \"contact-angle-deg\"");
     let value = checker.require(&format!("{at}.value"), raw.value, "value = 40.0");
     let path = format!("{at}.tolerance");
     let tolerance = checker.require_positive(&path, raw.tolerance, "tolerance = 3.0", "a tolerance");
-    if measure.as_deref().is_some_and(|name| name.trim().is_empty()) {
-        checker.refuse(format!("{at}.measure"), "expected the name of a measure, found nothing", "");
+    match (measure.as_deref(), offers) {
+        (Some(name), _) if name.trim().is_empty() => {
+            checker.refuse(format!("{at}.measure"), "expected the name of a measure, found nothing", "");
+        }
+        (Some(name), Some(offers)) => refuse_unmeasured(checker, format!("{at}.measure"), name, offers),
+        _ => {}
     }
     Some(Expectation { measure: measure?, value: value?, tolerance: tolerance? })
 }

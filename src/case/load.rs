@@ -9,7 +9,7 @@ use super::{film, network, resolve, shapes, sph, steady};
 use crate::geometry::ShapeFileError;
 use crate::geometry::import::{self, Beyond, Format, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
-use crate::input::{Document, InputError, Mistake, Overrides, Problem};
+use crate::input::{Document, InputError, Mistake, Overrides, Problem, file};
 
 /// A checked case and where it came from.
 #[derive(Debug, Clone)]
@@ -91,10 +91,11 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
         if has_window { cut(&mut checker, spec, beyond, &mut notes) } else { Some(spec) }
     });
     let model = model(&mut checker, raw, geometry.as_ref());
+    shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref());
     let end = check::end(&mut checker, raw, model.as_ref());
     let output = check::output(&mut checker, raw, end);
     let steady = steady::steady(&mut checker, raw, end, &output);
-    let expect = check::expectations(&mut checker, raw);
+    let expect = check::expectations(&mut checker, raw, model.as_ref());
     let mut mistakes = reading.refuse(checker.problems);
     mistakes.append(&mut elsewhere);
     let (Some(title), Some(geometry), Some(model), Some(end), true) =
@@ -233,8 +234,31 @@ fn read_shapes(path: &Path, options: &Options) -> Result<Imported, NotRead> {
     crate::geometry::load(path, options).map_err(|error| match error {
         ShapeFileError::Keys { problems, .. } => NotRead::Keys(problems),
         ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, BESIDE)),
+        ShapeFileError::Parts { path, refusals } => NotRead::File(each_part(&name, &path, &refusals, |refusal| {
+            (format!("{}: found {}", refusal.place, refusal.found), format!("expected {}", refusal.expected))
+        })),
+        ShapeFileError::Shapes { path, problems } => NotRead::File(each_part(&name, &path, &problems, |problem| {
+            (format!("{}: {}", problem.path, problem.message), problem.help.clone())
+        })),
         error => NotRead::File(Mistake::of_file(&name, error.to_string(), "").into()),
     })
+}
+
+/// Most parts of a file that are told.
+const MOST_PARTS: usize = 50;
+
+/// A mistake for each part of a file that is refused.
+fn each_part<T>(name: &str, path: &Path, parts: &[T], told: impl Fn(&T) -> (String, String)) -> InputError {
+    let one = |part: &T| {
+        let (message, help) = told(part);
+        Mistake::of_file(name, format!("{}, {message}", path.display()), &help)
+    };
+    let mut mistakes: Vec<Mistake> = parts.iter().take(MOST_PARTS).map(one).collect();
+    if parts.len() > MOST_PARTS {
+        let more = format!("{}: there are {} more mistakes", path.display(), parts.len() - MOST_PARTS);
+        mistakes.push(Mistake::of_file(name, more, ""));
+    }
+    InputError { mistakes }
 }
 
 /// Loads a shape file; the ending of its name says its format.
@@ -266,14 +290,24 @@ fn shape_text(name: &str, text: &str, options: &Options) -> Result<Imported, Not
 
 /// The text of a file; `help` tells where the user should look when there is none.
 pub(crate) fn read(path: &Path, help: &str) -> Result<String, InputError> {
-    std::fs::read_to_string(path).map_err(|error| unreadable(&path.display().to_string(), path, &error, help))
+    file::read_text(path).map_err(|error| unreadable(&path.display().to_string(), path, &error, help))
 }
+
+/// The way out where a file is not text.
+const UTF_8: &str = "save it as text in UTF-8; is it the right file?";
 
 fn unreadable(name: &str, path: &Path, error: &std::io::Error, help: &str) -> InputError {
     let resolved = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     let message = match error.kind() {
         std::io::ErrorKind::NotFound => format!("there is no file {}", resolved.display()),
-        std::io::ErrorKind::InvalidData => format!("{} is not text in UTF-8", resolved.display()),
+        std::io::ErrorKind::InvalidData => {
+            return Mistake::of_file(
+                name,
+                format!("{} is not text in UTF-8 from {error} on", resolved.display()),
+                UTF_8,
+            )
+            .into();
+        }
         _ => format!("{} cannot be read: {error}", resolved.display()),
     };
     Mistake::of_file(name, message, help).into()

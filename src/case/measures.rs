@@ -1,10 +1,121 @@
-//! The groups of measures that a case can ask for; each is a table `[sph.measure.NAME]`.
+//! The measures of each solver by name, and the groups of them that a case can ask for; each is a table `[sph.measure.NAME]`.
 
+use super::checked::Model;
 use super::raw::{Empty, RawMeasures};
+
+/// Measures of every direct simulation.
+const EVERY_RUN: &[&str] =
+    &["density-error", "largest-density-error", "smallest-wall-distance-m", "smallest-particle-distance-ratio"];
+/// Those of one with a tension.
+const WITH_TENSION: &[&str] = &[
+    "saturation",
+    "area-drift",
+    "capillary-pressure-Pa",
+    "interface-length-m",
+    "wetted-length-m",
+    "wetting-blobs",
+    "below-resolution-share",
+    "small-pieces",
+];
+/// Those of one with a wetting model too.
+const WITH_WETTING: &[&str] = &["contact-angle-deg", "requested-angle-deg"];
+/// Those of one with open sides, or with a given flow through periodic ones.
+const OPEN_SIDES: &[&str] = &[
+    "balance-error",
+    "open-area-drift",
+    "inflow-m2-per-s",
+    "asked-inflow-m2-per-s",
+    "inflow-ratio",
+    "largest-flow-rate-error",
+    "driving-pressure-drop-Pa",
+];
+/// Those of a pore network.
+const NETWORK: &[&str] = &[
+    "porosity",
+    "pores",
+    "throats",
+    "narrowest-throat-m",
+    "widest-throat-m",
+    "permeability-x-m2",
+    "permeability-y-m2",
+    "relative-permeability-wetting",
+    "relative-permeability-non-wetting",
+    "smallest-entry-pressure-Pa",
+    "median-entry-pressure-Pa",
+    "largest-entry-pressure-Pa",
+    "breakthrough-pressure-Pa",
+    "saturation-at-breakthrough",
+    "residual-saturation",
+    "trapped-saturation",
+    "final-wetting-saturation",
+    "largest-capillary-pressure-Pa",
+    "events",
+    "hysteresis-work-J-per-m3",
+];
+/// Those of a thin film.
+const THIN_FILM: &[&str] = &[
+    "contact-line-position",
+    "center-height",
+    "contact-angle-deg",
+    "droplet-count",
+    "contact-line-exponent",
+    "last-particle-position",
+    "last-particle-exponent",
+    "contact-angle-ratio",
+    "cap-angle-ratio",
+    "equilibrium-l1-error",
+    "cox-voinov-ratio",
+    "cox-voinov-length-m",
+    "cox-voinov-error",
+    "similarity-curvature",
+    "similarity-error",
+    "lattice-slope-ratio",
+];
+/// That of a run with an end by a criterion.
+const STEADY: &[&str] = &["steady-at-s"];
+
+/// Measures that come together, and what a case must have for them.
+#[derive(Debug)]
+pub struct Offer {
+    /// Names.
+    pub names: &'static [&'static str],
+    /// What gives them, such as `[sph.measure.jurin]`.
+    pub given_by: String,
+    /// Whether the case has that.
+    pub is_given: bool,
+}
+
+impl Offer {
+    fn new(names: &'static [&'static str], given_by: &str, is_given: bool) -> Self {
+        Self { names, given_by: given_by.to_owned(), is_given }
+    }
+}
+
+/// All measures that the solver of a model knows; `is_steady` where the case has `[time.steady]`.
+#[must_use]
+pub fn offers(model: &Model, is_steady: bool) -> Vec<Offer> {
+    let steady = Offer::new(STEADY, "[time.steady]", is_steady);
+    match model {
+        Model::Sph(sph) => {
+            let has_wetting = sph.wetting_model.is_some();
+            let mut all = vec![
+                steady,
+                Offer::new(EVERY_RUN, "every run", true),
+                Offer::new(WITH_TENSION, "two phases with a tension above 0", sph.tension > 0.0),
+                Offer::new(WITH_WETTING, "a wetting model, such as [sph.wetting.young]", has_wetting),
+                Offer::new(OPEN_SIDES, "open sides or a given flow", true),
+            ];
+            all.extend(sph.measure.offers());
+            all
+        }
+        Model::ThinFilm(_) => vec![steady, Offer::new(THIN_FILM, "a thin film", true)],
+        Model::Network(_) => vec![Offer::new(NETWORK, "a network", true)],
+    }
+}
 
 /// The set of groups, and its way from a case file and back into one.
 macro_rules! groups {
-    ($($(#[$doc:meta])* $group:ident,)*) => {
+    ($($(#[$doc:meta])* $group:ident: [$($name:literal),*],)*) => {
         /// Named groups of measures a case can ask for; each is a table `[sph.measure.NAME]`.
         #[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
         pub struct MeasureSet {
@@ -17,6 +128,15 @@ macro_rules! groups {
                 Self { $($group: raw.$group.is_some(),)* }
             }
 
+            /// The names of the measures of each group, and whether it is asked for.
+            fn offers(&self) -> Vec<Offer> {
+                vec![$(Offer {
+                    names: &[$($name),*],
+                    given_by: format!("[sph.measure.{}]", stringify!($group).replace('_', "-")),
+                    is_given: self.$group,
+                },)*]
+            }
+
             /// A table for each group that is asked for.
             pub(super) fn to_raw(&self) -> RawMeasures {
                 RawMeasures { $($group: self.$group.then_some(Empty {}),)* }
@@ -27,43 +147,43 @@ macro_rules! groups {
 
 groups! {
     /// `base-m`, `height-m` and their ratios to the exact ones of a drop on a straight wall.
-    sessile_drop,
+    sessile_drop: ["base-m", "height-m", "base-ratio", "height-ratio"],
     /// `laplace-jump-ratio`, `parasitic-capillary-number` of a free drop.
-    laplace_drop,
+    laplace_drop: ["laplace-jump-ratio", "parasitic-capillary-number", "radius-scatter-ratio"],
     /// `velocity-l2-error` against plane Poiseuille flow driven by gravity.
-    poiseuille,
+    poiseuille: ["velocity-l2-error", "slip-length-m"],
     /// `decay-rate-error` against the Taylor-Green vortex.
-    taylor_green,
+    taylor_green: ["decay-rate-error"],
     /// `filling-angle-deg`, `neck-half-width-m`, `capillary-pressure-ratio` of a bridge between two discs.
-    capillary_bridge,
+    capillary_bridge: ["filling-angle-deg", "neck-half-width-m", "capillary-pressure-ratio", "filling-angle-ratio"],
     /// `interface-curvature-ratio`, `capillary-pressure-ratio` of the menisci between four discs.
-    four_discs,
+    four_discs: ["interface-curvature-per-m", "interface-curvature-ratio", "capillary-pressure-ratio"],
     /// Wetted part and height of a drop on a disc.
-    drop_on_disc,
+    drop_on_disc: ["half-angle-deg", "half-angle-ratio", "height-ratio"],
     /// Period and decay of a free drop that oscillates between two ellipses.
-    oscillating_drop,
+    oscillating_drop: ["period-s", "decay-rate", "period-ratio", "decay-rate-ratio"],
     /// Amplitude of a standing wave on a flat interface.
-    capillary_wave,
+    capillary_wave: ["wave-rms-error"],
     /// Height, speed and roundness of a bubble (the wetting phase) that rises.
-    rising_bubble,
+    rising_bubble: ["rise-center-m", "max-rise-velocity", "min-circularity"],
     /// Deformation of a drop between two moving walls.
-    shear_drop,
+    shear_drop: ["deformation", "deformation-ratio"],
     /// Velocity and flow rates of two layers between plates.
-    layered_poiseuille,
+    layered_poiseuille: ["layered-velocity-l2-error", "wetting-flow-rate-ratio", "non-wetting-flow-rate-ratio"],
     /// Extreme velocities on the center lines of a lid-driven cavity.
-    cavity,
+    cavity: ["u-min", "v-max", "v-min"],
     /// Drag on the solids of a periodic cell that a body force drives fluid through.
-    cylinder_array,
+    cylinder_array: ["drag-over-mu-u", "mean-velocity-m-per-s", "permeability-m2", "unsteady-share"],
     /// Capillary pressure over the entry pressure of the throat between two discs.
-    throat_entry,
+    throat_entry: ["entry-pressure-ratio", "entry-curvature-ratio"],
     /// Difference of the mean levels on both sides of a plate.
-    jurin,
+    jurin: ["rise-difference-m", "rise-ratio"],
     /// Angles, speeds and forces of a drop that moves or is held on a wall.
-    moving_drop,
+    moving_drop: ["advancing-angle-deg", "receding-angle-deg", "advancing-speed-m-per-s", "receding-speed-m-per-s", "advancing-way-m-per-s", "receding-way-m-per-s", "advancing-capillary-number", "receding-capillary-number", "advancing-wall-angle-deg", "receding-wall-angle-deg", "adhesion-tension-N-per-m", "retention-N-per-m", "wall-retention-N-per-m", "stream-drag-N-per-m", "net-drag-N-per-m", "drag-over-retention", "drag-over-wall-retention", "detachment-time-s"],
     /// Exponent of a drop that spreads.
-    spreading,
+    spreading: ["spreading-exponent"],
     /// Filled length of a slit between two open sides.
-    slit_filling,
+    slit_filling: ["filled-length-m", "filling-ratio", "filling-error"],
     /// Height of the meniscus that rises from an open side.
-    capillary_rise,
+    capillary_rise: ["peak-apex-m", "peak-time-s", "minimum-apex-m", "minimum-time-s", "final-apex-m"],
 }

@@ -9,7 +9,7 @@ mod facts;
 pub mod film;
 mod kind;
 mod load;
-mod measures;
+pub mod measures;
 pub mod network;
 mod numerics;
 mod open;

@@ -1,6 +1,7 @@
 //! Domain and solids of a case or of a shape file: which keys go together, and what the shapes themselves say.
 
 use super::check::Checker;
+use super::checked::{Model, Side};
 use super::network::raw::{RawNetworkSide, RawNetworkSides};
 use super::raw::{RawGeometry, RawShapeFile, RawSide, RawSides};
 use crate::geometry::import::{Beyond, Options};
@@ -24,26 +25,27 @@ pub(super) fn inline(checker: &mut Checker, at: &str, raw: &RawGeometry) -> Opti
     let before = checker.problems.len();
     let (Some(min), Some(max)) = (min, max) else {
         for (index, shape) in shapes.iter().enumerate() {
-            checker.problems.extend(shape_problems(&join(at, &format!("shapes[{index}]")), shape));
+            checker.problems.extend(shape_problems(&join(at, &format!("shapes[{index}]")), shape, None));
         }
         return None;
     };
-    let spec = GeometrySpec { min, max, solid, shapes: expanded(checker, at, &shapes) };
+    let (written, shapes): (Vec<usize>, Vec<ShapeSpec>) = expanded(checker, at, &shapes).into_iter().unzip();
+    let spec = GeometrySpec { min, max, solid, shapes };
     if checker.problems.len() > before {
         return None;
     }
     for problem in spec_problems(&spec) {
-        checker.refuse(join(at, &problem.path), problem.message, problem.help);
+        checker.refuse(join(at, &in_file(&problem.path, &written)), problem.message, problem.help);
     }
     (checker.problems.len() == before).then_some(spec)
 }
 
-/// The shapes with generators replaced by the discs that they make.
-fn expanded(checker: &mut Checker, at: &str, shapes: &[ShapeSpec]) -> Vec<ShapeSpec> {
+/// The shapes with generators replaced by the discs that they make, each with the index that it is written at.
+fn expanded(checker: &mut Checker, at: &str, shapes: &[ShapeSpec]) -> Vec<(usize, ShapeSpec)> {
     let mut plain = Vec::new();
     for (index, shape) in shapes.iter().enumerate() {
         match shape.expanded() {
-            Ok(shapes) => plain.extend(shapes),
+            Ok(shapes) => plain.extend(shapes.into_iter().map(|shape| (index, shape))),
             Err(error) => {
                 let path = join(at, &format!("shapes[{index}].{}.{}", shape.key(), error.key));
                 checker.refuse(path, error.message, error.help);
@@ -51,6 +53,15 @@ fn expanded(checker: &mut Checker, at: &str, shapes: &[ShapeSpec]) -> Vec<ShapeS
         }
     }
     plain
+}
+
+/// The path of a problem with the index that its shape is written at.
+fn in_file(path: &str, written: &[usize]) -> String {
+    let parts = path.strip_prefix("shapes[").and_then(|rest| rest.split_once(']'));
+    match parts.and_then(|(index, rest)| Some((written.get(index.parse::<usize>().ok()?)?, rest))) {
+        Some((index, rest)) => format!("shapes[{index}]{rest}"),
+        None => path.to_owned(),
+    }
 }
 
 /// Refuses keys that belong to the file where a file is named.
@@ -148,14 +159,27 @@ pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &R
     (checker.problems.len() == before).then_some(spec)
 }
 
+/// Refuses shapes whose images beyond periodic sides would be too many.
+pub(super) fn refuse_images(checker: &mut Checker, geometry: Option<&GeometrySpec>, model: Option<&Model>) {
+    let sides = match model {
+        Some(Model::Sph(sph)) => &sph.sides,
+        Some(Model::Network(network)) => &network.sides,
+        Some(Model::ThinFilm(_)) | None => return,
+    };
+    let periodic = [sides.left == Side::Periodic, sides.bottom == Side::Periodic];
+    for problem in geometry.map_or_else(Vec::new, |geometry| geometry.periodic_problems(periodic)) {
+        checker.refuse(format!("geometry.{}", problem.path), problem.message, problem.help);
+    }
+}
+
 /// What is wrong with a domain and its shapes; key paths within the geometry.
 fn spec_problems(spec: &GeometrySpec) -> Vec<Problem> {
     spec.problems()
 }
 
 /// What is wrong with one shape, written at the key path `at`.
-pub(super) fn shape_problems(at: &str, shape: &ShapeSpec) -> Vec<Problem> {
-    shape.problems(at)
+pub(super) fn shape_problems(at: &str, shape: &ShapeSpec, geometry: Option<&GeometrySpec>) -> Vec<Problem> {
+    geometry.map_or_else(|| shape.problems(at), |geometry| shape.problems_in(geometry, at))
 }
 
 fn join(at: &str, key: &str) -> String {

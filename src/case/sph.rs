@@ -60,7 +60,7 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         Some(model) => wetting::patches(checker, "sph.wetting", raw.wetting.as_ref(), model, Some(&sides), geometry),
         None => Vec::new(),
     };
-    let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases);
+    let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases, geometry);
     let walls = walls(checker, &raw.walls.clone().unwrap_or_default(), wetting_model.is_some(), spacing);
     let default = numerics::default(surface_force);
     let numerics = numerics::numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
@@ -221,10 +221,15 @@ fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
     }
 }
 
-fn initial(checker: &mut Checker, raw: &RawInitial, two_phases: bool) -> Option<Initial> {
+fn initial(
+    checker: &mut Checker,
+    raw: &RawInitial,
+    two_phases: bool,
+    geometry: Option<&GeometrySpec>,
+) -> Option<Initial> {
     let wetting = raw.wetting.clone().unwrap_or_default();
     for (index, shape) in wetting.iter().enumerate() {
-        checker.problems.extend(shape_problems(&format!("sph.initial.wetting[{index}]"), shape));
+        checker.problems.extend(shape_problems(&format!("sph.initial.wetting[{index}]"), shape, geometry));
     }
     if two_phases && wetting.is_empty() {
         checker.refuse(

@@ -67,7 +67,7 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     }
     say(format_args!("  L           = {} m, {}", readable(length.value), length.name));
     say(format_args!("  U           = {} m/s, {formula}", readable(speed)));
-    for warning in solver.warnings() {
+    for warning in setup::warnings(case, solver.as_ref()) {
         say(format_args!("  WARNING     {warning}"));
     }
     Ok(DONE)

@@ -7,7 +7,7 @@ use clap::{CommandFactory, Parser};
 use super::arguments::{Arguments, Command, RunArguments};
 use super::exit::{BUG, DONE, Failure};
 use super::output::{say, tell};
-use super::{check, geometry, list, network, new, run, source, study};
+use super::{check, geometry, list, network, new, run, source, study, threads};
 
 /// Reads the command line and does what it says.
 #[must_use]
@@ -22,6 +22,7 @@ pub fn main() -> ExitCode {
         std::process::exit(i32::from(BUG));
     }));
     let arguments = Arguments::parse();
+    threads::bound_environment();
     let code = dispatch(arguments.command).unwrap_or_else(|failure| {
         tell(failure.message.trim_end());
         failure.code

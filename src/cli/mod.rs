@@ -23,6 +23,7 @@ mod stages;
 mod study;
 mod study_run;
 mod summary;
+mod threads;
 mod write_shapes;
 
 pub use entry::main;

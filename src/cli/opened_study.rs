@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::arguments::CoresArguments;
 use super::exit::{BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::say;
+use super::threads::{self, within_cores};
 use crate::study::child::Program;
 use crate::study::definition::Study;
 use crate::study::estimate::Cores;
@@ -77,11 +78,11 @@ fn program(study: &Path) -> Result<Program, Failure> {
     Ok(Program { path, study: study.to_path_buf() })
 }
 
-/// Threads and runs at once, within the cores of this machine where nothing else was asked for.
+/// Threads and runs at once, within the cores of this machine.
 pub fn cores(arguments: &CoresArguments) -> Cores {
-    let all = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = usize::from(arguments.threads);
-    Cores { threads, jobs: arguments.jobs.map_or((all / threads).max(1), usize::from) }
+    let threads = within_cores("--threads", usize::from(arguments.threads));
+    let jobs = arguments.jobs.map(|jobs| within_cores("--jobs", usize::from(jobs)));
+    Cores { threads, jobs: jobs.unwrap_or_else(|| (threads::cores() / threads).max(1)) }
 }
 
 /// Writes the report, tells it, and says how the study stands by the exit code.

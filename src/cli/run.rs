@@ -9,6 +9,7 @@ use super::output::{say, tell};
 use super::progress::ProgressDisplay;
 use super::source::Source;
 use super::summary::summary;
+use super::threads::pool;
 use super::{interrupt, source};
 use crate::case::checked::Case;
 use crate::run::execute::{Finished, Job, Mode, RunError, execute};
@@ -65,15 +66,6 @@ pub(super) fn built(case: &Case) -> Result<Box<dyn Solver>, Failure> {
     let solver = setup::build_watched(case, &mut |share| display.packed(share));
     display.finish();
     solver.map_err(|error| Failure::new(BAD_INPUT, &error))
-}
-
-/// The thread pool that the run works in.
-fn pool(threads: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, Failure> {
-    let threads = threads.map_or(0, usize::from);
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| Failure::new(USAGE, &format_args!("cannot start {threads} threads: {error}; use fewer")))
 }
 
 fn failure(error: &RunError) -> Failure {

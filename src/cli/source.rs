@@ -6,11 +6,11 @@ use super::exit::{BAD_INPUT, Failure, USAGE};
 use super::output::tell;
 use crate::case::checked::{Case, Model};
 use crate::case::{self, Loaded};
-use crate::geometry::Geometry;
 use crate::geometry::import::{self, Beyond, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
-use crate::input::{InputError, Overrides};
+use crate::geometry::{Geometry, GeometryError};
+use crate::input::{InputError, Overrides, file};
 use crate::run::setup;
 use crate::snapshot::{Grid, Lines};
 use crate::solver::Measure;
@@ -75,7 +75,7 @@ fn load(path: Option<&Path>, overrides: &[String]) -> Result<Loaded, InputError>
 pub fn is_case_file(path: &Path) -> bool {
     // What cannot be read as text is for the readers of shape files to tell.
     let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    is_toml && std::fs::read_to_string(path).is_ok_and(|text| case::is_case(&text))
+    is_toml && file::read_text(path).is_ok_and(|text| case::is_case(&text))
 }
 
 /// Whether a case is one of a network.
@@ -122,6 +122,10 @@ pub fn load_shapes(
         (false, periodic) => {
             let spec = geometry_of_file(path, options, periodic.unwrap_or_default())?;
             at("uniting the shapes");
+            let problems = spec.periodic_problems(periodic.unwrap_or_default());
+            if !problems.is_empty() {
+                return Err(Failure::new(BAD_INPUT, &GeometryError::Invalid(problems)));
+            }
             let geometry = Geometry::new(&spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
             (geometry.with_sides(periodic.unwrap_or_default(), [false; 4]), spec)
         }

@@ -12,6 +12,7 @@ use super::interrupt;
 use super::opened_study::{Opened, cores, each, finish, folder, open};
 use super::output::{duration, say, tell};
 use super::progress::ProgressDisplay;
+use super::threads::pool;
 use crate::study::engine::{End, Event, Work, free_memory, work};
 use crate::study::estimate::estimates;
 use crate::study::execute::{self, Ending, ExecuteError};
@@ -47,7 +48,7 @@ fn here(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure> {
     tell(format_args!("{} -> {}", opened.study.title, opened.folder.root().display()));
     let kept = opened.folder.estimates();
     let estimates = estimates(&opened.runs, &opened.program, cores, (&kept, true), &flag);
-    let memory = arguments.memory.map(|mebibytes| mebibytes * BYTES_PER_MEBIBYTE).or_else(free_memory);
+    let memory = arguments.memory.map(|mebibytes| mebibytes.saturating_mul(BYTES_PER_MEBIBYTE)).or_else(free_memory);
     let Opened { runs, folder, program, .. } = opened;
     let job = Work { runs, estimates: &estimates, folder, program, cores, memory, interrupt: &flag };
     let mut teller = Teller { count: runs.len(), ended: 0 };
@@ -118,7 +119,7 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
         estimates: &estimates,
         folder: &opened.folder,
         program: &opened.program,
-        threads: cores.threads,
+        threads: usize::from(arguments.cores.threads),
         jobs: arguments.cores.jobs.map(usize::from),
         options: &arguments.sbatch,
     };
@@ -152,11 +153,7 @@ fn one(arguments: &StudyRunArguments, study: &Path, index: usize) -> Result<u8, 
     if arguments.worker {
         stop_with_parent(&flag);
     }
-    let threads = usize::from(arguments.cores.threads);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| Failure::new(USAGE, &format_args!("cannot start {threads} threads: {error}; use fewer")))?;
+    let pool = pool(Some(arguments.cores.threads))?;
     tell(format_args!("run {index}: {} -> {}", run.name, folder.run(&run.name).display()));
     let mut display = ProgressDisplay::new();
     let ending = pool.install(|| execute::run(&planned, &folder, &flag, &mut display));

@@ -9,6 +9,7 @@ use crate::geometry::import::drawing::Refusal;
 use crate::geometry::import::format::Format;
 use crate::geometry::import::options::Options;
 use crate::geometry::import::read::read;
+use crate::input::file;
 use crate::input::problem::Problem;
 
 /// Why a shape file was refused.
@@ -79,7 +80,7 @@ pub fn load(path: &Path, options: &Options) -> Result<Imported, ShapeFileError> 
     if !problems.is_empty() {
         return Err(ShapeFileError::Keys { path, problems });
     }
-    let bytes = match std::fs::read(&path) {
+    let bytes = match file::read(&path, file::LARGEST) {
         Ok(bytes) => bytes,
         Err(source) => return Err(ShapeFileError::Read { path, source }),
     };

@@ -11,13 +11,16 @@ use rayon::prelude::*;
 use crate::geometry::boundary::{Nearest, Piece, chains, followers};
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::solid::Geometry;
-use crate::math::Vec2;
+use crate::math::{Bounds, Vec2};
 
 /// A depth that differs by less than this share of the distance of samples is the same.
 const SAME_DEPTH: f64 = 1e-2;
 
 /// Halvings of the interval in which a line is cut.
 const HALVINGS: usize = 12;
+
+/// Samples of a part of a curve that is not divided further.
+const LEAST_SAMPLES: usize = 16;
 
 /// Ends of a line that are nearer than this many distances of samples are joined: the two sides of a corner.
 const JOINED: f64 = 2.0;
@@ -78,6 +81,8 @@ impl Shell {
 /// The parts of the surface of a geometry that no lattice fits: curved, oblique, or between its rows.
 pub struct UnfittedSurface<'a> {
     geometry: &'a Geometry,
+    /// The domain, with as much around it again: where lines can be asked for.
+    near: Bounds,
     is_unfitted: Vec<bool>,
     next: Vec<Option<usize>>,
     before: Vec<Option<usize>>,
@@ -113,7 +118,9 @@ impl<'a> UnfittedSurface<'a> {
         for (i, j) in next.iter().enumerate().filter_map(|(i, j)| j.map(|j| (i, j))) {
             before[j] = Some(i);
         }
-        Self { geometry, is_unfitted: pieces.iter().map(is_unfitted).collect(), next, before, counts: None }
+        let is_unfitted = pieces.iter().map(is_unfitted).collect();
+        let near = near.grown(geometry.bounds().size().max());
+        Self { geometry, near, is_unfitted, next, before, counts: None }
     }
 
     /// The same surface, of which only the points count for which `counts` holds, by their place (m) and the normal there.
@@ -175,10 +182,8 @@ impl<'a> UnfittedSurface<'a> {
         for (k, &i) in chain.iter().enumerate() {
             let curve = &self.geometry.boundary.pieces[i].curve;
             if self.is_unfitted[i] {
-                let count = (curve.length() / step).ceil().max(1.0) as usize;
-                let last = if curve.is_closed() { count - 1 } else { count };
-                let at = |u: f64| Some(curve.point(u) - depth * curve.normal(u));
-                samples.extend((0..=last).map(|s| at(s as f64 / count as f64)));
+                let at = |u: f64| curve.point(u) - depth * curve.normal(u);
+                self.samples_of(curve, step, &mut |u| samples.push(u.map(at)));
             } else {
                 samples.push(None);
             }
@@ -194,6 +199,26 @@ impl<'a> UnfittedSurface<'a> {
             }
         }
         samples
+    }
+
+    /// Samples of a curve as its parameter, every `step` (m) or a little nearer; one that is none for each part far from the domain, however long.
+    fn samples_of(&self, curve: &Curve, step: f64, take: &mut dyn FnMut(Option<f64>)) {
+        let count = (curve.length() / step).ceil().max(1.0) as usize;
+        let last = if curve.is_closed() { count - 1 } else { count };
+        // Parts that are still to be taken, the next one last.
+        let mut parts = vec![(0, last)];
+        while let Some((from, to)) = parts.pop() {
+            let half = (to - from) as f64 * 0.5 * curve.length() / count as f64;
+            let middle = curve.point((from + to) as f64 * 0.5 / count as f64);
+            if !self.near.grown(half).contains(middle) {
+                take(None);
+            } else if to - from < LEAST_SAMPLES || self.near.size().max() > half {
+                (from..=to).for_each(|s| take(Some(s as f64 / count as f64)));
+            } else {
+                let cut = from.midpoint(to);
+                parts.extend([(cut + 1, to), (from, cut)]);
+            }
+        }
     }
 
     /// The parts of a sampled line that have their depth.

@@ -5,6 +5,7 @@
 use crate::geometry::body::{Body, Place, bulged_ring};
 use crate::geometry::boundary::split;
 use crate::geometry::curve::{Curve, cross};
+use crate::geometry::extent;
 use crate::geometry::pack::PackError;
 use crate::geometry::rings::{RingFault, faults};
 use crate::geometry::solid::Geometry;
@@ -24,7 +25,7 @@ impl GeometrySpec {
     pub fn problems(&self) -> Vec<Problem> {
         let mut problems = self.domain_problems();
         for (i, shape) in self.shapes.iter().enumerate() {
-            problems.extend(shape.problems(&format!("shapes[{i}]")));
+            problems.extend(shape.problems_in(self, &format!("shapes[{i}]")));
         }
         if problems.is_empty() {
             problems.extend(self.position_problems());
@@ -46,6 +47,9 @@ impl GeometrySpec {
                     "`min` is the lower left corner of the domain and `max` the upper right one, in m",
                 ));
             }
+        }
+        if found.is_empty() {
+            found.extend(extent::domain_problems(self));
         }
         found
     }
@@ -110,6 +114,17 @@ impl ShapeSpec {
             Self::RandomPack(_) => "random-pack",
             Self::Array(_) => "array",
         }
+    }
+
+    /// All that is wrong with the shape in the domain of a geometry; `at` is its place, such as `shapes[2]`.
+    #[must_use]
+    pub fn problems_in(&self, geometry: &GeometrySpec, at: &str) -> Vec<Problem> {
+        let domain = Bounds { min: Vec2::from(geometry.min), max: Vec2::from(geometry.max) };
+        let is_domain = geometry.domain_problems().is_empty();
+        let extents = if is_domain { extent::shape_problems(domain, self, at) } else { Vec::new() };
+        let own = self.problems(at);
+        // What is no size at all is told once.
+        if own.is_empty() { extents } else { own }
     }
 
     /// All that is wrong with the shape by itself; `at` is its place, such as `shapes[2]`.
@@ -216,17 +231,43 @@ impl Check {
     fn rings(&mut self, rings: &[Vec<[f64; 3]>], least: usize) {
         let before = self.found.len();
         for (k, ring) in rings.iter().enumerate() {
-            self.ring(&key_of(k), ring, least, k == 0);
+            self.ring(&key_of(k), ring, least);
+        }
+        if self.found.len() > before {
+            return;
+        }
+        let curves: Vec<Vec<Curve>> = rings.iter().map(|ring| bulged_ring(ring).collect()).collect();
+        let faults = faults(&curves);
+        // A ring that crosses itself runs both ways, and may enclose no area.
+        let crosses =
+            |k: usize| faults.iter().any(|f| matches!(f, RingFault::SelfIntersection { ring, .. } if *ring == k));
+        for (k, ring) in rings.iter().enumerate().filter(|(k, _)| !crosses(*k)) {
+            self.direction(&key_of(k), ring, k == 0);
         }
         if self.found.len() == before {
-            let rings: Vec<Vec<Curve>> = rings.iter().map(|ring| bulged_ring(ring).collect()).collect();
-            for fault in faults(&rings) {
-                self.fault(&fault);
-            }
+            faults.iter().for_each(|fault| self.fault(fault));
+        } else {
+            let own = faults.iter().filter(|fault| matches!(fault, RingFault::SelfIntersection { .. }));
+            own.for_each(|fault| self.fault(fault));
         }
     }
 
-    fn ring(&mut self, key: &str, points: &[[f64; 3]], least: usize, is_outer: bool) {
+    /// Checks that the outer ring runs counter-clockwise and a hole clockwise.
+    fn direction(&mut self, key: &str, points: &[[f64; 3]], is_outer: bool) {
+        let area = bulged_area(points);
+        let (direction, wanted) = if area > 0.0 {
+            ("counter-clockwise", "a hole runs clockwise: reverse its points")
+        } else {
+            ("clockwise", "the outer ring runs counter-clockwise: reverse its points")
+        };
+        if area == 0.0 {
+            self.add(key, "the ring encloses no area", "its points must not lie on one line");
+        } else if (area > 0.0) != is_outer {
+            self.add(key, format!("the ring runs {direction}"), wanted);
+        }
+    }
+
+    fn ring(&mut self, key: &str, points: &[[f64; 3]], least: usize) {
         let count = points.len();
         if count < least {
             let word = if least == 2 { "two" } else { "three" };
@@ -254,17 +295,6 @@ impl Check {
                 "a bulge is the tangent of a quarter of the arc's angle: 1 is a half circle; write a circle as two half circles",
             );
             return;
-        }
-        let area = bulged_area(points);
-        let (direction, wanted) = if area > 0.0 {
-            ("counter-clockwise", "a hole runs clockwise: reverse its points")
-        } else {
-            ("clockwise", "the outer ring runs counter-clockwise: reverse its points")
-        };
-        if area == 0.0 {
-            self.add(key, "the ring encloses no area", "its points must not lie on one line");
-        } else if (area > 0.0) != is_outer {
-            self.add(key, format!("the ring runs {direction}"), wanted);
         }
     }
 

@@ -2,7 +2,12 @@
 
 use std::sync::Arc;
 
-use miette::{Diagnostic, NamedSource, SourceSpan};
+use miette::{Diagnostic, SourceSpan};
+
+use super::excerpt::{Excerpt, shortened};
+
+/// Letters of a message: what it quotes of a file can be of any length.
+const LONGEST: usize = 1000;
 
 /// One mistake at its place.
 #[derive(Debug, Clone, thiserror::Error, Diagnostic)]
@@ -17,7 +22,7 @@ pub struct Mistake {
     #[help]
     help: Option<String>,
     #[source_code]
-    text: Option<NamedSource<Arc<str>>>,
+    excerpt: Option<Excerpt>,
     #[label("here")]
     span: Option<SourceSpan>,
 }
@@ -25,7 +30,14 @@ pub struct Mistake {
 impl Mistake {
     /// A mistake of a file as a whole, such as one that cannot be read.
     pub(crate) fn of_file(name: &str, message: String, help: &str) -> Self {
-        Self { message, name: name.to_owned(), place: None, help: non_empty(help), text: None, span: None }
+        Self {
+            message: shortened(&message, LONGEST),
+            name: name.to_owned(),
+            place: None,
+            help: non_empty(help),
+            excerpt: None,
+            span: None,
+        }
     }
 
     /// A mistake at the bytes `start..end` of `text`; the ends are moved to the nearest letters.
@@ -40,13 +52,14 @@ impl Mistake {
         let before = &text[..start];
         let line = before.matches('\n').count() + 1;
         let column = before.rsplit('\n').next().map_or(0, |rest| rest.chars().count()) + 1;
+        let (excerpt, span) = Excerpt::new(name, text, start..end, (line - 1, column - 1));
         Self {
-            message: problem.0,
+            message: shortened(&problem.0, LONGEST),
             name: name.to_owned(),
             place: Some((line, column)),
             help: non_empty(&problem.1),
-            text: Some(NamedSource::new(name, Arc::clone(text))),
-            span: Some((start, end - start).into()),
+            excerpt: Some(excerpt),
+            span: Some((span.start, span.len()).into()),
         }
     }
 
@@ -60,7 +73,7 @@ impl Mistake {
     fn render(&self) -> String {
         let place = self.place.map_or(String::new(), |(line, column)| format!(":{line}:{column}"));
         let help = self.help.as_ref().map_or(String::new(), |help| format!("  help: {help}\n"));
-        format!("{}{place}: {}\n{help}", self.name, self.message)
+        format!("{}{place}: {}\n{help}", shortened(&self.name, LONGEST), self.message)
     }
 }
 
@@ -89,13 +102,13 @@ impl From<Mistake> for InputError {
 
 fn summary(mistakes: &[Mistake]) -> String {
     match mistakes {
-        [one] => format!("a mistake in {}", one.name),
+        [one] => format!("a mistake in {}", shortened(&one.name, LONGEST)),
         _ => format!("{} mistakes", mistakes.len()),
     }
 }
 
 fn non_empty(text: &str) -> Option<String> {
-    (!text.is_empty()).then(|| text.to_owned())
+    (!text.is_empty()).then(|| shortened(text, LONGEST))
 }
 
 /// The last letter boundary at or before `index`.

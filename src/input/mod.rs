@@ -6,7 +6,9 @@
 
 mod document;
 mod error;
+mod excerpt;
 mod explain;
+pub mod file;
 mod overrides;
 mod path;
 pub mod problem;

@@ -9,6 +9,7 @@ use super::numbers::{self, Length};
 use super::processor_time::ProcessorTime;
 use super::report::{self, Machine, Reached, Report, SolverReport, Status, readings, verdicts, wall_time};
 use super::schedule::Schedule;
+use super::setup;
 use super::simulation::{Outcome, Records, Simulation, Watcher};
 use super::sink::Start;
 use super::steady::Steadiness;
@@ -170,7 +171,7 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
         machine: Machine::present(),
         wall_time_s: wall_time(0.0, statistics.parts.iter().copied().chain(records.parts())),
         cpu_s: None,
-        warnings: solver.warnings(),
+        warnings: setup::warnings(job.case, solver),
         solver: SolverReport::from(&statistics),
     }
 }

@@ -71,6 +71,16 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
     }
 }
 
+/// What a reader must know before trusting a run of the case, by the case and by the present state of its solver.
+#[must_use]
+pub fn warnings(case: &Case, solver: &dyn Solver) -> Vec<String> {
+    let of_case = match &case.model {
+        Model::ThinFilm(film) => film.notes(case.end),
+        Model::Sph(_) | Model::Network(_) => Vec::new(),
+    };
+    of_case.into_iter().chain(solver.warnings()).collect()
+}
+
 /// Nodes along each axis on which the fluids of the initial state are looked up.
 const NODES: usize = 160;
 

@@ -22,6 +22,9 @@ const CUT: f64 = 0.3;
 /// Shortest step over the first one of the rule.
 const SMALLEST: f64 = 1.0e-6;
 
+/// Most steps that are tried again: films that move need a few dozen, films long at rest can need two for each step that is done.
+const MOST_REJECTED: u64 = 2000;
+
 /// Steps beyond these are not counted ahead.
 const MOST_COUNTED: f64 = 1.0e8;
 
@@ -72,8 +75,8 @@ impl StepRule {
 pub struct NotSolved {
     /// The step.
     pub dt: f64,
-    /// Norm of the residual reached.
-    pub residual: f64,
+    /// Norm of the residual reached; absent where Newton's method ended at heights below 0, which are no film.
+    pub residual: Option<f64>,
 }
 
 /// Heights on their way.
@@ -137,7 +140,7 @@ impl BackwardEuler {
                 Err(residual) => {
                     self.rejected += 1;
                     self.next = CUT * dt;
-                    if self.next < SMALLEST * self.rule.first {
+                    if self.next < SMALLEST * self.rule.first || self.rejected > MOST_REJECTED {
                         return Err(NotSolved { dt, residual });
                     }
                 }
@@ -156,8 +159,9 @@ impl BackwardEuler {
         Ok(())
     }
 
-    /// Newton's method with a line search on the norm of the residual; the residual reached where it fails.
-    fn solve(&mut self, balance: &(impl Balance + ?Sized), dt: f64) -> Result<Vec<f64>, f64> {
+    /// Newton's method with a line search on the norm of the residual; the residual reached where it fails, none where it ends at heights
+    /// that are no film.
+    fn solve(&mut self, balance: &(impl Balance + ?Sized), dt: f64) -> Result<Vec<f64>, Option<f64>> {
         let mut v = self.height.clone();
         let mut residual = balance.residual(&v, &self.height, dt);
         let mut size = balance.size(&residual);
@@ -167,8 +171,8 @@ impl BackwardEuler {
             let is_new = kept.is_none();
             let factors = match kept.take() {
                 Some(factors) => factors,
-                None if factored == FACTORS => return Err(size),
-                None => balance.jacobian(&v, dt).ok_or(size)?,
+                None if factored == FACTORS => return Err(Some(size)),
+                None => balance.jacobian(&v, dt).ok_or(Some(size))?,
             };
             factored += u32::from(is_new);
             self.factors += u64::from(is_new);
@@ -200,11 +204,15 @@ impl BackwardEuler {
                     kept = (size_there < KEPT * size).then_some(factors);
                     (v, residual, size) = (trial, residual_there, size_there);
                 }
-                None if is_new => return Err(size),
+                None if is_new => return Err(Some(size)),
                 None => {}
             }
         }
         // A NaN is no film either.
-        if size.is_finite() && balance.acceptable(&v) { Ok(v) } else { Err(size) }
+        match (size.is_finite(), balance.acceptable(&v)) {
+            (false, _) => Err(Some(size)),
+            (true, false) => Err(None),
+            (true, true) => Ok(v),
+        }
     }
 }

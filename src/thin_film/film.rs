@@ -27,6 +27,8 @@ pub enum Film {
 pub enum Stuck {
     /// No step of the particles is accurate enough, down to this one.
     Inaccurate(f64),
+    /// Newton's method on the grid ended at heights below 0.
+    Negative,
     /// Newton's method on the grid ended with this residual.
     Residual(f64),
 }
@@ -87,7 +89,9 @@ impl Film {
                 }
                 state.step(method.as_mut(), until).map_err(|error| Stuck::Inaccurate(error.0))
             }
-            Self::Grid(grid) => grid.step(until).map_err(|error| Stuck::Residual(error.residual)),
+            Self::Grid(grid) => {
+                grid.step(until).map_err(|error| error.residual.map_or(Stuck::Negative, Stuck::Residual))
+            }
         }
     }
 

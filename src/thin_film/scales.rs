@@ -22,24 +22,11 @@ pub struct Scales {
     pub bond: f64,
 }
 
-/// Area of a droplet in m².
-fn cross_section(droplet: &FilmDroplet) -> f64 {
-    4.0 / 3.0 * droplet.half_width * droplet.height
-}
-
 impl Scales {
     /// The scales of a case.
     #[must_use]
     pub fn of(film: &ThinFilm) -> Self {
-        let largest = |value: fn(&FilmDroplet) -> f64| film.droplets.iter().map(value).fold(0.0, f64::max);
-        let (length, height) = match film.contact_angle {
-            None => (2.0 * largest(|droplet| droplet.half_width), 8.0 / 3.0 * largest(|droplet| droplet.height)),
-            Some(angle) => {
-                let area: f64 = film.droplets.iter().map(cross_section).sum();
-                ((area / angle.tan()).sqrt(), (area * angle.tan()).sqrt())
-            }
-        };
-        let time = 3.0 * film.viscosity * length / film.tension * (length / height).powi(3);
+        let [length, height, time] = film.scales();
         let bond = film.density * film.gravity * length * length / film.tension;
         Self { length, height, time, tension: film.tension, bond }
     }
@@ -48,7 +35,7 @@ impl Scales {
     #[must_use]
     pub fn droplets(&self, film: &ThinFilm) -> Vec<Droplet> {
         let scaled = |droplet: &FilmDroplet| Droplet {
-            area: cross_section(droplet) / self.area(),
+            area: droplet.cross_section() / self.area(),
             half_width: droplet.half_width / self.length,
             center: droplet.center / self.length,
         };

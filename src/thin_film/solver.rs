@@ -160,6 +160,14 @@ impl ThinFilmSolver {
                 let place = Vec2::new(self.fastest().1 * self.surroundings.scales.length, 0.0);
                 SolverError::TimeStep { dt, smallest: dt, limit: "accuracy", time, step, place }
             }
+            Stuck::Negative => SolverError::BlowUp {
+                what: "the thin film falls below height 0 in all but the shortest steps, as films long at rest do (end the run earlier, \
+                       or take a smaller spacing and a domain that the film does not fill)"
+                    .to_owned(),
+                time,
+                step,
+                place: Vec2::new(self.fastest().1 * self.surroundings.scales.length, 0.0),
+            },
             Stuck::Residual(residual) => SolverError::NotConverged {
                 system: "the thin film on its grid",
                 residual,

@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
+use meniscus::case::measures::offers;
 use meniscus::case::preset::{COLD, Preset, WARM};
 use meniscus::case::{load, schema};
 use meniscus::input::Overrides;
@@ -278,6 +279,14 @@ fn every_measure_is_described() {
     there.insert(meniscus::run::report::STEADY_AT.to_owned());
     assert!(there.contains("contact-angle-deg") && there.contains("permeability-x-m2"), "{there:?}");
     assert_eq!(set(names(&page("docs/reference/measures.md").rows())), there);
+    let cases = ["sessile-drop", "network/drainage", "thin-film/spreading-drop"];
+    let known = cases.iter().flat_map(|case| {
+        let loaded = load(&root().join(format!("cases/{case}.toml")), &Overrides::default()).unwrap();
+        offers(&loaded.case.model, false)
+            .into_iter()
+            .flat_map(|offer| offer.names.iter().map(|name| (*name).to_owned()))
+    });
+    assert_eq!(known.collect::<BTreeSet<_>>(), there, "the names that `[[expect]]` knows: src/case/measures.rs");
 }
 
 #[test]

@@ -214,7 +214,7 @@ fn what_cannot_be_read_is_refused_with_place_and_way_out() {
     for (name, content, options, message) in [
         ("a.xyr", "0 0 1\n0 0\n", &m, "line 2: found `0 0`, expected three numbers"),
         ("a.xyr", "", &m, "no disc at all"),
-        ("a.wkt", bow, &m, "line 1, shapes[0].polygon"),
+        ("a.wkt", bow, &m, "line 1, polygon.outer: exterior ring has a self-intersection"),
         ("a.wkt", "POLYGON ((0 0, 1 0, 1 1, 0 1))", &m, "repeats the first point"),
         ("a.wkt", "LINESTRING (0 0, 1 0)", &m, "no polygon at all"),
         ("a.wkt", "POLYGON ((0 0, 1 0, 1 1e999, 0 0))", &m, "finite numbers"),
@@ -239,7 +239,7 @@ fn what_cannot_be_read_is_refused_with_place_and_way_out() {
     }
     let found = refused("a.csv", b"0,0,1\n\xff\xfe", &m);
     let ShapeFileError::Parts { refusals, .. } = found else { panic!("{found}") };
-    assert_eq!(refusals[0].place, "byte 6");
+    assert_eq!(refusals[0].place, "line 2, byte 7");
     let _: &Refusal = &refusals[0];
 }
 

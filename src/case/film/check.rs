@@ -6,6 +6,7 @@ use super::equation::{equation, partial_wetting, wetting};
 use super::method::method;
 use super::raw::{RawFilmSymmetry, RawFilmWeights, RawThinFilm};
 use super::resolution::{count, resolution, rounding};
+use super::thinness::{self, is_scaled};
 use crate::case::check::Checker;
 use crate::geometry::spec::GeometrySpec;
 
@@ -22,6 +23,9 @@ pub(in crate::case) fn thin_film(
         Some(RawFilmSymmetry::Axis) => FilmSymmetry::Axis,
     };
     let droplets = droplets(checker, raw.droplets.as_deref().unwrap_or_default(), symmetry);
+    if let Some(droplets) = &droplets {
+        thinness::steepness(checker, droplets, is_scaled(raw));
+    }
     let equation = equation(checker, &raw.equation.clone().unwrap_or_default());
     let contact_angle = wetting(checker, &raw.wetting.clone().unwrap_or_default());
     let particles_can_be =
@@ -54,7 +58,7 @@ pub(in crate::case) fn thin_film(
         }
     }
     let Liquid { viscosity, tension, density, gravity } = liquid?;
-    Some(ThinFilm {
+    let film = ThinFilm {
         viscosity,
         tension,
         density,
@@ -69,5 +73,10 @@ pub(in crate::case) fn thin_film(
             None | Some(RawFilmWeights::Cell) => FilmWeights::Cell,
             Some(RawFilmWeights::Point) => FilmWeights::Point,
         },
-    })
+    };
+    thinness::rim(checker, &film);
+    if let Some(geometry) = geometry {
+        thinness::room(checker, &film, geometry);
+    }
+    Some(film)
 }

@@ -1,5 +1,8 @@
 //! A checked `[thin-film]`: every value present, in SI units and in range.
 
+/// Viscosity, tension and density in scaled units: time, length and height are those of the scaled equations.
+pub(super) const SCALED: (f64, f64, f64) = (1.0 / 3.0, 1.0, 1.0);
+
 /// Droplets on the wall y = 0.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct ThinFilm {
@@ -25,6 +28,36 @@ pub struct ThinFilm {
     pub method: FilmMethod,
     /// Whether particles and nodes hold the film of their cell (or the height at their place).
     pub weights: FilmWeights,
+}
+
+impl ThinFilm {
+    /// Whether time, length and height are those of the scaled equations.
+    #[must_use]
+    pub fn is_scaled(&self) -> bool {
+        (self.viscosity, self.tension, self.density) == SCALED
+    }
+
+    /// One unit of each scaled quantity: length along the wall and height in m, time in s. `src/thin_film/scales.rs` tells what they stand for.
+    #[must_use]
+    pub fn scales(&self) -> [f64; 3] {
+        let largest = |value: fn(&FilmDroplet) -> f64| self.droplets.iter().map(value).fold(0.0, f64::max);
+        let (length, height) = match self.contact_angle {
+            None => (2.0 * largest(|droplet| droplet.half_width), 8.0 / 3.0 * largest(|droplet| droplet.height)),
+            Some(angle) => {
+                let area: f64 = self.droplets.iter().map(FilmDroplet::cross_section).sum();
+                ((area / angle.tan()).sqrt(), (area * angle.tan()).sqrt())
+            }
+        };
+        [length, height, 3.0 * self.viscosity * length / self.tension * (length / height).powi(3)]
+    }
+}
+
+impl FilmDroplet {
+    /// Area in m².
+    #[must_use]
+    pub fn cross_section(&self) -> f64 {
+        4.0 / 3.0 * self.half_width * self.height
+    }
 }
 
 /// A parabolic droplet; lengths in m.

@@ -1,6 +1,6 @@
 //! Checks of the droplets of a thin film, of their liquid and of the wall that they stand on.
 
-use super::checked::{FilmDroplet, FilmSymmetry};
+use super::checked::{FilmDroplet, FilmSymmetry, SCALED};
 use super::raw::{RawDroplet, RawThinFilm};
 use crate::case::check::Checker;
 use crate::case::preset::{COLD, WARM};
@@ -13,9 +13,6 @@ pub(super) struct Liquid {
     pub density: f64,
     pub gravity: f64,
 }
-
-/// In scaled units time, length and height are those of the scaled equations.
-const SCALED: (f64, f64, f64) = (1.0 / 3.0, 1.0, 1.0);
 
 pub(super) fn liquid(checker: &mut Checker, raw: &RawThinFilm) -> Option<Liquid> {
     let gravity = raw.gravity.unwrap_or(0.0);

@@ -8,6 +8,7 @@ mod method;
 pub mod raw;
 mod resolution;
 mod resolve;
+mod thinness;
 
 pub(super) use check::thin_film;
 pub(super) use resolve::raw as resolved;

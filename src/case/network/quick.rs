@@ -5,7 +5,7 @@ use super::raw::RawNetwork;
 use crate::case::check::{self, Checker};
 use crate::case::checked::{Case, Model};
 use crate::case::raw::RawCase;
-use crate::case::resolve;
+use crate::case::{resolve, shapes};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Problem;
 
@@ -16,6 +16,7 @@ use crate::input::Problem;
 pub fn quick(title: &str, geometry: GeometrySpec, raw: &RawNetwork) -> Result<(Case, String), Vec<Problem>> {
     let mut checker = Checker::default();
     let found = network(&mut checker, raw, Some(&geometry)).map(|network| Model::Network(Box::new(network)));
+    shapes::refuse_images(&mut checker, Some(&geometry), found.as_ref());
     let whole = RawCase { network: Some(raw.clone()), ..RawCase::default() };
     let end = check::end(&mut checker, &whole, found.as_ref());
     let mut output = check::output(&mut checker, &whole, end);

@@ -1,5 +1,7 @@
 //! From a drawing to shapes in m: unit, repairs, fills and holes, circles and arcs recognized, domain, and what is said about all this.
 
+use crate::geometry::body::bulged_ring;
+use crate::geometry::curve::Curve;
 use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring};
 use crate::geometry::import::fill::{Region, filled, regions};
 use crate::geometry::import::format::Format;
@@ -7,6 +9,7 @@ use crate::geometry::import::notes::{Counts, Notes};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
 use crate::geometry::import::{recognize, smooth, units, window};
+use crate::geometry::rings::{RingFault, faults};
 use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
@@ -14,6 +17,9 @@ use crate::math::{Bounds, Vec2};
 /// Margin around the shapes where nothing names a domain, over the longer side of the box around them: fluid can pass between the
 /// shapes and the sides.
 const MARGIN: f64 = 0.1;
+
+/// Largest length of a drawing in m: that of the largest domain.
+const LARGEST: f64 = 1e15;
 
 /// Shapes read from a drawing, and what the user should know of how they were read.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +93,11 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
 fn placed(problem: Problem, places: &[String]) -> Problem {
     let index = problem.path.strip_prefix("shapes[").and_then(|rest| rest.split(']').next()?.parse::<usize>().ok());
     match index.and_then(|index| places.get(index)) {
-        Some(place) => Problem { path: format!("{place}, {}", problem.path), ..problem },
+        // The index counts shapes that were made of the file, which nobody sees.
+        Some(place) => {
+            let keys = problem.path.split_once("].").map_or("", |(_, keys)| keys);
+            Problem { path: format!("{place}, {keys}"), ..problem }
+        }
         None => problem,
     }
 }
@@ -106,15 +116,16 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
     let tolerance = DOUBLED * size;
     let mut found = Vec::with_capacity(entities.len());
     for Entity { outline, place } in entities {
-        let is_finite = match &outline {
-            Outline::Disc { center, radius } => center.iter().chain([radius]).all(|v| (v * scale).is_finite()),
+        // The bulge of a vertex is no length.
+        let lengths: Vec<f64> = match &outline {
+            Outline::Disc { center, radius } => vec![center.x, center.y, *radius],
             Outline::Area { rings, .. } => {
-                rings.iter().flat_map(|ring| ring.vertices.iter().flatten()).all(|v| (v * scale).is_finite())
+                rings.iter().flat_map(|ring| ring.vertices.iter().flat_map(|v| [v[0], v[1]])).collect()
             }
         };
-        if !is_finite {
-            let found = "a coordinate that is not a finite number".to_owned();
-            refusals.push(Refusal { place, found, expected: "finite numbers".into() });
+        if let Some(length) = lengths.iter().map(|length| length * scale).find(|m| !(m.abs() <= LARGEST)) {
+            let expected = format!("lengths of at most {LARGEST:e} m; is the unit of the file right?");
+            refusals.push(Refusal { place, found: format!("a length of {length:e} m"), expected });
             continue;
         }
         match outline {
@@ -157,6 +168,11 @@ fn grouped(entities: Vec<Entity>, format: Format, refusals: &mut Vec<Refusal>) -
             Outline::Area { mut rings, .. } if rings.len() == 1 && !format.has_fill_rules() => {
                 found.extend(rings.pop().map(|ring| ((ring, Vec::new()), place)));
             }
+            Outline::Area { rings, .. } if format.begins_with_outer_ring() && outside(&rings).is_some() => {
+                let found = outside(&rings).map_or_else(String::new, |fault| fault.to_string());
+                let expected = "holes within the first ring of their polygon, which is its outer one; rings beside it are polygons of their own";
+                refusals.push(Refusal::new(place, found, expected));
+            }
             Outline::Area { rings, .. } if !format.has_fill_rules() => {
                 found.extend(regions(&rings, FillRule::EvenOdd).into_iter().map(|region| (region, place.clone())));
             }
@@ -174,6 +190,18 @@ fn grouped(entities: Vec<Entity>, format: Format, refusals: &mut Vec<Refusal>) -
         }
     }
     found
+}
+
+/// A hole that is not within the first ring, or runs along it.
+fn outside(rings: &[Ring]) -> Option<RingFault> {
+    let turned = |(k, ring): (usize, &Ring)| {
+        let ring = if (ring.area() > 0.0) == (k == 0) { ring.clone() } else { ring.reversed() };
+        bulged_ring(&ring.vertices).collect()
+    };
+    let curves: Vec<Vec<Curve>> = rings.iter().enumerate().map(turned).collect();
+    faults(&curves)
+        .into_iter()
+        .find(|fault| matches!(fault, RingFault::NotContained { .. } | RingFault::OnALine { .. }))
 }
 
 /// All rings of a drawing without fills: those within others are holes, those within holes islands.

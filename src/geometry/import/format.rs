@@ -76,6 +76,12 @@ impl Format {
         self == Self::Dxf
     }
 
+    /// Whether the first ring of a polygon is its outer one, and all others are its holes.
+    #[must_use]
+    pub fn begins_with_outer_ring(self) -> bool {
+        matches!(self, Self::Wkt | Self::GeoJson)
+    }
+
     /// Whether outlines may cross, so that a fill rule says what they cover; elsewhere such rings are mistakes.
     #[must_use]
     pub fn has_fill_rules(self) -> bool {

@@ -7,6 +7,7 @@ use crate::geometry::import::format::Format;
 use crate::geometry::import::mask::{self, MaskOptions};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::{dxf, esri, geojson, list, svg, wkt};
+use crate::input::file;
 
 /// Reads the bytes of a file; `path` tells where files beside it are looked for.
 pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options) -> Result<Drawing, Vec<Refusal>> {
@@ -16,7 +17,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options)
         Format::GeoJson => geojson::read(text(bytes)?),
         Format::Shapefile => {
             // A projection that is not text is a damaged one, which the reader of its text refuses.
-            let projection = std::fs::read(path.with_extension("prj")).ok();
+            let projection = file::read(&path.with_extension("prj"), file::LARGEST_TEXT).ok();
             esri::read(bytes, projection.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).as_deref())
         }
         // The case reader, which knows places in TOML, reads these.
@@ -38,9 +39,13 @@ fn one(found: &str, expected: &str) -> Vec<Refusal> {
 fn text(bytes: &[u8]) -> Result<&str, Vec<Refusal>> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(text.trim_start_matches('\u{feff}')),
-        Err(error) => {
-            let place = format!("byte {}", error.valid_up_to());
-            Err(vec![Refusal { place, found: "no letter of UTF-8".into(), expected: "text in UTF-8".into() }])
+        Err(_) => {
+            let place = file::not_text(bytes).unwrap_or_default();
+            Err(vec![Refusal::new(
+                place,
+                "no letter of UTF-8",
+                "text in UTF-8: save the file as such; is it the right file?",
+            )])
         }
     }
 }

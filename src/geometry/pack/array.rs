@@ -41,7 +41,7 @@ pub fn array(spec: &Array) -> Result<Vec<Disc>, PackError> {
     PackError::unless(
         rows * columns <= MOST_DISCS,
         "radius",
-        format!("{:e} discs", rows * columns),
+        format!("the region would hold {:.1e} discs, expected at most {MOST_DISCS:e}", rows * columns),
         "are all lengths in m?",
     )?;
     let middle = [0, 1].map(|k| 0.5 * (spec.region[0][k] + spec.region[1][k]));

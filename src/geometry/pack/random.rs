@@ -120,7 +120,7 @@ fn check(spec: &RandomPack, size: [f64; 2]) -> Result<(), PackError> {
     PackError::unless(
         count <= MOST_DISCS,
         "radius",
-        format!("{count:.1e} discs would be needed"),
+        format!("{count:.1e} discs would be needed, expected at most {MOST_DISCS:e}"),
         "are all lengths in m?",
     )?;
     PackError::unless(

@@ -1,0 +1,115 @@
+//! Whether a film is thin, and whether it can be computed as one: slopes, gravity, room for the droplets at rest, and how long it is at rest.
+//!
+//! The pressure of a thin film takes the second derivative of its height for the curvature. At a contact angle θ that is 1/cos θ times that of
+//! the arc with this angle: 4 % too much at a slope tan θ of 0.3, 12 % at 0.5, 41 % at 1. Without a fluid a case is in scaled units, whose
+//! slopes are no angles.
+
+use super::checked::{FilmDroplet, FilmSymmetry, ThinFilm};
+use super::raw::RawThinFilm;
+use crate::case::check::Checker;
+use crate::geometry::spec::GeometrySpec;
+
+/// Slope at rest up to which a film is called thin: its pressure is right within 12 %.
+const THIN: f64 = 0.5;
+/// Steepest initial droplet, height over half width: twice that is the slope at its edge.
+const STEEPEST: f64 = 5.0;
+/// Height over half width of any droplet, scaled or not: beyond, the equations round it off.
+const RATIOS: (f64, f64) = (1e-6, 1e3);
+/// Fewest spacings in the capillary length, which the rim of a puddle is wide.
+const FEWEST_IN_RIM: f64 = 2.0;
+/// Times of its own scale that a film moves for; it was at rest long before.
+const MOVES: f64 = 1000.0;
+/// A usual end in the same times.
+const USUAL_END: f64 = 100.0;
+
+/// Refuses droplets that are no film.
+pub(super) fn steepness(checker: &mut Checker, droplets: &[FilmDroplet], is_scaled: bool) {
+    let (least, most) = (RATIOS.0, if is_scaled { RATIOS.1 } else { STEEPEST });
+    for (index, droplet) in droplets.iter().enumerate() {
+        let ratio = droplet.height / droplet.half_width;
+        if !(least..=most).contains(&ratio) {
+            checker.refuse(
+                format!("thin-film.droplets[{index}].height"),
+                format!(
+                    "expected a height of {least:e} to {most:?} half widths of {:e} m, found {:e} m",
+                    droplet.half_width, droplet.height
+                ),
+                "a film is thin where its slope is below one half or so; steeper droplets are for [sph]",
+            );
+        }
+    }
+}
+
+/// Refuses gravity that makes a rim narrower than the spacing.
+pub(super) fn rim(checker: &mut Checker, film: &ThinFilm) {
+    let weight = film.density * film.gravity.abs();
+    let rim = (film.tension / weight).sqrt();
+    if rim < FEWEST_IN_RIM * film.spacing {
+        checker.refuse(
+            "thin-film.gravity",
+            format!(
+                "gravity of {:e} m/s2 gives a capillary length of {rim:.2e} m, expected at least {FEWEST_IN_RIM} spacings of {:e} m",
+                film.gravity, film.spacing
+            ),
+            "the rim of a puddle is a capillary length wide: lower gravity, which is in m/s2, or the spacing",
+        );
+    }
+}
+
+/// Refuses a domain in which the droplets have no room at rest.
+pub(super) fn room(checker: &mut Checker, film: &ThinFilm, geometry: &GeometrySpec) {
+    let Some(angle) = film.contact_angle else { return };
+    let [left, right] = [geometry.min[0], geometry.max[0]];
+    let reach = |droplet: &FilmDroplet| match film.symmetry {
+        FilmSymmetry::Plane => (droplet.cross_section() / angle.tan()).sqrt(),
+        // The paraboloid of the same volume with this slope at its edge.
+        FilmSymmetry::Axis => (2.0 * droplet.height * droplet.half_width.powi(2) / angle.tan()).cbrt(),
+    };
+    for droplet in &film.droplets {
+        let reach = reach(droplet);
+        let over_left = film.symmetry == FilmSymmetry::Plane && droplet.center - reach < left;
+        if over_left || droplet.center + reach > right {
+            checker.refuse(
+                "thin-film.wetting.partial.contact-angle-deg",
+                format!(
+                    "at rest at {:.3} degrees the droplet at {:e} m reaches {reach:.2e} m to each side, over the domain from {left:e} to {right:e} m",
+                    angle.to_degrees(),
+                    droplet.center
+                ),
+                "take a wider domain, a smaller droplet or a larger angle",
+            );
+        }
+    }
+}
+
+/// Whether the keys are in scaled units.
+pub(super) fn is_scaled(raw: &RawThinFilm) -> bool {
+    raw.fluid.is_none() && raw.tension.is_none()
+}
+
+impl ThinFilm {
+    /// What a user should know of a run of the film to `end` (s), one sentence each.
+    #[must_use]
+    pub fn notes(&self, end: f64) -> Vec<String> {
+        let mut notes = Vec::new();
+        let slope = self.contact_angle.map_or(0.0, f64::tan);
+        // Rounding of an angle must not tell a slope of one half from one half.
+        const ROUNDING: f64 = 1e-9;
+        if slope > THIN + ROUNDING && !self.is_scaled() {
+            let excess = 100.0 * (slope.hypot(1.0) - 1.0);
+            notes.push(format!(
+                "a slope of {slope:.2} at rest is not thin, expected at most {THIN}: the pressure of the film is {excess:.0} % above that of the drop; use [sph]"
+            ));
+        }
+        let [_, _, time] = self.scales();
+        if self.contact_angle.is_some() && end > MOVES * time {
+            notes.push(format!(
+                "the end is {:.0} times the {time:.1e} s in which this film moves, expected at most {MOVES:.0}: long at rest, it takes shorter \
+                 and shorter steps; end = {:.1e} would do",
+                end / time,
+                USUAL_END * time
+            ));
+        }
+        notes
+    }
+}
