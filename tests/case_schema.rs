@@ -73,6 +73,9 @@ fn the_schema_refuses_values_out_of_range_misspelled_keys_and_two_models_at_once
         ("[time]", "[network]\n[time]", "$: oneOf"),
         ("left = \"periodic\"", "left = \"periodical\"", "$.sph.sides.left: "),
         ("format = 1", "format = 2", "$.format: const"),
+        ("title = \"A small drop\"", "", "$: required"),
+        ("spacing = 4.0e-5", "", "$.sph: required"),
+        ("contact-angle-deg = 60.0", "", "$.sph.wetting.young: required"),
     ];
     let mut files = Vec::new();
     for (number, (good, bad, _)) in mistakes.iter().enumerate() {
