@@ -109,9 +109,12 @@ def frames(collection: Path) -> list[Frame]:
 
 
 def series(path: Path) -> dict[str, np.ndarray]:
-    """The columns of series.csv by name; cells that hold no number are NaN."""
-    with path.open(newline="", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
+    """The columns of series.csv by name; cells that hold no number are NaN.
+
+    A last row without its end, as a run leaves it that goes on or was killed, does not count.
+    """
+    text = path.read_text(encoding="utf-8")
+    rows = list(csv.reader(text[: text.rfind("\n") + 1].splitlines()))
     header, rows = rows[0], rows[1:]
 
     def number(cell: str) -> float:

@@ -29,12 +29,13 @@ const MAY_IMPORT: [(&str, &[&str]); 16] = [
 ];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
-const ONE_PLACE: [(&str, &[&str]); 15] = [
+const ONE_PLACE: [(&str, &[&str]); 19] = [
     ("parry2d_f64", &["geometry/"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/"]),
     ("indicatif", &["cli/"]),
     ("ctrlc", &["cli/"]),
+    ("signal_hook", &["cli/"]),
     // Errors in input carry their place as `miette` wants it; only the command line prints them.
     ("miette", &["cli/", "input/error.rs", "input/excerpt.rs"]),
     ("println!", &["cli/"]),
@@ -45,6 +46,9 @@ const ONE_PLACE: [(&str, &[&str]); 15] = [
     // Pipes of other processes are called so too.
     ("stdout", &["cli/", "study/child.rs"]),
     ("stderr", &["cli/", "study/child.rs"]),
+    ("flate2", &["io/vtk/"]),
+    ("lz4_flex", &["io/vtk/"]),
+    ("base64", &["io/vtk/"]),
     ("OdeBuilder", &["thin_film/diffsol/"]),
     ("plotters", &["study/curve.rs", "io/axes.rs", "io/diagram.rs"]),
 ];

@@ -48,6 +48,24 @@ fn fresh_output_keeps_the_contract_and_is_drawn() {
 }
 
 #[test]
+fn meshio_pyvista_and_vtk_read_the_same_arrays_of_a_frame() {
+    let directory = folder_with_small_case();
+    for compression in ["none", "zlib", "lz4"] {
+        let choice = format!("--set=output.vtk.compression=\"{compression}\"");
+        // Arrays of several blocks.
+        let arguments = ["run", "drop.toml", "--set=sph.spacing=8e-6", "--set=time.end=1e-6", &choice, "--out"];
+        program::assert_code(&meniscus(directory.path(), &[&arguments[..], &[compression]].concat()), 0);
+    }
+    let usual = ["run", "drop.toml", "--set=sph.spacing=8e-6", "--set=time.end=1e-6", "--out", "usual"];
+    program::assert_code(&meniscus(directory.path(), &usual), 0);
+    let mut compare = Command::new(interpreter());
+    compare.arg(root().join("postprocess/tests/same_arrays.py"));
+    let folders = ["usual", "none", "zlib", "lz4"].map(|name| directory.path().join(name));
+    let printed = run(compare.args(&folders), "all readers must read the same arrays");
+    assert_eq!(printed.matches("meshio read").count(), 3, "{printed}");
+}
+
+#[test]
 fn a_fresh_thin_film_keeps_the_contract_and_is_drawn() {
     let directory = tempfile::tempdir().expect("a temporary folder");
     let out = directory.path().join("out");

@@ -1,4 +1,4 @@
-//! A study as a job array of Slurm: the script, and where Slurm and Munge are installed the real thing on this machine.
+//! A study as a job array of Slurm: the script, and the real thing on this machine, which needs Slurm and Munge and is ignored otherwise.
 #![cfg(unix)]
 
 #[path = "support/program.rs"]
@@ -180,15 +180,10 @@ fn wait(seconds: u64, mut found: impl FnMut() -> bool) -> Option<()> {
 }
 
 #[test]
+#[ignore = "needs Slurm and Munge (Debian, Ubuntu: apt install slurm-wlm munge), then --include-ignored; .ci/run does it"]
 fn a_job_array_on_a_real_cluster_of_one_node_does_all_runs() {
     let place = tempfile::tempdir().unwrap();
-    let daemons = match cluster(place.path()) {
-        Ok(daemons) => daemons,
-        Err(reason) => {
-            println!("no cluster here, only the script of the array is tested: {reason}");
-            return;
-        }
-    };
+    let daemons = cluster(place.path()).unwrap_or_else(|reason| panic!("there is no cluster to test on: {reason}"));
     let folder = folder();
     let output = command(folder.path(), &["study", "run", "study.toml", "--out", "out", "--engine", "slurm"])
         .env("SLURM_CONF", place.path().join("slurm.conf"))

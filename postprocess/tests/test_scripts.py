@@ -40,6 +40,15 @@ class Scripts(unittest.TestCase):
         """What the check says, in one text."""
         return "\n".join(check_output.measure(self.directory)["problems"])
 
+    def test_a_row_of_the_series_that_is_cut_short_does_not_count(self):
+        """A run that is killed while it writes leaves the beginning of a row."""
+        path = self.directory / "series.csv"
+        whole = results.series(path)
+        with path.open("a", encoding="utf-8") as file:
+            file.write("0.12")
+        cut = results.series(path)
+        self.assertTrue(all(np.array_equal(cut[name], whole[name], equal_nan=True) for name in whole))
+
     def run_script(self, script: str, *arguments: str) -> subprocess.CompletedProcess:
         """Runs a script as a user does."""
         command = [sys.executable, str(SCRIPTS / script), str(self.directory), *arguments]

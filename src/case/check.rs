@@ -1,8 +1,8 @@
 //! Checks of a case: end, output, expectations; and the tools that all checks share.
 
-use super::checked::{Expectation, Model, Output};
+use super::checked::{Compression, Expectation, Model, Output};
 use super::measures::{Offer, offers};
-use super::raw::{RawCase, RawEvery, RawExpectation};
+use super::raw::{RawCase, RawCompression, RawEvery, RawExpectation};
 use crate::input::{Problem, nearest};
 
 /// The format of case and shape files that this program reads.
@@ -111,9 +111,18 @@ pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>) -> 
     // Of a network, each half cycle has as many records as another run.
     let end = if by_volume { end.map(|end| (end, end.max(1.0))) } else { end.map(|end| (end, 1.0)) };
     let clock = if by_volume { &VOLUME } else { &TIME };
+    let vtk = output
+        .vtk
+        .as_ref()
+        .map(|vtk| RawEvery { every_time: vtk.every_time, every_pore_volume: vtk.every_pore_volume });
     let mut every = |table, raw, records| every(checker, clock, (table, raw), end, records);
     Output {
-        vtk_every: every("output.vtk", output.vtk.as_ref(), VTK_RECORDS),
+        vtk_every: every("output.vtk", vtk.as_ref(), VTK_RECORDS),
+        vtk_compression: match output.vtk.as_ref().and_then(|vtk| vtk.compression) {
+            None | Some(RawCompression::Zlib) => Compression::Zlib,
+            Some(RawCompression::None) => Compression::None,
+            Some(RawCompression::Lz4) => Compression::Lz4,
+        },
         series_every: every("output.series", output.series.as_ref(), SERIES_RECORDS),
         restart_every: every("output.restart", output.restart.as_ref(), RESTART_RECORDS),
         grid_ratio: ratio.unwrap_or(1.0),

@@ -342,10 +342,25 @@ pub struct Output {
     pub series_every: f64,
     /// Time between VTK files in s, a whole multiple of nothing: it has its own schedule.
     pub vtk_every: f64,
+    /// How arrays in VTK files are compressed.
+    pub vtk_compression: Compression,
     /// Distance of grid nodes over dx.
     pub grid_ratio: f64,
     /// Time between restart files in s.
     pub restart_every: f64,
+}
+
+/// How arrays in VTK files are compressed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Compression {
+    /// Not at all.
+    None,
+    /// By zlib.
+    #[default]
+    Zlib,
+    /// By LZ4.
+    Lz4,
 }
 
 /// A measure that must come out as said.

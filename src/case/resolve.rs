@@ -1,14 +1,14 @@
 //! A checked case written out as one case file: no defaults, presets, overrides or other files left.
 
 use super::checked::{
-    Case, Drive, Fluid, InitialVelocity, LineDelta, Model, Numerics, Open, Output, Profile, Side, Sides, Sph,
-    SurfaceForce, ViscousStep, ViscousTerm,
+    Case, Compression, Drive, Fluid, InitialVelocity, LineDelta, Model, Numerics, Open, Output, Profile, Side, Sides,
+    Sph, SurfaceForce, ViscousStep, ViscousTerm,
 };
 use super::raw::{
-    Empty, RawCase, RawCsf, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial, RawInterface,
-    RawLineDelta, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases, RawPressureJump, RawProfile,
-    RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity, RawViscousStep, RawViscousTerm,
-    RawWallSpeeds, RawWalls,
+    Empty, RawCase, RawCompression, RawCsf, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial,
+    RawInterface, RawLineDelta, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases,
+    RawPressureJump, RawProfile, RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity,
+    RawViscousStep, RawViscousTerm, RawVtk, RawWallSpeeds, RawWalls,
 };
 use super::{steady, wetting};
 
@@ -65,8 +65,17 @@ fn raw_output(output: &Output, by_volume: bool) -> RawOutput {
             RawEvery { every_time: interval, ..none }
         })
     };
+    let compression = match output.vtk_compression {
+        Compression::None => RawCompression::None,
+        Compression::Zlib => RawCompression::Zlib,
+        Compression::Lz4 => RawCompression::Lz4,
+    };
     RawOutput {
-        vtk: every(output.vtk_every),
+        vtk: every(output.vtk_every).map(|every| RawVtk {
+            every_time: every.every_time,
+            every_pore_volume: every.every_pore_volume,
+            compression: Some(compression),
+        }),
         series: every(output.series_every),
         grid: (!by_volume).then_some(RawGrid { ratio: Some(output.grid_ratio) }),
         restart: every(output.restart_every),

@@ -1,11 +1,101 @@
 //! What editors and new users start from: the JSON schema of a case file and a commented starter case.
 
-use super::raw::RawCase;
+mod ranges;
 
-/// The JSON schema of a case file, with every key's unit in its description.
+use serde_json::{Map, Value, json};
+
+use super::raw::RawCase;
+use ranges::RANGES;
+
+/// Tables that hold exactly one of some tables or keys, each an alternative: the type, and the keys that are none.
+const EXACTLY_ONE: [(&str, &[&str]); 4] =
+    [("RawFilmEquation", &[]), ("RawSurfaceForce", &[]), ("RawVelocity", &[]), ("RawWetting", &["patches"])];
+
+/// The same of tables that may be empty: then the program chooses.
+const AT_MOST_ONE: [&str; 2] = ["RawFilmMethod", "RawFilmWetting"];
+
+/// The models of a case, exactly one of them.
+const MODELS: [&str; 3] = ["sph", "thin-film", "network"];
+
+/// Keys without which a table says nothing.
+const REQUIRED: [(&str, &[&str]); 5] = [
+    ("RawContactAngle", &["contact-angle-deg"]),
+    ("RawAngleWindow", &["advancing-angle-deg", "receding-angle-deg"]),
+    ("RawExpectation", &["measure", "value", "tolerance"]),
+    ("RawSph", &["spacing", "phases"]),
+    ("RawPhases", &["wetting"]),
+];
+
+/// The JSON schema of a case file: every key with its unit in its description, the ranges of numbers, and of models that exclude each other a
+/// branch for each.
 #[must_use]
-pub fn schema() -> serde_json::Value {
-    schemars::schema_for!(RawCase).to_value()
+pub fn schema() -> Value {
+    let mut schema = schemars::schema_for!(RawCase).to_value();
+    without_null(&mut schema);
+    schema["required"] = json!(["format", "title", "geometry"]);
+    schema["properties"]["format"]["const"] = json!(1);
+    let models = branches(&schema["properties"], &MODELS);
+    schema["oneOf"] = models;
+    for (table, key, range) in RANGES {
+        for (keyword, limit) in range.keywords() {
+            schema["$defs"][table]["properties"][key][keyword] = limit;
+        }
+    }
+    for (table, required) in REQUIRED {
+        schema["$defs"][table]["required"] = json!(required);
+    }
+    for (table, others) in EXACTLY_ONE {
+        let keys = schema["$defs"][table]["properties"].as_object().into_iter().flat_map(Map::keys);
+        let keys: Vec<&str> = keys.map(String::as_str).filter(|key| !others.contains(key)).collect();
+        let alternatives = branches(&schema["$defs"][table]["properties"], &keys);
+        schema["$defs"][table]["oneOf"] = alternatives;
+    }
+    for table in AT_MOST_ONE {
+        let keys = schema["$defs"][table]["properties"].as_object().into_iter().flat_map(Map::keys);
+        let keys: Vec<&str> = keys.map(String::as_str).collect();
+        let mut alternatives = branches(&schema["$defs"][table]["properties"], &keys);
+        if let Some(all) = alternatives.as_array_mut() {
+            all.push(json!({ "title": "default", "description": "The program chooses.", "maxProperties": 0 }));
+        }
+        schema["$defs"][table]["oneOf"] = alternatives;
+    }
+    schema
+}
+
+/// A branch for each key: its name, what it is, and that it is there.
+fn branches(properties: &Value, keys: &[&str]) -> Value {
+    let branch = |key: &&str| json!({ "title": key, "description": properties[key]["description"], "required": [key] });
+    keys.iter().map(branch).collect()
+}
+
+/// TOML has no null: a key is there or it is not.
+fn without_null(schema: &mut Value) {
+    match schema {
+        Value::Array(all) => all.iter_mut().for_each(without_null),
+        Value::Object(keys) => {
+            if let Some(Value::Array(types)) = keys.get_mut("type") {
+                types.retain(|one| one != "null");
+                if let [one] = &types[..] {
+                    let one = one.clone();
+                    keys.insert("type".into(), one);
+                }
+            }
+            if let Some(Value::Array(any)) = keys.get_mut("anyOf") {
+                any.retain(|one| one["type"] != "null");
+                if let [Value::Object(one)] = &any[..] {
+                    let one = one.clone();
+                    keys.remove("anyOf");
+                    keys.extend(one);
+                }
+            }
+            // A unit stands in the description; `double` and the like tell an editor nothing.
+            if keys.get("format").is_some_and(Value::is_string) {
+                keys.remove("format");
+            }
+            keys.values_mut().for_each(without_null);
+        }
+        _ => {}
+    }
 }
 
 /// A case file with a comment on every key.

@@ -1,13 +1,14 @@
 //! From the arguments to a command and its exit code.
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
 use super::arguments::{Arguments, Command, RunArguments};
-use super::exit::{BUG, DONE, Failure};
+use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{say, tell};
-use super::{check, geometry, list, network, new, run, source, study, threads};
+use super::{check, geometry, list, network, new, output, run, source, study, threads};
 
 /// Reads the command line and does what it says.
 #[must_use]
@@ -21,13 +22,32 @@ pub fn main() -> ExitCode {
         tell(format_args!("bug in meniscus: {what}{place}. Please report this line together with the case file."));
         std::process::exit(i32::from(BUG));
     }));
-    let arguments = Arguments::parse();
-    threads::bound_environment();
-    let code = dispatch(arguments.command).unwrap_or_else(|failure| {
-        tell(failure.message.trim_end());
-        failure.code
-    });
-    ExitCode::from(code)
+    let code = match Arguments::try_parse() {
+        Ok(arguments) => {
+            threads::bound_environment();
+            dispatch(arguments.command).unwrap_or_else(|failure| {
+                tell(failure.message.trim_end());
+                failure.code
+            })
+        }
+        // Help and version come this way too.
+        Err(told) => {
+            let printed = told.print();
+            if !told.use_stderr() {
+                output::printed(printed.and_then(|()| std::io::stdout().flush()));
+            }
+            if told.use_stderr() { USAGE } else { DONE }
+        }
+    };
+    ExitCode::from(all_printed(code))
+}
+
+/// The exit code, unless results that should have been printed are lost.
+fn all_printed(code: u8) -> u8 {
+    let Some(error) = output::not_printed() else { return code };
+    let what = format!("cannot print the results: {error}; print them to another place");
+    tell(Failure::new(USAGE, &what).message);
+    if code == DONE { USAGE } else { code }
 }
 
 fn dispatch(command: Option<Command>) -> Result<u8, Failure> {

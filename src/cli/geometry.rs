@@ -45,8 +45,8 @@ pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
 fn write(folder: &Path, shapes: &Shapes, title: &str) -> Result<(), Failure> {
     let bug = |error: &dyn std::fmt::Display| Failure::new(BUG, error);
     let files = [
-        ("solid.vtp", vtk::lines(&shapes.outline, 0.0).map_err(|error| bug(&error))?),
-        ("distance.vti", vtk::grid(&shapes.distance, 0.0).map_err(|error| bug(&error))?),
+        ("solid.vtp", vtk::lines(&shapes.outline, 0.0, vtk::Compression::default()).map_err(|error| bug(&error))?),
+        ("distance.vti", vtk::grid(&shapes.distance, 0.0, vtk::Compression::default()).map_err(|error| bug(&error))?),
         ("picture.png", picture(&pore(shapes), &shapes.outline, title).map_err(|error| Failure::new(USAGE, &error))?),
     ];
     files

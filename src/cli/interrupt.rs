@@ -1,4 +1,5 @@
-//! Ctrl-C: the first one asks the run to stop after its step, the second one ends the program at once.
+//! Ctrl-C, and the signals by which systems ask a program to end: the first one asks the run to stop after its step, the second one ends the
+//! program at once.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -6,24 +7,59 @@ use std::sync::{Arc, OnceLock};
 use super::exit::INTERRUPTED;
 use super::output::tell;
 
-/// The flag that Ctrl-C sets, the same one for all that a process does. Where no handler can be installed, Ctrl-C ends the program as it
-/// always does.
+/// The flag that these signals set, the same one for all that a process does. Where no handler can be installed, they end the program as they
+/// always do.
 pub fn flag() -> Arc<AtomicBool> {
     static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
-    Arc::clone(FLAG.get_or_init(set_by_interrupt))
+    Arc::clone(FLAG.get_or_init(|| {
+        let flag = Arc::new(AtomicBool::new(false));
+        if let Err(error) = install(Arc::clone(&flag)) {
+            tell(format_args!("note: Ctrl-C will not save the state: {error}"));
+        }
+        flag
+    }))
 }
 
-fn set_by_interrupt() -> Arc<AtomicBool> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&flag);
-    let handler = move || {
-        if set.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-        tell("\ninterrupted: finishing the step and saving the state (again Ctrl-C: stop at once)");
-    };
-    if let Err(error) = ctrlc::set_handler(handler) {
-        tell(format_args!("note: Ctrl-C will not save the state: {error}"));
+/// A signal came.
+fn asked_to_stop(flag: &AtomicBool, how: &str) {
+    if flag.swap(true, Ordering::Relaxed) {
+        std::process::exit(i32::from(INTERRUPTED));
     }
-    flag
+    tell(format_args!("\ninterrupted{how}: finishing the step and saving the state (once more: stop at once)"));
+}
+
+#[cfg(unix)]
+fn install(flag: Arc<AtomicBool>) -> std::io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let mut signals = vec![SIGINT, SIGTERM];
+    // Who started the program with `nohup` wants it to go on.
+    if !is_ignored(SIGHUP) {
+        signals.push(SIGHUP);
+    }
+    let mut signals = signal_hook::iterator::Signals::new(signals)?;
+    std::thread::Builder::new().name("signals".into()).spawn(move || {
+        for signal in signals.forever() {
+            let how = match signal {
+                SIGTERM => " by SIGTERM",
+                SIGHUP => " by SIGHUP",
+                _ => "",
+            };
+            asked_to_stop(&flag, how);
+        }
+    })?;
+    Ok(())
+}
+
+/// Whether this process was started with a signal ignored, where the system tells.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask & (1 << (signal - 1)) != 0)
+}
+
+#[cfg(not(unix))]
+fn install(flag: Arc<AtomicBool>) -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(move || asked_to_stop(&flag, ""))
 }

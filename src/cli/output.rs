@@ -1,22 +1,40 @@
-//! Printing that never panics: a reader that closed the pipe is no error of ours.
+//! Printing that never panics. A reader that closed the pipe is no error of ours; a device that takes no more is, and is kept for the end.
 
 use std::fmt::Display;
-use std::io::{IsTerminal, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::sync::OnceLock;
+
+/// Why results could not be printed, the first time.
+static NOT_PRINTED: OnceLock<io::Error> = OnceLock::new();
 
 /// A line of results, on standard output.
 pub fn say(line: impl Display) {
-    // A closed pipe, as by `| head`, leaves no one to tell.
-    let _ = writeln!(std::io::stdout(), "{line}");
+    let mut out = io::stdout();
+    printed(writeln!(out, "{line}").and_then(|()| out.flush()));
+}
+
+/// Notes how a print to standard output went.
+pub fn printed(result: io::Result<()>) {
+    match result {
+        // A closed pipe, as by `| head`, leaves no one to tell.
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => drop(NOT_PRINTED.set(error)),
+        _ => {}
+    }
+}
+
+/// Why some results could not be printed, where that is so.
+pub fn not_printed() -> Option<&'static io::Error> {
+    NOT_PRINTED.get()
 }
 
 /// A line of progress or an error, on standard error.
 pub fn tell(line: impl Display) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{line}");
 }
 
 /// The word in red where standard error is a terminal that shows colors.
 pub fn red(word: &str) -> String {
-    if std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
+    if io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
         format!("\u{1b}[1;31m{word}\u{1b}[0m")
     } else {
         word.to_owned()

@@ -24,7 +24,8 @@ pub fn write_shapes(arguments: &WriteArguments, spec: &GeometrySpec) -> Result<(
             }
             None => {
                 let geometry = Geometry::new(spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
-                vtk::lines(&geometry.outline(), 0.0).map_err(|error| Failure::new(BUG, &error))?
+                vtk::lines(&geometry.outline(), 0.0, vtk::Compression::default())
+                    .map_err(|error| Failure::new(BUG, &error))?
             }
         };
         atomic::write(path, &bytes).map_err(|error| Failure::new(USAGE, &error))?;

@@ -69,6 +69,7 @@ fn cause(source: &io::Error) -> String {
     match source.kind() {
         ErrorKind::StorageFull | ErrorKind::WriteZero => "the disk is full".into(),
         ErrorKind::QuotaExceeded => "the disk quota is used up".into(),
+        ErrorKind::FileTooLarge => "the file is larger than the system allows".into(),
         ErrorKind::ReadOnlyFilesystem => "the disk is read-only".into(),
         ErrorKind::PermissionDenied => "permission denied".into(),
         ErrorKind::NotFound => "no such file or folder".into(),
@@ -82,7 +83,7 @@ fn cause(source: &io::Error) -> String {
 /// What the user can do about it.
 fn way_out(source: &io::Error) -> &'static str {
     match source.kind() {
-        ErrorKind::StorageFull | ErrorKind::WriteZero | ErrorKind::QuotaExceeded => {
+        ErrorKind::StorageFull | ErrorKind::WriteZero | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
             "free some space or choose another place with --out, then go on with --resume"
         }
         ErrorKind::ReadOnlyFilesystem | ErrorKind::PermissionDenied => {

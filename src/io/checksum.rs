@@ -2,15 +2,36 @@
 //!
 //! Source: Fowler, Noll, Vo, "The FNV non-cryptographic hash algorithm", IETF draft. The same on every machine and version.
 
+use serde::{Deserialize, Serialize};
+
 /// Start value of the hash.
 const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 /// Factor of the hash.
 const PRIME: u64 = 0x0100_0000_01b3;
 
+/// The hash of bytes that come piece by piece.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Fnv1a(u64);
+
+impl Default for Fnv1a {
+    fn default() -> Self {
+        Self(OFFSET_BASIS)
+    }
+}
+
+impl Fnv1a {
+    /// Takes in the next piece.
+    pub fn pass(&mut self, bytes: &[u8]) {
+        self.0 = bytes.iter().fold(self.0, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME));
+    }
+}
+
 /// The FNV-1a hash of `bytes`.
 #[must_use]
 pub fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(OFFSET_BASIS, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
+    let mut hash = Fnv1a::default();
+    hash.pass(bytes);
+    hash.0
 }
 
 #[cfg(test)]

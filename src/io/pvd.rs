@@ -1,48 +1,61 @@
 //! The `.pvd` file that joins VTK files to a time series for ParaView.
 //!
 //! Rewritten whole at each record, so that it is valid at any moment. A time is never doubled: a record at or before the
-//! last one replaces what stands there. File numbers count the records, so a resumed run goes on where it stopped.
+//! last one replaces what stands there. File numbers count the records, so a resumed run goes on where it stopped; it makes the
+//! file anew from the list of written files ([`super::frames`]).
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::atomic::{self, FileError};
-
-/// One record: its time in s and its file, relative to the `.pvd`.
-#[derive(Debug, Clone, PartialEq)]
-struct Entry {
-    time: f64,
-    file: String,
-}
+use super::frames::{FrameList, Written};
 
 /// A time series of VTK files: `NAME.pvd` beside the folder `NAME/` with `NAME-000000.EXT` and so on.
 #[derive(Debug)]
 pub struct Collection {
     folder: PathBuf,
-    name: &'static str,
+    name: String,
     extension: &'static str,
-    entries: Vec<Entry>,
+    entries: Entries,
+}
+
+/// Times in s, and the lines of the `.pvd` that name them with their files.
+#[derive(Debug, Default)]
+struct Entries {
+    times: Vec<f64>,
+    lines: String,
+    /// Where each line begins.
+    begins: Vec<usize>,
+}
+
+impl Entries {
+    /// Drops all at or after `time`.
+    fn cut(&mut self, time: f64) {
+        while self.times.last().is_some_and(|&last| last >= time) {
+            self.times.pop();
+            self.lines.truncate(self.begins.pop().unwrap_or(0));
+        }
+    }
+
+    fn push(&mut self, time: f64, file: &str) {
+        self.times.push(time);
+        self.begins.push(self.lines.len());
+        // Writing to a string cannot fail.
+        let _ = writeln!(self.lines, "    <DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
+    }
 }
 
 impl Collection {
-    /// A new, empty series in `folder`.
+    /// The series in `folder` that holds what was `written` before; files of other series are passed over.
     #[must_use]
-    pub fn new(folder: &Path, name: &'static str, extension: &'static str) -> Self {
-        Self { folder: folder.to_path_buf(), name, extension, entries: Vec::new() }
-    }
-
-    /// The series that stands in `folder`, up to and with `time` in s; empty where there is none.
-    ///
-    /// # Errors
-    /// [`FileError`] where the `.pvd` is there but cannot be read.
-    pub fn resume(folder: &Path, name: &'static str, extension: &'static str, time: f64) -> Result<Self, FileError> {
-        let mut series = Self::new(folder, name, extension);
-        let path = series.path();
-        if path.exists() {
-            let text = std::fs::read_to_string(&path).map_err(FileError::read(&path))?;
-            series.entries = parse(&text).into_iter().filter(|entry| entry.time <= time).collect();
+    pub fn new(folder: &Path, name: &str, extension: &'static str, written: &[Written]) -> Self {
+        let mut entries = Entries::default();
+        for frame in written.iter().filter(|frame| series_of(frame) == name) {
+            entries.cut(frame.time);
+            entries.push(frame.time, &frame.file);
         }
-        Ok(series)
+        Self { folder: folder.to_path_buf(), name: name.to_owned(), extension, entries }
     }
 
     /// The `.pvd` file.
@@ -51,67 +64,64 @@ impl Collection {
         self.folder.join(format!("{}.pvd", self.name))
     }
 
-    /// The time of the last record in s.
-    #[must_use]
-    pub fn last_time(&self) -> Option<f64> {
-        self.entries.last().map(|entry| entry.time)
-    }
-
-    /// Writes the VTK file of `time` (s), then the `.pvd` that names it.
+    /// Writes the VTK file of `time` (s), notes it in `frames`, then writes the `.pvd` that names it.
     ///
     /// # Errors
     /// [`FileError`].
-    pub fn record(&mut self, time: f64, content: &[u8]) -> Result<(), FileError> {
-        self.entries.retain(|entry| entry.time < time);
-        let file = format!("{0}/{0}-{1:06}.{2}", self.name, self.entries.len(), self.extension);
-        atomic::write(&self.folder.join(&file), content)?;
-        self.entries.push(Entry { time, file });
-        atomic::write(&self.path(), self.text().as_bytes())
+    pub fn record(&mut self, time: f64, content: &[u8], frames: &mut FrameList) -> Result<(), FileError> {
+        self.entries.cut(time);
+        let file = format!("{0}/{0}-{1:06}.{2}", self.name, self.entries.times.len(), self.extension);
+        frames.write(time, &file, content)?;
+        self.entries.push(time, &file);
+        self.write()
     }
 
-    fn text(&self) -> String {
-        let mut text = String::from(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n",
-        );
-        for Entry { time, file } in &self.entries {
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "    <DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
-        }
-        text + "  </Collection>\n</VTKFile>\n"
+    fn write(&self) -> Result<(), FileError> {
+        let text = [HEAD, &self.entries.lines, TAIL].concat();
+        atomic::write(&self.path(), text.as_bytes())
     }
 }
 
-/// The entries of a `.pvd` that this program wrote; lines that are not entries are passed over.
-fn parse(text: &str) -> Vec<Entry> {
-    let attribute = |line: &str, name: &str| {
-        let from = line.find(&format!("{name}=\""))? + name.len() + 2;
-        let length = line[from..].find('"')?;
-        Some(line[from..from + length].to_owned())
-    };
-    text.lines()
-        .filter(|line| line.trim_start().starts_with("<DataSet "))
-        .filter_map(|line| {
-            Some(Entry { time: attribute(line, "timestep")?.parse().ok()?, file: attribute(line, "file")? })
-        })
-        .collect()
+const HEAD: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+const TAIL: &str = "  </Collection>\n</VTKFile>\n";
+
+/// The series that a file belongs to: the folder that it is in.
+fn series_of(frame: &Written) -> &str {
+    frame.file.split_once('/').map_or("", |(series, _)| series)
+}
+
+/// Makes the `.pvd` files anew that name what was `written`, whatever is there.
+///
+/// # Errors
+/// [`FileError`].
+pub fn rebuild(folder: &Path, written: &[Written]) -> Result<(), FileError> {
+    let names: BTreeSet<&str> = written.iter().map(series_of).collect();
+    names.into_iter().try_for_each(|name| Collection::new(folder, name, "", written).write())
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::frames;
     use super::*;
 
     #[test]
-    fn resuming_drops_later_times_and_doubles_none() {
+    fn resuming_drops_later_times_doubles_none_and_needs_no_pvd() {
         let folder = tempfile::tempdir().unwrap();
-        let mut series = Collection::new(folder.path(), "grid", "vti");
-        for time in [0.0, 1.0e-7, 0.1 + 0.2] {
-            series.record(time, b"x").unwrap();
-        }
+        let (mut series, mut list) =
+            (Collection::new(folder.path(), "grid", "vti", &[]), FrameList::new(folder.path()));
+        series.record(0.0, b"x", &mut list).unwrap();
+        series.record(1.0e-7, b"x", &mut list).unwrap();
+        let mark = list.mark();
+        series.record(0.1 + 0.2, b"x", &mut list).unwrap();
         let unbroken = std::fs::read(series.path()).unwrap();
-        let mut series = Collection::resume(folder.path(), "grid", "vti", 1.0e-7).unwrap();
-        assert_eq!(series.last_time(), Some(1.0e-7));
-        series.record(1.0e-7, b"x").unwrap();
-        series.record(0.1 + 0.2, b"x").unwrap();
+        std::fs::write(series.path(), "damaged").unwrap();
+        let written = frames::read(folder.path(), mark).unwrap();
+        rebuild(folder.path(), &written).unwrap();
+        assert_eq!(std::fs::read_to_string(series.path()).unwrap().matches("<DataSet ").count(), 2);
+        let (mut series, mut list) =
+            (Collection::new(folder.path(), "grid", "vti", &written), FrameList::resume(folder.path(), mark).unwrap());
+        series.record(1.0e-7, b"x", &mut list).unwrap();
+        series.record(0.1 + 0.2, b"x", &mut list).unwrap();
         assert_eq!(std::fs::read(series.path()).unwrap(), unbroken);
         assert_eq!(std::fs::read_dir(folder.path().join("grid")).unwrap().count(), 3);
     }

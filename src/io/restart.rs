@@ -1,8 +1,8 @@
 //! The saved state of a run: a header that says what it belongs to, then the solver's bytes.
 //!
-//! The header (`postcard`) holds format version, hash of the case, time, step and a checksum of the state, so that a state
-//! of another case, of another version, or cut short is refused before it is used. The file before stays until the new one
-//! is complete.
+//! The header (`postcard`) holds format version, hash of the case, time, step and how much of the other files belongs to the
+//! state. A checksum of all of it comes last, so that a state of another case, of another version, cut short or changed is
+//! refused before it is used. The file before stays until the new one is complete.
 
 use std::path::{Path, PathBuf};
 
@@ -10,13 +10,16 @@ use serde::{Deserialize, Serialize};
 
 use super::atomic::{self, FileError};
 use super::checksum::fnv1a;
+use super::journal::Mark;
 
 /// First bytes of every file of this kind.
 const MAGIC: &[u8; 8] = b"meniscus";
 /// Version of the layout of the file.
-const FORMAT_VERSION: u32 = 1;
+const FORMAT_VERSION: u32 = 2;
 /// The way out of every broken state.
-const START_AGAIN: &str = "start the run again without --resume";
+const START_AGAIN: &str = "put the file back from a copy, or start the run again with another --out DIR";
+/// Bytes of the checksum.
+const CHECKSUM: usize = 8;
 
 /// A saved state.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +30,10 @@ pub struct Saved {
     pub time: f64,
     /// Number of steps done.
     pub step: u64,
+    /// How much of `series.csv` belongs to it.
+    pub series: Mark,
+    /// How much of the list of written frames belongs to it.
+    pub frames: Mark,
     /// The bytes of `Solver::state`.
     pub state: Vec<u8>,
 }
@@ -37,8 +44,8 @@ struct Header {
     case_hash: u64,
     time: f64,
     step: u64,
-    checksum: u64,
-    length: u64,
+    series: Mark,
+    frames: Mark,
 }
 
 /// The file of the saved state of the run in `folder`.
@@ -58,12 +65,14 @@ pub fn save(folder: &Path, saved: &Saved) -> Result<(), FileError> {
         case_hash: saved.case_hash,
         time: saved.time,
         step: saved.step,
-        checksum: fnv1a(&saved.state),
-        length: saved.state.len() as u64,
+        series: saved.series,
+        frames: saved.frames,
     };
     let header = postcard::to_stdvec(&header)
         .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
-    atomic::write(&path, &[MAGIC.as_slice(), &header, &saved.state].concat())
+    let mut bytes = [MAGIC.as_slice(), &header, &saved.state].concat();
+    bytes.extend(fnv1a(&bytes).to_le_bytes());
+    atomic::write(&path, &bytes)
 }
 
 /// Reads the saved state in `folder` and checks that it is complete.
@@ -77,22 +86,28 @@ pub fn load(folder: &Path) -> Result<Saved, FileError> {
 }
 
 fn decode(bytes: &[u8]) -> Result<Saved, String> {
-    let rest = bytes.strip_prefix(MAGIC.as_slice()).ok_or("it is not a saved state of this program")?;
+    if !bytes.starts_with(MAGIC) {
+        return Err("it is not a saved state of this program".to_owned());
+    }
+    let (version, _) = postcard::take_from_bytes::<u32>(&bytes[MAGIC.len()..]).unwrap_or_default();
+    if version != FORMAT_VERSION {
+        return Err(format!("expected a state of format {FORMAT_VERSION}, found format {version}"));
+    }
+    let (content, checksum) = bytes.split_at(bytes.len().saturating_sub(CHECKSUM));
+    if fnv1a(content).to_le_bytes() != checksum {
+        return Err("its checksum does not match: it was changed, damaged or cut short".to_owned());
+    }
+    let rest = &content[MAGIC.len().min(content.len())..];
     let (header, state) =
-        postcard::take_from_bytes::<Header>(rest).map_err(|_| "its header is cut short".to_owned())?;
-    if header.format_version != FORMAT_VERSION {
-        return Err(format!(
-            "it is of format {}, this version of the program reads format {FORMAT_VERSION}",
-            header.format_version
-        ));
-    }
-    if header.length != state.len() as u64 {
-        return Err(format!("expected a state of {} bytes, found {}", header.length, state.len()));
-    }
-    if header.checksum != fnv1a(state) {
-        return Err("its checksum does not match: the file was changed or damaged".to_owned());
-    }
-    Ok(Saved { case_hash: header.case_hash, time: header.time, step: header.step, state: state.to_vec() })
+        postcard::take_from_bytes::<Header>(rest).map_err(|_| "its header cannot be read".to_owned())?;
+    Ok(Saved {
+        case_hash: header.case_hash,
+        time: header.time,
+        step: header.step,
+        series: header.series,
+        frames: header.frames,
+        state: state.to_vec(),
+    })
 }
 
 #[cfg(test)]
@@ -100,7 +115,8 @@ mod tests {
     use super::*;
 
     fn example() -> Saved {
-        Saved { case_hash: u64::MAX, time: 0.1 + 0.2, step: 7, state: (0..=255).collect() }
+        let (series, frames) = (Mark::behind(b"a"), Mark::behind(b"b"));
+        Saved { case_hash: u64::MAX, time: 0.1 + 0.2, step: 7, series, frames, state: (0..=255).collect() }
     }
 
     #[test]
@@ -118,10 +134,10 @@ mod tests {
         for length in 0..bytes.len() {
             assert!(decode(&bytes[..length]).is_err(), "{length} bytes were accepted");
         }
-        let mut changed = bytes;
-        if let Some(last) = changed.last_mut() {
-            *last ^= 1;
+        for place in 0..8 * bytes.len() {
+            let mut changed = bytes.clone();
+            changed[place / 8] ^= 1 << (place % 8);
+            assert!(decode(&changed).is_err(), "bit {place} was changed and accepted");
         }
-        assert!(decode(&changed).unwrap_err().contains("checksum"));
     }
 }

@@ -1,11 +1,12 @@
-//! `series.csv`: one row per record, rewritten whole each time, so that it is valid at any moment.
+//! `series.csv`: one row per record, each added behind the ones before. What a kill leaves of a row is cut off by the run that goes on.
 //!
 //! Numbers are printed with as many digits as are needed to read back the same value; a value that does not exist (NaN) is
 //! an empty field, which pandas reads as NaN.
 
 use std::path::{Path, PathBuf};
 
-use super::atomic::{self, FileError};
+use super::atomic::FileError;
+use super::journal::{self, Journal, Mark};
 use crate::solver::Series;
 
 /// Above this, whole numbers of a double are no longer exact and are printed with an exponent: 2^53.
@@ -14,28 +15,31 @@ const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 /// The time series on disk and in memory.
 #[derive(Debug)]
 pub struct SeriesFile {
-    path: PathBuf,
+    journal: Journal,
     series: Series,
+}
+
+/// The file in the folder of a run.
+#[must_use]
+pub fn path(folder: &Path) -> PathBuf {
+    folder.join("series.csv")
 }
 
 impl SeriesFile {
     /// A new, empty series in `folder`.
     #[must_use]
     pub fn new(folder: &Path) -> Self {
-        Self { path: folder.join("series.csv"), series: Series::default() }
+        Self { journal: Journal::new(path(folder)), series: Series::default() }
     }
 
-    /// The series that stands in `folder`, up to and with `time` in s; empty where there is none.
+    /// The series that stands in `folder` before `mark`; what is behind it is cut off.
     ///
     /// # Errors
-    /// [`FileError`] where the file is there but cannot be read.
-    pub fn resume(folder: &Path, time: f64) -> Result<Self, FileError> {
-        let mut file = Self::new(folder);
-        if file.path.exists() {
-            file.series = read(&file.path)?;
-            file.series.rows.retain(|row| row.first().is_some_and(|&t| t <= time));
-        }
-        Ok(file)
+    /// [`FileError`] where the file is not what it was when the mark was made.
+    pub fn resume(folder: &Path, mark: Mark) -> Result<Self, FileError> {
+        let path = path(folder);
+        let series = parse(&journal::read(&path, mark)?, &path)?;
+        Ok(Self { journal: Journal::resume(path, mark)?, series })
     }
 
     /// All rows so far.
@@ -44,8 +48,13 @@ impl SeriesFile {
         &self.series
     }
 
-    /// Adds a row, `time_s` first, and writes the file. A row at or before the last time replaces what stands there; minus
-    /// zero becomes zero.
+    /// How much of the file there is.
+    #[must_use]
+    pub fn mark(&self) -> Mark {
+        self.journal.mark()
+    }
+
+    /// Adds a row, `time_s` first. A row at or before the last time replaces what stands there; minus zero becomes zero.
     ///
     /// # Errors
     /// [`FileError::Format`] where the columns differ from those of the rows before, or another [`FileError`].
@@ -56,19 +65,29 @@ impl SeriesFile {
         if self.series.columns != columns || row.len() != columns.len() {
             let what =
                 format!("it has the columns {}, the new row has {}", self.series.columns.join(","), columns.join(","));
-            return Err(FileError::Format { path: self.path.clone(), what });
+            return Err(FileError::Format { path: self.journal.path().to_path_buf(), what });
         }
         let time = row.first().copied().unwrap_or(f64::NAN);
-        self.series.rows.retain(|old| old.first().is_some_and(|&t| t < time));
-        self.series.rows.push(row.into_iter().map(|value| value + 0.0).collect());
-        atomic::write(&self.path, &self.text()?)
+        let row: Vec<f64> = row.into_iter().map(|value| value + 0.0).collect();
+        let last = self.series.rows.last().and_then(|last| last.first());
+        let is_next = last.is_some_and(|&last| last < time);
+        if !is_next {
+            self.series.rows.retain(|old| old.first().is_some_and(|&t| t < time));
+        }
+        self.series.rows.push(row);
+        if is_next {
+            let new = self.series.rows.len() - 1;
+            return self.journal.append(&self.text(None, new)?);
+        }
+        self.journal.replace(&self.text(Some(&self.series.columns), 0)?)
     }
 
-    fn text(&self) -> Result<Vec<u8>, FileError> {
-        let format = |what: String| FileError::Format { path: self.path.clone(), what };
+    /// The rows from one on, below the names of the columns where they are given.
+    fn text(&self, columns: Option<&[String]>, from: usize) -> Result<Vec<u8>, FileError> {
+        let format = |what: String| FileError::Format { path: self.journal.path().to_path_buf(), what };
         let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(&self.series.columns).map_err(|error| format(error.to_string()))?;
-        for row in &self.series.rows {
+        columns.map_or(Ok(()), |columns| writer.write_record(columns)).map_err(|error| format(error.to_string()))?;
+        for row in &self.series.rows[from..] {
             writer.write_record(row.iter().copied().map(number)).map_err(|error| format(error.to_string()))?;
         }
         writer.into_inner().map_err(|error| format(error.to_string()))
@@ -91,9 +110,12 @@ pub(super) fn number(value: f64) -> String {
 /// # Errors
 /// [`FileError::Read`] or [`FileError::Content`].
 pub fn read(path: &Path) -> Result<Series, FileError> {
+    parse(&std::fs::read(path).map_err(FileError::read(path))?, path)
+}
+
+fn parse(bytes: &[u8], path: &Path) -> Result<Series, FileError> {
     let content = |what: String| FileError::Content { path: path.to_path_buf(), what };
-    let bytes = std::fs::read(path).map_err(FileError::read(path))?;
-    let mut reader = csv::Reader::from_reader(bytes.as_slice());
+    let mut reader = csv::Reader::from_reader(bytes);
     let columns = reader.headers().map_err(|error| content(error.to_string()))?.iter().map(str::to_owned).collect();
     let mut rows = Vec::new();
     for record in reader.records() {
@@ -126,12 +148,13 @@ mod tests {
         let row = |time: f64| vec![time, (time * 10.0).round(), f64::NAN, 2.5e-10];
         let columns = ["time_s", "step", "contact_angle_deg", "dt_s"];
         let mut file = SeriesFile::new(folder.path());
-        for time in [0.0, 0.1, 0.2] {
-            file.record(&columns, row(time)).unwrap();
-        }
+        file.record(&columns, row(0.0)).unwrap();
+        file.record(&columns, row(0.1)).unwrap();
+        let mark = file.mark();
+        file.record(&columns, row(0.2)).unwrap();
         let unbroken = std::fs::read_to_string(folder.path().join("series.csv")).unwrap();
         assert_eq!(unbroken.lines().nth(1), Some("0,0,,2.5e-10"));
-        let mut file = SeriesFile::resume(folder.path(), 0.1).unwrap();
+        let mut file = SeriesFile::resume(folder.path(), mark).unwrap();
         assert_eq!(file.series().rows.len(), 2);
         file.record(&columns, row(0.1)).unwrap();
         file.record(&columns, row(0.2)).unwrap();

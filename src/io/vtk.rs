@@ -1,21 +1,20 @@
-//! Snapshots as VTK XML files: particles `.vtu`, grid `.vti`, lines and layers of cells `.vtp`, written by `vtkio`.
+//! Snapshots as VTK XML files: particles `.vtu`, grid `.vti`, lines and layers of cells `.vtp`.
 //!
-//! Points of the plane get z = 0 and vectors three components. Arrays are compressed by LZ4, which ParaView and pyvista read.
-//! `vtkio` knows neither field data nor double-precision grids, so the time and the grid's origin and spacing are put into
-//! the text it writes. Nor does it write a readable file without points (it leaves out the count), so that one is written
-//! here: an interface may vanish. Units stand in `units.json` of the output folder.
+//! Points of the plane get z = 0 and vectors three components. Arrays stand where they belong, in base 64 and compressed by
+//! zlib: the form that every reader knows, meshio too. LZ4 is faster, and read by VTK, ParaView and pyvista only. The time is
+//! field data. Units stand in `units.json` of the output folder.
 
-use vtkio::model::{
-    Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, Extent, IOBuffer, ImageDataPiece, Piece,
-    PolyDataPiece, UnstructuredGridPiece, Version, VertexNumbers, Vtk,
-};
-use vtkio::xml::Compressor;
+mod array;
+
+use std::fmt::Write as _;
+
+pub use array::Compression;
 
 use crate::math::Vec2;
 use crate::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines, Values};
 
-/// Fastest level of LZ4.
-const COMPRESSION_LEVEL: u32 = 1;
+/// Type of a cell that is a point, as VTK numbers them.
+const VERTEX: u8 = 1;
 
 /// A snapshot that cannot be written as VTK.
 #[derive(Debug, thiserror::Error)]
@@ -30,219 +29,139 @@ pub enum VtkError {
         /// Number of points.
         expected: usize,
     },
-    /// The VTK library refused the data.
-    #[error("{0}")]
-    Library(String),
 }
 
 /// Points as a `.vtu` file, each a vertex cell; `time` in s.
 ///
 /// # Errors
 /// [`VtkError`].
-pub fn points(cloud: &Cloud<'_>, time: f64) -> Result<Vec<u8>, VtkError> {
+pub fn points(cloud: &Cloud<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
     let count = cloud.points.len();
-    if count == 0 {
-        return Ok(empty("UnstructuredGrid", "Cells", &cloud.fields, time));
-    }
-    let piece = UnstructuredGridPiece {
-        points: IOBuffer::F64(spatial(&cloud.points)),
-        cells: Cells {
-            cell_verts: VertexNumbers::XML {
-                connectivity: (0..count as u64).collect(),
-                offsets: (1..=count as u64).collect(),
-            },
-            types: vec![CellType::Vertex; count],
-        },
-        data: attributes(&cloud.fields, count)?,
-    };
-    file(DataSet::inline(piece), time, "<UnstructuredGrid>")
+    let fields = arrays(&cloud.fields, count, compression)?;
+    let types = compression.bytes("types", &vec![VERTEX; count]);
+    let piece = format!(
+        "<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{count}\"><PointData>{fields}</PointData>{}<Cells>{}{types}</Cells></Piece>",
+        places(&cloud.points, compression),
+        cells((0..count).map(|point| [point as i64]), compression),
+    );
+    Ok(file("UnstructuredGrid", "", time, &piece, compression))
 }
 
 /// Fields on a regular grid as a `.vti` file; `time` in s.
 ///
 /// # Errors
 /// [`VtkError`].
-pub fn grid(grid: &Grid<'_>, time: f64) -> Result<Vec<u8>, VtkError> {
-    let last = |count: usize| i32::try_from(count.saturating_sub(1)).unwrap_or(i32::MAX);
-    let extent = Extent::Ranges([0..=last(grid.counts[0]), 0..=last(grid.counts[1]), 0..=0]);
-    let piece =
-        ImageDataPiece { extent: extent.clone(), data: attributes(&grid.fields, grid.counts[0] * grid.counts[1])? };
-    let data = DataSet::ImageData {
-        extent,
-        origin: [0.0; 3],
-        spacing: [1.0; 3],
-        meta: None,
-        pieces: vec![Piece::Inline(Box::new(piece))],
-    };
-    let bytes = encode(data)?;
-    let bytes = replace_attribute(&bytes, "Origin", &format!("{:?} {:?} 0", grid.origin.x, grid.origin.y))?;
+pub fn grid(grid: &Grid<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let fields = arrays(&grid.fields, grid.counts[0] * grid.counts[1], compression)?;
+    let [last_x, last_y] = grid.counts.map(|count| count.saturating_sub(1));
+    let extent = format!("0 {last_x} 0 {last_y} 0 0");
     // The third spacing has no meaning with one layer of nodes, but must not be zero.
-    let spacing = grid.spacing;
-    let bytes = replace_attribute(&bytes, "Spacing", &format!("{:?} {:?} {:?}", spacing.x, spacing.y, spacing.x))?;
-    with_time(&bytes, time, "<ImageData ")
+    let attributes = format!(
+        " WholeExtent=\"{extent}\" Origin=\"{:?} {:?} 0\" Spacing=\"{:?} {:?} {:?}\"",
+        grid.origin.x, grid.origin.y, grid.spacing.x, grid.spacing.y, grid.spacing.x
+    );
+    let piece = format!("<Piece Extent=\"{extent}\"><PointData>{fields}</PointData></Piece>");
+    Ok(file("ImageData", &attributes, time, &piece, compression))
 }
 
 /// Polylines as a `.vtp` file; `time` in s.
 ///
 /// # Errors
 /// [`VtkError`].
-pub fn lines(lines: &Lines<'_>, time: f64) -> Result<Vec<u8>, VtkError> {
-    if lines.points.is_empty() {
-        return Ok(empty("PolyData", "Lines", &lines.fields, time));
-    }
-    let connectivity = lines.lines.iter().flatten().map(|&index| u64::from(index)).collect();
-    let offsets = lines
-        .lines
-        .iter()
-        .scan(0, |end, line| {
-            *end += line.len() as u64;
-            Some(*end)
-        })
-        .collect();
-    let piece = PolyDataPiece {
-        points: IOBuffer::F64(spatial(&lines.points)),
-        lines: Some(VertexNumbers::XML { connectivity, offsets }),
-        data: attributes(&lines.fields, lines.points.len())?,
-        ..PolyDataPiece::default()
-    };
-    file(DataSet::inline(piece), time, "<PolyData>")
+pub fn lines(lines: &Lines<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let fields = arrays(&lines.fields, lines.points.len(), compression)?;
+    let data = format!("<PointData>{fields}</PointData>");
+    Ok(poly_data(&lines.points, CellKind::Lines, &lines.lines, &data, time, compression))
 }
 
 /// Cells with fields on them as a `.vtp` file; `time` in s, or where the clock of the run stands.
 ///
 /// # Errors
 /// [`VtkError`].
-pub fn layer(layer: &Layer<'_>, time: f64) -> Result<Vec<u8>, VtkError> {
-    if layer.points.is_empty() {
-        return Ok(empty("PolyData", "Lines", &[], time));
-    }
-    let connectivity = layer.cells.iter().flatten().map(|&index| u64::from(index)).collect();
-    let offsets = layer
-        .cells
-        .iter()
-        .scan(0, |end, cell| {
-            *end += cell.len() as u64;
-            Some(*end)
-        })
-        .collect();
-    let topology = Some(VertexNumbers::XML { connectivity, offsets });
-    let data = Attributes { point: Vec::new(), cell: attributes(&layer.fields, layer.cells.len())?.point };
-    let points = IOBuffer::F64(spatial(&layer.points));
-    let piece = PolyDataPiece { points, data, ..PolyDataPiece::default() };
-    let piece = match layer.kind {
-        CellKind::Points => PolyDataPiece { verts: topology, ..piece },
-        CellKind::Lines => PolyDataPiece { lines: topology, ..piece },
-        CellKind::Polygons => PolyDataPiece { polys: topology, ..piece },
+pub fn layer(layer: &Layer<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let fields = arrays(&layer.fields, layer.cells.len(), compression)?;
+    let data = format!("<CellData>{fields}</CellData>");
+    Ok(poly_data(&layer.points, layer.kind, &layer.cells, &data, time, compression))
+}
+
+fn poly_data(
+    points: &[Vec2],
+    kind: CellKind,
+    cells_of: &[Vec<u32>],
+    data: &str,
+    time: f64,
+    compression: Compression,
+) -> Vec<u8> {
+    let name = match kind {
+        CellKind::Points => "Verts",
+        CellKind::Lines => "Lines",
+        CellKind::Polygons => "Polys",
     };
-    file(DataSet::inline(piece), time, "<PolyData>")
-}
-
-fn file(data: DataSet, time: f64, tag: &str) -> Result<Vec<u8>, VtkError> {
-    with_time(&encode(data)?, time, tag)
-}
-
-fn encode(data: DataSet) -> Result<Vec<u8>, VtkError> {
-    let vtk = Vtk {
-        version: Version::new_xml(1, 0),
-        title: String::new(),
-        byte_order: ByteOrder::LittleEndian,
-        data,
-        file_path: None,
-    };
-    let library = |error: vtkio::xml::Error| VtkError::Library(error.to_string());
-    let mut bytes = Vec::new();
-    vtk.try_into_xml_format(Compressor::LZ4, COMPRESSION_LEVEL)
-        .and_then(|xml| xml.write(&mut bytes))
-        .map_err(library)?;
-    Ok(bytes)
-}
-
-/// Interleaved x, y, 0.
-fn spatial(vectors: &[Vec2]) -> Vec<f64> {
-    vectors.iter().flat_map(|v| [v.x, v.y, 0.0]).collect()
-}
-
-fn attributes(fields: &[Field<'_>], points: usize) -> Result<Attributes, VtkError> {
-    let mut point = Vec::with_capacity(fields.len());
-    for field in fields {
-        let (components, found, data) = match &field.values {
-            Values::Scalar(values) => (1, values.len(), IOBuffer::F64(values.to_vec())),
-            Values::Vector(values) => (3, values.len(), IOBuffer::F64(spatial(values))),
-            Values::Integer(values) => (1, values.len(), IOBuffer::I64(values.to_vec())),
-        };
-        if found != points {
-            return Err(VtkError::Length { name: field.name, found, expected: points });
-        }
-        point.push(Attribute::DataArray(DataArray::new(field.name, components).with_buf(data)));
+    let mut counts = format!("NumberOfPoints=\"{}\"", points.len());
+    for other in ["Verts", "Lines", "Strips", "Polys"] {
+        let count = if other == name { cells_of.len() } else { 0 };
+        // Writing to a string cannot fail.
+        let _ = write!(counts, " NumberOf{other}=\"{count}\"");
     }
-    Ok(Attributes { point, cell: Vec::new() })
+    let topology = cells(cells_of.iter().map(|cell| cell.iter().map(|&point| i64::from(point))), compression);
+    let piece = format!("<Piece {counts}>{data}{}<{name}>{topology}</{name}></Piece>", places(points, compression));
+    file("PolyData", "", time, &piece, compression)
 }
 
-/// A file of the given type without a point, with the names of the fields.
-fn empty(kind: &str, cells: &str, fields: &[Field<'_>], time: f64) -> Vec<u8> {
-    let array = |kind: &str, name: &str, components: u32| {
-        format!(
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\"></DataArray>"
-        )
-    };
-    let fields: String = fields
-        .iter()
-        .map(|field| match field.values {
-            Values::Scalar(_) => array("Float64", field.name, 1),
-            Values::Vector(_) => array("Float64", field.name, 3),
-            Values::Integer(_) => array("Int64", field.name, 1),
-        })
-        .collect();
-    let points = array("Float64", "Points", 3);
-    let mut topology = array("Int64", "connectivity", 1) + &array("Int64", "offsets", 1);
-    let mut counts = "NumberOfPoints=\"0\" NumberOfCells=\"0\"";
-    if kind == "PolyData" {
-        counts =
-            "NumberOfPoints=\"0\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\"";
-    } else {
-        topology += &array("UInt8", "types", 1);
-    }
-    let time = time_data(time);
+/// A file of the given kind around its one piece.
+fn file(kind: &str, attributes: &str, time: f64, piece: &str, compression: Compression) -> Vec<u8> {
+    let compressor = compression.attribute();
     format!(
-        "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"><{kind}>{time}\
-         <Piece {counts}><PointData>{fields}</PointData><Points>{points}</Points><{cells}>{topology}</{cells}></Piece>\
-         </{kind}></VTKFile>"
+        "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{compressor}>\
+         <{kind}{attributes}><FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
+         format=\"ascii\">{time:?}</DataArray></FieldData>{piece}</{kind}></VTKFile>"
     )
     .into_bytes()
 }
 
-/// The time in s as field data; ParaView shows it.
-fn time_data(time: f64) -> String {
-    format!(
-        "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray></FieldData>"
-    )
+/// Points, cells or other elements with their points, one after the other, and where each ends.
+fn cells(of: impl Iterator<Item = impl IntoIterator<Item = i64>>, compression: Compression) -> String {
+    let (mut connectivity, mut offsets) = (Vec::new(), Vec::new());
+    for cell in of {
+        connectivity.extend(cell);
+        offsets.push(connectivity.len() as i64);
+    }
+    compression.integers("connectivity", &connectivity) + &compression.integers("offsets", &offsets)
 }
 
-/// Puts the time as field data behind the first tag that begins with `tag`.
-fn with_time(bytes: &[u8], time: f64, tag: &str) -> Result<Vec<u8>, VtkError> {
-    let behind = find(bytes, tag)
-        .and_then(|start| bytes[start..].iter().position(|&byte| byte == b'>').map(|length| start + length + 1))
-        .ok_or_else(|| VtkError::Library(format!("no {tag} in the file")))?;
-    Ok([&bytes[..behind], time_data(time).as_bytes(), &bytes[behind..]].concat())
+fn places(points: &[Vec2], compression: Compression) -> String {
+    format!("<Points>{}</Points>", compression.vectors("Points", points))
 }
 
-/// Gives the first attribute `name` another value.
-fn replace_attribute(bytes: &[u8], name: &str, value: &str) -> Result<Vec<u8>, VtkError> {
-    let missing = || VtkError::Library(format!("no attribute {name} in the file"));
-    let opening = format!("{name}=\"");
-    let from = find(bytes, &opening).ok_or_else(missing)? + opening.len();
-    let length = bytes[from..].iter().position(|&byte| byte == b'"').ok_or_else(missing)?;
-    Ok([&bytes[..from], value.as_bytes(), &bytes[from + length..]].concat())
-}
-
-fn find(bytes: &[u8], text: &str) -> Option<usize> {
-    bytes.windows(text.len()).position(|window| window == text.as_bytes())
+/// The fields, one after the other.
+fn arrays(fields: &[Field<'_>], points: usize, compression: Compression) -> Result<String, VtkError> {
+    let mut text = String::new();
+    for field in fields {
+        let (found, array) = match &field.values {
+            Values::Scalar(values) => (values.len(), compression.scalars(field.name, values)),
+            Values::Vector(values) => (values.len(), compression.vectors(field.name, values)),
+            Values::Integer(values) => (values.len(), compression.integers(field.name, values)),
+        };
+        if found != points {
+            return Err(VtkError::Length { name: field.name, found, expected: points });
+        }
+        text += &array;
+    }
+    Ok(text)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::borrow::Cow;
+
+    use vtkio::IOBuffer;
+    use vtkio::model::{Attribute, CellType, DataSet, Vtk};
+
+    use super::*;
+
+    fn find(bytes: &[u8], text: &str) -> Option<usize> {
+        bytes.windows(text.len()).position(|window| window == text.as_bytes())
+    }
 
     fn parse(bytes: &[u8]) -> Vtk {
         Vtk::parse_xml(bytes).unwrap()
@@ -261,11 +180,11 @@ mod tests {
     fn particles_read_back_as_vertex_cells_with_all_fields_and_the_time() {
         let points_given: Vec<Vec2> = (0..5000).map(|i| Vec2::new(f64::from(i) * 1.0e-7 / 3.0, -1.0e-3)).collect();
         let cloud = Cloud { points: Cow::Borrowed(&points_given), fields: fields(5000) };
-        let bytes = points(&cloud, 0.25e-3).unwrap();
+        let bytes = points(&cloud, 0.25e-3, Compression::Zlib).unwrap();
         assert!(find(&bytes, "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">0.00025<").is_some());
         let DataSet::UnstructuredGrid { pieces, .. } = parse(&bytes).data else { panic!("not an unstructured grid") };
         let piece = pieces.into_iter().next().unwrap().into_loaded_piece_data(None).unwrap();
-        assert_eq!(piece.points, IOBuffer::F64(spatial(&points_given)));
+        assert_eq!(piece.points, IOBuffer::F64(points_given.iter().flat_map(|v| [v.x, v.y, 0.0]).collect()));
         assert_eq!(piece.cells.types, vec![CellType::Vertex; 5000]);
         let names: Vec<&str> = piece.data.point.iter().map(Attribute::name).collect();
         assert_eq!(names, ["pressure", "velocity", "id"]);
@@ -279,7 +198,7 @@ mod tests {
             counts: [4, 3],
             fields: fields(12),
         };
-        let bytes = grid(&example, 1.0).unwrap();
+        let bytes = grid(&example, 1.0, Compression::Zlib).unwrap();
         assert!(find(&bytes, "Origin=\"0.0001 -0.3333333333333333 0\"").is_some());
         let DataSet::ImageData { extent, spacing, .. } = parse(&bytes).data else { panic!("not image data") };
         assert_eq!(extent.into_dims(), [4, 3, 1]);
@@ -291,7 +210,9 @@ mod tests {
         let vertices = [Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
         let example =
             Lines { points: Cow::Borrowed(&vertices), lines: vec![vec![0, 1, 2, 0], vec![1, 2]], fields: fields(3) };
-        let DataSet::PolyData { pieces, .. } = parse(&lines(&example, 0.0).unwrap()).data else { panic!("not lines") };
+        let DataSet::PolyData { pieces, .. } = parse(&lines(&example, 0.0, Compression::Lz4).unwrap()).data else {
+            panic!("not lines")
+        };
         let piece = pieces.into_iter().next().unwrap().into_loaded_piece_data(None).unwrap();
         assert_eq!(piece.num_lines(), 2);
         assert_eq!(piece.num_points(), 3);
@@ -300,16 +221,19 @@ mod tests {
     #[test]
     fn files_without_points_tell_their_counts_and_the_names_of_their_fields() {
         let nothing = Lines { fields: fields(0), ..Lines::default() };
-        let bytes = lines(&nothing, 0.0).unwrap();
+        let bytes = lines(&nothing, 0.0, Compression::Zlib).unwrap();
         assert!(matches!(parse(&bytes).data, DataSet::PolyData { .. }));
         assert!(find(&bytes, "<Piece NumberOfPoints=\"0\"").is_some() && find(&bytes, "Name=\"velocity\"").is_some());
-        let bytes = points(&Cloud { points: Cow::default(), fields: fields(0) }, 0.0).unwrap();
+        let bytes = points(&Cloud { points: Cow::default(), fields: fields(0) }, 0.0, Compression::Zlib).unwrap();
         assert!(matches!(parse(&bytes).data, DataSet::UnstructuredGrid { .. }));
     }
 
     #[test]
     fn a_field_of_another_length_is_refused() {
         let cloud = Cloud { points: vec![Vec2::zeros(); 2].into(), fields: fields(3) };
-        assert_eq!(points(&cloud, 0.0).unwrap_err().to_string(), "the field pressure has 3 values, expected 2");
+        assert_eq!(
+            points(&cloud, 0.0, Compression::None).unwrap_err().to_string(),
+            "the field pressure has 3 values, expected 2"
+        );
     }
 }

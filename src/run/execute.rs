@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use super::claim::Claim;
 use super::folder::{self, FolderError};
 use super::numbers::{self, Length};
 use super::processor_time::ProcessorTime;
@@ -11,7 +12,7 @@ use super::report::{self, Machine, Reached, Report, SolverReport, Status, readin
 use super::schedule::Schedule;
 use super::setup;
 use super::simulation::{Outcome, Records, Simulation, Watcher};
-use super::sink::Start;
+use super::sink::{Start, compression};
 use super::steady::Steadiness;
 use crate::case::checked::Case;
 use crate::io::checksum::fnv1a;
@@ -92,16 +93,17 @@ pub fn execute(
 ) -> Result<Finished, RunError> {
     let (clock, mut processor_time) = (Instant::now(), ProcessorTime::start());
     let hash = case_hash(job.case)?;
-    let start = prepare(job, solver, hash)?;
+    let (start, _claim) = prepare(job, solver, hash)?;
     if start != Start::New {
         processor_time = processor_time.after_that_in(&job.folder);
     }
-    let mut records = Records::new(&job.folder, hash, start, processor_time)?;
+    let compression = compression(&job.case.output);
+    let mut records = Records::new(&job.folder, hash, start, compression, processor_time)?;
     let schedule = Schedule::new(&job.case.output, job.case.end);
     let steady = job.case.steady;
     let mut simulation = Simulation { solver, schedule, steady, records: &mut records, interrupt, watcher };
     let was_at_end = start != Start::New && simulation.is_at_end();
-    let begun = if start == Start::New { simulation.begin(&job.folder) } else { Ok(()) };
+    let begun = if start == Start::New { simulation.begin(&job.folder) } else { simulation.go_on(&job.folder) };
     let ended = begun.and_then(|()| simulation.run());
     let written = records.finish();
     let ended = ended.and_then(|outcome| written.map(|()| outcome));
@@ -123,19 +125,19 @@ pub fn execute(
     written?;
     let results = solver.results();
     let picture = draw(job, solver, &results)?;
-    write_results(&job.folder, &results, solver.time())?;
+    write_results(job, &results, solver.time())?;
     draw_diagrams(job, solver)?;
     Ok(Finished { report, folder: job.folder.clone(), picture, was_at_end })
 }
 
-/// Makes the folder, or takes up the saved state in it.
-fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<Start, RunError> {
+/// Makes the folder, or takes up the saved state in it; no other process may work in it meanwhile.
+fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<(Start, Claim), RunError> {
     match job.mode {
-        Mode::New => folder::create(&job.folder).map(|()| Start::New).map_err(RunError::from),
+        Mode::New => Ok((Start::New, folder::create(&job.folder)?)),
         Mode::Resume => {
-            let saved = folder::resume(&job.folder, hash)?;
+            let (saved, claim) = folder::resume(&job.folder, hash)?;
             solver.restore(&saved.state)?;
-            Ok(Start::At(saved.time))
+            Ok((Start::Resumed { series: saved.series, frames: saved.frames }, claim))
         }
     }
 }
@@ -191,11 +193,12 @@ fn draw(job: &Job<'_>, solver: &dyn Solver, results: &Results<'_>) -> Result<Res
 }
 
 /// Writes tables, layers, texts and further maps.
-fn write_results(folder: &Path, results: &Results<'_>, time: f64) -> Result<(), FileError> {
+fn write_results(job: &Job<'_>, results: &Results<'_>, time: f64) -> Result<(), FileError> {
+    let folder = &job.folder;
     results.tables.iter().try_for_each(|one| table::write(folder, one))?;
     for layer in &results.layers {
         let path = folder.join(format!("{}.vtp", layer.name));
-        let content = vtk::layer(layer, time)
+        let content = vtk::layer(layer, time, compression(&job.case.output))
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
         atomic::write(&path, &content)?;
     }

@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use super::claim::{self, Claim};
+use crate::io::journal;
 use crate::io::restart::{self, Saved};
-use crate::io::{FileError, atomic};
+use crate::io::{FileError, atomic, frames, series};
 
 /// A folder that a run cannot use.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +36,24 @@ pub enum FolderError {
         saved: u64,
         /// Hash of the present case.
         now: u64,
+    },
+    /// Another process works in it.
+    #[error(
+        "a run is going on in {}{by}; wait for it or stop it, or choose another folder with --out DIR", folder.display()
+    )]
+    InUse {
+        /// The folder.
+        folder: PathBuf,
+        /// Who, where that is known.
+        by: String,
+    },
+    /// A file of the run in it is not what the saved state asks for.
+    #[error(
+        "the run cannot be resumed: {error}; put the file back from a copy, or start the run again with another --out DIR"
+    )]
+    Damaged {
+        /// The file and what is wrong with it.
+        error: FileError,
     },
     /// It cannot be read or written.
     #[error(transparent)]
@@ -73,35 +93,44 @@ fn is_free(folder: &Path) -> bool {
     }
 }
 
-/// Makes the folder of a new run, and tries whether it can be written to.
+/// Makes the folder of a new run, and takes the right to work in it.
 ///
 /// # Errors
-/// [`FolderError::NotEmpty`] where there is something in it, [`FolderError::File`].
-pub fn create(folder: &Path) -> Result<(), FolderError> {
+/// [`FolderError::InUse`] and [`FolderError::NotEmpty`] where there is something in it, [`FolderError::File`].
+pub fn create(folder: &Path) -> Result<Claim, FolderError> {
     atomic::make_folder(folder)?;
     let mut entries = std::fs::read_dir(folder).map_err(FileError::read(folder))?;
     if entries.next().is_some() {
+        // Who works in it matters more than that it is not empty.
+        claim::existing(folder)?;
         return Err(FolderError::NotEmpty(folder.to_path_buf()));
     }
-    let probe = folder.join("restart").join("probe");
-    atomic::write(&probe, b"")?;
-    std::fs::remove_file(&probe).map_err(FileError::write(&probe))?;
-    Ok(())
+    claim::claim(folder)
 }
 
-/// The saved state of the run in `folder`; what a killed run left half written there is removed.
+/// The saved state of the run in `folder`, after a check that all files that belong to it are there as they were written, and the right to work
+/// there; what a killed run left half written is removed.
 ///
 /// # Errors
-/// [`FolderError`] where there is none, where it is damaged, or where it belongs to another case.
-pub fn resume(folder: &Path, case_hash: u64) -> Result<Saved, FolderError> {
+/// [`FolderError`] where there is none, where another process works at it, where it is damaged, or where it belongs to another case.
+pub fn resume(folder: &Path, case_hash: u64) -> Result<(Saved, Claim), FolderError> {
     let state = restart::path(folder);
+    claim::existing(folder)?;
     if !state.exists() {
         return Err(FolderError::NothingToResume { folder: folder.to_path_buf(), state });
     }
+    let claim = claim::claim(folder)?;
     let saved = restart::load(folder)?;
     if saved.case_hash != case_hash {
         return Err(FolderError::OtherCase { folder: folder.to_path_buf(), saved: saved.case_hash, now: case_hash });
     }
+    check(folder, &saved).map_err(|error| FolderError::Damaged { error })?;
     atomic::remove_leftovers(folder)?;
-    Ok(saved)
+    Ok((saved, claim))
+}
+
+/// Checks what was written before the saved state and cannot be made again from it.
+fn check(folder: &Path, saved: &Saved) -> Result<(), FileError> {
+    journal::read(&series::path(folder), saved.series)?;
+    frames::check(folder, &frames::read(folder, saved.frames)?)
 }

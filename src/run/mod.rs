@@ -4,6 +4,7 @@
 //! [`schedule`] and hands [`sink`]s what is due, and the [`report`] says at the end what came out. [`setup`] is the one
 //! place that knows both a case and a solver. Nothing here prints: a [`Watcher`](simulation::Watcher) is told of each step.
 
+pub mod claim;
 pub mod drift;
 pub mod execute;
 pub mod folder;

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use cpu_time::ProcessTime;
 
+use crate::io::checksum::fnv1a;
 use crate::io::{FileError, atomic};
 
 /// Counts the processor time of this process since it began with a run, and knows that of the processes before.
@@ -18,7 +19,7 @@ pub struct ProcessorTime {
     begun: Option<ProcessTime>,
 }
 
-/// The file that keeps it, in s as text.
+/// The file that keeps it, in s as text, with a checksum of the text: a wrong number would be worse than none.
 fn file(folder: &Path) -> PathBuf {
     folder.join("restart").join("cpu-s")
 }
@@ -34,7 +35,10 @@ impl ProcessorTime {
     #[must_use]
     pub fn after_that_in(self, folder: &Path) -> Self {
         let told = std::fs::read_to_string(file(folder)).ok();
-        let before = told.and_then(|text| text.trim().parse().ok()).filter(|seconds: &f64| seconds.is_finite());
+        let before = told.and_then(|text| {
+            let (seconds, checksum) = text.trim().split_once(' ')?;
+            (checksum == checksum_of(seconds)).then_some(seconds)?.parse().ok()
+        });
         Self { before, ..self }
     }
 
@@ -50,8 +54,13 @@ impl ProcessorTime {
 /// # Errors
 /// [`FileError`].
 pub fn save(folder: &Path, seconds: Option<f64>) -> Result<(), FileError> {
-    let text = seconds.map_or("unknown\n".to_owned(), |seconds| format!("{seconds}\n"));
+    let text = seconds.map_or("unknown".to_owned(), |seconds| seconds.to_string());
+    let text = format!("{text} {}\n", checksum_of(&text));
     atomic::write(&file(folder), text.as_bytes())
+}
+
+fn checksum_of(text: &str) -> String {
+    format!("{:016x}", fnv1a(text.as_bytes()))
 }
 
 #[cfg(test)]

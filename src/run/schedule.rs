@@ -100,10 +100,20 @@ fn multiple(count: f64, every: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::checked::Compression;
     use proptest::prelude::*;
 
     fn schedule(series: f64, vtk: f64, restart: f64, end: f64) -> Schedule {
-        Schedule::new(&Output { series_every: series, vtk_every: vtk, grid_ratio: 1.0, restart_every: restart }, end)
+        Schedule::new(
+            &Output {
+                series_every: series,
+                vtk_every: vtk,
+                vtk_compression: Compression::Zlib,
+                grid_ratio: 1.0,
+                restart_every: restart,
+            },
+            end,
+        )
     }
 
     fn stops(schedule: &Schedule) -> Vec<Stop> {

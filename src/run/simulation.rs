@@ -6,12 +6,15 @@ use std::time::Instant;
 
 use super::processor_time::ProcessorTime;
 use super::schedule::{Due, Schedule};
-use super::sink::{Frame, SeriesSink, Start, vtk_sinks};
+use super::sink::{Frame, SeriesSink, Start, UnitFile, vtk_sinks};
 use super::steady::is_steady;
 use super::writer::{Record, Writer};
 use crate::case::checked::SteadyStop;
+use crate::io::frames::{self, FrameList};
+use crate::io::journal::Mark;
 use crate::io::restart::Saved;
-use crate::io::{FileError, atomic, vtk};
+use crate::io::vtk::Compression;
+use crate::io::{FileError, atomic, pvd, vtk};
 use crate::solver::{Clock, PartTime, Series, Solver, SolverError};
 
 /// How a run ended.
@@ -61,6 +64,7 @@ pub struct Records {
     writer: Writer,
     processor_time: ProcessorTime,
     case_hash: u64,
+    compression: Compression,
     seconds: [f64; 3],
 }
 
@@ -69,12 +73,24 @@ impl Records {
     ///
     /// # Errors
     /// [`FileError`] where files of a resumed run cannot be read.
-    pub fn new(folder: &Path, case_hash: u64, start: Start, processor_time: ProcessorTime) -> Result<Self, FileError> {
+    pub fn new(
+        folder: &Path,
+        case_hash: u64,
+        start: Start,
+        compression: Compression,
+        processor_time: ProcessorTime,
+    ) -> Result<Self, FileError> {
+        let (written, list) = match start {
+            Start::New => (Vec::new(), FrameList::new(folder)),
+            Start::Resumed { frames, .. } => (frames::read(folder, frames)?, FrameList::resume(folder, frames)?),
+        };
+        pvd::rebuild(folder, &written)?;
         Ok(Self {
             series: SeriesSink::new(folder, start)?,
-            writer: Writer::start(folder, vtk_sinks(folder, start)?)?,
+            writer: Writer::start(folder, vtk_sinks(folder, written, compression), list)?,
             processor_time,
             case_hash,
+            compression,
             seconds: [0.0; 3],
         })
     }
@@ -121,7 +137,8 @@ impl Records {
         self.seconds[1] += lap();
         if due.restart {
             let (time, step, state) = (solver.time(), solver.steps(), solver.state());
-            let saved = Saved { case_hash: self.case_hash, time, step, state };
+            let (series, frames) = (self.series.mark(), Mark::default());
+            let saved = Saved { case_hash: self.case_hash, time, step, series, frames, state };
             self.writer.write(Record::State(saved, self.processor_time.seconds()))?;
         }
         self.seconds[2] += lap();
@@ -151,11 +168,24 @@ impl Simulation<'_> {
     /// # Errors
     /// [`FileError`].
     pub fn begin(&mut self, folder: &Path) -> Result<(), FileError> {
-        let path = folder.join("solid.vtp");
-        let outline = vtk::lines(&self.solver.outline(), 0.0)
-            .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
-        atomic::write(&path, &outline)?;
+        self.write_outline(folder)?;
         self.records.record(self.solver, Due::ALL)
+    }
+
+    /// Writes anew what follows from the solver whatever its state: `solid.vtp` and `units.json`.
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn go_on(&mut self, folder: &Path) -> Result<(), FileError> {
+        self.write_outline(folder)?;
+        UnitFile::of(folder).write(&Frame::of(self.solver))
+    }
+
+    fn write_outline(&self, folder: &Path) -> Result<(), FileError> {
+        let path = folder.join("solid.vtp");
+        let outline = vtk::lines(&self.solver.outline(), 0.0, self.records.compression)
+            .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
+        atomic::write(&path, &outline)
     }
 
     /// Whether the run ends here as it is steady: as its last row tells.

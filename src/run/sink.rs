@@ -3,9 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::case::checked::{self, Output};
+use crate::io::frames::{FrameList, Written};
+use crate::io::journal::Mark;
 use crate::io::pvd::Collection;
 use crate::io::series::SeriesFile;
-use crate::io::vtk::{self, VtkError};
+use crate::io::vtk::{self, Compression, VtkError};
 use crate::io::{FileError, atomic};
 use crate::snapshot::{Layer, Snapshot};
 use crate::solver::{Series, Solver};
@@ -29,11 +32,11 @@ impl Frame {
 
 /// Something that records a frame in a file.
 pub trait Sink: Send {
-    /// Records the frame. A time that was recorded before is replaced, never doubled.
+    /// Records the frame and notes in `frames` what was written. A time that was recorded before is replaced, never doubled.
     ///
     /// # Errors
     /// [`FileError`] with the path and a way out.
-    fn record(&mut self, frame: &Frame) -> Result<(), FileError>;
+    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError>;
 }
 
 /// Where a run's files begin.
@@ -41,111 +44,130 @@ pub trait Sink: Send {
 pub enum Start {
     /// With a new folder.
     New,
-    /// With what stands in the folder up to and with this time in s.
-    At(f64),
+    /// With what stands in the folder before these marks.
+    Resumed {
+        /// In `series.csv`.
+        series: Mark,
+        /// In the list of written frames.
+        frames: Mark,
+    },
 }
 
 fn format_error(path: PathBuf) -> impl Fn(VtkError) -> FileError {
     move |error| FileError::Format { path: path.clone(), what: error.to_string() }
 }
 
-fn collection(
-    folder: &Path,
-    name: &'static str,
-    extension: &'static str,
-    start: Start,
-) -> Result<Collection, FileError> {
-    match start {
-        Start::New => Ok(Collection::new(folder, name, extension)),
-        Start::At(time) => Collection::resume(folder, name, extension, time),
+/// What the case says of compression, as the writer of VTK files has it.
+#[must_use]
+pub fn compression(output: &Output) -> Compression {
+    match output.vtk_compression {
+        checked::Compression::None => Compression::None,
+        checked::Compression::Zlib => Compression::Zlib,
+        checked::Compression::Lz4 => Compression::Lz4,
     }
 }
 
 /// `particles.pvd` and its files.
-pub struct ParticleFiles(Collection);
+pub struct ParticleFiles(Collection, Compression);
 
 /// `grid.pvd` and its files, where the solver offers a grid.
-pub struct GridFiles(Collection);
+pub struct GridFiles(Collection, Compression);
 
 /// `interface.pvd` and its files, where there is an interface.
-pub struct InterfaceFiles(Collection);
+pub struct InterfaceFiles(Collection, Compression);
 
 /// `NAME.pvd` and its files for each layer of cells that the solver offers.
 pub struct LayerFiles {
     folder: PathBuf,
-    start: Start,
+    written: Vec<Written>,
+    compression: Compression,
     collections: Vec<(&'static str, Collection)>,
 }
 
 /// `units.json`: the unit of each field by file series and name.
 pub struct UnitFile(PathBuf);
 
-/// The VTK sinks of a run.
-///
-/// # Errors
-/// [`FileError`] where files of a resumed run cannot be read.
-pub fn vtk_sinks(folder: &Path, start: Start) -> Result<Vec<Box<dyn Sink>>, FileError> {
-    Ok(vec![
-        Box::new(UnitFile(folder.join("units.json"))),
-        Box::new(ParticleFiles(collection(folder, "particles", "vtu", start)?)),
-        Box::new(GridFiles(collection(folder, "grid", "vti", start)?)),
-        Box::new(InterfaceFiles(collection(folder, "interface", "vtp", start)?)),
-        Box::new(LayerFiles { folder: folder.to_path_buf(), start, collections: Vec::new() }),
-    ])
+/// The VTK sinks of a run in whose folder these files were `written` before.
+#[must_use]
+pub fn vtk_sinks(folder: &Path, written: Vec<Written>, compression: Compression) -> Vec<Box<dyn Sink>> {
+    let collection = |name: &str, extension| Collection::new(folder, name, extension, &written);
+    vec![
+        Box::new(UnitFile::of(folder)),
+        Box::new(ParticleFiles(collection("particles", "vtu"), compression)),
+        Box::new(GridFiles(collection("grid", "vti"), compression)),
+        Box::new(InterfaceFiles(collection("interface", "vtp"), compression)),
+        Box::new(LayerFiles { folder: folder.to_path_buf(), written, compression, collections: Vec::new() }),
+    ]
 }
 
 impl Sink for ParticleFiles {
-    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
         let snapshot = &frame.snapshot;
         // A solver without particles has no fields of them either.
         if snapshot.particles.fields.is_empty() && snapshot.particles.points.is_empty() {
             return Ok(());
         }
-        let content = vtk::points(&snapshot.particles, snapshot.time).map_err(format_error(self.0.path()))?;
-        self.0.record(snapshot.time, &content)
+        let content = vtk::points(&snapshot.particles, snapshot.time, self.1).map_err(format_error(self.0.path()))?;
+        self.0.record(snapshot.time, &content, frames)
     }
 }
 
 impl Sink for GridFiles {
-    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
         let snapshot = &frame.snapshot;
         let Some(grid) = &snapshot.grid else { return Ok(()) };
-        let content = vtk::grid(grid, snapshot.time).map_err(format_error(self.0.path()))?;
-        self.0.record(snapshot.time, &content)
+        let content = vtk::grid(grid, snapshot.time, self.1).map_err(format_error(self.0.path()))?;
+        self.0.record(snapshot.time, &content, frames)
     }
 }
 
 impl Sink for InterfaceFiles {
-    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
         let snapshot = &frame.snapshot;
         let Some(interface) = &snapshot.interface else { return Ok(()) };
-        let content = vtk::lines(interface, snapshot.time).map_err(format_error(self.0.path()))?;
-        self.0.record(snapshot.time, &content)
+        let content = vtk::lines(interface, snapshot.time, self.1).map_err(format_error(self.0.path()))?;
+        self.0.record(snapshot.time, &content, frames)
     }
 }
 
 impl Sink for LayerFiles {
-    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
         let time = frame.time;
         for layer in &frame.layers {
             let place = match self.collections.iter().position(|(name, _)| *name == layer.name) {
                 Some(place) => place,
                 None => {
-                    let files = collection(&self.folder, layer.name, "vtp", self.start)?;
+                    let files = Collection::new(&self.folder, layer.name, "vtp", &self.written);
                     self.collections.push((layer.name, files));
                     self.collections.len() - 1
                 }
             };
             let files = &mut self.collections[place].1;
-            let content = vtk::layer(layer, time).map_err(format_error(files.path()))?;
-            files.record(time, &content)?;
+            let content = vtk::layer(layer, time, self.compression).map_err(format_error(files.path()))?;
+            files.record(time, &content, frames)?;
         }
         Ok(())
     }
 }
 
 impl Sink for UnitFile {
-    fn record(&mut self, frame: &Frame) -> Result<(), FileError> {
+    fn record(&mut self, frame: &Frame, _: &mut FrameList) -> Result<(), FileError> {
+        self.write(frame)
+    }
+}
+
+impl UnitFile {
+    /// The file in the folder of a run.
+    #[must_use]
+    pub fn of(folder: &Path) -> Self {
+        Self(folder.join("units.json"))
+    }
+
+    /// Writes the units of a frame.
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn write(&self, frame: &Frame) -> Result<(), FileError> {
         let snapshot = &frame.snapshot;
         let groups = [
             ("particles", Some(&snapshot.particles.fields).filter(|fields| !fields.is_empty())),
@@ -175,7 +197,7 @@ impl SeriesSink {
     pub fn new(folder: &Path, start: Start) -> Result<Self, FileError> {
         Ok(Self(match start {
             Start::New => SeriesFile::new(folder),
-            Start::At(time) => SeriesFile::resume(folder, time)?,
+            Start::Resumed { series, .. } => SeriesFile::resume(folder, series)?,
         }))
     }
 
@@ -187,6 +209,12 @@ impl SeriesSink {
         let (columns, row): (Vec<&str>, Vec<f64>) =
             solver.sample().iter().map(|sample| (sample.name, sample.value)).unzip();
         self.0.record(&columns, row)
+    }
+
+    /// How much of the file there is.
+    #[must_use]
+    pub fn mark(&self) -> Mark {
+        self.0.mark()
     }
 
     /// All rows so far.

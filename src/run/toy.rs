@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::simulation::{Progress, Watcher};
 use crate::case::checked::{
-    Case, Expectation, Fluid, Initial, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides, Sph,
-    ViscousStep, ViscousTerm, Walls,
+    Case, Compression, Expectation, Fluid, Initial, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides,
+    Sph, ViscousStep, ViscousTerm, Walls,
 };
 use crate::geometry::spec::{GeometrySpec, SolidSide};
 use crate::math::{Vec2, perpendicular};
@@ -192,7 +192,13 @@ pub fn case() -> Case {
         model: Model::Sph(Box::new(sph)),
         end: 1.0,
         steady: None,
-        output: Output { series_every: 0.1, vtk_every: 0.2, grid_ratio: 1.0, restart_every: 0.4 },
+        output: Output {
+            series_every: 0.1,
+            vtk_every: 0.2,
+            vtk_compression: Compression::Zlib,
+            grid_ratio: 1.0,
+            restart_every: 0.4,
+        },
         expect: vec![Expectation { measure: "radius-m".into(), value: 1.0 / 3.0, tolerance: 1.0e-9 }],
     }
 }

@@ -11,6 +11,7 @@ use std::thread::JoinHandle;
 use super::processor_time;
 use super::sink::{Frame, Sink};
 use crate::io::FileError;
+use crate::io::frames::FrameList;
 use crate::io::restart::{self, Saved};
 
 /// Records that may wait while another one is written; who hands over one more waits too. Each takes as much memory as the flow.
@@ -20,7 +21,7 @@ const WAITING: usize = 1;
 pub enum Record {
     /// A frame for the VTK files.
     Frame(Box<Frame>),
-    /// A state to resume from, and the processor time in s until then.
+    /// A state to resume from, but for the mark in the list of frames, and the processor time in s until then.
     State(Saved, Option<f64>),
 }
 
@@ -31,16 +32,16 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Writes frames to `sinks` and states to `folder`.
+    /// Writes frames to `sinks`, which note them in `frames`, and states to `folder`.
     ///
     /// # Errors
     /// [`FileError::Write`] where the system starts no thread.
-    pub fn start(folder: &Path, sinks: Vec<Box<dyn Sink>>) -> Result<Self, FileError> {
+    pub fn start(folder: &Path, sinks: Vec<Box<dyn Sink>>, frames: FrameList) -> Result<Self, FileError> {
         let (sender, receiver) = sync_channel(WAITING);
         let place = folder.to_path_buf();
         let thread = std::thread::Builder::new()
             .name("output".into())
-            .spawn(move || write_all(&place, sinks, &receiver))
+            .spawn(move || write_all(&place, sinks, frames, &receiver))
             .map_err(FileError::write(folder))?;
         Ok(Self { records: Some(sender), thread: Some(thread) })
     }
@@ -82,13 +83,18 @@ impl Drop for Writer {
     }
 }
 
-fn write_all(folder: &Path, mut sinks: Vec<Box<dyn Sink>>, records: &Receiver<Record>) -> Result<(), FileError> {
+fn write_all(
+    folder: &Path,
+    mut sinks: Vec<Box<dyn Sink>>,
+    mut frames: FrameList,
+    records: &Receiver<Record>,
+) -> Result<(), FileError> {
     for record in records {
         match record {
-            Record::Frame(frame) => sinks.iter_mut().try_for_each(|sink| sink.record(&frame))?,
+            Record::Frame(frame) => sinks.iter_mut().try_for_each(|sink| sink.record(&frame, &mut frames))?,
             Record::State(saved, processor_time) => {
                 processor_time::save(folder, processor_time)?;
-                restart::save(folder, &saved)?;
+                restart::save(folder, &Saved { frames: frames.mark(), ..saved })?;
             }
         }
     }
@@ -97,18 +103,21 @@ fn write_all(folder: &Path, mut sinks: Vec<Box<dyn Sink>>, records: &Receiver<Re
 
 #[cfg(test)]
 mod tests {
-    use super::super::sink::{Start, vtk_sinks};
+    use super::super::sink::vtk_sinks;
     use super::super::toy::ToySolver;
     use super::*;
     use crate::io::atomic;
+    use crate::io::journal::Mark;
+    use crate::io::vtk::Compression;
     use crate::solver::Solver;
 
     fn state(step: u64) -> Record {
-        Record::State(Saved { case_hash: 1, time: step as f64, step, state: vec![7; 1000] }, Some(1.0))
+        let (series, frames) = (Mark::default(), Mark::default());
+        Record::State(Saved { case_hash: 1, time: step as f64, step, series, frames, state: vec![7; 1000] }, Some(1.0))
     }
 
     fn writer(folder: &Path) -> Writer {
-        Writer::start(folder, vtk_sinks(folder, Start::New).unwrap()).unwrap()
+        Writer::start(folder, vtk_sinks(folder, Vec::new(), Compression::Zlib), FrameList::new(folder)).unwrap()
     }
 
     #[test]

@@ -7,8 +7,8 @@ use super::folder::{FolderError, StudyFolder};
 use super::results::{Standing, standing};
 use super::runs::PlannedRun;
 use crate::io::{FileError, restart};
-use crate::run::execute::{Job, Mode, RunError, case_hash, execute};
-use crate::run::folder::resume;
+use crate::run::execute::{Job, Mode, RunError, execute};
+use crate::run::folder::FolderError as RunFolderError;
 use crate::run::report::{REPORT, Report, Status};
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
@@ -58,11 +58,13 @@ pub fn run(
         Standing::Complete(_) => {}
         _ => remove_file(&path.join(REPORT))?,
     }
-    let can_resume = restart::path(&path).exists() && resume(&path, case_hash(&planned.case)?).is_ok();
-    if can_resume {
+    if restart::path(&path).exists() {
         match attempt(planned, &path, Mode::Resume, interrupt, watcher) {
-            // A state of another version of the program, say: the run begins anew.
-            Err(ExecuteError::Run(RunError::State(_))) => {}
+            Err(ExecuteError::Run(RunError::Folder(error @ RunFolderError::InUse { .. }))) => {
+                return Err(ExecuteError::Run(RunError::Folder(error)));
+            }
+            // A state of another case or version of the program, or a damaged one: the run begins anew.
+            Err(ExecuteError::Run(RunError::State(_) | RunError::Folder(_))) => {}
             other => return other,
         }
     }

@@ -145,13 +145,23 @@ tables! {
     /// What is written and when.
     pub struct RawOutput {
         /// Particle, grid and interface files (default: 50 records; with `[network]`: 50 in each half cycle).
-        pub vtk: RawEvery,
+        pub vtk: RawVtk,
         /// Rows of series.csv (default: 200 records; with `[network]`: 200 in each half cycle).
         pub series: RawEvery,
         /// The regular grid.
         pub grid: RawGrid,
         /// Files to resume from (default: 10 records).
         pub restart: RawEvery,
+    }
+
+    /// Files for ParaView.
+    pub struct RawVtk {
+        /// Time between records in s.
+        pub every_time: f64,
+        /// Displaced pore volumes between records, with `[network]`.
+        pub every_pore_volume: f64,
+        /// How the arrays in the files are compressed (default `zlib`).
+        pub compression: RawCompression,
     }
 
     /// A schedule.
@@ -167,6 +177,18 @@ tables! {
         /// Distance of grid nodes over the particle spacing (default 1).
         pub ratio: f64,
     }
+}
+
+/// How arrays in VTK files are compressed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RawCompression {
+    /// Not at all: read by every program, the largest files.
+    None,
+    /// By zlib: read by every program.
+    Zlib,
+    /// By LZ4: read by VTK, ParaView and pyvista, not by meshio.
+    Lz4,
 }
 
 /// A table without keys: its name says all.

@@ -1,0 +1,181 @@
+//! Files that grow by a piece at a time: `series.csv` and the list of written frames.
+//!
+//! A kill may leave a piece cut short at the end, or pieces that are later than the saved state. So a saved state notes with a
+//! [`Mark`] how much of the file belongs to it: a resumed run checks that this much is there unchanged, and cuts off the rest.
+
+use std::fs::{File, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::atomic::{self, FileError};
+use super::checksum::Fnv1a;
+
+/// How much of a file there is: its length in bytes and the checksum of them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mark {
+    /// In bytes.
+    pub bytes: u64,
+    /// Of all of them.
+    pub checksum: Fnv1a,
+}
+
+impl Mark {
+    /// The mark behind `bytes`.
+    #[must_use]
+    pub fn behind(bytes: &[u8]) -> Self {
+        let mut mark = Self::default();
+        mark.pass(bytes);
+        mark
+    }
+
+    fn pass(&mut self, bytes: &[u8]) {
+        self.bytes += bytes.len() as u64;
+        self.checksum.pass(bytes);
+    }
+}
+
+/// A file that grows.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    /// None until the first piece.
+    file: Option<File>,
+    mark: Mark,
+}
+
+impl Journal {
+    /// A new one; the file is made with its first piece.
+    #[must_use]
+    pub fn new(path: PathBuf) -> Self {
+        Self { path, file: None, mark: Mark::default() }
+    }
+
+    /// Goes on behind `mark`, after [`read`] found all before it unchanged: what is behind it is cut off.
+    ///
+    /// # Errors
+    /// [`FileError::Write`].
+    pub fn resume(path: PathBuf, mark: Mark) -> Result<Self, FileError> {
+        let mut journal = Self::new(path);
+        if mark.bytes > 0 {
+            let file = journal.open().and_then(|file| file.set_len(mark.bytes).map(|()| file));
+            journal.file = Some(file.map_err(FileError::write(&journal.path))?);
+            journal.mark = mark;
+        }
+        Ok(journal)
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// How much there is.
+    #[must_use]
+    pub fn mark(&self) -> Mark {
+        self.mark
+    }
+
+    /// Adds a piece.
+    ///
+    /// # Errors
+    /// [`FileError::Write`]; then the file is as it was, as far as the system allows.
+    pub fn append(&mut self, piece: &[u8]) -> Result<(), FileError> {
+        if self.file.is_none() {
+            return self.replace(piece);
+        }
+        let Some(file) = &mut self.file else { return Ok(()) };
+        if let Err(source) = file.write_all(piece) {
+            // Best effort: the first error is the one to tell.
+            let _ = file.set_len(self.mark.bytes);
+            return Err(FileError::write(&self.path)(source));
+        }
+        self.mark.pass(piece);
+        Ok(())
+    }
+
+    /// Puts `content` in place of all that is there.
+    ///
+    /// # Errors
+    /// [`FileError`].
+    pub fn replace(&mut self, content: &[u8]) -> Result<(), FileError> {
+        atomic::write(&self.path, content)?;
+        self.file = Some(self.open().map_err(FileError::write(&self.path))?);
+        self.mark = Mark::behind(content);
+        Ok(())
+    }
+
+    fn open(&self) -> std::io::Result<File> {
+        OpenOptions::new().append(true).open(&self.path)
+    }
+}
+
+/// What stands before `mark` in the file.
+///
+/// # Errors
+/// [`FileError::Read`], or [`FileError::Content`] where it is not what it was when the mark was made.
+pub fn read(path: &Path, mark: Mark) -> Result<Vec<u8>, FileError> {
+    if mark.bytes == 0 {
+        return Ok(Vec::new());
+    }
+    let content = |what: String| FileError::Content { path: path.to_path_buf(), what };
+    let mut bytes = std::fs::read(path).map_err(FileError::read(path))?;
+    let wanted = usize::try_from(mark.bytes).unwrap_or(usize::MAX);
+    if bytes.len() < wanted {
+        return Err(content(format!("expected {wanted} bytes or more, found {}", bytes.len())));
+    }
+    bytes.truncate(wanted);
+    if Mark::behind(&bytes) != mark {
+        return Err(content(format!("its first {wanted} bytes are not those that the run wrote")));
+    }
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_resumed_journal_lacks_what_came_after_the_mark_and_what_was_cut_short() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("series.csv");
+        let mut journal = Journal::new(path.clone());
+        journal.append(b"a,b\n").unwrap();
+        journal.append(b"1,2\n").unwrap();
+        let mark = journal.mark();
+        journal.append(b"3,4\n").unwrap();
+        journal.append(b"5,").unwrap();
+        assert_eq!(read(&path, mark).unwrap(), b"a,b\n1,2\n");
+        let mut journal = Journal::resume(path.clone(), mark).unwrap();
+        journal.append(b"3,4\n").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"a,b\n1,2\n3,4\n");
+        assert_eq!(journal.mark(), Mark::behind(b"a,b\n1,2\n3,4\n"));
+    }
+
+    #[test]
+    fn a_file_that_is_missing_shorter_or_changed_is_refused_by_its_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("series.csv");
+        let mark = Mark::behind(b"1,2\n3,4\n");
+        for (content, words) in [
+            (None, "no such file"),
+            (Some("1,2\n"), "expected 8 bytes or more, found 4"),
+            (Some("1,2\n3,5\n"), "are not those"),
+        ] {
+            content.inspect(|content| std::fs::write(&path, content).unwrap());
+            let message = read(&path, mark).unwrap_err().to_string();
+            assert!(message.contains(words) && message.contains("series.csv"), "{message}");
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_disk_is_told_at_the_piece_that_did_not_fit() {
+        let mut journal = Journal::new("/dev/full".into());
+        journal.file = Some(journal.open().unwrap());
+        let message = journal.append(b"1,2\n").unwrap_err().to_string();
+        assert!(message.contains("the disk is full") && journal.mark() == Mark::default(), "{message}");
+    }
+}

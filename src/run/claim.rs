@@ -1,0 +1,101 @@
+//! The right to work in the folder of a run: one process at a time.
+//!
+//! `restart/run.lock` is locked by the operating system, which takes the lock back when a process ends, however it ends: none is ever
+//! left over. In the file stands who holds it, for the message only.
+
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{Read, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use super::folder::FolderError;
+use crate::io::{FileError, atomic};
+
+/// The right to work in a folder; it ends when this is dropped.
+#[derive(Debug)]
+pub struct Claim(File);
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        // Nobody works here any more; what stands in the file is only told, so that an error does not matter.
+        let _ = self.0.set_len(0);
+    }
+}
+
+fn path(folder: &Path) -> PathBuf {
+    folder.join("restart").join("run.lock")
+}
+
+/// Takes the right to work in `folder`.
+///
+/// # Errors
+/// [`FolderError::InUse`] where another process has it, [`FolderError::File`].
+pub fn claim(folder: &Path) -> Result<Claim, FolderError> {
+    let path = path(folder);
+    atomic::make_folder(&folder.join("restart"))?;
+    let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
+    let mut file = lock(folder, opened.map_err(FileError::write(&path))?)?;
+    let told = format!("process {} on {}\n", std::process::id(), host());
+    file.set_len(0).and_then(|()| file.rewind()).map_err(FileError::write(&path))?;
+    file.write_all(told.as_bytes()).map_err(FileError::write(&path))?;
+    Ok(Claim(file))
+}
+
+/// Looks whether another process works in `folder`; nothing is made or changed there.
+///
+/// # Errors
+/// [`FolderError::InUse`].
+pub fn existing(folder: &Path) -> Result<(), FolderError> {
+    match File::open(path(folder)) {
+        Ok(file) => lock(folder, file).map(drop),
+        Err(_) => Ok(()),
+    }
+}
+
+fn lock(folder: &Path, mut file: File) -> Result<File, FolderError> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => {
+            let mut by = String::new();
+            // Only to be told: without it the message is shorter.
+            let _ = file.read_to_string(&mut by);
+            let by = if by.trim().is_empty() { String::new() } else { format!(" ({})", by.trim()) };
+            Err(FolderError::InUse { folder: folder.to_path_buf(), by })
+        }
+        // A file system without locks, as some clusters have: there is nothing to hold the folder by.
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
+    }
+}
+
+/// The name of this machine, where the system tells.
+fn host() -> String {
+    let told = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().map(|name| name.trim().to_owned());
+    told.or_else(|| std::env::var("HOSTNAME").ok()).unwrap_or_else(|| "this machine".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_worked_in_by_one_process_which_is_named_and_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let held = claim(folder.path()).unwrap();
+        for refused in [claim(folder.path()).map(drop), existing(folder.path())] {
+            let message = refused.unwrap_err().to_string();
+            assert!(message.contains(&format!("(process {} on ", std::process::id())), "{message}");
+            assert!(message.contains("--out DIR"), "{message}");
+        }
+        drop(held);
+        assert_eq!(std::fs::read(path(folder.path())).unwrap(), b"");
+        drop(claim(folder.path()).unwrap());
+    }
+
+    #[test]
+    fn what_a_dead_process_left_is_no_obstacle() {
+        let folder = tempfile::tempdir().unwrap();
+        atomic::write(&path(folder.path()), b"process 1 on elsewhere, a name that is longer than the present one\n")
+            .unwrap();
+        let held = claim(folder.path()).unwrap();
+        assert!(std::fs::read_to_string(path(folder.path())).unwrap().ends_with(&format!("on {}\n", host())));
+        drop(held);
+    }
+}
