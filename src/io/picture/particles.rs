@@ -1,11 +1,12 @@
 //! The particles by phase, the solids, the interface, a scale bar, title and time.
 //!
-//! Gray is solid: the fluids are drawn over it as dots that just touch. Leaves out every field but `phase`; those are for ParaView.
+//! Gray is solid: the fluids are drawn over it as dots that just touch. Particles `below-resolution` have a core of their own color. Leaves out
+//! every other field but `phase`; those are for ParaView.
 
 use super::canvas::{Canvas, PictureError, Rgb};
 use super::style::{
-    BAR_SHARE, BLACK, FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, TITLE_SIZE, WIDTH, length_text,
-    round_length, time_text,
+    BAR_SHARE, BLACK, FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, TITLE_SIZE, UNRESOLVED, WIDTH,
+    length_text, round_length, time_text,
 };
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot, Values};
@@ -90,12 +91,23 @@ fn hull<'a>(mut points: impl Iterator<Item = &'a Vec2>) -> Option<Bounds> {
     Some(points.fold(Bounds { min: first, max: first }, |b, x| Bounds { min: b.min.inf(x), max: b.max.sup(x) }))
 }
 
+/// A field of whole numbers on the particles.
+fn integers<'a>(snapshot: &'a Snapshot<'_>, name: &str) -> Option<&'a [i64]> {
+    match snapshot.particles.fields.iter().find(|field| field.name == name).map(|field| &field.values) {
+        Some(Values::Integer(values)) => Some(values),
+        _ => None,
+    }
+}
+
 /// The phase of particle `a`; particles without phases are drawn as the first one.
 fn phase_of(snapshot: &Snapshot<'_>, a: usize) -> Option<i64> {
-    match snapshot.particles.fields.iter().find(|field| field.name == "phase").map(|field| &field.values) {
-        Some(Values::Integer(values)) => values.get(a).copied(),
-        _ => Some(FLUIDS[0].number),
-    }
+    integers(snapshot, "phase").map_or(Some(FLUIDS[0].number), |phases| phases.get(a).copied())
+}
+
+/// The particles where their phase is too thin for the spacing.
+fn unresolved<'a>(snapshot: &'a Snapshot<'_>) -> impl Iterator<Item = Vec2> + 'a {
+    let marks = integers(snapshot, "below-resolution").unwrap_or(&[]);
+    marks.iter().zip(snapshot.particles.points.iter()).filter(|(mark, _)| **mark != 0).map(|(_, x)| *x)
 }
 
 fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f64) {
@@ -111,6 +123,8 @@ fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f6
             canvas.circles(centers, cover.max(1.0), if is_core { phase.core } else { phase.color });
         }
     }
+    let core = (CORE * radius).max(SMALLEST_CORE);
+    canvas.circles(unresolved(snapshot).map(|x| view.place(x)), core, UNRESOLVED);
 }
 
 fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, width: f32, color: Rgb) {
@@ -145,8 +159,9 @@ fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
     let mut x = WIDTH as f32 - RIM;
     let present = |number| (0..snapshot.particles.points.len()).any(|a| phase_of(snapshot, a) == Some(number));
     let interface = snapshot.interface.as_ref().map(|_| ("interface", INTERFACE));
+    let thin = unresolved(snapshot).next().map(|_| ("not resolved", UNRESOLVED));
     let fluids = FLUIDS.iter().filter(|phase| present(phase.number)).map(|phase| (phase.name, phase.color));
-    let entries: Vec<_> = fluids.chain([("solid", SOLID)]).chain(interface).collect();
+    let entries: Vec<_> = fluids.chain([("solid", SOLID)]).chain(thin).chain(interface).collect();
     for (name, color) in entries.into_iter().rev() {
         x -= canvas.text_width(name, TEXT_SIZE);
         canvas.text(name, [x, y], TEXT_SIZE);

@@ -17,6 +17,7 @@ pub(super) const BAR_SHARE: f64 = 0.25;
 pub(super) const SOLID: Rgb = [196, 192, 186];
 pub(super) const OUTLINE: Rgb = [84, 80, 76];
 pub(super) const INTERFACE: Rgb = [178, 34, 52];
+pub(super) const UNRESOLVED: Rgb = [205, 80, 20];
 pub(super) const BLACK: Rgb = [0, 0, 0];
 
 /// A phase of the drawing: number in the field `phase`, name, color, color of the inner dot.
