@@ -367,3 +367,11 @@ fn a_line_of_a_hundred_thousand_mistakes_is_told_soon_and_shortly() {
         assert!(clock.elapsed() < std::time::Duration::from_secs(5), "{letter}: {:?}", clock.elapsed());
     }
 }
+
+#[test]
+fn a_film_in_scaled_units_that_is_steep_loads_again_as_resolved() {
+    let steep = Overrides::parse(&["thin-film.droplets[0].height=3.75"]).unwrap();
+    let loaded = load(&folder("cases/thin-film/axisymmetric.toml"), &steep).unwrap();
+    let again = load_case_text(&loaded.resolved, &Overrides::default()).unwrap_or_else(|e| panic!("{}", e.render()));
+    assert_eq!(again.resolved, loaded.resolved);
+}
