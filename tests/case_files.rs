@@ -355,3 +355,23 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_line_of_a_hundred_thousand_mistakes_is_told_soon_and_shortly() {
+    for letter in ["(", "-", "[", "0 ", "= "] {
+        let clock = std::time::Instant::now();
+        let error =
+            load_case_text(&format!("format = 1\n{}\n", letter.repeat(100_000)), &Overrides::default()).unwrap_err();
+        let report = format!("{:?}", miette::Report::new(error));
+        assert!(report.len() < 50_000, "{letter}: a report of {} bytes", report.len());
+        assert!(clock.elapsed() < std::time::Duration::from_secs(5), "{letter}: {:?}", clock.elapsed());
+    }
+}
+
+#[test]
+fn a_film_in_scaled_units_that_is_steep_loads_again_as_resolved() {
+    let steep = Overrides::parse(&["thin-film.droplets[0].height=3.75"]).unwrap();
+    let loaded = load(&folder("cases/thin-film/axisymmetric.toml"), &steep).unwrap();
+    let again = load_case_text(&loaded.resolved, &Overrides::default()).unwrap_or_else(|e| panic!("{}", e.render()));
+    assert_eq!(again.resolved, loaded.resolved);
+}

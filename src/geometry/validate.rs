@@ -294,7 +294,6 @@ impl Check {
                 format!("the bulge {:e} at point {i} makes an arc that is a full circle up to rounding", points[i][2]),
                 "a bulge is the tangent of a quarter of the arc's angle: 1 is a half circle; write a circle as two half circles",
             );
-            return;
         }
     }
 

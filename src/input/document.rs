@@ -12,6 +12,9 @@ use toml::de::DeTable;
 use super::error::{InputError, Mistake};
 use super::overrides::{Override, Overrides};
 
+/// Most mistakes of syntax that are told.
+const MOST_MISTAKES: usize = 50;
+
 /// A parsed file.
 #[derive(Debug, Clone)]
 pub struct Document {
@@ -53,8 +56,15 @@ impl Document {
     /// The first mistake of each line, up to an open bracket: what follows one is no mistake of its own.
     fn syntax_mistakes(&self, errors: &[toml::de::Error]) -> Vec<Mistake> {
         let mut mistakes: Vec<Mistake> = Vec::new();
+        let mut last: Option<usize> = None;
         for error in errors {
             let message = error.message();
+            let start = error.span().unwrap_or_default().start;
+            // A line can hold a hundred thousand mistakes: only what lies between it and the one before is looked at.
+            let is_same_line = |last: usize| {
+                let between = self.text.as_bytes().get(last.min(start)..last.max(start));
+                between.is_some_and(|between| !between.contains(&b'\n'))
+            };
             let in_brackets =
                 ["array", "inline table", "key-value pairs", "unclosed"].iter().any(|word| message.contains(word));
             let help = match message {
@@ -64,12 +74,12 @@ impl Document {
                 }
                 _ => "",
             };
-            let mistake = self.mistake(error.span().unwrap_or_default(), (message.to_owned(), help.to_owned()));
-            let line = |mistake: &Mistake| mistake.place.map(|(line, _)| line);
-            if mistakes.last().is_none_or(|last| line(last) != line(&mistake)) {
-                mistakes.push(mistake);
+            if !last.is_some_and(is_same_line) {
+                let span = error.span().unwrap_or_default();
+                mistakes.push(self.mistake(span, (message.to_owned(), help.to_owned())));
             }
-            if in_brackets {
+            last = Some(start);
+            if in_brackets || mistakes.len() >= MOST_MISTAKES {
                 break;
             }
         }

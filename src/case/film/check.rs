@@ -6,7 +6,7 @@ use super::equation::{equation, partial_wetting, wetting};
 use super::method::method;
 use super::raw::{RawFilmSymmetry, RawFilmWeights, RawThinFilm};
 use super::resolution::{count, resolution, rounding};
-use super::thinness::{self, is_scaled};
+use super::thinness;
 use crate::case::check::Checker;
 use crate::geometry::spec::GeometrySpec;
 
@@ -23,9 +23,6 @@ pub(in crate::case) fn thin_film(
         Some(RawFilmSymmetry::Axis) => FilmSymmetry::Axis,
     };
     let droplets = droplets(checker, raw.droplets.as_deref().unwrap_or_default(), symmetry);
-    if let Some(droplets) = &droplets {
-        thinness::steepness(checker, droplets, is_scaled(raw));
-    }
     let equation = equation(checker, &raw.equation.clone().unwrap_or_default());
     let contact_angle = wetting(checker, &raw.wetting.clone().unwrap_or_default());
     let particles_can_be =
@@ -74,6 +71,7 @@ pub(in crate::case) fn thin_film(
             Some(RawFilmWeights::Point) => FilmWeights::Point,
         },
     };
+    thinness::steepness(checker, &film);
     thinness::rim(checker, &film);
     if let Some(geometry) = geometry {
         thinness::room(checker, &film, geometry);

@@ -5,7 +5,6 @@
 //! slopes are no angles.
 
 use super::checked::{FilmDroplet, FilmSymmetry, ThinFilm};
-use super::raw::RawThinFilm;
 use crate::case::check::Checker;
 use crate::geometry::spec::GeometrySpec;
 
@@ -23,9 +22,9 @@ const MOVES: f64 = 1000.0;
 const USUAL_END: f64 = 100.0;
 
 /// Refuses droplets that are no film.
-pub(super) fn steepness(checker: &mut Checker, droplets: &[FilmDroplet], is_scaled: bool) {
-    let (least, most) = (RATIOS.0, if is_scaled { RATIOS.1 } else { STEEPEST });
-    for (index, droplet) in droplets.iter().enumerate() {
+pub(super) fn steepness(checker: &mut Checker, film: &ThinFilm) {
+    let (least, most) = (RATIOS.0, if film.is_scaled() { RATIOS.1 } else { STEEPEST });
+    for (index, droplet) in film.droplets.iter().enumerate() {
         let ratio = droplet.height / droplet.half_width;
         if !(least..=most).contains(&ratio) {
             checker.refuse(
@@ -80,11 +79,6 @@ pub(super) fn room(checker: &mut Checker, film: &ThinFilm, geometry: &GeometrySp
             );
         }
     }
-}
-
-/// Whether the keys are in scaled units.
-pub(super) fn is_scaled(raw: &RawThinFilm) -> bool {
-    raw.fluid.is_none() && raw.tension.is_none()
 }
 
 impl ThinFilm {
