@@ -70,7 +70,8 @@ impl Bench {
         std::fs::write(root.join("cases/good.toml"), include_str!("../bad-input/good-case.toml")).unwrap();
         std::fs::write(root.join("cases/shapes.toml"), SHAPES).unwrap();
         bench.seeds.extend(["cases/good.toml", "cases/shapes.toml"].map(|name| (name.into(), Kind::Case)));
-        let saved = Saved { case_hash: 7, time: 0.25, step: 12, state: (0..=255).collect() };
+        let (series, frames) = Default::default();
+        let saved = Saved { case_hash: 7, time: 0.25, step: 12, series, frames, state: (0..=255).collect() };
         restart::save(root, &saved).unwrap();
         bench.seeds.push((restart::path(Path::new("")), Kind::State));
         bench.seeds.sort_by(|a, b| a.0.cmp(&b.0));
