@@ -119,9 +119,10 @@ pub(crate) fn shape_problems(domain: Bounds, shape: &ShapeSpec, at: &str) -> Vec
                 (key, format!("expected {expected}, found {bad:e} m"), help)
             }
             Numbers::Points(key, points) => {
-                let is_far =
-                    |point: &&[f64; 2]| (Vec2::from(**point) - domain.center()).iter().any(|x| !(x.abs() <= most));
-                let Some([x, y]) = points.iter().find(is_far) else { continue };
+                let center = domain.center();
+                // Of two numbers of which one is none, `max` takes the other.
+                let is_near = |[x, y]: [f64; 2]| (x - center.x).abs() <= most && (y - center.y).abs() <= most;
+                let Some([x, y]) = points.iter().find(|point| !is_near(**point)) else { continue };
                 let expected = format!("a point within {most:.1e} m of a domain of {side:e} m");
                 (key, format!("expected {expected}, found ({x:e}, {y:e})"), "are all lengths in m?")
             }

@@ -8,6 +8,9 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 const BEFORE: usize = 60;
 const AFTER: usize = 100;
 
+/// Letters of a word of the file in a message, so that what is said of it is seen.
+pub(super) const LONGEST_WORD: usize = 200;
+
 /// Stands where something was left out.
 const CUT: &str = "...";
 

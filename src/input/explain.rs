@@ -1,5 +1,6 @@
 //! What serde says of a value, in the words of a user's file, with a way out.
 
+use super::excerpt::{LONGEST_WORD, shortened};
 use super::suggest::nearest;
 
 /// A serde message put into our words.
@@ -26,7 +27,7 @@ pub(super) fn explain(serde: &str) -> Explained {
     if serde.starts_with("unknown field") || serde.starts_with("unknown variant") {
         let (word, known) = names.split_first().map_or(("", &[][..]), |(word, known)| (*word, known));
         let kind = if serde.starts_with("unknown field") { "key" } else { "name" };
-        explained.message = format!("unknown {kind} `{word}`");
+        explained.message = format!("unknown {kind} `{}`", shortened(word, LONGEST_WORD));
         explained.meant = nearest(word, known.iter().copied()).map(str::to_owned);
         explained.help = known_help(explained.meant.as_deref(), known, kind);
     } else if serde.starts_with("missing field") {
@@ -48,7 +49,7 @@ pub(super) fn explain(serde: &str) -> Explained {
     } else if serde == "wanted string or table" {
         explained.wants_name = true;
     } else if let Some((found, expected)) = mismatch(serde) {
-        explained.message = format!("expected {}, found {found}", expected_words(expected));
+        explained.message = format!("expected {}, found {}", expected_words(expected), shortened(&found, LONGEST_WORD));
     } else if serde.contains("overflowed") {
         explained.message = "the number is too large".to_owned();
     } else {

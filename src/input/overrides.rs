@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{InputError, Mistake};
-use super::excerpt::shortened;
+use super::excerpt::{LONGEST_WORD, shortened};
 use super::path::{self, Step};
 
 /// The overrides of a command line, in their order; a later one wins.
@@ -51,16 +51,13 @@ impl Overrides {
     }
 }
 
-/// Letters of a key that a message shows.
-const LONGEST_KEY: usize = 200;
-
 impl Override {
     fn parse(text: &str) -> Result<Self, (String, &'static str)> {
         let Some((key, value)) = text.split_once('=') else {
             return Err(("expected KEY=VALUE, found no `=`".to_owned(), "as in --set sph.spacing=1e-5"));
         };
         let steps = path::parse(key.trim()).filter(|steps| !steps.is_empty()).ok_or((
-            format!("`{}` is not a key path", shortened(key, LONGEST_KEY)),
+            format!("`{}` is not a key path", shortened(key, LONGEST_WORD)),
             "names with points between them and places in arrays in brackets, as in geometry.shapes[0].disc.radius",
         ))?;
         let line = toml_line(value).map_err(|message| (message, "write the value as in the file, in TOML"))?;
