@@ -28,9 +28,8 @@ pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
         let value = format!("{} {}", readable(measure.value), measure.unit);
         say(format_args!("{:<width$}  {value:<12}  {}", measure.name, measure.method));
     }
-    if let Some(sides) = &shapes.sides {
-        say(format_args!("{:<width$}  {sides}", "sides"));
-    }
+    let none = "none: walls that a case has at its sides may be nearer to the shapes than these are to each other";
+    say(format_args!("{:<width$}  {}", "sides", shapes.sides.as_deref().unwrap_or(none)));
     if let Some(folder) = &arguments.out {
         let title = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         stages.at("drawing and writing files");

@@ -1,7 +1,7 @@
 //! The dimensionless numbers of a case and the limits of its time step, by formulas that are stated with them.
 //!
-//! With rho, mu of the wetting phase, sigma the tension, L the length that the case names, else the width of the narrowest throat, else the
-//! square root of the area of a drop or bubble, else the shorter side of the domain, and U a speed:
+//! With rho, mu of the wetting phase, sigma the tension, L the length that the case names, else the shorter of the width of the narrowest
+//! throat and the square root of the area of a drop or bubble, else the shorter side of the domain, and U a speed:
 //! Re = rho U L/mu, Ca = mu U/sigma, We = rho U² L/sigma, Bo = |rho_w - rho_n| g L²/sigma (rho_w alone in single-phase flow),
 //! La = sigma rho L/mu², Oh = La^(-1/2).
 
@@ -41,11 +41,11 @@ impl Length {
         {
             return Self { value, name: "given by the case" };
         }
-        if let Some(value) = setup::throat(case) {
-            return Self { value, name: "width of the narrowest throat" };
-        }
-        if let Some(area) = setup::drop_area(case) {
-            return Self { value: area.sqrt(), name: "square root of the area of the drop" };
+        let throat = setup::throat(case).map(|value| Self { value, name: "width of the narrowest throat" });
+        let drop = setup::drop_area(case).map(f64::sqrt);
+        let drop = drop.map(|value| Self { value, name: "square root of the area of the drop" });
+        if let Some(shorter) = [throat, drop].into_iter().flatten().min_by(|a, b| a.value.total_cmp(&b.value)) {
+            return shorter;
         }
         let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
         Self { value: size.min(), name: "shorter side of the domain" }

@@ -1,6 +1,6 @@
 //! From a checked case to its solver: the one place that knows both.
 
-use crate::case::checked::{Case, Model};
+use crate::case::checked::{Case, Model, Sph};
 use crate::case::{Facts, check_against};
 use crate::geometry::Geometry;
 use crate::input::Problem;
@@ -76,9 +76,26 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
 pub fn warnings(case: &Case, solver: &dyn Solver) -> Vec<String> {
     let of_case = match &case.model {
         Model::ThinFilm(film) => film.notes(case.end),
-        Model::Sph(_) | Model::Network(_) => Vec::new(),
+        Model::Sph(sph) => coarse_throat(case, sph).into_iter().collect(),
+        Model::Network(_) => Vec::new(),
     };
     of_case.into_iter().chain(solver.warnings()).collect()
+}
+
+/// Spacings across a throat below which its menisci and their angles are off by degrees.
+const ACROSS_THROAT: f64 = 8.0;
+
+/// A throat with an interface to pass it that has few particles across.
+fn coarse_throat(case: &Case, sph: &Sph) -> Option<String> {
+    let width = throat(case).filter(|_| sph.tension > 0.0)?;
+    let across = width / sph.spacing;
+    (across < ACROSS_THROAT).then(|| {
+        format!(
+            "{across:.1} particles across the narrowest throat: entry pressures hold from {ACROSS_THROAT:.0}, angles measured there from 16; \
+             use sph.spacing = {:.2e}",
+            width / ACROSS_THROAT
+        )
+    })
 }
 
 /// Nodes along each axis on which the fluids of the initial state are looked up.
