@@ -1,8 +1,11 @@
 //! What of a flow is out of the reach of its resolution, in words for the reader of its measures.
 
 use crate::analysis::blobs::{LINK, blobs};
+use crate::analysis::contact::ContactLine;
 use crate::analysis::laws::drops::cap;
 use crate::analysis::resolution::thin_parts;
+use crate::analysis::wall::{WallPoint, is_edge_between};
+use crate::math::{Vec2, perpendicular};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
@@ -16,8 +19,14 @@ const LARGEST_THIN_SHARE: f64 = 0.01;
 /// Spacings across a drop or a film that its measures need.
 const ENOUGH: f64 = 8.0;
 
+/// Cosine between the wall normals at both contact lines of a drop on a plane.
+const SAME_WALL: f64 = 0.9;
+
 /// Angles nearer than this to 0 or 180 degrees are told apart by the place of the interface to the second order only, in degrees.
 const LIMITING_ANGLE: f64 = 10.0;
+
+/// Ohnesorge number below which interfaces that end at an edge have been seen to swing (docs/validation/pillar.md).
+const THIN_LIQUID: f64 = 0.01;
 
 /// The parts of both phases that the particles do not resolve.
 pub struct Unresolved {
@@ -59,7 +68,10 @@ pub fn warnings(flow: &Flow, seen: &Observation) -> Vec<String> {
     if flow.method.tension == 0.0 {
         return Vec::new();
     }
-    [pieces_and_films(flow), low_drop(flow, seen), limiting_angle(flow)].into_iter().flatten().collect()
+    [pieces_and_films(flow), low_drop(flow, seen), limiting_angle(flow), thin_liquid_at_edge(flow, seen)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 fn pieces_and_films(flow: &Flow) -> Option<String> {
@@ -82,8 +94,10 @@ fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
     let is_wetting = areas.wetting < areas.non_wetting;
     let (area, through) =
         if is_wetting { (areas.wetting, angle) } else { (areas.non_wetting, std::f64::consts::PI - angle) };
-    // Between walls the drop is no cap.
-    if seen.contact_lines.len() != 2 || !(area > 0.0 && through > 0.0) {
+    // A meniscus between two walls is no drop.
+    let [a, b] = &seen.contact_lines[..] else { return None };
+    let normal = |line: &ContactLine| (flow.wall)(line.position).1;
+    if normal(a).dot(&normal(b)) < SAME_WALL || !(area > 0.0 && through > 0.0) {
         return None;
     }
     let across = cap(area, through).height / flow.method.spacing;
@@ -92,6 +106,27 @@ fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
         format!(
             "a drop of this area at this angle is {across:.1} spacings high on a plane, and {ENOUGH:.0} are needed: use \
              sph.spacing = {spacing:.3e} or a thin film"
+        )
+    })
+}
+
+/// A contact line at an edge of a wall in a liquid too thin to damp what the step feeds.
+fn thin_liquid_at_edge(flow: &Flow, seen: &Observation) -> Option<String> {
+    let m = &flow.method;
+    let length = seen.areas.wetting.min(seen.areas.non_wetting).sqrt();
+    let ohnesorge = m.wetting_fluid.viscosity / (m.wetting_fluid.density * m.tension * length).sqrt();
+    let wall = |x: Vec2| {
+        let (distance, normal) = (flow.wall)(x);
+        WallPoint { distance, normal }
+    };
+    let is_at_edge = |line: &ContactLine| {
+        let along = m.kernel.h * perpendicular(wall(line.position).normal);
+        is_edge_between(&wall, line.position - along, line.position + along)
+    };
+    (ohnesorge < THIN_LIQUID && seen.lines_with_angle().any(is_at_edge)).then(|| {
+        format!(
+            "a contact line stands at an edge in a thin liquid (Oh = {ohnesorge:.4}): long steps make the interface swing there; \
+             sph.numerics.time-step-factor = 0.1 makes the swings small"
         )
     })
 }
