@@ -1,7 +1,7 @@
 //! Which fluid particles stand for a flow that is resolved, and which are single, in rows, or in pieces of a few.
 //!
 //! As an opening of mathematical morphology (Serra 1982): the core of a phase are its particles that have only their own phase, or walls,
-//! within [`CORE`] spacings; all within [`REACH`] spacings of the core belong to it. What is left is thinner than about three particles.
+//! within `CORE` spacings; all within `REACH` spacings of the core belong to it. What is left is thinner than about three particles.
 
 use rayon::prelude::*;
 

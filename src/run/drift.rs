@@ -1,7 +1,7 @@
 //! How far a quantity of the series may still be from its end, and how fast it moves.
 //!
 //! With the means m₁, m₂, m₃ over three equal windows that end at the last row, an exponential approach leaves |d₂| r/(1 − r), d₁ = m₂ − m₁,
-//! d₂ = m₃ − m₂, r = d₂/d₁, cut off at [`SLOWEST`](super::steady::SLOWEST). A quantity that swings, so that d₁ and d₂ may differ in sign, is
+//! d₂ = m₃ − m₂, r = d₂/d₁, cut off at [`SLOWEST`]. A quantity that swings, so that d₁ and d₂ may differ in sign, is
 //! off by half of its range in the last window at most.
 
 use super::steady::{SLOWEST, last_windows, range};

@@ -133,7 +133,7 @@ fn thin_liquid_at_edge(flow: &Flow, seen: &Observation) -> Option<String> {
 
 fn limiting_angle(flow: &Flow) -> Option<String> {
     let angle = flow.method.wetting?.static_angle().to_degrees();
-    (angle < LIMITING_ANGLE || angle > 180.0 - LIMITING_ANGLE).then(|| {
+    (!(LIMITING_ANGLE..=180.0 - LIMITING_ANGLE).contains(&angle)).then(|| {
         format!(
             "at an angle of {angle:.1} degrees pressures and places are those asked for, but an angle measured from the interface has an \
              error bar of some degrees: within {LIMITING_ANGLE:.0} degrees of complete wetting or drying it hardly changes the shape"
