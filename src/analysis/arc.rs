@@ -10,7 +10,13 @@ use super::circle::{self, CircleError, CircleFit};
 use crate::math::{Vec2, perpendicular};
 
 /// Steps of Gauss-Newton; from the circle a few do.
-const STEPS: usize = 12;
+const STEPS: usize = 20;
+
+/// Trials of a step, each half as long.
+const HALVINGS: usize = 12;
+
+/// A step has settled where it changes no parameter by more than this share of those by which slopes are found.
+const SETTLED: f64 = 1e-4;
 
 /// Nodes of an arc per point that it is fitted to.
 const NODES_PER_POINT: f64 = 2.0;
@@ -79,18 +85,20 @@ impl Arc {
                 right -= row * *r;
             }
             let inverse = normal.try_inverse().ok_or(CircleError::Degenerate)?;
-            let change = inverse * right;
-            let mut next = best.perturbed(change);
-            let now = next.distances(points);
-            next.middle.covariance = inverse * circle::variance_of(&now);
-            next.middle.rms = (cost(&now) / points.len() as f64).sqrt();
-            let gained = cost(&residuals) - cost(&now);
-            if !(gained >= 0.0) {
-                best.middle.covariance = next.middle.covariance;
+            best.middle.covariance = inverse * circle::variance_of(&residuals);
+            best.middle.rms = (cost(&residuals) / points.len() as f64).sqrt();
+            // A step that raises the cost is halved.
+            let changes = std::iter::successors(Some(inverse * right), |change| Some(0.5 * change)).take(HALVINGS);
+            let trials = changes.map(|change| {
+                let next = best.perturbed(change);
+                let now = next.distances(points);
+                (change, next, now)
+            });
+            let Some((change, next, now)) = trials.into_iter().find(|(.., now)| cost(now) < cost(&residuals)) else {
                 break;
-            }
+            };
             (best, residuals) = (next, now);
-            if change.component_div(&natural).norm() < 1e-6 {
+            if change.component_div(&natural).norm() < SETTLED {
                 break;
             }
         }
@@ -190,6 +198,7 @@ fn turned(v: Vec2, angle: f64) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::young_laplace::profile;
 
     /// A meniscus from the direction `phi` (rad) at (1, 0) on, with a point every thirtieth step.
     fn meniscus(phi: f64, kappa: f64, force: Vec2) -> Vec<Vec2> {
@@ -219,6 +228,30 @@ mod tests {
             assert!((back - points[0]).norm() < 1e-3, "{force:?}: {back:?}");
             let tangent = -perpendicular(arc.normal_at(back));
             assert!((tangent.y.atan2(tangent.x) - 2.0).abs() < 3e-3, "{force:?}");
+        }
+    }
+
+    #[test]
+    fn the_end_of_a_flat_puddle_is_found_from_four_capillary_lengths_of_it() {
+        let length = 0.316;
+        for (apex_curvature, degrees) in [(1e-3, 60.0_f64), (0.02, 120.0)] {
+            let side = profile(apex_curvature, length, degrees.to_radians());
+            let floor = side.last().unwrap().z;
+            let points: Vec<Vec2> = side.iter().rev().map(|p| Vec2::new(p.x, -p.z)).collect();
+            let mut way = 0.0;
+            let mut last = points[0];
+            let used = points.iter().filter(|x| {
+                way += (**x - last).norm();
+                last = **x;
+                x.y > -0.8 * floor && way < 4.0 * length
+            });
+            let used: Vec<Vec2> = used.step_by(8).copied().collect();
+            let arc = Arc::fit(&used, Vec2::new(0.0, -length.powi(-2)), length).unwrap();
+            assert!(arc.middle.rms < 1e-4, "{degrees}: {:e}", arc.middle.rms);
+            let way = (points[0] - used[0]).norm();
+            let back = arc.walk(used[0], -way);
+            let off = arc.normal_at(points[0]).dot(&Vec2::y()) + degrees.to_radians().cos();
+            assert!((back - points[0]).norm() < 0.02 * length && off.abs() < 2e-3, "{degrees}: {back:?}, {off}");
         }
     }
 

@@ -39,6 +39,9 @@ pub const ACCURACY: f64 = 0.015;
 /// half of that of long ones.
 const LARGEST_SHARE: f64 = 1.0 / 12.0;
 
+/// Under a body force so many capillary lengths of a meniscus are fitted from its end on.
+const CAPILLARY_LENGTHS: f64 = 4.0;
+
 /// The other exclusion distances whose angles tell what the choice of one costs.
 const OTHER_EXCLUSIONS: [f64; 2] = [0.5, 1.5];
 
@@ -58,7 +61,9 @@ impl ContactSettings {
 
     /// The same for a meniscus of the `length` (m).
     fn for_length(self, length: f64) -> Self {
-        Self { exclusion: (LARGEST_SHARE * length).clamp(0.5 * self.exclusion, self.exclusion), ..self }
+        // Farther from its end a puddle tells nothing, and an arc followed so far is unstable.
+        let window = self.window.min(CAPILLARY_LENGTHS / self.force.norm().sqrt());
+        Self { window, exclusion: (LARGEST_SHARE * length).clamp(0.5 * self.exclusion, self.exclusion), ..self }
     }
 }
 
