@@ -39,6 +39,9 @@ pub const ACCURACY: f64 = 0.015;
 /// half of that of long ones.
 const LARGEST_SHARE: f64 = 1.0 / 12.0;
 
+/// And at most this share of its largest distance from walls: low puddles bend near the wall only.
+const LARGEST_SHARE_OF_HEIGHT: f64 = 1.0 / 3.0;
+
 /// Under a body force so many capillary lengths of a meniscus are fitted from its end on.
 const CAPILLARY_LENGTHS: f64 = 4.0;
 
@@ -59,11 +62,17 @@ impl ContactSettings {
         Self { force, ..self }
     }
 
-    /// The same for a meniscus of the `length` (m).
-    fn for_length(self, length: f64) -> Self {
+    /// The same for a meniscus of the `length` (m) that is nowhere farther from walls than `height` (m).
+    fn for_size(self, length: f64, height: f64) -> Self {
         // Farther from its end a puddle tells nothing, and an arc followed so far is unstable.
         let window = self.window.min(CAPILLARY_LENGTHS / self.force.norm().sqrt());
-        Self { window, exclusion: (LARGEST_SHARE * length).clamp(0.5 * self.exclusion, self.exclusion), ..self }
+        Self {
+            window,
+            exclusion: (LARGEST_SHARE * length)
+                .min(LARGEST_SHARE_OF_HEIGHT * height)
+                .clamp(0.5 * self.exclusion, self.exclusion),
+            ..self
+        }
     }
 }
 
@@ -140,7 +149,8 @@ pub fn contact_lines(
     let mut lines = Vec::new();
     for (contour, line) in contours.iter().enumerate().filter(|(_, line)| !line.closed && line.points.len() > 1) {
         let distances: Vec<f64> = line.points.iter().map(|&p| wall(p).distance).collect();
-        let settings = settings.for_length(line.length());
+        let height = distances.iter().copied().fold(0.0, f64::max);
+        let settings = settings.for_size(line.length(), height);
         for side in [WettingSide::Left, WettingSide::Right] {
             let end = if side == WettingSide::Left { 0 } else { line.points.len() - 1 };
             if distances[end] < settings.reach {
