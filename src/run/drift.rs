@@ -1,10 +1,10 @@
 //! How far a quantity of the series may still be from its end, and how fast it moves.
 //!
 //! With the means m₁, m₂, m₃ over three equal windows that end at the last row, an exponential approach leaves |d₂| r/(1 − r), d₁ = m₂ − m₁,
-//! d₂ = m₃ − m₂, r = d₂/d₁, cut off at [`SLOWEST`]. A quantity that swings, so that d₁ and d₂ may differ in sign, is
+//! d₂ = m₃ − m₂, r = d₂/d₁, cut off at [`steady::SLOWEST`]. A quantity that swings, so that d₁ and d₂ may differ in sign, is
 //! off by half of its range in the last window at most.
 
-use super::steady::{SLOWEST, last_windows, range};
+use super::steady::{self, last_windows, range};
 use crate::case::checked::SteadyStop;
 use crate::solver::Series;
 
@@ -26,8 +26,7 @@ impl Drift {
         let values = windows.map(|rows| rows.iter().map(|row| row[index]).collect::<Vec<f64>>());
         let [first, second, third] = [0, 1, 2].map(|i| values[i].iter().sum::<f64>() / values[i].len() as f64);
         let (before, last) = (second - first, third - second);
-        let ratio = if before * last > 0.0 { (last / before).min(SLOWEST) } else { 0.0 };
-        let approach = last.abs() * ratio / (1.0 - ratio);
+        let approach = if before * last > 0.0 { steady::left([first, second, third]) } else { 0.0 };
         let left = approach.max(0.5 * range(&values[2]));
         let rate = slope(windows[2], index);
         (left.is_finite() && rate.is_finite()).then_some(Self { left, rate })

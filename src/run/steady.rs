@@ -166,7 +166,7 @@ pub(super) fn range(values: &[f64]) -> f64 {
 }
 
 /// What is left to change after the last of three windows with these means.
-fn left([first, second, third]: [f64; 3]) -> f64 {
+pub(super) fn left([first, second, third]: [f64; 3]) -> f64 {
     let [before, last] = [second - first, third - second];
     if before * last < 0.0 {
         return before.abs().max(last.abs()) * SLOWEST / (1.0 - SLOWEST);
