@@ -24,6 +24,7 @@ pub mod shape_file;
 pub mod shells;
 pub mod solid;
 pub mod spec;
+pub(crate) mod surface;
 pub mod throats;
 pub(crate) mod tree;
 pub mod validate;

@@ -17,6 +17,7 @@ mod measures;
 mod merge;
 mod openpnm;
 mod pictures;
+pub mod state;
 mod summary;
 mod tables;
 

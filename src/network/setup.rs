@@ -5,12 +5,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::cycles::{Cycles, End, Fluid, HalfCycle};
-use super::displacement::{Conditions, Events};
+use super::displacement::{Beginning, Conditions, Displacement, Element, Events};
 use super::graph::{Network, Pores};
 use super::solver::{NetworkSolver, Setting};
+use super::state;
 use crate::analysis::laws::drops::tadmor;
 use crate::case::checked::{Case, PatchedWall, Side, WettingModel};
 use crate::case::network::checked::{NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use crate::case::network::state::{ElementState, Start};
 use crate::geometry::{Geometry, GeometryError};
 
 /// Names of the sides in their order.
@@ -28,6 +30,21 @@ pub enum SetupError {
     /// The domain is solid.
     #[error("there is no pore in the domain: the solids fill all of it")]
     NoPore,
+    /// A state that does not belong to the network.
+    #[error(
+        "the state in {} (network.initial) has {found} elements, and this network has {expected}: {why}; run this case without \
+         network.initial, and take a state that it writes", file.display()
+    )]
+    OtherState {
+        /// Its file.
+        file: std::path::PathBuf,
+        /// Its elements.
+        found: usize,
+        /// Those of the network.
+        expected: usize,
+        /// What is different.
+        why: &'static str,
+    },
     /// An open side is closed by solids.
     #[error(
         "no pore opens at the side `{side}`, which is the {role} (network.{role}): solids close all of it; choose another side, or \
@@ -81,15 +98,58 @@ pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupEr
     }
     let pores = Pores::merged(&network, wanted.persistence);
     let extraction = clock.elapsed().as_secs_f64();
-    Ok(assemble(wanted, &geometry, network, pores).timed(extraction))
+    let initial = match wanted.displacement.as_ref().and_then(|displacement| displacement.initial.as_ref()) {
+        Some(start) => Some(Arc::new(beginning(start, wanted, &geometry, (&network, &pores))?)),
+        None => None,
+    };
+    Ok(assemble(wanted, &geometry, (network, pores), initial).timed(extraction))
 }
 
 /// Largest distance of the drawn walls from the walls, over the longer side of the domain: far below what a picture shows.
 const OUTLINE_ERROR: f64 = 1e-5;
 
-/// The solver of a network that is known.
+/// The phases of a state for the first half cycle.
+fn beginning(
+    start: &Start,
+    wanted: &PoreNetwork,
+    geometry: &Geometry,
+    (network, pores): (&Network, &Pores),
+) -> Result<Beginning, SetupError> {
+    let walls = geometry.shape_count() as usize + SIDES.len();
+    let half = match (&wanted.displacement, &wanted.interface) {
+        (Some(displacement), Some(interface)) => half_cycles(displacement, interface, kinds(wanted), walls),
+        _ => Vec::new(),
+    };
+    let Some(first) = half.into_iter().next() else { return Err(SetupError::NoPore) };
+    let fresh = Displacement::new(network, pores, first.conditions);
+    let elements = fresh.elements();
+    let other = |why| SetupError::OtherState {
+        file: start.file.clone(),
+        found: start.state.elements.len(),
+        expected: elements.len(),
+        why,
+    };
+    if start.state.elements.len() != elements.len() {
+        return Err(other("it was written with other network.events or another persistence ratio"));
+    }
+    // Areas were written and read.
+    const SAME: f64 = 1e-9;
+    let is_same =
+        |(state, element): (&ElementState, &Element)| (state.area_m2 - element.area).abs() <= SAME * element.area;
+    if !start.state.elements.iter().zip(elements).all(is_same) {
+        return Err(other("their areas differ"));
+    }
+    Ok(state::beginning(&start.state, first.invading))
+}
+
+/// The solver of a network that is known; `initial` are the phases that its displacement begins with.
 #[must_use]
-pub fn assemble(wanted: &PoreNetwork, geometry: &Geometry, network: Network, pores: Pores) -> NetworkSolver {
+pub fn assemble(
+    wanted: &PoreNetwork,
+    geometry: &Geometry,
+    (network, pores): (Network, Pores),
+    initial: Option<Arc<Beginning>>,
+) -> NetworkSolver {
     let (network, pores) = (Arc::new(network), Arc::new(pores));
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
@@ -116,8 +176,10 @@ pub fn assemble(wanted: &PoreNetwork, geometry: &Geometry, network: Network, por
         tension: wanted.interface.as_ref().map(|interface| interface.tension),
         viscosities: [wanted.wetting, wanted.non_wetting].map(|fluid| fluid.map(|fluid| fluid.viscosity)),
         entry,
+        geometry_hash: format!("{:016x}", geometry.hash()),
+        sides: kinds(wanted),
     };
-    NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles))
+    NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles, initial))
 }
 
 fn half_cycles(

@@ -13,7 +13,8 @@ use super::conductance::conductances;
 use super::cycles::Cycles;
 use super::displacement::{Conditions, Displacement, EventKind};
 use super::graph::{Network, Pores};
-use super::{flow, layers, measures, openpnm, pictures, summary, tables};
+use super::{flow, layers, measures, openpnm, pictures, state, summary, tables};
+use crate::case::checked::Side;
 use crate::diagram::Diagram;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
@@ -46,6 +47,10 @@ pub struct Setting {
     pub viscosities: [Option<f64>; 2],
     /// Conditions of a drainage, for entry pressures.
     pub entry: Option<Conditions>,
+    /// The hash of the geometry in hexadecimal digits.
+    pub geometry_hash: String,
+    /// The left, right, bottom and top side.
+    pub sides: [Side; 4],
 }
 
 /// A network with all that is needed to observe it.
@@ -210,6 +215,7 @@ impl Solver for NetworkSolver {
             documents: vec![summary::network_json(self)],
             mosaics: pictures::mosaics(self),
         };
+        results.documents.extend(state::documents(self));
         results.tables.push(openpnm::table(self));
         results.tables.extend(flow::table(self));
         results

@@ -153,17 +153,6 @@ const MERGES: &str = "the network before the merge: regions with their pore, and
                       from wide to narrow, one is dissolved where its half width exceeds the persistence ratio times the smaller of \
                       both radii, and the joined pore keeps the larger one";
 
-/// FNV-1a of the network's geometry: widths, places and areas, bit by bit.
-fn geometry_hash(setting: &Setting) -> String {
-    const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
-    const PRIME: u64 = 0x0100_0000_01b3;
-    let bounds = [setting.bounds.min, setting.bounds.max];
-    let points = bounds.into_iter().chain(setting.outline.points.iter().copied());
-    let bytes = points.flat_map(|point| [point.x, point.y]).flat_map(|value| value.to_bits().to_le_bytes());
-    let hash = bytes.fold(OFFSET, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME));
-    format!("{hash:016x}")
-}
-
 /// `network.json`.
 pub fn network_json(solver: &NetworkSolver) -> Document {
     let setting = solver.setting();
@@ -171,7 +160,7 @@ pub fn network_json(solver: &NetworkSolver) -> Document {
     let description = Description {
         version: env!("CARGO_PKG_VERSION"),
         persistence: pores.persistence,
-        geometry_hash: geometry_hash(setting),
+        geometry_hash: setting.geometry_hash.clone(),
         domain_m: [setting.bounds.min.into(), setting.bounds.max.into()],
         periodic: setting.periodic,
         inlet: setting.inlet.map(|side| SIDES[side]),

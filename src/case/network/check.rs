@@ -2,6 +2,7 @@
 
 use super::checked::{NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
 use super::raw::{RawEvents, RawNetwork, RawNetworkSide, RawProcess};
+use super::state::Start;
 use crate::case::check::Checker;
 use crate::case::checked::{Side, Sides, WettingModel};
 use crate::case::raw::RawSideName;
@@ -23,6 +24,7 @@ pub(in crate::case) fn network(
     checker: &mut Checker,
     raw: &RawNetwork,
     geometry: Option<&GeometrySpec>,
+    start: Option<Start>,
 ) -> Option<PoreNetwork> {
     let sides = sides(checker, raw);
     let phases = raw.phases.clone().unwrap_or_default();
@@ -34,7 +36,10 @@ pub(in crate::case) fn network(
     let persistence = checker.within("network.persistence", raw.persistence, PERSISTENCE, "a persistence ratio");
     let interface = interface(checker, raw, sides.as_ref(), geometry);
     let displacement = if raw.inlet.is_some() {
-        Some(displacement(checker, raw))
+        if let (Some(start), Some(sides)) = (&start, &sides) {
+            refuse_other_sides(checker, start, sides);
+        }
+        Some(displacement(checker, raw, start))
     } else {
         refuse_without_inlet(checker, raw);
         None
@@ -169,7 +174,7 @@ fn static_model(checker: &mut Checker, model: WettingModel) -> Option<WettingMod
     None
 }
 
-fn displacement(checker: &mut Checker, raw: &RawNetwork) -> NetworkDisplacement {
+fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Option<Start>) -> NetworkDisplacement {
     let cycles = checker.within("network.cycles", raw.cycles.map(f64::from), (1.0, MOST_CYCLES), "a number of cycles");
     let process = match raw.process {
         None | Some(RawProcess::Drainage) => Process::Drainage,
@@ -198,6 +203,15 @@ fn displacement(checker: &mut Checker, raw: &RawNetwork) -> NetworkDisplacement 
             Some(RawEvents::Burst) => NetworkEvents::Burst,
         },
         stop: stop(checker, raw),
+        initial,
+    }
+}
+
+/// Refuses a state whose walls and periodic sides are others; what is open may change.
+fn refuse_other_sides(checker: &mut Checker, start: &Start, sides: &Sides) {
+    if let Some((_, misfit)) = start.state.misfit_of_sides(sides) {
+        let message = format!("{} is the state of other sides: {misfit}", start.file.display());
+        checker.refuse("network.initial", message, "give this case the sides of the state");
     }
 }
 
@@ -228,6 +242,7 @@ fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
         ("trapping", raw.trapping.is_some()),
         ("events", raw.events.is_some()),
         ("stop", raw.stop.is_some()),
+        ("initial", raw.initial.is_some()),
     ];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
         checker.refuse(

@@ -1,5 +1,6 @@
 //! A checked `[network]`: every value present, in SI units and in range.
 
+use super::state::Start;
 use crate::case::checked::{Fluid, Sides, WettingModel, WettingPatch};
 
 /// A pore network and what is displaced in it.
@@ -41,6 +42,9 @@ pub struct NetworkDisplacement {
     pub events: NetworkEvents,
     /// Where it ends early.
     pub stop: Stop,
+    /// The state that it begins with; absent: the pore space is full of the defending phase.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub initial: Option<Start>,
 }
 
 /// Which phase invades.

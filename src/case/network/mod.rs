@@ -6,6 +6,7 @@ pub mod checked;
 mod quick;
 pub mod raw;
 mod resolve;
+pub mod state;
 
 pub(super) use check::network;
 pub use quick::quick;

@@ -1,5 +1,7 @@
 //! The keys of `[network]` as written: all optional, nothing checked but names and types.
 
+use std::path::PathBuf;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +35,8 @@ tables! {
         pub persistence: f64,
         /// Where the displacement ends before it comes to rest; of a cycle, where each drainage ends.
         pub stop: RawStop,
+        /// State that the displacement begins with, relative to the case file (default: the pore space is full of the defending phase).
+        pub initial: PathBuf,
     }
 
     /// The sides that are neither inlet nor outlet.

@@ -51,6 +51,7 @@ pub(in crate::case) fn raw(network: &PoreNetwork) -> RawNetwork {
             saturation: stop.saturation,
             capillary_pressure: stop.capillary_pressure,
         }),
+        initial: displacement.initial.as_ref().map(|start| start.file.clone()),
         ..none
     }
 }

@@ -173,6 +173,19 @@ impl Displacement {
         if neighbor.passed.len() < 2 {
             return f64::NEG_INFINITY;
         }
+        let (passage, obstacles) = self.joined_passage(mesh, front, hand, neighbor);
+        let burst = passage.burst().map_or(f64::NEG_INFINITY, |meniscus| meniscus.curvature);
+        passage.touch(&obstacles, burst).unwrap_or(burst)
+    }
+
+    /// The passage of the meniscus that two neighbors have become, and the walls ahead of it.
+    pub(super) fn joined_passage(
+        &self,
+        mesh: &Mesh,
+        front: (usize, usize),
+        hand: Hand,
+        neighbor: &Neighbor,
+    ) -> (Passage, Vec<Curve>) {
         let (one, mut obstacles) = self.passage(mesh, front.0, front.1, Vec2::zeros());
         let (other, beyond) = self.passage(mesh, neighbor.front.0, neighbor.front.1, neighbor.offset);
         obstacles.extend(beyond);
@@ -182,8 +195,6 @@ impl Displacement {
             parts.any(|part| part.curve == *curve || is_same(&part.curve, curve))
         };
         obstacles.retain(|curve| !own(curve));
-        let passage = Passage::new(left.left().clone(), right.right().clone());
-        let burst = passage.burst().map_or(f64::NEG_INFINITY, |meniscus| meniscus.curvature);
-        passage.touch(&obstacles, burst).unwrap_or(burst)
+        (Passage::new(left.left().clone(), right.right().clone()), obstacles)
     }
 }
