@@ -17,7 +17,7 @@ const MAY_IMPORT: [(&str, &[&str]); 16] = [
     ("case", &["math", "input", "geometry"]),
     ("analysis", &["math", "snapshot", "geometry"]),
     ("network", &["math", "geometry", "snapshot", "diagram", "table", "solver", "case", "analysis"]),
-    ("sph", &["math", "geometry", "snapshot", "solver", "case", "analysis"]),
+    ("sph", &["math", "geometry", "snapshot", "table", "solver", "case", "analysis"]),
     ("thin_film", &["math", "snapshot", "diagram", "solver", "case", "analysis"]),
     ("io", &["math", "snapshot", "diagram", "table", "solver"]),
     (

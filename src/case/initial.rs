@@ -57,6 +57,15 @@ pub(super) fn from_network(
         checker.refuse(PATH, message, help);
         return None;
     }
+    if start.state.invading_outline.is_empty() {
+        let message = format!("{} holds no menisci: a direct simulation wrote it", start.file.display());
+        checker.refuse(
+            PATH,
+            message,
+            "begin a network with it (network.initial), and take a state that this one writes",
+        );
+        return None;
+    }
     let wetting_is_background = start.state.invading == RawPhase::NonWetting;
     Some(Initial { wetting: Vec::new(), wetting_is_background, network: Some(start), velocity: velocity? })
 }

@@ -39,8 +39,10 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
     let half = &half_cycles[moment.half_cycle];
     let displacement = &moment.displacement;
     // Before the first event menisci are taken as flat as their walls allow.
-    let applied = moment.applied.map_or(0.0, |applied| half.towards_wetting(applied));
-    let interfaces = displacement.interfaces(applied, setting.bounds, setting.periodic);
+    let largest = moment.applied.map_or(0.0, |applied| half.towards_wetting(applied));
+    let resting = displacement.resting_curvature(largest);
+    let interfaces = displacement.interfaces(resting, setting.bounds, setting.periodic);
+    let applied = half.towards_wetting(resting);
     let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
     let invading = interfaces.area.map(|area| area / pore_area);
     let angle =
@@ -58,8 +60,9 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
         half_cycle: moment.half_cycle + 1,
         events: moment.events,
         tension_n_per_m: tension,
-        applied_curvature_per_m: moment.applied,
-        capillary_pressure_pa: moment.applied.map(|applied| tension * applied),
+        applied_curvature_per_m: applied,
+        capillary_pressure_pa: tension * applied,
+        largest_applied_curvature_per_m: moment.applied,
         contact_angles_deg: [angles().fold(f64::INFINITY, f64::min), angles().fold(f64::NEG_INFINITY, f64::max)],
         saturation: moment.saturation,
         saturation_with_menisci: invading.map(|share| match half.invading {
@@ -105,16 +108,16 @@ fn meniscus(half: &HalfCycle, standing: &Standing) -> MeniscusState {
 pub fn beginning(state: &NetworkState, invading: Fluid) -> Beginning {
     let is_same = state.invading == raw(invading);
     let sign = if invading == Fluid::NonWetting { 1.0 } else { -1.0 };
-    let applied = state.applied_curvature_per_m.map(|applied| sign * applied);
+    let largest = state.largest_applied_curvature_per_m.map(|applied| sign * applied);
     // Where the other phase invaded so far, what it holds keeps the last curvature.
     let held = |element: &ElementState| match element.trapped_curvature_per_m {
         Some(curvature) => sign * curvature,
         None if is_same => f64::NAN,
-        None => applied.unwrap_or(f64::NAN),
+        None => sign * state.applied_curvature_per_m,
     };
     Beginning {
         invaded: state.elements.iter().map(|element| element.phase == raw(invading)).collect(),
-        applied: applied.filter(|_| is_same).unwrap_or(f64::NEG_INFINITY),
+        applied: largest.filter(|_| is_same).unwrap_or(f64::NEG_INFINITY),
         held: state.elements.iter().map(held).collect(),
     }
 }

@@ -1,19 +1,20 @@
 //! The SPH simulation as the simulation loop sees it.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use crate::analysis::phases::{WallSample, density_error};
 use crate::case::checked::MeasureSet;
+use crate::case::network::state::NetworkState;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{
-    Measure, Quantity, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
+    Measure, Quantity, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
 };
 use crate::sph::measures::{DiscOf, Subject, all, columns};
 use crate::sph::observe::Observation;
 use crate::sph::projection::Flow;
 use crate::sph::warnings::warnings;
-use crate::sph::{output, state};
+use crate::sph::{handed_back, output, state};
 
 /// A flow with all that is needed to observe it.
 pub struct SphSolver {
@@ -41,6 +42,8 @@ pub struct Surroundings {
     pub measures: MeasureSet,
     /// Distance of grid nodes in m.
     pub grid_spacing: f64,
+    /// The state of a network that the flow began with.
+    pub start: Option<Arc<NetworkState>>,
 }
 
 impl SphSolver {
@@ -154,6 +157,15 @@ impl Solver for SphSolver {
 
     fn warnings(&self) -> Vec<String> {
         warnings(&self.flow, self.observe())
+    }
+
+    fn results(&self) -> Results<'_> {
+        let (flow, pressure) = (&self.flow, self.observe().capillary_pressure.value);
+        let p = &flow.particles;
+        let fluid = || (0..p.fluids).map(|a| (p.position[a], p.phase[a]));
+        let start = self.surroundings.start.as_deref();
+        let back = start.map(|start| handed_back::document(start, flow.method.tension, fluid(), pressure));
+        Results { documents: back.into_iter().collect(), ..Results::default() }
     }
 
     fn state(&self) -> Vec<u8> {

@@ -44,10 +44,12 @@ pub struct NetworkState {
     pub events: usize,
     /// Interfacial tension.
     pub tension_n_per_m: f64,
-    /// The applied curvature; absent before the first event.
-    pub applied_curvature_per_m: Option<f64>,
+    /// The applied curvature, at which all menisci rest but those around what is trapped. In the middle of an avalanche it is that of the next event.
+    pub applied_curvature_per_m: f64,
     /// Tension times that.
-    pub capillary_pressure_pa: Option<f64>,
+    pub capillary_pressure_pa: f64,
+    /// The largest curvature that was applied so far; absent before the first event.
+    pub largest_applied_curvature_per_m: Option<f64>,
     /// Smallest and largest contact angle on the walls through the wetting phase, in degrees.
     pub contact_angles_deg: [f64; 2],
     /// Share of the wetting phase by elements.
@@ -107,6 +109,46 @@ pub struct Start {
 }
 
 impl NetworkState {
+    /// A state without elements in a domain without size, to be filled in by tests.
+    #[cfg(test)]
+    pub fn empty() -> Self {
+        Self {
+            format: FORMAT,
+            version: String::new(),
+            note: String::new(),
+            geometry_hash: String::new(),
+            domain_m: [[0.0; 2]; 2],
+            sides: [Side::Inlet, Side::Outlet, Side::Wall, Side::Wall],
+            invading: RawPhase::NonWetting,
+            half_cycle: 1,
+            events: 0,
+            tension_n_per_m: 0.0,
+            applied_curvature_per_m: 0.0,
+            capillary_pressure_pa: 0.0,
+            largest_applied_curvature_per_m: None,
+            contact_angles_deg: [0.0; 2],
+            saturation: 0.0,
+            saturation_with_menisci: None,
+            elements: Vec::new(),
+            menisci: Vec::new(),
+            invading_outline: Vec::new(),
+        }
+    }
+
+    /// Whether the domain is joined along x and y.
+    pub fn periodic(&self) -> [bool; 2] {
+        [0, 2].map(|side| self.sides[side] == Side::Periodic)
+    }
+
+    /// What leads from a place in the domain to its nearest images in m, the place itself first.
+    pub fn images(&self) -> Vec<Vec2> {
+        let size = Vec2::from(self.domain_m[1]) - Vec2::from(self.domain_m[0]);
+        let shifts = self.periodic().map(|is_joined| if is_joined { &[0.0, -1.0, 1.0][..] } else { &[0.0][..] });
+        let rows = shifts[1];
+        let image = |&dx: &f64| rows.iter().map(move |&dy| size.component_mul(&Vec2::new(dx, dy)));
+        shifts[0].iter().flat_map(image).collect()
+    }
+
     /// The state in a text.
     ///
     /// # Errors
@@ -144,10 +186,7 @@ impl NetworkState {
             return None;
         }
         // A drawing that was cut in another way at the sides has another hash, and the same pores.
-        let [left, right, bottom, top] = self.sides;
-        let periodic = [left == Side::Periodic, bottom == Side::Periodic];
-        let walls = [left, right, bottom, top].map(|side| side == Side::Wall);
-        let geometry = geometry.with_sides(periodic, walls);
+        let geometry = geometry.with_sides(self.periodic(), self.sides.map(|side| side == Side::Wall));
         let size = geometry.bounds().size().max();
         let curves = self.elements.iter().flat_map(|element| Self::curves(&element.boundary));
         let ends = curves.flat_map(|curve| [curve.point(0.0), curve.point(1.0)]);

@@ -1,6 +1,7 @@
 //! Where menisci stand now, as exact arcs, and the boundary of the invading phase along walls and menisci.
 //!
-//! A meniscus that waits stands at the applied curvature. Around what is trapped menisci keep the curvature at which it was cut off: its area does not
+//! All menisci that wait stand at one curvature: the applied one, or that of the next event where it comes at a lower one. In the middle of an avalanche the
+//! pressure falls so far where the area is given and not the pressure. Around what is trapped menisci keep the curvature at which it was cut off: its area does not
 //! change, and so they neither move nor bend. Two menisci that have met on a grain stand as one, between the outer walls of both.
 //!
 //! Left out: menisci of different pressures around one cluster that was cut off in several parts; the angles at which menisci of an earlier half cycle
@@ -8,6 +9,7 @@
 
 use std::f64::consts::PI;
 
+use super::fronts::{Candidate, Neighbor};
 use super::loops::GateId;
 use super::wall_chains::{Side, WallChains};
 use super::{Conditions, Displacement, EventKind};
@@ -79,7 +81,20 @@ impl Displacement {
         if self.trapped[element] { self.held[element] } else { f64::NAN }
     }
 
-    /// All interfaces at the applied curvature (1/m), in a domain that is joined along x and y where `periodic`.
+    /// The curvature in 1/m at which all menisci that wait can rest: `applied`, or that of the next event where it is lower.
+    #[must_use]
+    pub fn resting_curvature(&self, applied: f64) -> f64 {
+        let is_open = |it: &&Candidate| {
+            let front = (it.gate, it.to);
+            let meets = |(other, hand)| {
+                self.neighbor(&self.mesh, front, hand).is_some_and(|neighbor: Neighbor| neighbor.front == other)
+            };
+            self.fronts[it.gate][it.to].is_some() && it.partner.is_none_or(meets)
+        };
+        self.queue.iter().filter(is_open).map(|it| it.curvature).fold(applied, f64::min)
+    }
+
+    /// All interfaces at a resting curvature (1/m), in a domain that is joined along x and y where `periodic`.
     #[must_use]
     pub fn interfaces(&self, applied: f64, bounds: Bounds, periodic: [bool; 2]) -> Interfaces {
         let mesh = &self.mesh;
