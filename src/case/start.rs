@@ -8,6 +8,7 @@ use super::network::state::{NetworkState, Start};
 use super::raw::RawCase;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::file;
+use crate::math::{FNV1A_BASIS, fnv1a};
 
 /// What to do about a file that is no state.
 const WRITE: &str =
@@ -55,9 +56,7 @@ pub(super) fn start(
         checker.refuse(key, message, "run the network of this geometry first, and take the state that it writes");
         return None;
     }
-    // FNV-1a, so that a saved run tells a changed file.
-    let digest = text
-        .bytes()
-        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+    // So that a saved run tells a changed file.
+    let digest = fnv1a(FNV1A_BASIS, text.bytes());
     Some(Start { file: path, digest: format!("{digest:016x}"), state: Arc::new(state) })
 }

@@ -10,6 +10,7 @@ pub(crate) mod cosine;
 pub(crate) mod critical;
 pub mod curve;
 pub(crate) mod curve_set;
+pub mod elements;
 pub mod export;
 pub(crate) mod extent;
 #[cfg(test)]

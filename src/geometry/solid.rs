@@ -11,7 +11,7 @@ use crate::geometry::spec::{GeometrySpec, SolidSide};
 use crate::geometry::surface;
 use crate::geometry::tree::Tree;
 use crate::input::problem::Problem;
-use crate::math::{Bounds, Vec2};
+use crate::math::{Bounds, FNV1A_BASIS, Vec2, fnv1a};
 
 /// Lengths below this share of the domain's larger side count as zero where curves meet.
 const TOLERANCE: f64 = 1e-9;
@@ -141,13 +141,11 @@ impl Geometry {
     /// A hash of the domain and of the written shapes, bit by bit (FNV-1a); what stands at the sides does not matter.
     #[must_use]
     pub fn hash(&self) -> u64 {
-        const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
-        const PRIME: u64 = 0x0100_0000_01b3;
         let side = f64::from(self.side == SolidSide::Inside);
         let corners = [self.domain.min.x, self.domain.min.y, self.domain.max.x, self.domain.max.y, side];
         let curves = self.shapes.iter().flat_map(|body| body.curves.iter()).flat_map(|curve| curve.numbers());
         let bytes = corners.into_iter().chain(curves).flat_map(|value| value.to_bits().to_le_bytes());
-        bytes.fold(OFFSET, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
+        fnv1a(FNV1A_BASIS, bytes)
     }
 
     /// The domain.

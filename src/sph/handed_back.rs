@@ -1,12 +1,9 @@
 //! What a direct run hands back to the network that it began with: the phase that fills more than half of each element.
 
-use std::f64::consts::PI;
-
 use crate::case::network::state::{ElementState, NetworkState};
 use crate::case::raw::RawPhase;
-use crate::geometry::curve::Curve;
-use crate::geometry::tree::Tree;
-use crate::math::{Bounds, Vec2};
+use crate::geometry::elements::Elements;
+use crate::math::Vec2;
 use crate::sph::particles::Phase;
 use crate::table::Document;
 
@@ -67,23 +64,11 @@ fn state(
 
 /// Numbers of wetting and of other particles in each element.
 fn shares(start: &NetworkState, fluid: impl Iterator<Item = (Vec2, Phase)>) -> Vec<[usize; 2]> {
-    let boundaries: Vec<Vec<Curve>> =
-        start.elements.iter().map(|element| NetworkState::curves(&element.boundary)).collect();
-    let around = |curves: &Vec<Curve>| {
-        let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
-        curves.iter().map(Curve::bounds).fold(none, |a, b| a.united(&b))
-    };
-    let tree = Tree::over(boundaries.iter().map(around));
-    let images = start.images();
-    // The pore lies on the right of a boundary.
-    let holds = |element: usize, x: Vec2| boundaries[element].iter().map(|curve| curve.winding(x)).sum::<f64>() < -PI;
+    let boundaries = start.elements.iter().map(|element| NetworkState::curves(&element.boundary)).collect();
+    let elements = Elements::new(boundaries, start.images());
     let mut shares = vec![[0; 2]; start.elements.len()];
     for (x, phase) in fluid {
-        let found = images.iter().find_map(|image| {
-            let x = x + image;
-            tree.near_in_order(Bounds { min: x, max: x }).into_iter().find(|&element| holds(element, x))
-        });
-        if let Some(element) = found {
+        if let Some(element) = elements.at(x) {
             shares[element][usize::from(phase == Phase::NonWetting)] += 1;
         }
     }
