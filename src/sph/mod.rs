@@ -9,7 +9,6 @@ pub mod conjugate_gradients;
 pub mod domain;
 pub mod fields;
 pub mod fill;
-mod handed_back;
 pub mod images;
 pub mod kernel;
 pub mod measures;

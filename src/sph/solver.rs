@@ -1,10 +1,9 @@
 //! The SPH simulation as the simulation loop sees it.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use crate::analysis::phases::{WallSample, density_error};
 use crate::case::checked::MeasureSet;
-use crate::case::network::state::NetworkState;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{
@@ -12,9 +11,11 @@ use crate::solver::{
 };
 use crate::sph::measures::{DiscOf, Subject, all, columns};
 use crate::sph::observe::Observation;
+use crate::sph::particles::Particles;
 use crate::sph::projection::Flow;
 use crate::sph::warnings::warnings;
-use crate::sph::{handed_back, output, state};
+use crate::sph::{output, state};
+use crate::table::Document;
 
 /// A flow with all that is needed to observe it.
 pub struct SphSolver {
@@ -25,6 +26,9 @@ pub struct SphSolver {
     seen: OnceLock<Observation>,
     surroundings: Surroundings,
 }
+
+/// A text made from the particles and the capillary pressure in Pa.
+pub type HandBack = Box<dyn Fn(&Particles, f64) -> Document + Send + Sync>;
 
 /// What stands still around the flow, and what is to be measured.
 pub struct Surroundings {
@@ -42,8 +46,8 @@ pub struct Surroundings {
     pub measures: MeasureSet,
     /// Distance of grid nodes in m.
     pub grid_spacing: f64,
-    /// The state of a network that the flow began with.
-    pub start: Option<Arc<NetworkState>>,
+    /// Where the flow began with the state of a network: what it hands back.
+    pub hand_back: Option<HandBack>,
 }
 
 impl SphSolver {
@@ -160,11 +164,8 @@ impl Solver for SphSolver {
     }
 
     fn results(&self) -> Results<'_> {
-        let (flow, pressure) = (&self.flow, self.observe().capillary_pressure.value);
-        let p = &flow.particles;
-        let fluid = || (0..p.fluids).map(|a| (p.position[a], p.phase[a]));
-        let start = self.surroundings.start.as_deref();
-        let back = start.map(|start| handed_back::document(start, flow.method.tension, fluid(), pressure));
+        let of_now = |hand_back: &HandBack| hand_back(&self.flow.particles, self.observe().capillary_pressure.value);
+        let back = self.surroundings.hand_back.as_ref().map(of_now);
         Results { documents: back.into_iter().collect(), ..Results::default() }
     }
 

@@ -16,7 +16,7 @@ use super::{Conditions, Displacement, EventKind};
 use crate::geometry::curve::Curve;
 use crate::math::{Bounds, Vec2};
 use crate::network::graph::{Network, Pores};
-use crate::network::menisci::{Hand, Meniscus, Passage};
+use crate::network::menisci::{Meniscus, Passage};
 
 /// An interface between two elements.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +46,14 @@ pub struct Interfaces {
     pub outline: Vec<Curve>,
     /// Area of the invading phase in m²; none in a periodic domain where menisci have joined.
     pub area: Option<f64>,
+}
+
+/// Two menisci that have met and wait as one.
+struct Pair {
+    /// Their gates with the ends at which they enter.
+    gates: [(usize, usize); 2],
+    /// The passage between the outer walls of both.
+    passage: Passage,
 }
 
 /// The phases with which a displacement begins.
@@ -132,8 +140,7 @@ impl Displacement {
     fn standing(&self, applied: f64) -> Vec<Standing> {
         let mesh = &self.mesh;
         let joined = self.joined();
-        let is_joined =
-            |front: (usize, usize)| joined.iter().any(|(one, _, other, _)| *one == front || *other == front);
+        let is_joined = |front: (usize, usize)| joined.iter().any(|pair| pair.gates.contains(&front));
         let mut found = Vec::new();
         for (gate, to) in (0..mesh.gates.len()).flat_map(|gate| [(gate, 0), (gate, 1)]) {
             let (from, into) = (mesh.element(gate, 1 - to), mesh.element(gate, to));
@@ -151,8 +158,8 @@ impl Displacement {
             let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
             found.extend(self.at(&passage, curvature.min(burst), &[(gate, to)]));
         }
-        for (one, _, other, passage) in &joined {
-            found.extend(self.at(passage, applied, &[*one, *other]));
+        for pair in &joined {
+            found.extend(self.at(&pair.passage, applied, &pair.gates));
         }
         found
     }
@@ -194,23 +201,23 @@ impl Displacement {
         self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()).0
     }
 
-    /// Pairs of menisci that wait as one: the gates with the ends at which they enter, and the passage between the outer walls of both.
-    fn joined(&self) -> Vec<((usize, usize), Hand, (usize, usize), Passage)> {
+    /// Pairs of menisci that wait as one.
+    fn joined(&self) -> Vec<Pair> {
         let mut waiting: Vec<_> =
             self.queue.iter().filter(|it| it.is_joined && it.kind == EventKind::Overlap).collect();
         waiting.sort();
-        let mut pairs: Vec<((usize, usize), Hand, (usize, usize), Passage)> = Vec::new();
+        let mut pairs: Vec<Pair> = Vec::new();
         for candidate in waiting.into_iter().rev() {
             let Some((other, hand)) = candidate.partner else { continue };
             let one = (candidate.gate, candidate.to);
-            let is_new = |front: (usize, usize)| pairs.iter().all(|(a, _, b, _)| *a != front && *b != front);
+            let is_new = |front: (usize, usize)| pairs.iter().all(|pair| !pair.gates.contains(&front));
             if self.fronts[one.0][one.1].is_none() || !is_new(one) || !is_new(other) {
                 continue;
             }
             let neighbor = self.neighbor(&self.mesh, one, hand).filter(|neighbor| neighbor.front == other);
             if let Some(neighbor) = neighbor {
                 let (passage, _) = self.joined_passage(&self.mesh, one, hand, &neighbor);
-                pairs.push((one, hand, other, passage));
+                pairs.push(Pair { gates: [one, other], passage });
             }
         }
         pairs

@@ -27,9 +27,9 @@ pub fn page(comparison: &Comparison) -> String {
     for at in &comparison.at_equal_saturation {
         let [one, other] = at.saturation;
         // Writing to a string cannot fail.
-        let _ = write!(
+        let _ = writeln!(
             html,
-            "<figure>{}<figcaption>Saturation of the wetting phase {one:.3} and {other:.3}; overlap of the invaded areas {:.3}</figcaption></figure>\n",
+            "<figure>{}<figcaption>Saturation of the wetting phase {one:.3} and {other:.3}; overlap of the invaded areas {:.3}</figcaption></figure>",
             at.picture, at.overlap
         );
     }

@@ -1,6 +1,7 @@
 //! From a checked case and its geometry to a solver: the only SPH folder that sees both.
 
 mod error;
+mod handed_back;
 mod handed_over;
 mod initial;
 mod method;

@@ -1,25 +1,27 @@
 //! What a direct run hands back to the network that it began with: the phase that fills more than half of each element.
 
-use crate::case::network::state::{ElementState, NetworkState};
+use std::sync::Arc;
+
+use crate::case::network::state::{ElementState, NetworkState, Start};
 use crate::case::raw::RawPhase;
 use crate::geometry::elements::Elements;
 use crate::math::Vec2;
-use crate::sph::particles::Phase;
+use crate::sph::particles::{Particles, Phase};
+use crate::sph::solver::HandBack;
 use crate::table::Document;
 
 const NOTE: &str = "phases by area share of a direct simulation: of each element the phase of more than half of its particles; menisci and what is \
                     trapped are for the network to find; SI units";
 
-/// `at-end.json` of a direct run that began with `start`: its particles are `fluid`, and its capillary pressure p_n - p_w is `pressure` in Pa.
-pub fn document(
-    start: &NetworkState,
-    tension: f64,
-    fluid: impl Iterator<Item = (Vec2, Phase)>,
-    pressure: f64,
-) -> Document {
-    // Numbers, texts and lists of them can always be written.
-    let text = serde_json::to_string(&state(start, tension, fluid, pressure)).unwrap_or_default();
-    Document { name: "at-end.json", text: text + "\n" }
+/// `at-end.json` of a direct run that began with `start`: made from its particles and its capillary pressure p_n - p_w in Pa.
+pub(super) fn hand_back(start: &Start, tension: f64) -> HandBack {
+    let start = Arc::clone(&start.state);
+    Box::new(move |particles: &Particles, pressure| {
+        let fluid = (0..particles.fluids).map(|a| (particles.position[a], particles.phase[a]));
+        // Numbers, texts and lists of them can always be written.
+        let text = serde_json::to_string(&state(&start, tension, fluid, pressure)).unwrap_or_default();
+        Document { name: "at-end.json", text: text + "\n" }
+    })
 }
 
 fn state(
