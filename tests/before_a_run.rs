@@ -72,10 +72,10 @@ fn check_advises_which_model_can_answer() {
     assert!(line(&fine, "network").starts_with("20 pores and 33 throats"), "{fine}");
     assert!(line(&fine, "direct").contains("8.0 spacings across the narrowest throat"), "{fine}");
     assert!(line(&fine, "ADVICE").contains("the direct simulation can answer"), "{fine}");
-    let coarse = stdout(&meniscus(folder.path(), &["check", &direct, "--set", "sph.spacing=1e-5"]));
+    let coarse = stdout(&meniscus(folder.path(), &["check", &direct, "--set", "sph.spacing=9e-6"]));
     let advice = line(&coarse, "ADVICE");
     assert!(
-        advice.starts_with("5.0 spacings across the narrowest throat at this spacing: use the network"),
+        advice.starts_with("5.6 spacings across the narrowest throat at this spacing: use the network"),
         "{advice}"
     );
     let json = stdout(&meniscus(folder.path(), &["check", &case("cases/network/hand-over.toml"), "--json"]));

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use super::compare::CompareArguments;
 use super::import_arguments::ImportArguments;
 
 /// Exit codes, as the help tells them.
@@ -201,24 +202,6 @@ impl PeriodicAxes {
     pub fn along(self) -> [bool; 2] {
         [self != Self::Y, self != Self::X]
     }
-}
-
-/// `compare`.
-#[derive(Debug, Args)]
-pub struct CompareArguments {
-    /// Case file with [network] and an inlet
-    pub network: PathBuf,
-    /// Case file with [sph] and two fluids, of the same geometry
-    pub direct: PathBuf,
-    /// States of the direct simulation that are compared
-    #[arg(long, value_name = "N", default_value = "100")]
-    pub records: std::num::NonZeroUsize,
-    /// Output folder, new or empty; where there is none: out/NAME-compare, out/NAME-compare-2, ..., NAME being that of the direct case
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Number of threads; all cores where there is none. The results do not depend on it
-    #[arg(long, value_name = "N")]
-    pub threads: Option<std::num::NonZeroUsize>,
 }
 
 /// `study`.

@@ -1,6 +1,9 @@
 //! `meniscus compare`: a network and a direct simulation of one geometry, side by side.
 
-use super::arguments::CompareArguments;
+use std::path::PathBuf;
+
+use clap::Args;
+
 use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED, USAGE};
 use super::output::{duration, readable, say, tell};
 use super::progress::ProgressDisplay;
@@ -11,6 +14,24 @@ use crate::io::{FileError, atomic};
 use crate::run::compare::{CompareError, Comparison, compare as run_both, page};
 use crate::run::execute::Mode;
 use crate::run::folder;
+
+/// `compare`.
+#[derive(Debug, Args)]
+pub struct CompareArguments {
+    /// Case file with [network] and an inlet
+    pub network: PathBuf,
+    /// Case file with [sph] and two fluids, of the same geometry
+    pub direct: PathBuf,
+    /// States of the direct simulation that are compared
+    #[arg(long, value_name = "N", default_value = "100")]
+    pub records: std::num::NonZeroUsize,
+    /// Output folder, new or empty; where there is none: out/NAME-compare, out/NAME-compare-2, ..., NAME being that of the direct case
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads; all cores where there is none. The results do not depend on it
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
+}
 
 /// Runs both cases, writes `compare.html` and `compare.json`, and tells what came out.
 pub fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::displacement::{Beginning, Conditions, Displacement, EventKind, Phase};
 use super::graph::{Network, Pores};
+use super::moment::Moment;
 use super::tables::kind_name;
 
 /// The fluids.
@@ -116,21 +117,6 @@ pub struct Outcome {
     pub breakthrough: Option<(f64, f64)>,
     /// Saturation of the wetting phase at its beginning, before and after what is open at the inlet is filled.
     pub first_saturation: [f64; 2],
-}
-
-/// A displacement at one moment.
-#[derive(Debug, Clone)]
-pub struct Moment {
-    /// The displacement of the half cycle.
-    pub displacement: Displacement,
-    /// Index of the half cycle.
-    pub half_cycle: usize,
-    /// Number of its events so far.
-    pub events: usize,
-    /// Applied curvature towards the wetting phase in 1/m; none before the first event.
-    pub applied: Option<f64>,
-    /// Saturation of the wetting phase.
-    pub saturation: f64,
 }
 
 /// A displacement through its half cycles.
@@ -283,18 +269,6 @@ impl Cycles {
             self.breakthrough = Some(Arc::new(self.moment()));
         }
         Some(kind_name(event.kind))
-    }
-
-    /// The present moment.
-    #[must_use]
-    pub fn moment(&self) -> Moment {
-        Moment {
-            displacement: self.displacement.clone(),
-            half_cycle: self.half_cycle,
-            events: self.outcomes[self.half_cycle].events,
-            applied: self.applied(),
-            saturation: self.saturation(),
-        }
     }
 
     /// The moment after the event by which an invading phase first reached its outlet.

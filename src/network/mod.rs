@@ -15,6 +15,7 @@ mod flow;
 mod layers;
 mod measures;
 mod merge;
+pub mod moment;
 mod openpnm;
 mod pictures;
 pub mod state;

@@ -1,7 +1,8 @@
 //! `at-breakthrough.json` and `at-end.json`: states that a network or a direct simulation of the same geometry can begin with.
 
-use super::cycles::{Cycles, Fluid, HalfCycle, Moment};
+use super::cycles::{Cycles, Fluid, HalfCycle};
 use super::displacement::{Beginning, Element, Phase, Standing};
+use super::moment::Moment;
 use super::solver::{NetworkSolver, Setting};
 use crate::case::network::state::{ElementState, FORMAT, MeniscusState, NetworkState};
 use crate::case::raw::RawPhase;
@@ -69,16 +70,16 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
             Fluid::Wetting => share,
             Fluid::NonWetting => 1.0 - share,
         }),
-        elements: elements(half, moment),
+        elements: elements(half, moment, &interfaces.trapped),
         menisci: interfaces.menisci.iter().map(|standing| meniscus(half, standing)).collect(),
         invading_outline: interfaces.outline.iter().map(Curve::numbers).collect(),
     }
 }
 
-fn elements(half: &HalfCycle, moment: &Moment) -> Vec<ElementState> {
+fn elements(half: &HalfCycle, moment: &Moment, trapped: &[f64]) -> Vec<ElementState> {
     let displacement = &moment.displacement;
     let element = |(index, element): (usize, &Element)| {
-        let trapped_at = displacement.trapped_at(index);
+        let trapped_at = trapped[index];
         ElementState {
             phase: raw(match displacement.phase(index) {
                 Phase::Invading => half.invading,

@@ -1,8 +1,8 @@
 //! Where menisci stand now, as exact arcs, and the boundary of the invading phase along walls and menisci.
 //!
 //! All menisci that wait stand at one curvature: the applied one, or that of the next event where it comes at a lower one. In the middle of an avalanche the
-//! pressure falls so far where the area is given and not the pressure. Around what is trapped menisci keep the curvature at which it was cut off: its area does not
-//! change, and so they neither move nor bend. Two menisci that have met on a grain stand as one, between the outer walls of both.
+//! pressure falls so far where the area is given and not the pressure. Around what is trapped menisci keep the curvature at which it was cut off, or the lowest at which one of
+//! them would go on: its area does not change. Two menisci that have met on a grain stand as one, between the outer walls of both.
 //!
 //! Left out: menisci of different pressures around one cluster that was cut off in several parts; the angles at which menisci of an earlier half cycle
 //! stand, where walls have hysteresis. Where arcs would cross each other, the chords of their gates stand for them.
@@ -44,6 +44,8 @@ pub struct Interfaces {
     pub menisci: Vec<Standing>,
     /// The boundary of the invading phase in m, the phase on its left: along walls, then along menisci.
     pub outline: Vec<Curve>,
+    /// For each element the curvature in 1/m of the menisci around what is trapped there; NaN where nothing is.
+    pub trapped: Vec<f64>,
     /// Area of the invading phase in m²; none in a periodic domain where menisci have joined.
     pub area: Option<f64>,
 }
@@ -82,11 +84,40 @@ impl Displacement {
         Self { applied: beginning.applied, held, ..begun }
     }
 
-    /// Curvature in 1/m at which an element was trapped; NaN where it is not.
-    #[must_use]
-    pub fn trapped_at(&self, element: usize) -> f64 {
-        let element = self.mesh.element_of[element];
-        if self.trapped[element] { self.held[element] } else { f64::NAN }
+    /// For each element of the mesh the curvature in 1/m of the menisci around its trapped region: the one at which it was cut off, or the lowest at
+    /// which one of them would go on, since its area is given; NaN where nothing is trapped.
+    fn trapped_curvatures(&self) -> Vec<f64> {
+        let mesh = &self.mesh;
+        let mut found = vec![f64::NAN; mesh.elements.len()];
+        let mut is_seen = vec![false; mesh.elements.len()];
+        for first in (0..mesh.elements.len()).filter(|&element| self.trapped[element]) {
+            if is_seen[first] {
+                continue;
+            }
+            is_seen[first] = true;
+            let (mut region, mut next, mut curvature) = (vec![first], 0, f64::INFINITY);
+            while let Some(&element) = region.get(next) {
+                next += 1;
+                curvature = curvature.min(self.held[element]);
+                for &(gate, to) in &mesh.elements[element].gates {
+                    let beyond = mesh.element(gate, 1 - to);
+                    if self.invaded[beyond] {
+                        curvature = curvature.min(self.own_event((gate, to)));
+                    } else if self.trapped[beyond] && !std::mem::replace(&mut is_seen[beyond], true) {
+                        region.push(beyond);
+                    }
+                }
+            }
+            region.into_iter().for_each(|element| found[element] = curvature);
+        }
+        found
+    }
+
+    /// Curvature in 1/m at which the meniscus of a gate bursts or touches a wall, if its neighbors do not come before.
+    fn own_event(&self, (gate, to): (usize, usize)) -> f64 {
+        let (passage, obstacles) = self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros());
+        let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
+        passage.touch(&obstacles, burst).unwrap_or(burst)
     }
 
     /// The curvature in 1/m at which all menisci that wait can rest: `applied`, or that of the next event where it is lower.
@@ -106,7 +137,8 @@ impl Displacement {
     #[must_use]
     pub fn interfaces(&self, applied: f64, bounds: Bounds, periodic: [bool; 2]) -> Interfaces {
         let mesh = &self.mesh;
-        let mut menisci = self.standing(applied);
+        let trapped = self.trapped_curvatures();
+        let mut menisci = self.standing(applied, &trapped);
         let is_invaded: Vec<bool> = mesh.element_of.iter().map(|&element| self.invaded[element]).collect();
         let chains = WallChains::new(mesh, &is_invaded, bounds, periodic);
         let walls = loop {
@@ -133,11 +165,12 @@ impl Displacement {
             .collect();
         outline.extend(menisci.iter().map(|it| it.curve.reversed()));
         let area = self.invading_area(&outline, &menisci, periodic);
-        Interfaces { menisci, outline, area }
+        let trapped = mesh.element_of.iter().map(|&element| trapped[element]).collect();
+        Interfaces { menisci, outline, trapped, area }
     }
 
-    /// The interfaces in all gates between the phases.
-    fn standing(&self, applied: f64) -> Vec<Standing> {
+    /// The interfaces in all gates between the phases; `trapped` are the curvatures of what is trapped.
+    fn standing(&self, applied: f64, trapped: &[f64]) -> Vec<Standing> {
         let mesh = &self.mesh;
         let joined = self.joined();
         let is_joined = |front: (usize, usize)| joined.iter().any(|pair| pair.gates.contains(&front));
@@ -149,7 +182,7 @@ impl Displacement {
             }
             let curvature = match &self.fronts[gate][to] {
                 Some(front) => applied.min(front.own),
-                None if self.trapped[into] => self.held[into],
+                None if self.trapped[into] => trapped[into],
                 None => self.held[from],
             };
             let curvature = if curvature.is_nan() { applied } else { curvature };
