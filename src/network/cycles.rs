@@ -29,6 +29,16 @@ impl Fluid {
         }
     }
 
+    /// Curvature of menisci bulging into the wetting phase in 1/m for one that bulges into the defending phase by `curvature` where this
+    /// fluid invades, so that tension times it is p_n - p_w.
+    #[must_use]
+    pub fn towards_wetting(self, curvature: f64) -> f64 {
+        match self {
+            Self::NonWetting => curvature,
+            Self::Wetting => -curvature,
+        }
+    }
+
     /// The other fluid.
     #[must_use]
     pub fn other(self) -> Self {
@@ -73,10 +83,7 @@ impl HalfCycle {
     /// tension times it is p_n - p_w.
     #[must_use]
     pub fn towards_wetting(&self, curvature: f64) -> f64 {
-        match self.invading {
-            Fluid::NonWetting => curvature,
-            Fluid::Wetting => -curvature,
-        }
+        self.invading.towards_wetting(curvature)
     }
 }
 
@@ -98,7 +105,7 @@ pub struct Entry {
 }
 
 /// When an element was filled in the present half cycle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Invasion {
     /// Number of the event within its half cycle, from 1 on; 0 for what is filled at the beginning, through an opening of the inlet.
     pub sequence: usize,

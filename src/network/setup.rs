@@ -6,14 +6,19 @@ use std::time::Instant;
 
 use super::cycles::{Cycles, End, Fluid, HalfCycle};
 use super::displacement::{Beginning, Conditions, Displacement, Element, Events};
+use super::dynamic::solver::DynamicSolver;
+use super::dynamic::{self, Drive, Dynamic, Terms};
 use super::graph::{Network, Pores};
 use super::solver::{NetworkSolver, Setting};
 use super::state;
 use crate::analysis::laws::drops::tadmor;
 use crate::case::checked::{Case, PatchedWall, Side, WettingModel};
-use crate::case::network::checked::{NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use crate::case::network::checked::{
+    Driven, NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop,
+};
 use crate::case::network::state::{ElementState, Start};
 use crate::geometry::{Geometry, GeometryError};
+use crate::solver::Solver;
 
 /// Names of the sides in their order.
 pub(super) const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
@@ -77,7 +82,19 @@ pub fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupErr
 ///
 /// # Errors
 /// [`SetupError`].
-pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
+pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
+    let still = build_still(case, wanted)?;
+    Ok(match in_time(wanted, &still) {
+        Some((dynamic, invading, end)) => Box::new(DynamicSolver::new(still, dynamic, invading, end)),
+        None => Box::new(still),
+    })
+}
+
+/// The same as a quasi-static displacement; without one where the case asks for a displacement in time.
+///
+/// # Errors
+/// [`SetupError`].
+pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
     let clock = Instant::now();
     let geometry = geometry(case, wanted)?;
     let sides = kinds(wanted);
@@ -153,7 +170,9 @@ pub fn assemble(
     let (network, pores) = (Arc::new(network), Arc::new(pores));
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
-        (Some(displacement), Some(interface)) => half_cycles(displacement, interface, kinds(wanted), walls),
+        (Some(displacement), Some(interface)) if displacement.dynamic.is_none() => {
+            half_cycles(displacement, interface, kinds(wanted), walls)
+        }
         _ => Vec::new(),
     };
     let entry = wanted.interface.as_ref().map(|interface| Conditions {
@@ -180,6 +199,47 @@ pub fn assemble(
         sides: kinds(wanted),
     };
     NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles, initial))
+}
+
+/// The displacement in time that a case asks for.
+fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Fluid, dynamic::solver::End)> {
+    let displacement = wanted.displacement.as_ref()?;
+    let (interface, driven) = (wanted.interface.as_ref()?, displacement.dynamic?);
+    let setting = still.setting();
+    let invading = if displacement.process == Process::Imbibition { Fluid::Wetting } else { Fluid::NonWetting };
+    let [wetting, non_wetting] = [wanted.wetting?.viscosity, wanted.non_wetting?.viscosity];
+    let sides = kinds(wanted);
+    let [inlet, outlet] = [Side::Inlet, Side::Outlet].map(|kind| sides.map(|side| side == kind));
+    let walls = setting.entry.as_ref().map_or(SIDES.len(), |entry| entry.angle.len());
+    let conditions = Conditions {
+        angle: angles(interface, walls, invading),
+        inlet,
+        outlet,
+        trapping: false,
+        events: Events::All,
+        largest_curvature: f64::INFINITY,
+    };
+    let terms = Terms {
+        viscosity: if invading == Fluid::Wetting { [wetting, non_wetting] } else { [non_wetting, wetting] },
+        tension: interface.tension,
+        drive: match driven.drive {
+            Driven::Rate(rate) => Drive::Rate(rate),
+            Driven::PressureDrop(pressure) => Drive::Pressure(pressure),
+        },
+        largest_step: driven.largest_step,
+        inlet,
+        outlet,
+    };
+    let start = Displacement::new(&setting.network, &setting.pores, conditions);
+    let end = dynamic::solver::End {
+        at_breakthrough: displacement.stop.breakthrough,
+        at_saturation: displacement.stop.saturation.map(|wetting| match invading {
+            Fluid::Wetting => wetting,
+            Fluid::NonWetting => 1.0 - wetting,
+        }),
+        at_injected: displacement.stop.injected,
+    };
+    Some((Dynamic::new(Arc::clone(&setting.network), start, terms), invading, end))
 }
 
 fn half_cycles(

@@ -38,7 +38,7 @@ pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn
     match &case.model {
         Model::Sph(sph) => Ok(Box::new(sph::setup::build_watched(case, sph, packed)?)),
         Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
-        Model::Network(network) => Ok(Box::new(network::setup::build(case, network)?)),
+        Model::Network(network) => Ok(network::setup::build(case, network)?),
     }
 }
 

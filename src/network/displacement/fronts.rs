@@ -95,19 +95,23 @@ impl Displacement {
     /// Lets a meniscus wait in a gate, about to enter it at its end `to`.
     pub(super) fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
         let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
-        let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
-        let mut kind = EventKind::Burst;
-        let mut own = burst;
-        if self.conditions.events == Events::All
-            && let Some(touch) = passage.touch(&obstacles, burst)
-        {
-            (kind, own) = (EventKind::Touch, touch);
-        }
+        let (kind, own) = self.own_event(&passage, &obstacles);
         self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None, is_joined: false });
         if self.conditions.events == Events::All {
             self.meet_neighbors(mesh, (gate, to), &passage, own);
         }
         self.fronts[gate][to] = Some(Front { passage, own });
+    }
+
+    /// The event that a meniscus waits for by itself, and its curvature in 1/m.
+    pub(super) fn own_event(&self, passage: &Passage, obstacles: &[Curve]) -> (EventKind, f64) {
+        let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
+        if self.conditions.events == Events::All
+            && let Some(touch) = passage.touch(obstacles, burst)
+        {
+            return (EventKind::Touch, touch);
+        }
+        (EventKind::Burst, burst)
     }
 
     /// Overlaps of a new meniscus with its neighbors on both walls.

@@ -9,6 +9,7 @@
 //!
 //! Left out: areas swept by menisci between events, overlaps of a joined meniscus with a third one, films and corner flow.
 
+mod driven;
 mod fronts;
 mod loops;
 mod mesh;
@@ -21,6 +22,7 @@ mod walls;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
+pub use self::driven::{Advance, FrontId, GateFacts};
 use self::fronts::{Candidate, Front};
 use self::mesh::Mesh;
 use self::outflow::Outflow;

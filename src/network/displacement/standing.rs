@@ -88,6 +88,7 @@ impl Displacement {
     /// which one of them would go on, since its area is given; NaN where nothing is trapped.
     fn trapped_curvatures(&self) -> Vec<f64> {
         let mesh = &self.mesh;
+        let angles = &self.conditions.angle;
         let mut found = vec![f64::NAN; mesh.elements.len()];
         let mut is_seen = vec![false; mesh.elements.len()];
         for first in (0..mesh.elements.len()).filter(|&element| self.trapped[element]) {
@@ -102,7 +103,8 @@ impl Displacement {
                 for &(gate, to) in &mesh.elements[element].gates {
                     let beyond = mesh.element(gate, 1 - to);
                     if self.invaded[beyond] {
-                        curvature = curvature.min(self.own_event((gate, to)));
+                        let (passage, obstacles) = self.passage_at(angles, mesh, (gate, to), Vec2::zeros());
+                        curvature = curvature.min(self.own_event(&passage, &obstacles).1);
                     } else if self.trapped[beyond] && !std::mem::replace(&mut is_seen[beyond], true) {
                         region.push(beyond);
                     }
@@ -111,13 +113,6 @@ impl Displacement {
             region.into_iter().for_each(|element| found[element] = curvature);
         }
         found
-    }
-
-    /// Curvature in 1/m at which the meniscus of a gate bursts or touches a wall, if its neighbors do not come before.
-    fn own_event(&self, (gate, to): (usize, usize)) -> f64 {
-        let (passage, obstacles) = self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros());
-        let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
-        passage.touch(&obstacles, burst).unwrap_or(burst)
     }
 
     /// The curvature in 1/m at which all menisci that wait can rest: `applied`, or that of the next event where it is lower.

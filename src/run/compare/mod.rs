@@ -173,7 +173,7 @@ pub fn compare(
     if sph.non_wetting.is_none() {
         return Err(CompareError::NoDirect);
     }
-    let mut solver = crate::network::setup::build(network_case, wanted).map_err(SetupError::from)?;
+    let mut solver = crate::network::setup::build_still(network_case, wanted).map_err(SetupError::from)?;
     let state = network::state(&solver).ok_or(CompareError::NoNetwork)?;
     if let Some(misfit) = state.misfit(&direct_case.geometry) {
         return Err(CompareError::OtherGeometry(misfit));
