@@ -24,6 +24,7 @@ mod study;
 mod study_run;
 mod summary;
 mod threads;
+mod verify;
 mod write_shapes;
 
 pub use entry::main;

@@ -21,3 +21,4 @@ mod summary;
 mod tables;
 
 pub use extract::{ExtractError, extract};
+pub use summary::geometry_hash;

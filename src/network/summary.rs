@@ -153,8 +153,9 @@ const MERGES: &str = "the network before the merge: regions with their pore, and
                       from wide to narrow, one is dissolved where its half width exceeds the persistence ratio times the smaller of \
                       both radii, and the joined pore keeps the larger one";
 
-/// FNV-1a of the network's geometry: widths, places and areas, bit by bit.
-fn geometry_hash(setting: &Setting) -> String {
+/// FNV-1a of the domain and the outline of the walls, bit by bit.
+#[must_use]
+pub fn geometry_hash(setting: &Setting) -> String {
     const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0100_0000_01b3;
     let bounds = [setting.bounds.min, setting.bounds.max];

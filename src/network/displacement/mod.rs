@@ -23,6 +23,8 @@ use self::fronts::{Candidate, Front};
 use self::mesh::Mesh;
 use self::outflow::Outflow;
 use super::graph::{Network, Pores, Region};
+use super::menisci::Passage;
+use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 
 /// Which events move a meniscus.
@@ -273,6 +275,14 @@ impl Displacement {
         const POINTS: usize = 17;
         let fronts = self.fronts.iter().flatten().flatten();
         fronts.filter_map(|front| front.passage.at(applied.min(front.own))).map(|m| m.points(POINTS)).collect()
+    }
+
+    /// The passage of a meniscus through a throat into its region `to`, 0 or 1, and the walls ahead that it may touch, in the frame of that
+    /// region; none where the throat is no gate.
+    #[must_use]
+    pub fn passage_through(&self, throat: usize, to: usize) -> Option<(Passage, Vec<Curve>)> {
+        let gate = self.mesh.gates.iter().position(|gate| gate.throat == Some(throat))?;
+        Some(self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()))
     }
 
     /// Curvature in 1/m at which menisci burst through each throat, the larger one of both directions, with the contact angles of
