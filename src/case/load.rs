@@ -90,7 +90,12 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
         );
         if has_window { cut(&mut checker, spec, beyond, &mut notes) } else { Some(spec) }
     });
-    let model = model(&mut checker, raw, geometry.as_ref());
+    let folder = match origin {
+        Origin::Disk(path) => path.parent().unwrap_or(Path::new("")),
+        Origin::BuiltIn => Path::new(""),
+    };
+    let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
+    let model = model(&mut checker, &RawCase { network, ..raw.clone() }, geometry.as_ref());
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref());
     let end = check::end(&mut checker, raw, model.as_ref());
     let output = check::output(&mut checker, raw, end);

@@ -43,6 +43,7 @@ const NETWORK: &[&str] = &[
     "smallest-entry-pressure-Pa",
     "median-entry-pressure-Pa",
     "largest-entry-pressure-Pa",
+    "measured-entry-pressures",
     "breakthrough-pressure-Pa",
     "saturation-at-breakthrough",
     "residual-saturation",

@@ -5,12 +5,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::cycles::{Cycles, End, Fluid, HalfCycle};
-use super::displacement::{Conditions, Events};
+use super::displacement::{Conditions, Events, MeasuredBurst};
 use super::graph::{Network, Pores};
 use super::solver::{NetworkSolver, Setting};
+use super::summary::geometry_hash;
 use crate::analysis::laws::drops::tadmor;
 use crate::case::checked::{Case, PatchedWall, Side, WettingModel};
 use crate::case::network::checked::{NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use crate::case::network::measured::MeasuredThroat;
 use crate::geometry::{Geometry, GeometryError};
 
 /// Names of the sides in their order.
@@ -25,6 +27,17 @@ pub enum SetupError {
     /// The pores cannot be told apart.
     #[error("{0}")]
     Extract(#[from] super::ExtractError),
+    /// Entry pressures that were measured in another geometry.
+    #[error(
+        "the measured entry pressures (network.measured) are those of another geometry: its hash is {expected}, that of this one is {found}; measure \
+         them anew with `meniscus network verify`, or leave the key out"
+    )]
+    OtherGeometry {
+        /// Hash of the geometry that they were measured in.
+        expected: String,
+        /// Hash of this one.
+        found: String,
+    },
     /// The domain is solid.
     #[error("there is no pore in the domain: the solids fill all of it")]
     NoPore,
@@ -81,7 +94,24 @@ pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupEr
     }
     let pores = Pores::merged(&network, wanted.persistence);
     let extraction = clock.elapsed().as_secs_f64();
-    Ok(assemble(wanted, &geometry, network, pores).timed(extraction))
+    let solver = assemble(wanted, &geometry, network, pores).timed(extraction);
+    if let Some(measured) = &wanted.measured {
+        let found = geometry_hash(solver.setting());
+        if found != measured.geometry_hash {
+            return Err(SetupError::OtherGeometry { expected: measured.geometry_hash.clone(), found });
+        }
+    }
+    Ok(solver)
+}
+
+/// The measured bursts of a case.
+fn measured(wanted: &PoreNetwork) -> Vec<MeasuredBurst> {
+    let burst = |one: &MeasuredThroat| MeasuredBurst {
+        throat: one.index,
+        formula: one.formula_curvature,
+        curvature: one.entry_curvature,
+    };
+    wanted.measured.iter().flat_map(|measured| &measured.throats).map(burst).collect()
 }
 
 /// Largest distance of the drawn walls from the walls, over the longer side of the domain: far below what a picture shows.
@@ -93,7 +123,9 @@ pub fn assemble(wanted: &PoreNetwork, geometry: &Geometry, network: Network, por
     let (network, pores) = (Arc::new(network), Arc::new(pores));
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
-        (Some(displacement), Some(interface)) => half_cycles(displacement, interface, kinds(wanted), walls),
+        (Some(displacement), Some(interface)) => {
+            half_cycles(displacement, interface, kinds(wanted), (walls, &measured(wanted)))
+        }
         _ => Vec::new(),
     };
     let entry = wanted.interface.as_ref().map(|interface| Conditions {
@@ -103,6 +135,7 @@ pub fn assemble(wanted: &PoreNetwork, geometry: &Geometry, network: Network, por
         trapping: false,
         events: Events::All,
         largest_curvature: f64::INFINITY,
+        measured: measured(wanted),
     });
     let setting = Setting {
         network: Arc::clone(&network),
@@ -124,7 +157,7 @@ fn half_cycles(
     displacement: &NetworkDisplacement,
     interface: &NetworkInterface,
     sides: [Side; 4],
-    walls: usize,
+    (walls, measured): (usize, &[MeasuredBurst]),
 ) -> Vec<HalfCycle> {
     let open = |kind: Side| sides.map(|side| side == kind);
     let half = |invading: Fluid, [from, to]: [Side; 2], stop: Stop| {
@@ -143,6 +176,7 @@ fn half_cycles(
                 largest_curvature: stop
                     .capillary_pressure
                     .map_or(f64::INFINITY, |pressure| sign * pressure / interface.tension),
+                measured: measured.to_vec(),
             },
             end: End {
                 at_breakthrough: stop.breakthrough,

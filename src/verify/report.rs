@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-
 use super::page::page;
 use super::results::{Direct, Row, Status};
 use super::subject::Subject;
+use crate::case::network::measured::{Measured, MeasuredThroat};
 use crate::io::{FileError, atomic};
 use crate::network::cycles::Fluid;
 use crate::study::table::Table;
@@ -22,28 +21,6 @@ pub struct Written {
     pub replaced: usize,
     /// The file that a network takes up.
     pub measured: PathBuf,
-}
-
-/// The measured entry pressures.
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "kebab-case")]
-struct Measured {
-    version: &'static str,
-    geometry_hash: String,
-    invading: &'static str,
-    throats: Vec<MeasuredThroat>,
-}
-
-/// One of them.
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "kebab-case")]
-struct MeasuredThroat {
-    throat: usize,
-    to: usize,
-    contact_angle_deg: f64,
-    formula_curvature_per_m: f64,
-    entry_curvature_per_m: f64,
-    error_per_m: f64,
 }
 
 /// Writes `verify.csv`, `verify.html`, `entry_pressures.csv` and `measured.json`.
@@ -72,22 +49,17 @@ pub fn write(
 
 fn measured(subject: &Subject, rows: &[Row]) -> Measured {
     let one = |row: &Row| {
-        let (Some(Direct { value, error: Some(error) }), Ok(cut_out)) = (row.pressure, &row.planned.cut_out) else {
+        let (Some(Direct { value, .. }), Ok(cut_out)) = (row.pressure, &row.planned.cut_out) else {
             return None;
         };
         Some(MeasuredThroat {
-            throat: row.planned.chosen.throat,
-            to: row.planned.chosen.to,
-            contact_angle_deg: cut_out.angle.to_degrees(),
-            formula_curvature_per_m: cut_out.meniscus.curvature,
-            entry_curvature_per_m: value / subject.tension,
-            error_per_m: error / subject.tension,
+            index: row.planned.chosen.throat,
+            formula_curvature: cut_out.meniscus.curvature,
+            entry_curvature: value / subject.tension,
         })
     };
     Measured {
-        version: env!("CARGO_PKG_VERSION"),
         geometry_hash: subject.geometry_hash(),
-        invading: subject.invading.name(),
         throats: rows.iter().filter(|row| row.is_replaced()).filter_map(one).collect(),
     }
 }

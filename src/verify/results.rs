@@ -6,7 +6,9 @@ use crate::network::cycles::Fluid;
 use crate::study::results::{RunResult, Standing};
 
 /// Relative difference of the entry pressures of both spacings above which neither is trusted.
-const COARSE: f64 = 0.05;
+const COARSE_PRESSURE: f64 = 0.05;
+/// The same of conductances, which go with the third power of the width.
+const COARSE_FLOW: f64 = 0.15;
 /// Relative drift of a phase's area above which a run is not trusted.
 const LEAKED: f64 = 0.01;
 
@@ -159,7 +161,7 @@ pub fn row<'a>(
         let bar = run.result.uncertainty("entry-pressure-Pa").unwrap_or(0.0);
         run.number("entry-pressure-Pa").map(|value| (sign * value, bar))
     };
-    (row.pressure, row.status) = judged(&entries, &pressures);
+    (row.pressure, row.status) = judged(&entries, COARSE_PRESSURE, &pressures);
     if row.status == Status::Ok {
         row.status = at_rest(&entries);
     }
@@ -169,15 +171,16 @@ pub fn row<'a>(
             let drop = run.number("driving-pressure-drop-Pa")?;
             Some((viscosity * run.number("asked-inflow-m2-per-s")? / drop, 0.0))
         };
-        (row.conductance, row.flow_status) = judged(&flows, &conductance);
+        (row.conductance, row.flow_status) = judged(&flows, COARSE_FLOW, &conductance);
     } else {
         row.flow_status = Status::Impossible("no formula for the cut-out".to_owned());
     }
     row
 }
 
-/// The finest value with its error, from runs in the order of their spacings, coarse to fine.
-fn judged(runs: &[Run], value: &dyn Fn(&Run) -> Option<(f64, f64)>) -> (Option<Direct>, Status) {
+/// The finest value with its error, from runs in the order of their spacings, coarse to fine; `coarse` is the largest relative difference of two
+/// of them.
+fn judged(runs: &[Run], coarse: f64, value: &dyn Fn(&Run) -> Option<(f64, f64)>) -> (Option<Direct>, Status) {
     if let Some(why) = runs.iter().find_map(Run::failed) {
         return (None, Status::Failed(why));
     }
@@ -193,7 +196,7 @@ fn judged(runs: &[Run], value: &dyn Fn(&Run) -> Option<(f64, f64)>) -> (Option<D
     let direct = Direct { value: finest, error };
     match coarser {
         Some(None) => (Some(direct), Status::UnderResolved("the coarser run has no value".to_owned())),
-        Some(Some(coarser)) if (finest - coarser).abs() > COARSE * finest.abs() => {
+        Some(Some(coarser)) if (finest - coarser).abs() > coarse * finest.abs() => {
             let percent = 100.0 * (coarser / finest - 1.0).abs();
             (Some(direct), Status::UnderResolved(format!("both spacings differ by {percent:.1} %")))
         }

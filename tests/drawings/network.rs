@@ -32,6 +32,7 @@ fn conditions(angle_deg: f64, shapes: usize, trapping: bool) -> Conditions {
         trapping,
         events: Events::All,
         largest_curvature: f64::INFINITY,
+        measured: Vec::new(),
     }
 }
 

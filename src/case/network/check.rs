@@ -1,6 +1,7 @@
 //! Checks of `[network]`: ranges of every value, which values go together, and what a quasi-static displacement cannot do.
 
 use super::checked::{NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use super::measured;
 use super::raw::{RawEvents, RawNetwork, RawNetworkSide, RawProcess};
 use crate::case::check::Checker;
 use crate::case::checked::{Side, Sides, WettingModel};
@@ -33,6 +34,7 @@ pub(in crate::case) fn network(
         });
     let persistence = checker.within("network.persistence", raw.persistence, PERSISTENCE, "a persistence ratio");
     let interface = interface(checker, raw, sides.as_ref(), geometry);
+    let measured = measured::checked(checker, raw.measured_throats.as_ref());
     let displacement = if raw.inlet.is_some() {
         Some(displacement(checker, raw))
     } else {
@@ -45,6 +47,7 @@ pub(in crate::case) fn network(
         non_wetting: non_wetting?,
         interface: interface?,
         persistence: persistence.unwrap_or(DEFAULT_PERSISTENCE),
+        measured: measured?,
         displacement,
     })
 }

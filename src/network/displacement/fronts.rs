@@ -95,11 +95,11 @@ impl Displacement {
     /// Lets a meniscus wait in a gate, about to enter it at its end `to`.
     pub(super) fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
         let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
-        let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
+        let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
         let mut kind = EventKind::Burst;
-        let mut own = burst;
+        let mut own = self.conditions.burst(mesh.gates[gate].throat, formula);
         if self.conditions.events == Events::All
-            && let Some(touch) = passage.touch(&obstacles, burst)
+            && let Some(touch) = passage.touch(&obstacles, own.min(formula))
         {
             (kind, own) = (EventKind::Touch, touch);
         }
