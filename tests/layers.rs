@@ -25,7 +25,7 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
         &["math", "input", "geometry", "snapshot", "solver", "case", "analysis", "network", "sph", "thin_film", "io"],
     ),
     ("study", &["input", "case", "analysis", "io", "run"]),
-    ("verify", &["math", "geometry", "case", "network", "io", "study"]),
+    ("verify", &["math", "input", "geometry", "case", "network", "io", "study"]),
     ("cli", &["math", "input", "geometry", "snapshot", "solver", "case", "analysis", "io", "run", "study", "verify"]),
 ];
 

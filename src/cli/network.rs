@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use super::arguments::{NetworkArguments, NetworkCommand, NetworkProcess, PeriodicAxes, SideName};
+use super::arguments::{NetworkArguments, NetworkProcess, PeriodicAxes, SideName};
 use super::exit::{BAD_INPUT, Failure};
 use super::output::tell;
 use super::run::{finish, new_folder};
 use super::source::{self, Source};
 use super::verify::verify;
+use super::verify_arguments::NetworkCommand;
 use crate::case::network::quick as network_case;
 use crate::case::network::raw::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
 use crate::case::raw::{RawContactAngle, RawInterface, RawSideName, RawWetting};

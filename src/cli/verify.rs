@@ -3,9 +3,10 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use super::arguments::{CoresArguments, Engine, StudyRunArguments, VerifyArguments};
+use super::arguments::{CoresArguments, Engine, StudyRunArguments};
 use super::exit::{BAD_INPUT, DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{duration, say, tell};
+use super::verify_arguments::VerifyArguments;
 use super::{source, study_run};
 use crate::study::folder::StudyFolder;
 use crate::study::load::load;
@@ -13,6 +14,7 @@ use crate::study::results::{RunResult, results};
 use crate::study::runs::plan as plan_runs;
 use crate::verify::case_text::Fluids;
 use crate::verify::choose::{Choice, choose};
+use crate::verify::cut_out::Impossible;
 use crate::verify::plan::{self, Planned, RUNS};
 use crate::verify::report;
 use crate::verify::results::{Row, Status, row};
@@ -31,12 +33,20 @@ pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         .collect::<Result<_, _>>()
         .map_err(|error: String| usage(&error))?;
     let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;
-    let planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
+    let mut planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
     let fluids = Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading };
     let spacings: Vec<u32> = arguments.spacings.iter().map(|across| across.get()).collect();
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}-verify", source.name)));
     let name = arguments.case.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let written = plan::write(&folder, &planned, &fluids, &spacings, &name).map_err(|error| usage(&error))?;
+    for (place, why) in written.refused {
+        planned[place].cut_out = Err(Impossible::Case(why));
+    }
+    for one in &planned {
+        if let Err(why) = &one.cut_out {
+            tell(format_args!("throat {}: cut-out impossible: {why}", one.chosen.number));
+        }
+    }
     for kept in &written.kept {
         tell(format_args!("{} was changed by hand, and is run as it is", kept.display()));
     }

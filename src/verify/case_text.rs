@@ -86,12 +86,17 @@ fn shapes(cut_out: &CutOut) -> String {
     let corner = |x: [f64; 2]| format!("[{:e}, {:e}] # m", x[0], x[1]);
     let mut text = format!("[geometry]\nmin = {}\nmax = {}\n", corner(geometry.min), corner(geometry.max));
     for shape in &geometry.shapes {
-        // Writing to a string cannot fail; a cut-out has discs and curved polygons only.
+        // Writing to a string cannot fail; a cut-out has no other shapes.
         let _ = match shape {
             ShapeSpec::Disc(disc) => writeln!(
                 text,
                 "\n[[geometry.shapes]]\ndisc = {{ center = [{:e}, {:e}], radius = {:e} }} # m",
                 disc.center[0], disc.center[1], disc.radius
+            ),
+            ShapeSpec::HalfPlane(plane) => writeln!(
+                text,
+                "\n[[geometry.shapes]]\nhalf-plane = {{ point = [{:e}, {:e}], rotation-deg = {:e} }} # m",
+                plane.point[0], plane.point[1], plane.rotation_deg
             ),
             ShapeSpec::CurvedPolygon(shape) => {
                 writeln!(

@@ -7,7 +7,7 @@
 use super::wall_path::{Followed, Frame, UpperWall, follow, mirrored};
 use crate::geometry::Geometry;
 use crate::geometry::curve::Curve;
-use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, ShapeSpec, SolidSide};
+use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, HalfPlane, ShapeSpec, SolidSide};
 use crate::math::{Vec2, perpendicular};
 use crate::network::menisci::{Hand, Meniscus, Passage, Wall};
 
@@ -16,6 +16,8 @@ use crate::network::menisci::{Hand, Meniscus, Passage, Wall};
 const OPENING: f64 = 1.5;
 /// Room beside contacts, behind walls that have been left, and beyond the sides of the box, in widths.
 const ROOM: f64 = 0.5;
+/// Room between the bodies and the ends of the box, in widths.
+const ROOM_AT_ENDS: f64 = 1.5;
 /// Room ahead of the meniscus and behind it, in widths.
 const ROOM_ALONG: f64 = 2.0;
 /// How far beyond the meniscus walls are followed that do not draw back, in widths.
@@ -41,8 +43,11 @@ pub enum Impossible {
     #[error("the meniscus of largest curvature would pass through a wall")]
     Crossed,
     /// Shapes that make no sense.
-    #[error("the bodies cannot be cut: {0}")]
-    Shapes(String),
+    #[error("its walls would cross each other where they go on straight")]
+    Shapes,
+    /// A case that is refused.
+    #[error("its case is refused: {0}")]
+    Case(String),
     /// Another throat.
     #[error("the cut-out has a throat of {0} m in place of this one")]
     Throat(String),
@@ -94,7 +99,7 @@ impl CutOut {
     /// # Errors
     /// [`Impossible::Shapes`].
     pub fn solids(&self, is_joined: bool) -> Result<Geometry, Impossible> {
-        let geometry = Geometry::new(&self.geometry).map_err(|error| Impossible::Shapes(error.to_string()))?;
+        let geometry = Geometry::new(&self.geometry).map_err(|_| Impossible::Shapes)?;
         Ok(geometry.with_sides([is_joined, false], [!is_joined, !is_joined, true, true]))
     }
 
@@ -135,6 +140,8 @@ struct Body {
     sides: [Followed; 2],
     /// Height of the side of the box in m.
     level: f64,
+    /// Whether it is straight along the way, all of it.
+    is_flat: bool,
     hand: Hand,
 }
 
@@ -154,15 +161,29 @@ impl Plan {
             let wall = UpperWall::of(wall, hand, frame);
             let start = Vec2::new(0.0, 0.5 * width);
             let met = wall.height_to(contact, ROUNDING * width).ok_or(Impossible::Contact)?;
-            let [behind, ahead] = wall.widest();
+            let ([behind, ahead], highest) = (wall.widest(), wall.highest());
             let opening = (0.5 + OPENING) * width;
             let mut level = opening.min(behind.max(ahead)).max(0.5 * width);
-            if met > level - ROOM * width && met > (0.5 + ROUNDING) * width {
-                level = met + ROOM * width;
+            // The box must cut the body, however far around it the meniscus meets it.
+            let top = highest[0].min(highest[1]);
+            let room = if top > met { (0.5 * (top - met)).min(ROOM * width) } else { ROOM * width };
+            if met > level - room && met > (0.5 + ROUNDING) * width {
+                level = met + room;
             }
-            let lid = level + ROOM * width;
-            let sides = [0, 1].map(|side| follow(&wall.sides[side], start, lid, needed[side] + REACH * width));
-            Ok(Body { wall, sides, level, hand })
+            let is_flat = highest[0].max(highest[1]).max(level) <= (0.5 + ROUNDING) * width;
+            if is_flat {
+                level += ROOM * width;
+            }
+            let sides = [0, 1].map(|side| {
+                let above = highest[side] - level;
+                let lid = level + if above > 0.0 { (0.5 * above).min(ROOM * width) } else { ROOM * width };
+                follow(&wall.sides[side], start, lid, needed[side] + REACH * width)
+            });
+            let is_kept = |side: usize, contact: Vec2| sides[side].holds(contact, ROUNDING * width);
+            if !is_flat && !is_kept(0, Vec2::new(-contact.x, contact.y)) && !is_kept(1, contact) {
+                return Err(Impossible::Contact);
+            }
+            Ok(Body { wall, sides, level, is_flat, hand })
         };
         let [left, right] = [arc.point(0.0), arc.point(1.0)];
         let bodies = [
@@ -171,7 +192,8 @@ impl Plan {
         ];
         let ends = [0, 1].map(|side| {
             let reached = bodies.iter().map(|body| body.sides[side].farthest()).fold(0.0, f64::max);
-            (reached + 2.0 * ROOM * width).max(needed[side] + ROOM_ALONG * width)
+            // More than a width: the way past a body to the end of the box is no narrower throat.
+            (reached + ROOM_AT_ENDS * width).max(needed[side] + ROOM_ALONG * width)
         });
         Ok(Self { bodies, ends, width })
     }
@@ -213,25 +235,27 @@ impl Plan {
             min: [-self.ends[0], -lower.level],
             max: [self.ends[1], upper.level],
             solid: SolidSide::Inside,
-            shapes: self.bodies.iter().filter_map(|body| self.shape(body)).collect(),
+            shapes: self.bodies.iter().map(|body| self.shape(body)).collect(),
         }
     }
 
-    /// A body as a shape; none where the side of the box is the wall.
-    fn shape(&self, body: &Body) -> Option<ShapeSpec> {
-        if body.level <= (0.5 + ROUNDING) * self.width {
-            return None;
+    /// A body as a shape.
+    fn shape(&self, body: &Body) -> ShapeSpec {
+        if body.is_flat {
+            let (sign, rotation_deg) = if body.hand == Hand::Left { (1.0, 180.0) } else { (-1.0, 0.0) };
+            return ShapeSpec::HalfPlane(HalfPlane { point: [0.0, sign * 0.5 * self.width], rotation_deg });
         }
         if let Some(disc) = self.disc(body) {
-            return Some(ShapeSpec::Disc(disc));
+            return ShapeSpec::Disc(disc);
         }
         let mut path = self.path(body);
         if body.hand == Hand::Right {
             path = path.iter().rev().map(Curve::reversed).collect();
         }
-        let (first, last) = (path.first()?.point(0.0), path.last()?.point(1.0));
-        path.push(Curve::Segment { a: last, b: first });
-        Some(ShapeSpec::CurvedPolygon(polygon(&path, self.width)))
+        if let (Some(first), Some(last)) = (path.first(), path.last()) {
+            path.push(Curve::Segment { a: last.point(1.0), b: first.point(0.0) });
+        }
+        ShapeSpec::CurvedPolygon(polygon(&path, self.width))
     }
 
     /// The disc that a body is, where the box shows more than half of it.
@@ -263,7 +287,10 @@ impl Plan {
         let far = -self.ends[0] - ROOM * self.width;
         let start = |path: &[Curve], at: Vec2| path.first().map_or(at, |curve| curve.point(0.0));
         let (top, bottom) = (start(&upper, left), start(&lower, right));
-        let corners = [top, Vec2::new(far, top.y), Vec2::new(far, bottom.y), bottom];
+        let beyond = self.bodies.each_ref().map(|body| body.level + ROOM * self.width);
+        let (high, low) = (top.y.max(beyond[0]), bottom.y.min(-beyond[1]));
+        let corners =
+            [top, Vec2::new(top.x, high), Vec2::new(far, high), Vec2::new(far, low), Vec2::new(bottom.x, low), bottom];
         ring.extend(corners.windows(2).map(|pair| Curve::Segment { a: pair[0], b: pair[1] }));
         ring.extend(until(&lower, right));
         polygon(&ring, self.width)

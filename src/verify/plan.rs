@@ -8,6 +8,8 @@ use super::case_text::{self, Fluids, Named};
 use super::choose::{Chosen, touches_first};
 use super::cut_out::{CutOut, Impossible};
 use super::subject::Subject;
+use crate::case::load;
+use crate::input::Overrides;
 use crate::io::checksum::fnv1a;
 use crate::io::{FileError, atomic};
 use crate::network::conductance::conductances;
@@ -85,6 +87,8 @@ pub struct Written {
     pub study: Option<PathBuf>,
     /// Cases that were changed by hand, and left so.
     pub kept: Vec<PathBuf>,
+    /// Throats, by their place in the plan, whose case is refused, and why.
+    pub refused: Vec<(usize, String)>,
 }
 
 /// A folder that cannot be written into.
@@ -114,9 +118,10 @@ pub fn write(
     let digests_path = cases.join(DIGESTS);
     let mut digests: BTreeMap<String, String> =
         std::fs::read(&digests_path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default();
-    let (mut names, mut kept) = (Vec::new(), Vec::new());
-    for one in planned {
+    let (mut names, mut kept, mut refused) = (Vec::new(), Vec::new(), Vec::new());
+    for (place, one) in planned.iter().enumerate() {
         let Ok(cut_out) = &one.cut_out else { continue };
+        let before = names.len();
         for kind in [Kind::Entry, Kind::Flow] {
             if kind == Kind::Flow && one.conductance.is_none() {
                 continue;
@@ -130,21 +135,29 @@ pub fn write(
                 let name = format!("{}.toml", case_name(one.chosen.number, kind, across));
                 let path = cases.join(&name);
                 if write_case(&path, &text, digests.get(&name))? == Case::Kept {
-                    kept.push(path);
+                    kept.push(path.clone());
                 }
                 digests.insert(name.clone(), digest(text.as_bytes()));
+                if let Err(error) = load(&path, &Overrides::default()) {
+                    let first = error.mistakes.first().map_or(String::new(), |mistake| mistake.message.clone());
+                    refused.push((place, first));
+                }
                 names.push(name);
             }
         }
+        if refused.last().is_some_and(|(last, _)| *last == place) {
+            names.truncate(before);
+        }
     }
+    refused.dedup_by_key(|(place, _)| *place);
     // Names and digests can always be written.
     atomic::write(&digests_path, &serde_json::to_vec_pretty(&digests).unwrap_or_default())?;
     let study = folder.join(STUDY);
     if names.is_empty() {
-        return Ok(Written { study: None, kept });
+        return Ok(Written { study: None, kept, refused });
     }
     atomic::write(&study, study_text(&names, network).as_bytes())?;
-    Ok(Written { study: Some(study), kept })
+    Ok(Written { study: Some(study), kept, refused })
 }
 
 #[derive(PartialEq, Eq)]

@@ -86,6 +86,12 @@ impl UpperWall {
         })
     }
 
+    /// Largest height in m of each side.
+    #[must_use]
+    pub fn highest(&self) -> [f64; 2] {
+        [0, 1].map(|side| points(&self.sides[side]).fold(0.0, |high: f64, point| high.max(point.y)))
+    }
+
     /// Largest height in m from the chord to a contact, which is in the frame of the wall; none where the contact is not on it.
     #[must_use]
     pub fn height_to(&self, contact: Vec2, tolerance: f64) -> Option<f64> {
@@ -125,6 +131,12 @@ impl Followed {
     pub fn farthest(&self) -> f64 {
         points(&self.curves).map(|point| point.x).fold(self.end.x, f64::max)
     }
+
+    /// Whether a point lies on it.
+    #[must_use]
+    pub fn holds(&self, x: Vec2, tolerance: f64) -> bool {
+        self.curves.iter().any(|curve| (curve.project(x).point - x).norm() <= tolerance)
+    }
 }
 
 /// Follows one side of a wall from `start`, the end of the chord, until it rises to `level` or is as far as `reach`, in m.
@@ -149,6 +161,22 @@ pub fn follow(side: &[Curve], start: Vec2, level: f64, reach: f64) -> Followed {
         let end = curve.point(high);
         return Followed { curves, end, is_risen: end.y >= level };
     }
-    let end = curves.last().map_or(start, |curve| curve.point(1.0));
+    up_to_highest(side, start)
+}
+
+/// A side that does not rise so far: up to its highest place, beyond which it leads down behind the body.
+fn up_to_highest(side: &[Curve], start: Vec2) -> Followed {
+    let (mut end, mut last) = (start, None);
+    for (index, curve) in side.iter().enumerate() {
+        for k in 1..=SAMPLES {
+            let point = curve.point(k as f64 / SAMPLES as f64);
+            if point.y > end.y {
+                (end, last) = (point, Some((index, k)));
+            }
+        }
+    }
+    let Some((index, k)) = last else { return Followed { curves: Vec::new(), end, is_risen: false } };
+    let mut curves = side[..index].to_vec();
+    curves.push(if k == SAMPLES { side[index] } else { side[index].part(0.0, k as f64 / SAMPLES as f64) });
     Followed { curves, end, is_risen: false }
 }
