@@ -34,7 +34,8 @@ pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         .map_err(|error: String| usage(&error))?;
     let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;
     let mut planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
-    let fluids = Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading };
+    let given = if arguments.case_fluids { subject.fluids } else { [None; 2] };
+    let fluids = Fluids { given, tension: subject.tension, invading: subject.invading };
     let spacings: Vec<u32> = arguments.spacings.iter().map(|across| across.get()).collect();
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}-verify", source.name)));
     let name = arguments.case.file_name().unwrap_or_default().to_string_lossy().into_owned();

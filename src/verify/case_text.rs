@@ -7,9 +7,9 @@ use crate::case::checked::Fluid;
 use crate::geometry::spec::{CurvedPolygon, ShapeSpec};
 use crate::network::cycles::Fluid as Phase;
 
-/// Density in kg/m³ where the network gives none: at rest no pressure depends on it.
+/// Density in kg/m³ where no other fluid is wanted: at rest no pressure depends on it.
 pub const DENSITY: f64 = 1000.0;
-/// Viscosity over √(density · tension · width) where the network gives none: menisci come to rest without a long swing.
+/// Viscosity over √(density · tension · width) where no other fluid is wanted: menisci come to rest without a long swing.
 pub const OHNESORGE: f64 = 0.1;
 /// Reynolds number ρQ/μ of the flow that conductances are measured by.
 const REYNOLDS: f64 = 0.01;
@@ -22,10 +22,10 @@ const FLOW_TIMES: f64 = 1.0;
 /// Largest deviation of the entry pressure from the formula that the case expects, as a share.
 const EXPECTED: f64 = 0.02;
 
-/// What a network says of its fluids.
+/// The fluids of the cut-outs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fluids {
-    /// The wetting and the non-wetting phase, where they are given.
+    /// The wetting and the non-wetting phase, where those of the network are wanted and known.
     pub given: [Option<Fluid>; 2],
     /// Interfacial tension in N/m.
     pub tension: f64,
@@ -120,8 +120,9 @@ fn phase(name: &str, fluid: Fluid) -> String {
 pub fn entry(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
     let (width, tension) = (cut_out.width, fluids.tension);
     let [wetting, other] = fluids.of(width);
+    // The thicker phase takes most of a swing away.
     let density = wetting.density.max(other.density);
-    let viscosity = wetting.viscosity.min(other.viscosity);
+    let viscosity = wetting.viscosity.max(other.viscosity);
     let size = crate::math::Vec2::from(cut_out.geometry.max) - crate::math::Vec2::from(cut_out.geometry.min);
     let length = size.min().max(width);
     let end = (CAPILLARY_TIMES * (density * length.powi(3) / tension).sqrt())
