@@ -34,7 +34,7 @@ pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         .map_err(|error: String| usage(&error))?;
     let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;
     let mut planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
-    let given = if arguments.case_fluids { subject.fluids } else { [None; 2] };
+    let given = if arguments.alike { [None; 2] } else { subject.fluids };
     let fluids = Fluids { given, tension: subject.tension, invading: subject.invading };
     let spacings: Vec<u32> = arguments.spacings.iter().map(|across| across.get()).collect();
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}-verify", source.name)));

@@ -28,10 +28,9 @@ pub struct VerifyArguments {
     /// Chooses the random throats
     #[arg(long, default_value = "1")]
     pub seed: u64,
-    /// Take the fluids of [network.phases] in place of two alike that come to rest soon; no pressure at rest depends on them, and water with air
-    /// takes a thousand times as long
+    /// Take two fluids alike that come to rest soon in place of those of [network.phases]; no pressure at rest depends on them
     #[arg(long)]
-    pub case_fluids: bool,
+    pub alike: bool,
     /// Change a value of the case
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,

@@ -7,9 +7,9 @@ use crate::case::checked::Fluid;
 use crate::geometry::spec::{CurvedPolygon, ShapeSpec};
 use crate::network::cycles::Fluid as Phase;
 
-/// Density in kg/m³ where no other fluid is wanted: at rest no pressure depends on it.
+/// Density in kg/m³ where the network gives none: at rest no pressure depends on it.
 pub const DENSITY: f64 = 1000.0;
-/// Viscosity over √(density · tension · width) where no other fluid is wanted: menisci come to rest without a long swing.
+/// Viscosity over √(density · tension · width) where the network gives none: menisci come to rest without a long swing.
 pub const OHNESORGE: f64 = 0.1;
 /// Reynolds number ρQ/μ of the flow that conductances are measured by.
 const REYNOLDS: f64 = 0.01;
