@@ -1,5 +1,15 @@
 //! The small mathematics of the plane: two-vectors and two-by-two matrices of nalgebra, boxes, the shape of the kernel.
 
+/// Start value of the hash FNV-1a of 64 bits.
+pub const FNV1A_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// The hash FNV-1a of 64 bits (Fowler, Noll, Vo), gone on with from `hash`: the same on every machine and version.
+#[must_use]
+pub fn fnv1a(hash: u64, bytes: impl IntoIterator<Item = u8>) -> u64 {
+    const PRIME: u64 = 0x0100_0000_01b3;
+    bytes.into_iter().fold(hash, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
+}
+
 /// A point or a vector of the plane.
 pub type Vec2 = nalgebra::Vector2<f64>;
 

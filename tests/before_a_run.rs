@@ -64,6 +64,28 @@ fn check_tells_the_resolution_of_the_narrowest_throat_and_takes_it_as_length() {
 }
 
 #[test]
+fn check_advises_which_model_can_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = |name: &str| std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(name).display().to_string();
+    let direct = case("cases/from-network.toml");
+    let fine = stdout(&meniscus(folder.path(), &["check", &direct]));
+    assert!(line(&fine, "network").starts_with("20 pores and 33 throats"), "{fine}");
+    assert!(line(&fine, "direct").contains("8.0 spacings across the narrowest throat"), "{fine}");
+    assert!(line(&fine, "ADVICE").contains("the direct simulation can answer"), "{fine}");
+    let coarse = stdout(&meniscus(folder.path(), &["check", &direct, "--set", "sph.spacing=9e-6"]));
+    let advice = line(&coarse, "ADVICE");
+    assert!(
+        advice.starts_with("5.6 spacings across the narrowest throat at this spacing: use the network"),
+        "{advice}"
+    );
+    let json = stdout(&meniscus(folder.path(), &["check", &case("cases/network/hand-over.toml"), "--json"]));
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["advice"]["pores"], 20);
+    assert!(json["advice"]["sentence"].as_str().unwrap().starts_with("use the network"));
+    assert!(json["warnings"].is_array() && json["steps"].is_number());
+}
+
+#[test]
 fn geometry_measures_and_draws_every_shape_file() {
     let folder = tempfile::tempdir().unwrap();
     for file in shipped("geometries", &["toml", "xyr", "wkt"]) {

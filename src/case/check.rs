@@ -79,14 +79,19 @@ impl Checker {
     }
 }
 
-/// The end of the simulation in s; of a network the most that it can displace, in pore volumes.
+/// Whether the clock of the case counts displaced pore volumes.
+fn is_quasi_static(raw: &RawCase) -> bool {
+    raw.network.as_ref().is_some_and(|network| network.dynamic.is_none())
+}
+
+/// The end of the simulation in s; of a quasi-static network the most that it can displace, in pore volumes.
 pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -> Option<f64> {
-    if raw.network.is_some() {
+    if is_quasi_static(raw) {
         if raw.time.is_some() {
             checker.refuse(
                 "time",
                 "a quasi-static displacement has no time: its clock is the displaced pore volume",
-                "leave out [time]; the displacement ends by itself, or where [network.stop] says",
+                "leave out [time]; the displacement ends by itself, or where [network.stop] says; [network.dynamic] makes it one in time",
             );
         }
         let Some(Model::Network(network)) = model else { return None };
@@ -102,9 +107,9 @@ pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -
 /// What is written and when; `end` is missing where it was wrong.
 pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>) -> Output {
     let output = raw.output.clone().unwrap_or_default();
-    let by_volume = raw.network.is_some();
+    let by_volume = is_quasi_static(raw);
     let ratio = output.grid.as_ref().and_then(|grid| grid.ratio);
-    if by_volume && output.grid.is_some() {
+    if raw.network.is_some() && output.grid.is_some() {
         checker.refuse("output.grid", "a network has no grid", "leave this out");
     }
     let ratio = checker.within("output.grid.ratio", ratio, (0.25, 100.0), "grid distance over particle spacing");

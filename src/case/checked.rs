@@ -3,6 +3,7 @@
 use super::film::checked::ThinFilm;
 pub use super::measures::MeasureSet;
 use super::network::checked::PoreNetwork;
+use super::network::state::Start;
 pub use super::patches::{PatchedWall, Stripes, WettingPatch};
 pub use super::steady::{FEWEST_ROWS, SteadyStop};
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
@@ -191,7 +192,7 @@ impl WettingModel {
 }
 
 /// One side of the domain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Side {
     /// Joined to the opposite side.
@@ -259,6 +260,9 @@ pub struct Initial {
     pub wetting: Vec<ShapeSpec>,
     /// ... or, where true, all that is outside of them (`sph.initial.background = "wetting"`).
     pub wetting_is_background: bool,
+    /// The state of a network that says it instead (`sph.initial.network`).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub network: Option<Start>,
     /// Initial velocity.
     pub velocity: InitialVelocity,
 }

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::check::{self, Checker};
 use super::checked::{Case, Model};
+use super::network::state::Start;
 use super::raw::{RawCase, RawGeometry, RawShapeFile};
-use super::{film, network, resolve, shapes, sph, steady};
+use super::{film, network, resolve, shapes, sph, start, steady};
 use crate::geometry::ShapeFileError;
 use crate::geometry::import::{self, Beyond, Format, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
@@ -91,11 +92,12 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
         if has_window { cut(&mut checker, spec, beyond, &mut notes) } else { Some(spec) }
     });
     let folder = match origin {
-        Origin::Disk(path) => path.parent().unwrap_or(Path::new("")),
+        Origin::Disk(case) => case.parent().unwrap_or(Path::new("")),
         Origin::BuiltIn => Path::new(""),
     };
+    let start = start::start(&mut checker, raw, folder, geometry.as_ref(), &mut sources);
     let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
-    let model = model(&mut checker, &RawCase { network, ..raw.clone() }, geometry.as_ref());
+    let model = model(&mut checker, &RawCase { network, ..raw.clone() }, geometry.as_ref(), start);
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref());
     let end = check::end(&mut checker, raw, model.as_ref());
     let output = check::output(&mut checker, raw, end);
@@ -113,12 +115,12 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     Ok(Loaded { case, resolved, sources, notes, document })
 }
 
-fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>) -> Option<Model> {
+fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>, start: Option<Start>) -> Option<Model> {
     match (&raw.sph, &raw.thin_film, &raw.network) {
-        (Some(raw), None, None) => sph::sph(checker, raw, geometry).map(|sph| Model::Sph(Box::new(sph))),
+        (Some(raw), None, None) => sph::sph(checker, raw, geometry, start).map(|sph| Model::Sph(Box::new(sph))),
         (None, Some(raw), None) => film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
         (None, None, Some(raw)) => {
-            network::network(checker, raw, geometry).map(|network| Model::Network(Box::new(network)))
+            network::network(checker, raw, geometry, start).map(|network| Model::Network(Box::new(network)))
         }
         (None, None, None) => {
             checker.refuse("sph", "expected a model, found none", "add the table [sph], [thin-film] or [network]");

@@ -53,6 +53,34 @@ const NETWORK: &[&str] = &[
     "events",
     "hysteresis-work-J-per-m3",
 ];
+/// Those of every displacement in time.
+const NETWORK_IN_TIME: &[&str] = &[
+    "porosity",
+    "pores",
+    "throats",
+    "narrowest-throat-m",
+    "widest-throat-m",
+    "permeability-x-m2",
+    "permeability-y-m2",
+    "smallest-entry-pressure-Pa",
+    "median-entry-pressure-Pa",
+    "largest-entry-pressure-Pa",
+    "breakthrough-time-s",
+    "breakthrough-pressure-difference-Pa",
+    "largest-pressure-difference-Pa",
+    "saturation-at-breakthrough",
+    "injected-pore-volumes",
+    "final-wetting-saturation",
+    "trapped-saturation",
+    "capillary-number",
+    "viscosity-ratio",
+    "finger-width-m",
+    "fingers-per-line",
+    "interface-length-m",
+    "balance-error",
+    "events",
+    "solves-per-event",
+];
 /// Those of a thin film.
 const THIN_FILM: &[&str] = &[
     "contact-line-position",
@@ -110,7 +138,10 @@ pub fn offers(model: &Model, is_steady: bool) -> Vec<Offer> {
             all
         }
         Model::ThinFilm(_) => vec![steady, Offer::new(THIN_FILM, "a thin film", true)],
-        Model::Network(_) => vec![Offer::new(NETWORK, "a network", true)],
+        Model::Network(network) => vec![
+            Offer::new(NETWORK, "quasi-static displacement", !network.is_dynamic()),
+            Offer::new(NETWORK_IN_TIME, "[network.dynamic]", network.is_dynamic()),
+        ],
     }
 }
 

@@ -7,6 +7,7 @@ mod check;
 pub mod checked;
 mod facts;
 pub mod film;
+mod initial;
 mod kind;
 mod load;
 pub mod measures;
@@ -21,6 +22,7 @@ mod schema;
 mod shapes;
 mod sides;
 mod sph;
+mod start;
 mod steady;
 mod wetting;
 

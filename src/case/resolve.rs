@@ -84,6 +84,7 @@ fn raw_output(output: &Output, by_volume: bool) -> RawOutput {
 
 fn raw_sph(sph: &Sph) -> RawSph {
     let two_phases = sph.non_wetting.is_some();
+    let by_shapes = two_phases && sph.initial.network.is_none();
     let background = if sph.initial.wetting_is_background { RawPhase::Wetting } else { RawPhase::NonWetting };
     RawSph {
         spacing: Some(sph.spacing),
@@ -105,8 +106,9 @@ fn raw_sph(sph: &Sph) -> RawSph {
             line_slip_length: sph.wetting_model.map(|_| sph.walls.line_slip_length),
         }),
         initial: Some(RawInitial {
-            background: two_phases.then_some(background),
-            wetting: two_phases.then(|| sph.initial.wetting.clone()),
+            background: by_shapes.then_some(background),
+            wetting: by_shapes.then(|| sph.initial.wetting.clone()),
+            network: sph.initial.network.as_ref().map(|start| start.file.clone()),
             velocity: Some(raw_velocity(&sph.initial.velocity)),
         }),
         numerics: Some(raw_numerics(&sph.numerics)),

@@ -1,12 +1,12 @@
 //! Checks of `[sph]`: ranges of every value, and which values go together.
 
 use super::check::Checker;
-use super::checked::{Fluid, Initial, InitialVelocity, LineDelta, MeasureSet, Sph, SurfaceForce};
+use super::checked::{Fluid, LineDelta, MeasureSet, Sph, SurfaceForce};
+use super::network::state::Start;
 use super::preset::{COLD, WARM};
-use super::raw::{RawCsf, RawFluid, RawInitial, RawLineDelta, RawPhase, RawSph};
-use super::shapes::shape_problems;
+use super::raw::{RawCsf, RawFluid, RawLineDelta, RawSph};
 use super::sides::{sides, wall_speeds, walls};
-use super::{numerics, wetting};
+use super::{initial, numerics, wetting};
 use crate::geometry::spec::GeometrySpec;
 use crate::math::Vec2;
 
@@ -23,7 +23,12 @@ const SMOOTHING_RATIO: (f64, f64) = (1.0, 3.0);
 const LARGEST_DENSITY_RATIO: f64 = 1.0e4;
 
 /// Checks `[sph]`; `geometry` is missing where it was wrong.
-pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&GeometrySpec>) -> Option<Sph> {
+pub(super) fn sph(
+    checker: &mut Checker,
+    raw: &RawSph,
+    geometry: Option<&GeometrySpec>,
+    start: Option<Start>,
+) -> Option<Sph> {
     let spacing = checker.require_positive("sph.spacing", raw.spacing, "spacing = 2.0e-5 # m", "a spacing in m");
     if let (Some(spacing), Some(geometry)) = (spacing, geometry) {
         particle_count(checker, spacing, geometry);
@@ -60,7 +65,11 @@ pub(super) fn sph(checker: &mut Checker, raw: &RawSph, geometry: Option<&Geometr
         Some(model) => wetting::patches(checker, "sph.wetting", raw.wetting.as_ref(), model, Some(&sides), geometry),
         None => Vec::new(),
     };
-    let initial = initial(checker, &raw.initial.clone().unwrap_or_default(), two_phases, geometry);
+    let raw_initial = raw.initial.clone().unwrap_or_default();
+    let initial = match raw_initial.network {
+        Some(_) => initial::from_network(checker, &raw_initial, two_phases, &sides, start),
+        None => initial::initial(checker, &raw_initial, two_phases, geometry),
+    };
     let walls = walls(checker, &raw.walls.clone().unwrap_or_default(), wetting_model.is_some(), spacing);
     let default = numerics::default(surface_force);
     let numerics = numerics::numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
@@ -211,6 +220,7 @@ fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
         ("sph.wetting", raw.wetting.is_some()),
         ("sph.initial.background", initial.is_some_and(|initial| initial.background.is_some())),
         ("sph.initial.wetting", initial.is_some_and(|initial| initial.wetting.is_some())),
+        ("sph.initial.network", initial.is_some_and(|initial| initial.network.is_some())),
     ];
     for (path, _) in given.into_iter().filter(|(_, given)| *given) {
         checker.refuse(
@@ -218,50 +228,5 @@ fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
             format!("`{path}` needs two phases, and there is no [sph.phases.non-wetting]"),
             "add the second phase, or leave this out",
         );
-    }
-}
-
-fn initial(
-    checker: &mut Checker,
-    raw: &RawInitial,
-    two_phases: bool,
-    geometry: Option<&GeometrySpec>,
-) -> Option<Initial> {
-    let wetting = raw.wetting.clone().unwrap_or_default();
-    for (index, shape) in wetting.iter().enumerate() {
-        checker.problems.extend(shape_problems(&format!("sph.initial.wetting[{index}]"), shape, geometry));
-    }
-    if two_phases && wetting.is_empty() {
-        checker.refuse(
-            "sph.initial.wetting",
-            "there are two phases, and no shape says where they are",
-            "add [[sph.initial.wetting]] with a shape, such as disc = { center = [0.0, 0.0], radius = 1.0e-3 }",
-        );
-    }
-    let velocity = velocity(checker, raw);
-    let wetting_is_background = !two_phases || raw.background == Some(RawPhase::Wetting);
-    Some(Initial { wetting, wetting_is_background, velocity: velocity? })
-}
-
-fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> {
-    const PATH: &str = "sph.initial.velocity";
-    let Some(raw) = &raw.velocity else { return Some(InitialVelocity::Rest) };
-    let speed = raw.taylor_green.as_ref().map(|raw| {
-        let path = format!("{PATH}.taylor-green.speed");
-        checker.require_positive(&path, raw.speed, "speed = 1.0 # m/s", "a speed in m/s")
-    });
-    match (raw.rest, raw.uniform, speed) {
-        (Some(_), None, None) => Some(InitialVelocity::Rest),
-        (None, Some(velocity), None) => Some(InitialVelocity::Uniform(Vec2::from(velocity))),
-        (None, None, Some(speed)) => speed.map(InitialVelocity::TaylorGreen),
-        (rest, uniform, speed) => {
-            let count = usize::from(rest.is_some()) + usize::from(uniform.is_some()) + usize::from(speed.is_some());
-            checker.refuse(
-                PATH,
-                format!("expected exactly one velocity field, found {count}"),
-                "choose one of `rest`, `uniform`, `taylor-green`",
-            );
-            None
-        }
     }
 }

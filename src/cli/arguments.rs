@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use super::compare::CompareArguments;
 use super::import_arguments::ImportArguments;
 use super::verify_arguments::NetworkCommand;
 
@@ -43,6 +44,8 @@ pub enum Command {
     /// Extract pores and throats of a shape file, and displace one fluid by another in them
     #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
     Network(NetworkArguments),
+    /// Run a network and a direct simulation of the same geometry, and write a page with both side by side
+    Compare(CompareArguments),
     /// Parameter studies: many runs from one file, with a table, curves and a page
     #[command(subcommand)]
     Study(StudyCommand),

@@ -7,6 +7,7 @@ use super::progress::ProgressDisplay;
 use super::run::built;
 use super::source;
 use crate::case::checked::{Case, Model};
+use crate::run::advice::{self, Advice};
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
 use crate::run::trial::{Trial, trial};
@@ -21,9 +22,11 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let case = &source.case;
     let mut solver = built(case)?;
     let found = tried(case, solver.as_mut())?;
+    let advice = advice::advice(case, Some(&found));
+    let warnings = setup::warnings(case, solver.as_ref());
     if arguments.json {
-        let text = serde_json::to_string_pretty(&found).map_err(|error| Failure::new(BUG, &error))?;
-        say(text);
+        let told = Told { trial: &found, warnings: &warnings, advice: advice.as_ref() };
+        say(told.json().map_err(|error| Failure::new(BUG, &error))?);
         return Ok(DONE);
     }
     say(&case.title);
@@ -33,6 +36,7 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
             say(format_args!("  memory      {:.0} MiB", memory as f64 / BYTES_PER_MEBIBYTE));
         }
         say(format_args!("  run         at most {} events, about {}", found.steps, duration(found.duration_s)));
+        advice.iter().for_each(tell_advice);
         return Ok(DONE);
     }
     let spacing = spacing(case);
@@ -67,10 +71,54 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     }
     say(format_args!("  L           = {} m, {}", readable(length.value), length.name));
     say(format_args!("  U           = {} m/s, {formula}", readable(speed)));
-    for warning in setup::warnings(case, solver.as_ref()) {
+    advice.iter().for_each(tell_advice);
+    for warning in warnings {
         say(format_args!("  WARNING     {warning}"));
     }
     Ok(DONE)
+}
+
+/// What `--json` tells.
+struct Told<'a> {
+    trial: &'a Trial,
+    warnings: &'a [String],
+    advice: Option<&'a Advice>,
+}
+
+impl Told<'_> {
+    /// The keys of the trial, `warnings` and, where there is one, `advice`.
+    fn json(&self) -> Result<String, serde_json::Error> {
+        let mut told = serde_json::to_value(self.trial)?;
+        told["warnings"] = serde_json::to_value(self.warnings)?;
+        if let Some(advice) = self.advice {
+            told["advice"] = serde_json::to_value(advice)?;
+        }
+        serde_json::to_string_pretty(&told)
+    }
+}
+
+/// What both models would take, and which can answer.
+fn tell_advice(advice: &Advice) {
+    let Advice { pores, throats, network_s, .. } = advice;
+    say(format_args!("  network     {pores} pores and {throats} throats, found in {}", duration(*network_s)));
+    let took = advice.steps.zip(advice.hours);
+    let took =
+        took.map_or(String::new(), |(steps, hours)| format!(", {steps} steps, about {}", duration(3600.0 * hours)));
+    say(format_args!(
+        "  direct      {} particles, {:.1} spacings across the narrowest throat{took}",
+        advice.particles, advice.spacings_across
+    ));
+    for pore in &advice.numbers {
+        say(format_args!(
+            "  {:<11} pore of {} m: Ca = {}, Oh = {}, Bo = {}",
+            pore.pore,
+            readable(pore.radius_m),
+            readable(pore.capillary),
+            readable(pore.viscous),
+            readable(pore.bond)
+        ));
+    }
+    say(format_args!("  ADVICE      {}", advice.sentence));
 }
 
 /// Tries the first steps; says so before and in between where they take long.

@@ -5,6 +5,7 @@
 
 pub mod arguments;
 mod check;
+mod compare;
 mod entry;
 pub mod exit;
 mod geometry;

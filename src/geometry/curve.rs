@@ -74,6 +74,28 @@ impl Curve {
         Self::arc_from_tangent(a, nalgebra::Rotation2::new(-angle) * (b - a).normalize(), b)
     }
 
+    /// The numbers that tell it: both ends of a segment, or center, radius, start and sweep of an arc.
+    pub fn numbers(&self) -> Vec<f64> {
+        match *self {
+            Self::Segment { a, b } => vec![a.x, a.y, b.x, b.y],
+            Self::Arc { center, radius, start, sweep } => vec![center.x, center.y, radius, start, sweep],
+        }
+    }
+
+    /// The curve of these [`numbers`](Self::numbers); none where there is no such curve.
+    pub fn from_numbers(numbers: &[f64]) -> Option<Self> {
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return None;
+        }
+        match *numbers {
+            [ax, ay, bx, by] => Some(Self::Segment { a: Vec2::new(ax, ay), b: Vec2::new(bx, by) }),
+            [x, y, radius, start, sweep] if radius > 0.0 && sweep.abs() <= TAU => {
+                Some(Self::Arc { center: Vec2::new(x, y), radius, start, sweep })
+            }
+            _ => None,
+        }
+    }
+
     /// Whether this is a full circle, which has no ends.
     pub fn is_closed(&self) -> bool {
         // Only exact circles are built with this sweep.

@@ -10,6 +10,7 @@ pub(crate) mod cosine;
 pub(crate) mod critical;
 pub mod curve;
 pub(crate) mod curve_set;
+pub mod elements;
 pub mod export;
 pub(crate) mod extent;
 #[cfg(test)]
@@ -24,6 +25,7 @@ pub mod shape_file;
 pub mod shells;
 pub mod solid;
 pub mod spec;
+pub(crate) mod surface;
 pub mod throats;
 pub(crate) mod tree;
 pub mod validate;

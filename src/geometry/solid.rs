@@ -6,13 +6,17 @@
 
 use crate::geometry::body::Body;
 use crate::geometry::boundary::{Boundary, Nearest, clip_body, complement, union};
+use crate::geometry::curve::Curve;
 use crate::geometry::spec::{GeometrySpec, SolidSide};
+use crate::geometry::surface;
 use crate::geometry::tree::Tree;
 use crate::input::problem::Problem;
-use crate::math::{Bounds, Vec2};
+use crate::math::{Bounds, FNV1A_BASIS, Vec2, fnv1a};
 
 /// Lengths below this share of the domain's larger side count as zero where curves meet.
 const TOLERANCE: f64 = 1e-9;
+/// Ends that are nearer than so many of these are one: they come from intersections computed twice, once on each curve.
+const ROUNDING: f64 = 10.0;
 
 /// The wall nearest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,6 +120,34 @@ impl Geometry {
         .rebuilt()
     }
 
+    /// The solid whose whole surface is known: `pieces` with the solid on their left, which end nowhere but at the sides of the domain. Repeated by
+    /// whole periods where the domain is joined along x or y; at other sides the surface goes on straight outwards.
+    ///
+    /// Questions are answered by the nearest piece alone, so that they make sense in the domain and near it.
+    #[must_use]
+    pub fn of_surface(domain: Bounds, periodic: [bool; 2], pieces: &[Curve]) -> Self {
+        let spec = GeometrySpec {
+            min: domain.min.into(),
+            max: domain.max.into(),
+            solid: SolidSide::Inside,
+            shapes: Vec::new(),
+        };
+        let mut empty = Self { periodic, ..Self::unchecked(&spec) };
+        let tolerance = ROUNDING * empty.tolerance();
+        empty.boundary = Boundary::new(surface::whole(domain, periodic, pieces, tolerance), tolerance);
+        empty
+    }
+
+    /// A hash of the domain and of the written shapes, bit by bit (FNV-1a); what stands at the sides does not matter.
+    #[must_use]
+    pub fn hash(&self) -> u64 {
+        let side = f64::from(self.side == SolidSide::Inside);
+        let corners = [self.domain.min.x, self.domain.min.y, self.domain.max.x, self.domain.max.y, side];
+        let curves = self.shapes.iter().flat_map(|body| body.curves.iter()).flat_map(|curve| curve.numbers());
+        let bytes = corners.into_iter().chain(curves).flat_map(|value| value.to_bits().to_le_bytes());
+        fnv1a(FNV1A_BASIS, bytes)
+    }
+
     /// The domain.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
@@ -176,8 +208,6 @@ impl Geometry {
             SolidSide::Inside => union(&[bodies, walls].concat(), tolerance),
             SolidSide::Outside => complement(&bodies, &walls, tolerance),
         };
-        // Ends come from intersections computed twice, once on each curve.
-        const ROUNDING: f64 = 10.0;
         self.boundary = Boundary::new(pieces, ROUNDING * tolerance);
         self
     }

@@ -4,10 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Start value of the hash.
-const OFFSET_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-/// Factor of the hash.
-const PRIME: u64 = 0x0100_0000_01b3;
+use crate::math;
 
 /// The hash of bytes that come piece by piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -15,14 +12,14 @@ pub struct Fnv1a(u64);
 
 impl Default for Fnv1a {
     fn default() -> Self {
-        Self(OFFSET_BASIS)
+        Self(math::FNV1A_BASIS)
     }
 }
 
 impl Fnv1a {
     /// Takes in the next piece.
     pub fn pass(&mut self, bytes: &[u8]) {
-        self.0 = bytes.iter().fold(self.0, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME));
+        self.0 = math::fnv1a(self.0, bytes.iter().copied());
     }
 }
 

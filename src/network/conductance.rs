@@ -12,30 +12,45 @@ use crate::network::graph::{Edge, Network, WallPiece};
 /// Pore centers closer to a chord than this share of its width are as far from it: conductances stay finite.
 const SHORTEST: f64 = 1e-6;
 
+/// Least resistance of a throat, times its squared width.
+pub(super) const LEAST_RESISTANCE: f64 = 12.0 * SHORTEST;
+
 /// The conductances of all throats in m².
 #[must_use]
 pub fn conductances(network: &Network) -> Vec<f64> {
-    let mut resistances = vec![0.0; network.throats.len()];
+    let of = |(throat, halves): (usize, [f64; 2])| finite(halves[0] + halves[1], network.throats[throat].width);
+    resistances(network).into_iter().enumerate().map(of).collect()
+}
+
+/// The resistances of all throats in 1/m², from the chord to the center of the first and of the second region.
+#[must_use]
+pub fn resistances(network: &Network) -> Vec<[f64; 2]> {
+    let mut resistances = vec![[0.0; 2]; network.throats.len()];
     each_edge(network, |region, index, edge| {
-        if let Edge::Throat { throat, from, to, .. } = *edge
-            && let Some(sum) = resistances.get_mut(throat)
+        if let Edge::Throat { throat, end, from, to } = *edge
+            && let Some(halves) = resistances.get_mut(throat)
         {
-            *sum += resistance(network, region, index, [from, to]);
+            halves[end.min(1)] += resistance(network, region, index, [from, to]);
         }
     });
-    let of = |(throat, resistance): (usize, f64)| finite(resistance, network.throats[throat].width);
-    resistances.into_iter().enumerate().map(of).collect()
+    resistances
 }
 
 /// The conductances of all openings in m², from the side to the center of the region behind it.
 #[must_use]
 pub fn opening_conductances(network: &Network) -> Vec<f64> {
-    let mut found = vec![0.0; network.openings.len()];
+    opening_resistances(network).into_iter().map(|resistance| 1.0 / resistance).collect()
+}
+
+/// The resistances of all openings in 1/m², from the side to the center of the region behind it.
+#[must_use]
+pub fn opening_resistances(network: &Network) -> Vec<f64> {
+    let mut found = vec![f64::INFINITY; network.openings.len()];
     each_edge(network, |region, index, edge| {
         if let Edge::Opening { opening, from, to } = *edge
-            && let Some(conductance) = found.get_mut(opening)
+            && let Some(found) = found.get_mut(opening)
         {
-            *conductance = finite(resistance(network, region, index, [from, to]), (to - from).norm());
+            *found = 1.0 / finite(resistance(network, region, index, [from, to]), (to - from).norm());
         }
     });
     found
@@ -50,7 +65,7 @@ fn each_edge(network: &Network, mut f: impl FnMut(usize, usize, &Edge)) {
 }
 
 fn finite(resistance: f64, width: f64) -> f64 {
-    1.0 / resistance.max(12.0 * SHORTEST / (width * width))
+    1.0 / resistance.max(LEAST_RESISTANCE / (width * width))
 }
 
 /// The resistance in 1/m² from an edge of a region without a wall to the center of the region.

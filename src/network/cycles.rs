@@ -5,8 +5,9 @@
 
 use std::sync::Arc;
 
-use super::displacement::{Conditions, Displacement, EventKind, Phase};
+use super::displacement::{Beginning, Conditions, Displacement, EventKind, Phase};
 use super::graph::{Network, Pores};
+use super::moment::Moment;
 use super::tables::kind_name;
 
 /// The fluids.
@@ -25,6 +26,16 @@ impl Fluid {
         match self {
             Self::Wetting => "wetting",
             Self::NonWetting => "non-wetting",
+        }
+    }
+
+    /// Curvature of menisci bulging into the wetting phase in 1/m for one that bulges into the defending phase by `curvature` where this
+    /// fluid invades, so that tension times it is p_n - p_w.
+    #[must_use]
+    pub fn towards_wetting(self, curvature: f64) -> f64 {
+        match self {
+            Self::NonWetting => curvature,
+            Self::Wetting => -curvature,
         }
     }
 
@@ -72,10 +83,7 @@ impl HalfCycle {
     /// tension times it is p_n - p_w.
     #[must_use]
     pub fn towards_wetting(&self, curvature: f64) -> f64 {
-        match self.invading {
-            Fluid::NonWetting => curvature,
-            Fluid::Wetting => -curvature,
-        }
+        self.invading.towards_wetting(curvature)
     }
 }
 
@@ -97,7 +105,7 @@ pub struct Entry {
 }
 
 /// When an element was filled in the present half cycle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Invasion {
     /// Number of the event within its half cycle, from 1 on; 0 for what is filled at the beginning, through an opening of the inlet.
     pub sequence: usize,
@@ -124,7 +132,9 @@ pub struct Cycles {
     network: Arc<Network>,
     pores: Arc<Pores>,
     half_cycles: Vec<HalfCycle>,
+    initial: Option<Arc<Beginning>>,
     displacement: Displacement,
+    breakthrough: Option<Arc<Moment>>,
     pore_area: f64,
     half_cycle: usize,
     is_done: bool,
@@ -152,18 +162,35 @@ fn tidy(saturation: f64) -> f64 {
 }
 
 impl Cycles {
-    /// The beginning of the first of the half cycles; none where there is no half cycle.
+    /// The beginning of the first of the half cycles, in a pore space full of the defending phase or in the phases of `initial`; none where
+    /// there is no half cycle.
     #[must_use]
-    pub fn new(network: Arc<Network>, pores: Arc<Pores>, half_cycles: Vec<HalfCycle>) -> Option<Self> {
+    pub fn new(
+        network: Arc<Network>,
+        pores: Arc<Pores>,
+        half_cycles: Vec<HalfCycle>,
+        initial: Option<Arc<Beginning>>,
+    ) -> Option<Self> {
         let first = half_cycles.first()?;
-        let displacement = Displacement::new(&network, &pores, first.conditions.clone());
-        let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
-        let wetting_area = if first.invading == Fluid::Wetting { 0.0 } else { pore_area };
+        let conditions = first.conditions.clone();
+        let displacement = match &initial {
+            Some(initial) => Displacement::beginning(&network, &pores, conditions, initial),
+            None => Displacement::new(&network, &pores, conditions),
+        };
+        let area = |element: usize| displacement.elements()[element].area;
         let elements = displacement.elements().len();
+        let is_held = |element: usize| initial.as_ref().is_some_and(|initial| initial.invaded[element]);
+        let pore_area: f64 = (0..elements).map(area).sum();
+        let invading_area: f64 = (0..elements).filter(|&element| is_held(element)).map(area).sum();
+        let wetting_area = if first.invading == Fluid::Wetting { invading_area } else { pore_area - invading_area };
+        let before: Vec<Phase> =
+            (0..elements).map(|element| if is_held(element) { Phase::Invading } else { Phase::Defending }).collect();
         let mut cycles = Self {
             network,
             pores,
+            initial,
             displacement,
+            breakthrough: None,
             pore_area,
             half_cycle: 0,
             is_done: false,
@@ -176,7 +203,7 @@ impl Cycles {
             displaced_before: 0.0,
             half_cycles,
         };
-        cycles.begin(&vec![Phase::Defending; elements]);
+        cycles.begin(&before);
         Some(cycles)
     }
 
@@ -219,7 +246,8 @@ impl Cycles {
     /// The same displacement at its beginning.
     #[must_use]
     pub fn restarted(&self) -> Option<Self> {
-        Self::new(Arc::clone(&self.network), Arc::clone(&self.pores), self.half_cycles.clone())
+        let initial = self.initial.clone();
+        Self::new(Arc::clone(&self.network), Arc::clone(&self.pores), self.half_cycles.clone(), initial)
     }
 
     /// Does the next event, or turns to the next half cycle; none where the displacement is over.
@@ -244,7 +272,16 @@ impl Cycles {
             self.outcomes[self.half_cycle].breakthrough = Some((applied, self.invading_saturation()));
         }
         self.history.push(Entry { half_cycle, kind: event.kind, throat: event.throat, curvature, applied, saturation });
+        if self.breakthrough.is_none() && self.displacement.reached_outlet() {
+            self.breakthrough = Some(Arc::new(self.moment()));
+        }
         Some(kind_name(event.kind))
+    }
+
+    /// The moment after the event by which an invading phase first reached its outlet.
+    #[must_use]
+    pub fn breakthrough(&self) -> Option<&Moment> {
+        self.breakthrough.as_deref()
     }
 
     fn has_ended_early(&self) -> bool {

@@ -4,7 +4,8 @@
 
 use super::cycles::{Cycles, Fluid};
 use super::displacement::Phase;
-use super::permeability::{Drive, FlowError, Paths, permeability};
+use super::laplacian::FlowError;
+use super::permeability::{Drive, Paths, permeability};
 use super::solver::{NetworkSolver, Setting};
 use super::tables::numbers;
 use crate::table::Table;

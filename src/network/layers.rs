@@ -1,6 +1,7 @@
 //! The network as VTK sees it: pores as points, throats as lines, regions as polygons, menisci as lines.
 
-use super::cycles::{Cycles, Fluid};
+use super::cycles::{Fluid, Invasion};
+use super::occupation::Occupation;
 use super::solver::{NetworkSolver, Setting};
 use super::summary::PoreStates;
 use super::tables::{arms, center, kept, length, middle, pores_of, radius};
@@ -34,33 +35,28 @@ fn joined(parts: impl IntoIterator<Item = Vec<Vec2>>) -> (Vec<Vec2>, Vec<Vec<u32
     (points, cells)
 }
 
-/// The menisci at the applied pressure.
-pub fn menisci(cycles: &Cycles) -> Lines<'static> {
-    let applied = cycles.applied().map_or(0.0, |applied| cycles.half_cycle().towards_wetting(applied));
-    let (points, lines) = joined(cycles.displacement().menisci(applied));
+/// Menisci as polylines.
+pub fn menisci(menisci: Vec<Vec<Vec2>>) -> Lines<'static> {
+    let (points, lines) = joined(menisci);
     Lines { points: points.into(), lines, fields: Vec::new() }
 }
 
 /// The parts of the pore space that events fill, with pore, phase, sequence and capillary pressure at invasion.
-pub fn regions(solver: &NetworkSolver) -> Layer<'static> {
-    let setting = solver.setting();
+pub fn regions(setting: &Setting, occupation: Option<&Occupation>) -> Layer<'static> {
     let pores = &setting.pores;
-    let Some(cycles) = solver.cycles() else { return plain_regions(setting) };
-    let displacement = cycles.displacement();
-    let elements = displacement.elements();
+    let Some(occupation) = occupation else { return plain_regions(setting) };
+    let elements = occupation.elements;
     let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
     let tension = setting.tension.unwrap_or(f64::NAN);
-    let invasions = || cycles.invasions().iter();
+    let pressure = |invasion: &Invasion| tension * invasion.applied;
+    let invasions = || occupation.invasions.iter();
     let fields = vec![
         integer("pore", elements.iter().map(|element| pores.pore_of[element.region] as i64)),
-        integer("phase", (0..elements.len()).map(|element| phase(cycles.fluid(element)))),
-        integer("trapped", (0..elements.len()).map(|element| i64::from(displacement.is_trapped(element)))),
+        integer("phase", (0..elements.len()).map(|element| phase(occupation.fluid(element)))),
+        scalar("invading-share", "", occupation.share.iter().copied()),
+        integer("trapped", occupation.trapped.iter().map(|&trapped| i64::from(trapped))),
         integer("sequence", invasions().map(|it| it.map_or(NOT_INVADED, |invasion| invasion.sequence as i64))),
-        scalar(
-            "capillary-pressure-at-invasion",
-            "Pa",
-            invasions().map(|it| it.map_or(f64::NAN, |invasion| tension * invasion.applied)),
-        ),
+        scalar("capillary-pressure-at-invasion", "Pa", invasions().map(|it| it.as_ref().map_or(f64::NAN, pressure))),
         scalar(
             "displaced-saturation-at-invasion",
             "",
@@ -81,7 +77,7 @@ fn plain_regions(setting: &Setting) -> Layer<'static> {
 }
 
 /// `pores.vtp` and `throats.vtp`.
-pub fn pores_and_throats(solver: &NetworkSolver) -> Vec<Layer<'static>> {
+pub fn pores_and_throats(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Vec<Layer<'static>> {
     let setting = solver.setting();
     let count = setting.pores.main_region.len();
     let centers: Vec<Vec2> = (0..count).map(|pore| center(setting, pore)).collect();
@@ -90,8 +86,8 @@ pub fn pores_and_throats(solver: &NetworkSolver) -> Vec<Layer<'static>> {
         scalar("inscribed-radius", "m", (0..count).map(|pore| radius(setting, pore))),
         scalar("area", "m2", setting.pores.area.iter().copied()),
     ];
-    if let Some(cycles) = solver.cycles() {
-        let states = PoreStates::new(setting, cycles).0;
+    if let Some(occupation) = occupation {
+        let states = PoreStates::new(setting, occupation).0;
         fields.extend([
             integer("phase", states.iter().map(|state| phase(state.fluid))),
             integer("trapped", states.iter().map(|state| i64::from(state.is_trapped))),

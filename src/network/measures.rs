@@ -14,13 +14,19 @@ fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Mea
 /// All measures.
 pub fn all(solver: &NetworkSolver) -> Vec<Measure> {
     let setting = solver.setting();
-    let mut found = of_network(setting);
-    found.extend(permeabilities(solver));
-    found.extend(entry_pressures(solver));
+    let mut found = of_network_with_flow(solver);
     found.extend(replaced(solver));
     if let Some(cycles) = solver.cycles() {
         found.extend(of_displacement(setting, cycles));
     }
+    found
+}
+
+/// The measures that know no displacement.
+pub fn of_network_with_flow(solver: &NetworkSolver) -> Vec<Measure> {
+    let mut found = of_network(solver.setting());
+    found.extend(permeabilities(solver));
+    found.extend(entry_pressures(solver));
     found
 }
 

@@ -4,24 +4,10 @@
 //! Laplacian, factored by Cholesky. Parts of the network without a way from side to side carry no flow.
 //! All regions count, whatever persistence ratio pores are told by: a passage that has no neck conducts well.
 
-use faer::Side;
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMat, Triplet};
-
-use crate::math::{Bounds, factor_in_one_thread};
+use crate::math::Bounds;
 use crate::network::conductance::opening_conductances;
 use crate::network::graph::Network;
-
-/// A network that does not fit into the memory as a matrix, or whose conductances are no numbers above 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the flow through a network of {regions} regions could not be solved: its conductances differ too much, or memory is short"
-)]
-pub struct FlowError {
-    /// Number of regions.
-    pub regions: usize,
-}
+use crate::network::laplacian::{Conductor, Edge, FlowError, Laplacian};
 
 /// What drives the flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,37 +32,25 @@ pub struct Paths<'a> {
 /// # Errors
 /// [`FlowError`].
 pub fn permeability(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> Result<f64, FlowError> {
-    let graph = graph(network, paths, domain, drive);
-    let dissipation = graph.dissipation()?;
+    let (edges, conductors): (Vec<Edge>, Vec<Conductor>) =
+        conductors(network, paths, domain, drive).into_iter().unzip();
+    let flow = Laplacian::new(network.regions.len(), edges)?.solve(&conductors, &[])?;
+    let dissipation: f64 = flow.through.iter().zip(&conductors).map(|(q, c)| q * q / c.conductance).sum();
     Ok(dissipation / domain.area())
 }
 
-/// A conductor between two nodes, or from a node to a given pressure.
-struct Conductor {
-    from: usize,
-    to: Option<usize>,
-    conductance: f64,
-    /// Pressure difference between both ends besides that of the nodes: the pressure of `from` plus this, less that of `to`.
-    jump: f64,
-}
-
-struct Graph {
-    nodes: usize,
-    conductors: Vec<Conductor>,
-}
-
 /// The conductors under a mean gradient of 1.
-fn graph(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> Graph {
+fn conductors(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> Vec<(Edge, Conductor)> {
     let axis = match drive {
         Drive::Sides(axis) | Drive::Periodic(axis) => axis,
     };
-    let mut conductors = Vec::new();
+    let mut found = Vec::new();
     for (throat, &conductance) in network.throats.iter().zip(paths.conductance) {
         let [from, to] = throat.regions;
         if conductance > 0.0 {
             // Pressure falls by the gradient times the period each time that a frame is left.
             let jump = if matches!(drive, Drive::Periodic(_)) { -throat.shift[axis] } else { 0.0 };
-            conductors.push(Conductor { from, to: Some(to), conductance, jump });
+            found.push((Edge { ends: (from, Some(to)), is_good: false }, Conductor { conductance, jump }));
         }
     }
     if matches!(drive, Drive::Sides(_)) {
@@ -87,96 +61,11 @@ fn graph(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> Graph
                 continue;
             }
             let pressure = if is_low { domain.size()[axis] } else { 0.0 };
-            conductors.push(Conductor { from: opening.region, to: None, conductance, jump: -pressure });
+            let edge = Edge { ends: (opening.region, None), is_good: false };
+            found.push((edge, Conductor { conductance, jump: -pressure }));
         }
     }
-    Graph { nodes: network.regions.len(), conductors }
-}
-
-impl Graph {
-    /// Σ g Δp².
-    fn dissipation(&self) -> Result<f64, FlowError> {
-        let row_of = self.rows();
-        let pressure = self.pressures(&row_of)?;
-        let at = |node: usize| row_of[node].map_or(0.0, |row| pressure[row]);
-        let power = |c: &Conductor| {
-            // Parts that hang on nothing keep the pressure 0 and carry nothing.
-            let drop = at(c.from) + c.jump - c.to.map_or(0.0, at);
-            c.conductance * drop * drop
-        };
-        Ok(self.conductors.iter().map(power).sum())
-    }
-
-    /// The row of each node whose pressure is unknown: one node of each part without a given pressure has the pressure 0.
-    fn rows(&self) -> Vec<Option<usize>> {
-        let mut parent: Vec<usize> = (0..self.nodes).collect();
-        for conductor in &self.conductors {
-            if let Some(to) = conductor.to {
-                let (a, b) = (root(&mut parent, conductor.from), root(&mut parent, to));
-                // The smallest index names a part.
-                parent[a.max(b)] = a.min(b);
-            }
-        }
-        let mut is_given = vec![false; self.nodes];
-        for conductor in self.conductors.iter().filter(|conductor| conductor.to.is_none()) {
-            is_given[root(&mut parent, conductor.from)] = true;
-        }
-        let mut rows = 0;
-        (0..self.nodes)
-            .map(|node| {
-                let part = root(&mut parent, node);
-                let is_unknown = part != node || is_given[part];
-                is_unknown.then(|| {
-                    rows += 1;
-                    rows - 1
-                })
-            })
-            .collect()
-    }
-
-    fn pressures(&self, row_of: &[Option<usize>]) -> Result<Vec<f64>, FlowError> {
-        factor_in_one_thread();
-        let error = FlowError { regions: self.nodes };
-        let size = row_of.iter().flatten().count();
-        let mut right = faer::Mat::<f64>::zeros(size, 1);
-        let mut entries = Vec::with_capacity(3 * self.conductors.len());
-        for &Conductor { from, to, conductance, jump } in &self.conductors {
-            let (a, b) = (row_of[from], to.and_then(|to| row_of[to]));
-            if a == b {
-                // From a node to itself, around the period.
-                if to.is_some() {
-                    continue;
-                }
-            }
-            for (row, sign) in [(a, -1.0), (b, 1.0)] {
-                if let Some(row) = row {
-                    entries.push(Triplet::new(row, row, conductance));
-                    right[(row, 0)] += sign * conductance * jump;
-                }
-            }
-            if let (Some(a), Some(b)) = (a, b) {
-                entries.push(Triplet::new(a.max(b), a.min(b), -conductance));
-            }
-        }
-        if size == 0 {
-            return Ok(Vec::new());
-        }
-        let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &entries).map_err(|_| error)?;
-        let symbolic = SymbolicLlt::try_new(matrix.symbolic(), Side::Lower).map_err(|_| error)?;
-        let factors = Llt::try_new_with_symbolic(symbolic, matrix.as_ref(), Side::Lower).map_err(|_| error)?;
-        let solution = factors.solve(&right);
-        let pressure: Vec<f64> = (0..size).map(|row| solution[(row, 0)]).collect();
-        if pressure.iter().all(|p| p.is_finite()) { Ok(pressure) } else { Err(error) }
-    }
-}
-
-/// The smallest index of the part of a node.
-fn root(parent: &mut [usize], mut node: usize) -> usize {
-    while parent[node] != node {
-        parent[node] = parent[parent[node]];
-        node = parent[node];
-    }
-    node
+    found
 }
 
 #[cfg(test)]

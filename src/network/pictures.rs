@@ -1,6 +1,7 @@
 //! The capillary pressure curve and the maps of a network, as data.
 
 use super::cycles::{Cycles, Fluid};
+use super::occupation::Occupation;
 use super::solver::{NetworkSolver, Setting};
 use super::tables::{kept, radius};
 use crate::diagram::{Area, Axis, Color, Diagram, Mosaic, Stroke, Tone, Trace};
@@ -120,9 +121,8 @@ fn images(setting: &Setting, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// The maps: the order of invasion, or the pores by their size where nothing is displaced.
-pub fn mosaics(solver: &NetworkSolver) -> Vec<Mosaic> {
-    let setting = solver.setting();
-    vec![solver.cycles().map_or_else(|| sizes(setting), |cycles| order(setting, cycles))]
+pub fn mosaics(setting: &Setting, occupation: Option<&Occupation>) -> Vec<Mosaic> {
+    vec![occupation.map_or_else(|| sizes(setting), |occupation| order(setting, occupation))]
 }
 
 fn empty(setting: &Setting) -> Mosaic {
@@ -142,38 +142,28 @@ fn empty(setting: &Setting) -> Mosaic {
     }
 }
 
-fn order(setting: &Setting, cycles: &Cycles) -> Mosaic {
-    let displacement = cycles.displacement();
-    let half = cycles.half_cycle();
-    let areas = displacement.elements().iter().enumerate().map(|(index, element)| {
-        let tone = match cycles.invasions()[index] {
-            Some(invasion) => Tone::Value(invasion.displaced),
-            None if displacement.is_trapped(index) => Tone::Class(1),
-            None if cycles.fluid(index) == half.invading => Tone::Class(2),
-            None => Tone::Class(0),
+fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
+    let areas = occupation.elements.iter().enumerate().map(|(index, element)| {
+        let is_invaded = occupation.is_invaded(index);
+        let tone = match occupation.invasions[index] {
+            Some(invasion) if is_invaded => Tone::Value(invasion.displaced),
+            _ if occupation.trapped[index] => Tone::Class(1),
+            None if is_invaded => Tone::Class(2),
+            _ => Tone::Class(0),
         };
         images(setting, &element.outline).into_iter().map(move |boundary| Area { boundary, tone })
     });
     let areas: Vec<Area> = areas.flatten().collect();
-    let largest = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
-    let invaded_before = match half.invading {
+    let largest = occupation.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
+    let invaded_before = match occupation.invading {
         Fluid::NonWetting => "non-wetting before",
         Fluid::Wetting => "wetting before",
     };
-    let defending = match half.invading {
-        Fluid::NonWetting => "wetting",
-        Fluid::Wetting => "non-wetting",
-    };
-    let applied = cycles.applied().map_or(0.0, |applied| half.towards_wetting(applied));
-    let menisci = displacement.menisci(applied).iter().flat_map(|line| images(setting, line)).collect();
+    let defending = occupation.invading.other().name();
+    let menisci = occupation.menisci.iter().flat_map(|line| images(setting, line)).collect();
     Mosaic {
         name: "invasion",
-        note: format!(
-            "{} {}: wetting saturation {:.3}",
-            half.name(),
-            cycles.half_cycle_index() / 2 + 1,
-            cycles.saturation()
-        ),
+        note: occupation.note.clone(),
         label: "displaced share at invasion",
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
         classes: vec![(defending, NOT_INVADED), ("trapped", TRAPPED), (invaded_before, INVADED_BEFORE)],

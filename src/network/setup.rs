@@ -5,15 +5,21 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::cycles::{Cycles, End, Fluid, HalfCycle};
-use super::displacement::{Conditions, Events, MeasuredBurst};
+use super::displacement::{Beginning, Conditions, Displacement, Element, Events, MeasuredBurst};
+use super::dynamic::solver::DynamicSolver;
+use super::dynamic::{self, Drive, Dynamic, Terms};
 use super::graph::{Network, Pores};
 use super::solver::{NetworkSolver, Setting};
-use super::summary::geometry_hash;
+use super::state;
 use crate::analysis::laws::drops::tadmor;
 use crate::case::checked::{Case, PatchedWall, Side, WettingModel};
-use crate::case::network::checked::{NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use crate::case::network::checked::{
+    Driven, NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop,
+};
 use crate::case::network::measured::MeasuredThroat;
+use crate::case::network::state::{ElementState, Start};
 use crate::geometry::{Geometry, GeometryError};
+use crate::solver::Solver;
 
 /// Names of the sides in their order.
 pub(super) const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
@@ -41,6 +47,21 @@ pub enum SetupError {
     /// The domain is solid.
     #[error("there is no pore in the domain: the solids fill all of it")]
     NoPore,
+    /// A state that does not belong to the network.
+    #[error(
+        "the state in {} (network.initial) has {found} elements, and this network has {expected}: {why}; run this case without \
+         network.initial, and take a state that it writes", file.display()
+    )]
+    OtherState {
+        /// Its file.
+        file: std::path::PathBuf,
+        /// Its elements.
+        found: usize,
+        /// Those of the network.
+        expected: usize,
+        /// What is different.
+        why: &'static str,
+    },
     /// An open side is closed by solids.
     #[error(
         "no pore opens at the side `{side}`, which is the {role} (network.{role}): solids close all of it; choose another side, or \
@@ -73,7 +94,19 @@ pub fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupErr
 ///
 /// # Errors
 /// [`SetupError`].
-pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
+pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
+    let still = build_still(case, wanted)?;
+    Ok(match in_time(wanted, &still) {
+        Some((dynamic, invading, end)) => Box::new(DynamicSolver::new(still, dynamic, invading, end)),
+        None => Box::new(still),
+    })
+}
+
+/// The same as a quasi-static displacement; without one where the case asks for a displacement in time.
+///
+/// # Errors
+/// [`SetupError`].
+pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
     let clock = Instant::now();
     let geometry = geometry(case, wanted)?;
     let sides = kinds(wanted);
@@ -94,14 +127,18 @@ pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupEr
     }
     let pores = Pores::merged(&network, wanted.persistence);
     let extraction = clock.elapsed().as_secs_f64();
-    let solver = assemble(wanted, &geometry, network, pores).timed(extraction);
-    if let Some(measured) = &wanted.measured {
-        let found = geometry_hash(solver.setting());
-        if found != measured.geometry_hash {
-            return Err(SetupError::OtherGeometry { expected: measured.geometry_hash.clone(), found });
+    let initial = match wanted.displacement.as_ref().and_then(|displacement| displacement.initial.as_ref()) {
+        Some(start) => Some(Arc::new(beginning(start, wanted, &geometry, (&network, &pores))?)),
+        None => None,
+    };
+    let solver = assemble(wanted, &geometry, (network, pores), initial).timed(extraction);
+    let found = &solver.setting().geometry_hash;
+    match wanted.measured.as_ref().map(|measured| &measured.geometry_hash) {
+        Some(expected) if expected != found => {
+            Err(SetupError::OtherGeometry { expected: expected.clone(), found: found.clone() })
         }
+        _ => Ok(solver),
     }
-    Ok(solver)
 }
 
 /// The measured bursts of a case.
@@ -117,13 +154,54 @@ fn measured(wanted: &PoreNetwork) -> Vec<MeasuredBurst> {
 /// Largest distance of the drawn walls from the walls, over the longer side of the domain: far below what a picture shows.
 const OUTLINE_ERROR: f64 = 1e-5;
 
-/// The solver of a network that is known.
+/// The phases of a state for the first half cycle.
+fn beginning(
+    start: &Start,
+    wanted: &PoreNetwork,
+    geometry: &Geometry,
+    (network, pores): (&Network, &Pores),
+) -> Result<Beginning, SetupError> {
+    let walls = geometry.shape_count() as usize + SIDES.len();
+    let half = match (&wanted.displacement, &wanted.interface) {
+        (Some(displacement), Some(interface)) => {
+            half_cycles(displacement, interface, kinds(wanted), (walls, &measured(wanted)))
+        }
+        _ => Vec::new(),
+    };
+    let Some(first) = half.into_iter().next() else { return Err(SetupError::NoPore) };
+    let fresh = Displacement::new(network, pores, first.conditions);
+    let elements = fresh.elements();
+    let other = |why| SetupError::OtherState {
+        file: start.file.clone(),
+        found: start.state.elements.len(),
+        expected: elements.len(),
+        why,
+    };
+    if start.state.elements.len() != elements.len() {
+        return Err(other("it was written with other network.events or another persistence ratio"));
+    }
+    // Areas were written and read.
+    const SAME: f64 = 1e-9;
+    let is_same =
+        |(state, element): (&ElementState, &Element)| (state.area_m2 - element.area).abs() <= SAME * element.area;
+    if !start.state.elements.iter().zip(elements).all(is_same) {
+        return Err(other("their areas differ"));
+    }
+    Ok(state::beginning(&start.state, first.invading))
+}
+
+/// The solver of a network that is known; `initial` are the phases that its displacement begins with.
 #[must_use]
-pub fn assemble(wanted: &PoreNetwork, geometry: &Geometry, network: Network, pores: Pores) -> NetworkSolver {
+pub fn assemble(
+    wanted: &PoreNetwork,
+    geometry: &Geometry,
+    (network, pores): (Network, Pores),
+    initial: Option<Arc<Beginning>>,
+) -> NetworkSolver {
     let (network, pores) = (Arc::new(network), Arc::new(pores));
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
-        (Some(displacement), Some(interface)) => {
+        (Some(displacement), Some(interface)) if displacement.dynamic.is_none() => {
             half_cycles(displacement, interface, kinds(wanted), (walls, &measured(wanted)))
         }
         _ => Vec::new(),
@@ -149,8 +227,52 @@ pub fn assemble(wanted: &PoreNetwork, geometry: &Geometry, network: Network, por
         tension: wanted.interface.as_ref().map(|interface| interface.tension),
         viscosities: [wanted.wetting, wanted.non_wetting].map(|fluid| fluid.map(|fluid| fluid.viscosity)),
         entry,
+        geometry_hash: format!("{:016x}", geometry.hash()),
+        sides: kinds(wanted),
     };
-    NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles))
+    NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles, initial))
+}
+
+/// The displacement in time that a case asks for.
+fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Fluid, dynamic::solver::End)> {
+    let displacement = wanted.displacement.as_ref()?;
+    let (interface, driven) = (wanted.interface.as_ref()?, displacement.dynamic?);
+    let setting = still.setting();
+    let invading = if displacement.process == Process::Imbibition { Fluid::Wetting } else { Fluid::NonWetting };
+    let [wetting, non_wetting] = [wanted.wetting?.viscosity, wanted.non_wetting?.viscosity];
+    let sides = kinds(wanted);
+    let [inlet, outlet] = [Side::Inlet, Side::Outlet].map(|kind| sides.map(|side| side == kind));
+    let walls = setting.entry.as_ref().map_or(SIDES.len(), |entry| entry.angle.len());
+    let conditions = Conditions {
+        angle: angles(interface, walls, invading),
+        inlet,
+        outlet,
+        trapping: false,
+        events: Events::All,
+        largest_curvature: f64::INFINITY,
+        measured: Vec::new(),
+    };
+    let terms = Terms {
+        viscosity: if invading == Fluid::Wetting { [wetting, non_wetting] } else { [non_wetting, wetting] },
+        tension: interface.tension,
+        drive: match driven.drive {
+            Driven::Rate(rate) => Drive::Rate(rate),
+            Driven::PressureDrop(pressure) => Drive::Pressure(pressure),
+        },
+        largest_step: driven.largest_step,
+        inlet,
+        outlet,
+    };
+    let start = Displacement::new(&setting.network, &setting.pores, conditions);
+    let end = dynamic::solver::End {
+        at_breakthrough: displacement.stop.breakthrough,
+        at_saturation: displacement.stop.saturation.map(|wetting| match invading {
+            Fluid::Wetting => wetting,
+            Fluid::NonWetting => 1.0 - wetting,
+        }),
+        at_injected: displacement.stop.injected,
+    };
+    Some((Dynamic::new(Arc::clone(&setting.network), start, terms), invading, end))
 }
 
 fn half_cycles(

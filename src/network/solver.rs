@@ -13,7 +13,9 @@ use super::conductance::conductances;
 use super::cycles::Cycles;
 use super::displacement::{Conditions, Displacement, EventKind};
 use super::graph::{Network, Pores};
-use super::{flow, layers, measures, openpnm, pictures, summary, tables};
+use super::occupation::Occupation;
+use super::{flow, layers, measures, openpnm, pictures, state, summary, tables};
+use crate::case::checked::Side;
 use crate::diagram::Diagram;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
@@ -46,6 +48,10 @@ pub struct Setting {
     pub viscosities: [Option<f64>; 2],
     /// Conditions of a drainage, for entry pressures.
     pub entry: Option<Conditions>,
+    /// The hash of the geometry in hexadecimal digits.
+    pub geometry_hash: String,
+    /// The left, right, bottom and top side.
+    pub sides: [Side; 4],
 }
 
 /// A network with all that is needed to observe it.
@@ -92,6 +98,12 @@ impl NetworkSolver {
         self
     }
 
+    /// The time that its extraction took, in s.
+    #[must_use]
+    pub fn extraction_time(&self) -> f64 {
+        self.seconds[0]
+    }
+
     /// What stands still.
     #[must_use]
     pub fn setting(&self) -> &Setting {
@@ -134,6 +146,18 @@ impl NetworkSolver {
         self.conductances.get_or_init(|| conductances(&self.setting.network))
     }
 
+    /// What is left at the end but for events.
+    pub(super) fn results_with(&self, occupation: Option<&Occupation>) -> Results<'_> {
+        let mut results = Results {
+            tables: tables::all(self, occupation),
+            layers: layers::pores_and_throats(self, occupation),
+            documents: vec![summary::network_json(self)],
+            mosaics: pictures::mosaics(&self.setting, occupation),
+        };
+        results.tables.push(openpnm::table(self));
+        results
+    }
+
     fn count(&self, kind: EventKind) -> f64 {
         let history = self.cycles.as_ref().map_or(&[][..], Cycles::history);
         history.iter().filter(|entry| entry.kind == kind).count() as f64
@@ -172,7 +196,7 @@ impl Solver for NetworkSolver {
             step: self.steps(),
             particles: Cloud::default(),
             grid: None,
-            interface: self.cycles.as_ref().map(layers::menisci),
+            interface: self.cycles.as_ref().map(|cycles| layers::menisci(cycles.menisci())),
         }
     }
 
@@ -185,7 +209,7 @@ impl Solver for NetworkSolver {
         let mut row = vec![sample("displaced_pore_volumes", self.clock), sample("step", self.steps() as f64)];
         if let Some(cycles) = &self.cycles {
             let tension = self.setting.tension.unwrap_or(f64::NAN);
-            let invaded = summary::invaded_pores(&self.setting, cycles);
+            let invaded = summary::invaded_pores(&self.setting, &cycles.occupation());
             row.extend([
                 sample("half_cycle", (cycles.half_cycle_index() + 1) as f64),
                 sample("saturation", cycles.saturation()),
@@ -209,17 +233,14 @@ impl Solver for NetworkSolver {
     }
 
     fn layers(&self) -> Vec<Layer<'_>> {
-        vec![layers::regions(self)]
+        vec![layers::regions(&self.setting, self.cycles.as_ref().map(Cycles::occupation).as_ref())]
     }
 
     fn results(&self) -> Results<'_> {
-        let mut results = Results {
-            tables: tables::all(self),
-            layers: layers::pores_and_throats(self),
-            documents: vec![summary::network_json(self)],
-            mosaics: pictures::mosaics(self),
-        };
-        results.tables.push(openpnm::table(self));
+        let occupation = self.cycles.as_ref().map(Cycles::occupation);
+        let mut results = self.results_with(occupation.as_ref());
+        results.tables.extend(self.cycles.as_ref().map(|cycles| tables::events(&self.setting, cycles)));
+        results.documents.extend(state::documents(self));
         results.tables.extend(flow::table(self));
         results
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::cycles::{Cycles, Fluid, Invasion};
-use super::displacement::Phase;
+use super::occupation::Occupation;
 use super::setup::SIDES;
 use super::solver::{NetworkSolver, Setting};
 use crate::table::Document;
@@ -26,44 +26,42 @@ pub struct PoreStates(pub Vec<PoreState>);
 impl PoreStates {
     /// The present states.
     #[must_use]
-    pub fn new(setting: &Setting, cycles: &Cycles) -> Self {
+    pub fn new(setting: &Setting, occupation: &Occupation) -> Self {
         let pores = setting.pores.main_region.len();
         let mut elements_of: Vec<Vec<usize>> = vec![Vec::new(); pores];
-        for (index, element) in cycles.displacement().elements().iter().enumerate() {
+        for (index, element) in occupation.elements.iter().enumerate() {
             elements_of[setting.pores.pore_of[element.region]].push(index);
         }
-        let invading = cycles.half_cycle().invading;
-        Self(elements_of.iter().map(|elements| state(cycles, elements, invading)).collect())
+        Self(elements_of.iter().map(|elements| state(occupation, elements)).collect())
     }
 }
 
 /// Number of pores that the invading phase came to hold in the present half cycle.
 #[must_use]
-pub fn invaded_pores(setting: &Setting, cycles: &Cycles) -> usize {
+pub fn invaded_pores(setting: &Setting, occupation: &Occupation) -> usize {
     let mut filled = vec![[0.0; 2]; setting.pores.main_region.len()];
-    for (index, element) in cycles.displacement().elements().iter().enumerate() {
+    for (index, element) in occupation.elements.iter().enumerate() {
         let [before, now] = &mut filled[setting.pores.pore_of[element.region]];
-        match cycles.invasions()[index] {
-            Some(_) => *now += element.area,
-            None if cycles.displacement().phase(index) == Phase::Invading => *before += element.area,
-            None => {}
+        match occupation.invasions[index] {
+            Some(_) if occupation.is_invaded(index) => *now += element.area,
+            None if occupation.is_invaded(index) => *before += element.area,
+            _ => {}
         }
     }
     let halves = setting.pores.area.iter().map(|area| 0.5 * area);
     filled.iter().zip(halves).filter(|([before, now], half)| before <= half && before + now > *half).count()
 }
 
-fn state(cycles: &Cycles, elements: &[usize], invading: Fluid) -> PoreState {
-    let displacement = cycles.displacement();
-    let area = |element: usize| displacement.elements()[element].area;
+fn state(occupation: &Occupation, elements: &[usize]) -> PoreState {
+    let area = |element: usize| occupation.elements[element].area;
     let sum = |keep: &dyn Fn(usize) -> bool| elements.iter().filter(|&&e| keep(e)).map(|&e| area(e)).sum::<f64>();
     let half = 0.5 * sum(&|_| true);
-    let is_invaded = sum(&|e| displacement.phase(e) == Phase::Invading) > half;
+    let is_invaded = sum(&|e| occupation.is_invaded(e)) > half;
     let mut filled: Vec<(Invasion, f64)> =
-        elements.iter().filter_map(|&e| cycles.invasions()[e].map(|invasion| (invasion, area(e)))).collect();
+        elements.iter().filter_map(|&e| occupation.invasions[e].map(|invasion| (invasion, area(e)))).collect();
     filled.sort_by_key(|(invasion, _)| invasion.sequence);
     // What it held of the invading phase before this half cycle.
-    let mut held = sum(&|e| displacement.phase(e) == Phase::Invading && cycles.invasions()[e].is_none());
+    let mut held = sum(&|e| occupation.is_invaded(e) && occupation.invasions[e].is_none());
     let mut invasion = None;
     for (event, area) in filled {
         if held <= half && held + area > half {
@@ -72,9 +70,9 @@ fn state(cycles: &Cycles, elements: &[usize], invading: Fluid) -> PoreState {
         held += area;
     }
     PoreState {
-        fluid: if is_invaded { invading } else { invading.other() },
+        fluid: if is_invaded { occupation.invading } else { occupation.invading.other() },
         invasion,
-        is_trapped: sum(&|e| displacement.is_trapped(e)) > half,
+        is_trapped: sum(&|e| occupation.trapped[e]) > half,
     }
 }
 
@@ -153,18 +151,6 @@ const MERGES: &str = "the network before the merge: regions with their pore, and
                       from wide to narrow, one is dissolved where its half width exceeds the persistence ratio times the smaller of \
                       both radii, and the joined pore keeps the larger one";
 
-/// FNV-1a of the domain and the outline of the walls, bit by bit.
-#[must_use]
-pub fn geometry_hash(setting: &Setting) -> String {
-    const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
-    const PRIME: u64 = 0x0100_0000_01b3;
-    let bounds = [setting.bounds.min, setting.bounds.max];
-    let points = bounds.into_iter().chain(setting.outline.points.iter().copied());
-    let bytes = points.flat_map(|point| [point.x, point.y]).flat_map(|value| value.to_bits().to_le_bytes());
-    let hash = bytes.fold(OFFSET, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME));
-    format!("{hash:016x}")
-}
-
 /// `network.json`.
 pub fn network_json(solver: &NetworkSolver) -> Document {
     let setting = solver.setting();
@@ -172,7 +158,7 @@ pub fn network_json(solver: &NetworkSolver) -> Document {
     let description = Description {
         version: env!("CARGO_PKG_VERSION"),
         persistence: pores.persistence,
-        geometry_hash: geometry_hash(setting),
+        geometry_hash: setting.geometry_hash.clone(),
         domain_m: [setting.bounds.min.into(), setting.bounds.max.into()],
         periodic: setting.periodic,
         inlet: setting.inlet.map(|side| SIDES[side]),

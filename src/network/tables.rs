@@ -3,16 +3,15 @@
 use super::cycles::{Cycles, Invasion};
 use super::displacement::EventKind;
 use super::graph::{Opening, Throat};
+use super::occupation::Occupation;
 use super::solver::{NetworkSolver, Setting, nearest};
 use super::summary::{PoreState, PoreStates};
 use crate::math::Vec2;
 use crate::table::{Cells, Column, Table};
 
-/// All tables.
-pub fn all(solver: &NetworkSolver) -> Vec<Table> {
-    let mut tables = vec![pores(solver), throats(solver)];
-    tables.extend(solver.cycles().map(|cycles| events(solver.setting(), cycles)));
-    tables
+/// The tables of pores and throats.
+pub fn all(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Vec<Table> {
+    vec![pores(solver.setting(), occupation), throats(solver, occupation)]
 }
 
 pub(super) fn numbers(name: &'static str, values: impl IntoIterator<Item = f64>) -> Column {
@@ -27,11 +26,11 @@ pub(super) fn flags(name: &'static str, values: impl IntoIterator<Item = bool>) 
     Column { name, cells: Cells::Flags(values.into_iter().collect()) }
 }
 
-fn places(name: &'static str, values: impl IntoIterator<Item = Option<usize>>) -> Column {
+pub(super) fn places(name: &'static str, values: impl IntoIterator<Item = Option<usize>>) -> Column {
     Column { name, cells: Cells::Places(values.into_iter().collect()) }
 }
 
-fn words(name: &'static str, values: impl IntoIterator<Item = &'static str>) -> Column {
+pub(super) fn words(name: &'static str, values: impl IntoIterator<Item = &'static str>) -> Column {
     Column { name, cells: Cells::Words(values.into_iter().collect()) }
 }
 
@@ -101,8 +100,7 @@ fn opens_at(setting: &Setting, side: Option<usize>) -> Vec<bool> {
     opens
 }
 
-fn pores(solver: &NetworkSolver) -> Table {
-    let setting = solver.setting();
+fn pores(setting: &Setting, occupation: Option<&Occupation>) -> Table {
     let all = || 0..setting.pores.main_region.len();
     let mut columns = vec![
         counts("pore", all()),
@@ -115,8 +113,8 @@ fn pores(solver: &NetworkSolver) -> Table {
         flags("inlet", opens_at(setting, setting.inlet)),
         flags("outlet", opens_at(setting, setting.outlet)),
     ];
-    if let Some(cycles) = solver.cycles() {
-        let states = PoreStates::new(setting, cycles).0;
+    if let Some(occupation) = occupation {
+        let states = PoreStates::new(setting, occupation).0;
         columns.extend(state_columns(setting, &states));
     }
     Table { name: "pores", columns }
@@ -135,7 +133,7 @@ fn state_columns(setting: &Setting, states: &[PoreState]) -> [Column; 5] {
     ]
 }
 
-fn throats(solver: &NetworkSolver) -> Table {
+fn throats(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Table {
     let setting = solver.setting();
     let of = |value: fn(&Throat) -> f64| kept(setting).map(value);
     let mut columns = vec![
@@ -161,8 +159,8 @@ fn throats(solver: &NetworkSolver) -> Table {
         let pressures = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]);
         columns.push(numbers("entry_pressure_Pa", pressures));
     }
-    if let Some(cycles) = solver.cycles() {
-        columns.push(places("sequence", sequences(setting, cycles)));
+    if let Some(occupation) = occupation {
+        columns.push(places("sequence", sequences(setting, occupation)));
     }
     Table { name: "throats", columns }
 }
@@ -172,22 +170,28 @@ pub(super) fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::NAN }
 }
 
-/// For each throat the event of the present half cycle by which it was passed.
-fn sequences(setting: &Setting, cycles: &Cycles) -> Vec<Option<usize>> {
+/// For each throat the event by which it was passed.
+fn sequences(setting: &Setting, occupation: &Occupation) -> Vec<Option<usize>> {
     let mut passed = vec![None; setting.network.throats.len()];
-    let present = cycles.history().iter().filter(|entry| entry.half_cycle == cycles.half_cycle_index());
-    for (sequence, entry) in (1..).zip(present) {
-        if let Some(throat) = entry.throat {
+    for (sequence, throat) in (1..).zip(&occupation.passed) {
+        if let Some(throat) = *throat {
             passed[throat].get_or_insert(sequence);
         }
     }
     setting.pores.throats.iter().map(|&throat| passed[throat]).collect()
 }
 
-fn events(setting: &Setting, cycles: &Cycles) -> Table {
-    let tension = setting.tension.unwrap_or(f64::NAN);
+/// The number of each throat of the network among those that were not dissolved.
+pub(super) fn numbers_of_throats(setting: &Setting) -> Vec<Option<usize>> {
     let mut number_of = vec![None; setting.network.throats.len()];
     setting.pores.throats.iter().enumerate().for_each(|(number, &throat)| number_of[throat] = Some(number));
+    number_of
+}
+
+/// `events.csv` of a quasi-static displacement.
+pub fn events(setting: &Setting, cycles: &Cycles) -> Table {
+    let tension = setting.tension.unwrap_or(f64::NAN);
+    let number_of = numbers_of_throats(setting);
     let history = cycles.history();
     let mut sequence = 0;
     let mut last = 0;

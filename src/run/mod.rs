@@ -4,7 +4,9 @@
 //! [`schedule`] and hands [`sink`]s what is due, and the [`report`] says at the end what came out. [`setup`] is the one
 //! place that knows both a case and a solver. Nothing here prints: a [`Watcher`](simulation::Watcher) is told of each step.
 
+pub mod advice;
 pub mod claim;
+pub mod compare;
 pub mod drift;
 pub mod execute;
 pub mod folder;

@@ -38,7 +38,7 @@ pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn
     match &case.model {
         Model::Sph(sph) => Ok(Box::new(sph::setup::build_watched(case, sph, packed)?)),
         Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
-        Model::Network(network) => Ok(Box::new(network::setup::build(case, network)?)),
+        Model::Network(network) => Ok(network::setup::build(case, network)?),
     }
 }
 
@@ -76,7 +76,7 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
 pub fn warnings(case: &Case, solver: &dyn Solver) -> Vec<String> {
     let of_case = match &case.model {
         Model::ThinFilm(film) => film.notes(case.end),
-        Model::Sph(sph) => coarse_throat(case, sph).into_iter().collect(),
+        Model::Sph(sph) => coarse_throat(case, sph).into_iter().chain(not_at_rest(sph)).collect(),
         Model::Network(_) => Vec::new(),
     };
     of_case.into_iter().chain(solver.warnings()).collect()
@@ -85,11 +85,37 @@ pub fn warnings(case: &Case, solver: &dyn Solver) -> Vec<String> {
 /// Spacings across a throat below which its menisci and their angles are off by degrees.
 const ACROSS_THROAT: f64 = 8.0;
 
+/// What of a state that a case begins with will not rest.
+fn not_at_rest(sph: &Sph) -> Vec<String> {
+    let Some(start) = &sph.initial.network else { return Vec::new() };
+    /// Angles in degrees that differ by less are the same, written and read.
+    const SAME: f64 = 1e-6;
+    let mut found = Vec::new();
+    let angles = sph.wetting_model.map(|model| model.angles().map(f64::to_degrees));
+    let [smallest, largest] = start.state.contact_angles_deg;
+    if sph.wetting_patches.is_empty()
+        && let Some([receding, advancing]) = angles.filter(|it| it[0] > largest + SAME || it[1] < smallest - SAME)
+    {
+        found.push(format!(
+            "the menisci of sph.initial.network meet the walls at {smallest:.1} to {largest:.1} degrees, and this case has {receding:.1} to \
+             {advancing:.1}: they will move at once"
+        ));
+    }
+    let chords = start.state.menisci.iter().filter(|meniscus| meniscus.curvature_per_m.is_none()).count();
+    if chords > 0 {
+        found.push(format!(
+            "{chords} menisci of sph.initial.network are not known, and chords stand for them: they are not at rest"
+        ));
+    }
+    found
+}
+
 /// A throat with an interface to pass it that has few particles across.
 fn coarse_throat(case: &Case, sph: &Sph) -> Option<String> {
     let width = throat(case).filter(|_| sph.tension > 0.0)?;
     let across = width / sph.spacing;
-    (across < ACROSS_THROAT).then(|| {
+    // Less is rounding of where shapes stand.
+    (across < (1.0 - 1e-9) * ACROSS_THROAT).then(|| {
         format!(
             "{across:.1} particles across the narrowest throat: entry pressures hold from {ACROSS_THROAT:.0}, angles measured there from 16; \
              use sph.spacing = {:.2e}",

@@ -169,7 +169,12 @@ pub fn case() -> Case {
         walls: Walls { slip_length: 0.0, line_slip_length: 0.0 },
         wall_speeds: [0.0; 4],
         open: [None; 4],
-        initial: Initial { wetting: Vec::new(), wetting_is_background: true, velocity: InitialVelocity::Rest },
+        initial: Initial {
+            wetting: Vec::new(),
+            wetting_is_background: true,
+            network: None,
+            velocity: InitialVelocity::Rest,
+        },
         numerics: Numerics {
             viscous_term: ViscousTerm::Szewc,
             viscous_step: ViscousStep::Implicit,

@@ -7,13 +7,15 @@ use crate::case::checked::MeasureSet;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{
-    Measure, Quantity, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
+    Measure, Quantity, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
 };
 use crate::sph::measures::{DiscOf, Subject, all, columns};
 use crate::sph::observe::Observation;
+use crate::sph::particles::Particles;
 use crate::sph::projection::Flow;
 use crate::sph::warnings::warnings;
 use crate::sph::{output, state};
+use crate::table::Document;
 
 /// A flow with all that is needed to observe it.
 pub struct SphSolver {
@@ -24,6 +26,9 @@ pub struct SphSolver {
     seen: OnceLock<Observation>,
     surroundings: Surroundings,
 }
+
+/// A text made from the particles and the capillary pressure in Pa.
+pub type HandBack = Box<dyn Fn(&Particles, f64) -> Document + Send + Sync>;
 
 /// What stands still around the flow, and what is to be measured.
 pub struct Surroundings {
@@ -41,6 +46,8 @@ pub struct Surroundings {
     pub measures: MeasureSet,
     /// Distance of grid nodes in m.
     pub grid_spacing: f64,
+    /// Where the flow began with the state of a network: what it hands back.
+    pub hand_back: Option<HandBack>,
 }
 
 impl SphSolver {
@@ -154,6 +161,12 @@ impl Solver for SphSolver {
 
     fn warnings(&self) -> Vec<String> {
         warnings(&self.flow, self.observe())
+    }
+
+    fn results(&self) -> Results<'_> {
+        let of_now = |hand_back: &HandBack| hand_back(&self.flow.particles, self.observe().capillary_pressure.value);
+        let back = self.surroundings.hand_back.as_ref().map(of_now);
+        Results { documents: back.into_iter().collect(), ..Results::default() }
     }
 
     fn state(&self) -> Vec<u8> {

@@ -59,7 +59,7 @@ fn measured(subject: &Subject, rows: &[Row]) -> Measured {
         })
     };
     Measured {
-        geometry_hash: subject.geometry_hash(),
+        geometry_hash: subject.geometry_hash().to_owned(),
         throats: rows.iter().filter(|row| row.is_replaced()).filter_map(one).collect(),
     }
 }

@@ -3,10 +3,9 @@
 use crate::case::checked::{Case, Fluid as FluidOf, Model};
 use crate::network::cycles::{Cycles, Entry, Fluid};
 use crate::network::displacement::{Conditions, Displacement};
-use crate::network::geometry_hash;
 use crate::network::graph::Throat;
 use crate::network::menisci::Passage;
-use crate::network::setup::{SetupError, build};
+use crate::network::setup::{SetupError, build_still};
 use crate::network::solver::NetworkSolver;
 
 /// A case whose throats cannot be verified.
@@ -54,7 +53,7 @@ impl Subject {
     pub fn new(case: &Case) -> Result<Self, SubjectError> {
         let Model::Network(wanted) = &case.model else { return Err(SubjectError::NoNetwork) };
         let Some(interface) = &wanted.interface else { return Err(SubjectError::NoInterface) };
-        let solver = build(case, wanted)?;
+        let solver = build_still(case, wanted)?;
         let half = solver.cycles().map(|cycles| cycles.half_cycles()[0].clone());
         let invading = half.as_ref().map_or(Fluid::NonWetting, |half| half.invading);
         let conditions = half.map(|half| half.conditions).or_else(|| solver.setting().entry.clone());
@@ -102,8 +101,8 @@ impl Subject {
 
     /// Tells the geometry, as in `network.json`.
     #[must_use]
-    pub fn geometry_hash(&self) -> String {
-        geometry_hash(self.solver.setting())
+    pub fn geometry_hash(&self) -> &str {
+        &self.solver.setting().geometry_hash
     }
 }
 

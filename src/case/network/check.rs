@@ -1,8 +1,11 @@
-//! Checks of `[network]`: ranges of every value, which values go together, and what a quasi-static displacement cannot do.
+//! Checks of `[network]`: ranges of every value, which values go together, and what a displacement cannot do.
 
-use super::checked::{NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use super::checked::{
+    Driven, DynamicDrive, NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop,
+};
 use super::measured;
-use super::raw::{RawEvents, RawNetwork, RawNetworkSide, RawProcess};
+use super::raw::{RawDynamic, RawEvents, RawNetwork, RawNetworkSide, RawProcess};
+use super::state::Start;
 use crate::case::check::Checker;
 use crate::case::checked::{Side, Sides, WettingModel};
 use crate::case::raw::RawSideName;
@@ -17,6 +20,10 @@ const PERSISTENCE: (f64, f64) = (0.5, 1.0);
 /// Most cycles: the loop closes after two or three.
 const MOST_CYCLES: f64 = 100.0;
 
+/// Most pore volumes per step where the case says nothing.
+pub(crate) const DEFAULT_LARGEST_STEP: f64 = 0.01;
+const LARGEST_STEP: (f64, f64) = (1e-6, 1.0);
+
 const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
 
 /// Checks `[network]`; `geometry` is missing where it was wrong.
@@ -24,6 +31,7 @@ pub(in crate::case) fn network(
     checker: &mut Checker,
     raw: &RawNetwork,
     geometry: Option<&GeometrySpec>,
+    start: Option<Start>,
 ) -> Option<PoreNetwork> {
     let sides = sides(checker, raw);
     let phases = raw.phases.clone().unwrap_or_default();
@@ -35,8 +43,18 @@ pub(in crate::case) fn network(
     let persistence = checker.within("network.persistence", raw.persistence, PERSISTENCE, "a persistence ratio");
     let interface = interface(checker, raw, sides.as_ref(), geometry);
     let measured = measured::checked(checker, raw.measured_throats.as_ref());
+    if raw.dynamic.is_some() && raw.measured_throats.is_some() {
+        checker.refuse(
+            "network.measured",
+            "a displacement in time follows menisci through throats by the formula, and knows no measured pressures",
+            "leave it out, or leave out [network.dynamic]",
+        );
+    }
     let displacement = if raw.inlet.is_some() {
-        Some(displacement(checker, raw))
+        if let (Some(start), Some(sides)) = (&start, &sides) {
+            refuse_other_sides(checker, start, sides);
+        }
+        Some(displacement(checker, raw, start))
     } else {
         refuse_without_inlet(checker, raw);
         None
@@ -172,7 +190,7 @@ fn static_model(checker: &mut Checker, model: WettingModel) -> Option<WettingMod
     None
 }
 
-fn displacement(checker: &mut Checker, raw: &RawNetwork) -> NetworkDisplacement {
+fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Option<Start>) -> NetworkDisplacement {
     let cycles = checker.within("network.cycles", raw.cycles.map(f64::from), (1.0, MOST_CYCLES), "a number of cycles");
     let process = match raw.process {
         None | Some(RawProcess::Drainage) => Process::Drainage,
@@ -201,7 +219,82 @@ fn displacement(checker: &mut Checker, raw: &RawNetwork) -> NetworkDisplacement 
             Some(RawEvents::Burst) => NetworkEvents::Burst,
         },
         stop: stop(checker, raw),
+        dynamic: raw.dynamic.as_ref().and_then(|dynamic| drive(checker, raw, dynamic, process)),
+        initial,
     }
+}
+
+/// Refuses a state whose walls and periodic sides are others; what is open may change.
+fn refuse_other_sides(checker: &mut Checker, start: &Start, sides: &Sides) {
+    if let Some((_, misfit)) = start.state.misfit_of_sides(sides) {
+        let message = format!("{} is the state of other sides: {misfit}", start.file.display());
+        checker.refuse("network.initial", message, "give this case the sides of the state");
+    }
+}
+
+/// Checks `[network.dynamic]` and what goes with it.
+fn drive(checker: &mut Checker, raw: &RawNetwork, dynamic: &RawDynamic, process: Process) -> Option<DynamicDrive> {
+    let before = checker.problems.len();
+    let rate = checker.positive("network.dynamic.rate", dynamic.rate, "a rate in m2/s");
+    let pressure = checker.positive("network.dynamic.pressure-drop", dynamic.pressure_drop, "a pressure drop in Pa");
+    let step = checker.within(
+        "network.dynamic.largest-step",
+        dynamic.largest_step,
+        LARGEST_STEP,
+        "a share of the pore volume",
+    );
+    let one = "rate = 1.0e-8 # m2/s, or pressure-drop = 500.0 # Pa";
+    if raw.initial.is_some() {
+        checker.refuse(
+            "network.initial",
+            "a displacement in time begins with the pore space full of the defending phase",
+            "leave out `initial`, or [network.dynamic]",
+        );
+    }
+    let drive = match (dynamic.rate, dynamic.pressure_drop) {
+        (Some(_), Some(_)) => {
+            let message = "a rate and a pressure drop are given, and one follows from the other";
+            checker.refuse("network.dynamic.pressure-drop", message, "leave one of them out");
+            None
+        }
+        (Some(_), None) => rate.map(Driven::Rate),
+        (None, Some(_)) => pressure.map(Driven::PressureDrop),
+        (None, None) => checker.require("network.dynamic.rate", None, one),
+    };
+    if raw.outlet.is_none() {
+        let message = "a displacement in time needs an outlet: the phase that is displaced leaves through it";
+        checker.refuse("network.outlet", message, "add outlet = \"right\", say");
+    }
+    let phases = raw.phases.clone().unwrap_or_default();
+    for (name, is_given) in [("wetting", phases.wetting.is_some()), ("non-wetting", phases.non_wetting.is_some())] {
+        if !is_given {
+            checker.refuse(
+                format!("network.phases.{name}"),
+                format!("a displacement in time needs the viscosity of the {name} phase"),
+                format!("add [network.phases.{name}] with preset = \"water\", say, or density and viscosity"),
+            );
+        }
+    }
+    let quasi_static = [
+        ("process", matches!(process, Process::Cycle(_)), "a cycle", "take drainage or imbibition"),
+        ("events", raw.events == Some(RawEvents::Burst), "invasion percolation", "leave events out"),
+        ("trapping", raw.trapping.is_some(), "a rule for trapping", "leave it out: what cannot flow out is trapped"),
+        (
+            "stop.capillary-pressure",
+            raw.stop.as_ref().is_some_and(|stop| stop.capillary_pressure.is_some()),
+            "one capillary pressure",
+            "end at breakthrough, at a saturation, or after injected = 1.0 pore volumes",
+        ),
+    ];
+    for (key, _, what, help) in quasi_static.into_iter().filter(|(_, given, _, _)| *given) {
+        checker.refuse(
+            format!("network.{key}"),
+            format!("{what} belongs to quasi-static displacement, and [network.dynamic] is given"),
+            help,
+        );
+    }
+    let largest_step = step.unwrap_or(DEFAULT_LARGEST_STEP);
+    (checker.problems.len() == before).then_some(DynamicDrive { drive: drive?, largest_step })
 }
 
 fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
@@ -215,10 +308,19 @@ fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
     }
     let saturation =
         checker.within("network.stop.saturation", given.saturation, (0.0, 1.0), "a saturation of the wetting phase");
+    let injected = checker.positive("network.stop.injected", given.injected, "a number of pore volumes");
+    if injected.is_some() && raw.dynamic.is_none() {
+        checker.refuse(
+            "network.stop.injected",
+            "injected volumes are those of a displacement in time, and this one is quasi-static",
+            "end at a saturation, or add [network.dynamic]",
+        );
+    }
     Stop {
         breakthrough: given.breakthrough.unwrap_or_default(),
         saturation,
         capillary_pressure: given.capillary_pressure,
+        injected,
     }
 }
 
@@ -231,6 +333,8 @@ fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
         ("trapping", raw.trapping.is_some()),
         ("events", raw.events.is_some()),
         ("stop", raw.stop.is_some()),
+        ("initial", raw.initial.is_some()),
+        ("dynamic", raw.dynamic.is_some()),
     ];
     for (key, _) in given.into_iter().filter(|(_, given)| *given) {
         checker.refuse(

@@ -1,6 +1,7 @@
 //! A checked `[network]`: every value present, in SI units and in range.
 
 use super::measured::Measured;
+use super::state::Start;
 use crate::case::checked::{Fluid, Sides, WettingModel, WettingPatch};
 
 /// A pore network and what is displaced in it.
@@ -23,6 +24,14 @@ pub struct PoreNetwork {
     pub displacement: Option<NetworkDisplacement>,
 }
 
+impl PoreNetwork {
+    /// Whether it is displaced in time, so that its clock is the time in s.
+    #[must_use]
+    pub fn is_dynamic(&self) -> bool {
+        self.displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_some())
+    }
+}
+
 /// The interface between two fluids and its angles on walls.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct NetworkInterface {
@@ -34,7 +43,7 @@ pub struct NetworkInterface {
     pub patches: Vec<WettingPatch>,
 }
 
-/// A quasi-static displacement.
+/// A displacement.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct NetworkDisplacement {
     /// The half cycles in their order.
@@ -45,6 +54,30 @@ pub struct NetworkDisplacement {
     pub events: NetworkEvents,
     /// Where it ends early.
     pub stop: Stop,
+    /// The state that it begins with; absent: the pore space is full of the defending phase.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub initial: Option<Start>,
+    /// What drives it in time; absent where it is quasi-static.
+    pub dynamic: Option<DynamicDrive>,
+}
+
+/// What drives a displacement in time.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct DynamicDrive {
+    /// A given rate or pressure.
+    pub drive: Driven,
+    /// Most pore volumes that pass the inlet in one step.
+    pub largest_step: f64,
+}
+
+/// By what a displacement in time is driven.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Driven {
+    /// Area injected per time in m²/s.
+    Rate(f64),
+    /// Pressure at the inlet less that at the outlet in Pa.
+    PressureDrop(f64),
 }
 
 /// Which phase invades.
@@ -87,6 +120,8 @@ pub struct Stop {
     pub breakthrough: bool,
     /// At this saturation of the wetting phase.
     pub saturation: Option<f64>,
-    /// At this capillary pressure p_n - p_w in Pa.
+    /// At this capillary pressure p_n - p_w in Pa; quasi-static only.
     pub capillary_pressure: Option<f64>,
+    /// When so many pore volumes have passed the inlet; in time only.
+    pub injected: Option<f64>,
 }

@@ -7,6 +7,7 @@ pub mod measured;
 mod quick;
 pub mod raw;
 mod resolve;
+pub mod state;
 
 pub(super) use check::network;
 pub use quick::quick;

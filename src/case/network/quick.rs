@@ -15,7 +15,7 @@ use crate::input::Problem;
 /// All problems of the keys, by the names that they have in a case file.
 pub fn quick(title: &str, geometry: GeometrySpec, raw: &RawNetwork) -> Result<(Case, String), Vec<Problem>> {
     let mut checker = Checker::default();
-    let found = network(&mut checker, raw, Some(&geometry)).map(|network| Model::Network(Box::new(network)));
+    let found = network(&mut checker, raw, Some(&geometry), None).map(|network| Model::Network(Box::new(network)));
     shapes::refuse_images(&mut checker, Some(&geometry), found.as_ref());
     let whole = RawCase { network: Some(raw.clone()), ..RawCase::default() };
     let end = check::end(&mut checker, &whole, found.as_ref());

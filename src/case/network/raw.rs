@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::case::raw::{RawInterface, RawPhases, RawSideName, RawWetting, tables};
 
 tables! {
-    /// A pore network: pores and throats of the geometry, and a quasi-static displacement through them.
+    /// A pore network: pores and throats of the geometry, and a displacement through them.
     pub struct RawNetwork {
         /// Side that the invading phase enters through (default none: the network is extracted and nothing is displaced).
         pub inlet: RawSideName,
@@ -16,7 +16,7 @@ tables! {
         pub outlet: RawSideName,
         /// What stands at the other sides (default walls).
         pub sides: RawNetworkSides,
-        /// The fluids; only their viscosities count, and only for conductances (default 1 Pa s).
+        /// The fluids; only their viscosities count (default 1 Pa s for conductances; `dynamic` needs both).
         pub phases: RawPhases,
         /// Interface between the fluids.
         pub interface: RawInterface,
@@ -40,6 +40,20 @@ tables! {
         pub measured_throats: RawMeasured,
         /// Where the displacement ends before it comes to rest; of a cycle, where each drainage ends.
         pub stop: RawStop,
+        /// State that the displacement begins with, relative to the case file (default: the pore space is full of the defending phase).
+        pub initial: PathBuf,
+        /// Displacement in time, with viscous flow (default none: it is quasi-static, without time).
+        pub dynamic: RawDynamic,
+    }
+
+    /// What drives a displacement in time: a rate or a pressure drop.
+    pub struct RawDynamic {
+        /// Area of the invading phase that is injected per time, in m2/s.
+        pub rate: f64,
+        /// Pressure at the inlet less that at the outlet in Pa.
+        pub pressure_drop: f64,
+        /// Most pore volumes that pass the inlet in one step (default 0.01).
+        pub largest_step: f64,
     }
 
     /// Measured entry pressures.
@@ -78,8 +92,10 @@ tables! {
         pub breakthrough: bool,
         /// Saturation of the wetting phase at which it ends, 0 to 1.
         pub saturation: f64,
-        /// Capillary pressure p_n - p_w in Pa at which it ends.
+        /// Capillary pressure p_n - p_w in Pa at which it ends; without `dynamic` only.
         pub capillary_pressure: f64,
+        /// Pore volumes that have passed the inlet when it ends; with `dynamic` only.
+        pub injected: f64,
     }
 }
 

@@ -1,8 +1,8 @@
 //! A checked network as a table that loads to the same network.
 
-use super::checked::{NetworkEvents, PoreNetwork, Process};
+use super::checked::{Driven, NetworkEvents, PoreNetwork, Process};
 use super::measured;
-use super::raw::{RawEvents, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawStop};
+use super::raw::{RawDynamic, RawEvents, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawStop};
 use crate::case::checked::Side;
 use crate::case::raw::{RawInterface, RawPhases, RawSideName};
 use crate::case::{resolve, wetting};
@@ -52,7 +52,16 @@ pub(in crate::case) fn raw(network: &PoreNetwork) -> RawNetwork {
             breakthrough: Some(stop.breakthrough),
             saturation: stop.saturation,
             capillary_pressure: stop.capillary_pressure,
+            injected: stop.injected,
         }),
+        dynamic: displacement.dynamic.map(|dynamic| {
+            let (rate, pressure_drop) = match dynamic.drive {
+                Driven::Rate(rate) => (Some(rate), None),
+                Driven::PressureDrop(pressure) => (None, Some(pressure)),
+            };
+            RawDynamic { rate, pressure_drop, largest_step: Some(dynamic.largest_step) }
+        }),
+        initial: displacement.initial.as_ref().map(|start| start.file.clone()),
         ..none
     }
 }

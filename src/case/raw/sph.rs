@@ -1,5 +1,7 @@
 //! `[sph]`: direct simulation, its fluids, walls, initial state and parameters.
 
+use std::path::PathBuf;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -99,6 +101,8 @@ tables! {
         pub background: RawPhase,
         /// Shapes filled with the wetting phase (with the background `wetting`: with the other one).
         pub wetting: Vec<ShapeSpec>,
+        /// State of a network that says which phase is where, relative to the case file (in place of `background` and `wetting`).
+        pub network: PathBuf,
         /// Velocity: one key whose name is the field (default `rest`).
         pub velocity: RawVelocity,
     }

@@ -35,12 +35,15 @@ fn number(value: f64) -> Value {
 }
 
 /// Tables, by the name of their type, their keys and the ranges of these.
-pub(super) const RANGES: [(&str, &str, Range); 57] = [
+pub(super) const RANGES: [(&str, &str, Range); 61] = [
     ("RawAngleWindow", "advancing-angle-deg", Within(0.0, 180.0)),
     ("RawContactAngle", "contact-angle-deg", Within(0.0, 180.0)),
     ("RawCoxVoinov", "contact-angle-deg", Within(0.0, 180.0)),
     ("RawCoxVoinov", "slip-length", Above(0.0)),
     ("RawDroplet", "height", Above(0.0)),
+    ("RawDynamic", "largest-step", Within(1e-6, 1.0)),
+    ("RawDynamic", "pressure-drop", Above(0.0)),
+    ("RawDynamic", "rate", Above(0.0)),
     ("RawEvery", "every-pore-volume", Above(0.0)),
     ("RawEvery", "every-time", Above(0.0)),
     ("RawExpectation", "tolerance", Above(0.0)),
@@ -82,6 +85,7 @@ pub(super) const RANGES: [(&str, &str, Range); 57] = [
     ("RawSteady", "contact-angle-deg", Within(1e-6, 90.0)),
     ("RawSteady", "kinetic-energy", Within(1e-9, 1.0)),
     ("RawSteady", "saturation", Within(1e-9, 1.0)),
+    ("RawStop", "injected", Above(0.0)),
     ("RawStop", "saturation", Within(0.0, 1.0)),
     ("RawStripes", "width", Above(0.0)),
     ("RawTaylorGreen", "speed", Above(0.0)),

@@ -95,19 +95,29 @@ impl Displacement {
     /// Lets a meniscus wait in a gate, about to enter it at its end `to`.
     pub(super) fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
         let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
+        let (mut kind, mut own) = self.own_event(&passage, &obstacles);
+        // What touches before a measured burst still touches.
         let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
-        let mut kind = EventKind::Burst;
-        let mut own = self.conditions.burst(mesh.gates[gate].throat, formula);
-        if self.conditions.events == Events::All
-            && let Some(touch) = passage.touch(&obstacles, own.min(formula))
-        {
-            (kind, own) = (EventKind::Touch, touch);
+        let burst = self.conditions.burst(mesh.gates[gate].throat, formula);
+        if kind == EventKind::Burst || burst < own {
+            (kind, own) = (EventKind::Burst, burst);
         }
         self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None, is_joined: false });
         if self.conditions.events == Events::All {
             self.meet_neighbors(mesh, (gate, to), &passage, own);
         }
         self.fronts[gate][to] = Some(Front { passage, own });
+    }
+
+    /// The event that a meniscus waits for by itself, and its curvature in 1/m.
+    pub(super) fn own_event(&self, passage: &Passage, obstacles: &[Curve]) -> (EventKind, f64) {
+        let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
+        if self.conditions.events == Events::All
+            && let Some(touch) = passage.touch(obstacles, burst)
+        {
+            return (EventKind::Touch, touch);
+        }
+        (EventKind::Burst, burst)
     }
 
     /// Overlaps of a new meniscus with its neighbors on both walls.
@@ -173,6 +183,19 @@ impl Displacement {
         if neighbor.passed.len() < 2 {
             return f64::NEG_INFINITY;
         }
+        let (passage, obstacles) = self.joined_passage(mesh, front, hand, neighbor);
+        let burst = passage.burst().map_or(f64::NEG_INFINITY, |meniscus| meniscus.curvature);
+        passage.touch(&obstacles, burst).unwrap_or(burst)
+    }
+
+    /// The passage of the meniscus that two neighbors have become, and the walls ahead of it.
+    pub(super) fn joined_passage(
+        &self,
+        mesh: &Mesh,
+        front: (usize, usize),
+        hand: Hand,
+        neighbor: &Neighbor,
+    ) -> (Passage, Vec<Curve>) {
         let (one, mut obstacles) = self.passage(mesh, front.0, front.1, Vec2::zeros());
         let (other, beyond) = self.passage(mesh, neighbor.front.0, neighbor.front.1, neighbor.offset);
         obstacles.extend(beyond);
@@ -182,8 +205,6 @@ impl Displacement {
             parts.any(|part| part.curve == *curve || is_same(&part.curve, curve))
         };
         obstacles.retain(|curve| !own(curve));
-        let passage = Passage::new(left.left().clone(), right.right().clone());
-        let burst = passage.burst().map_or(f64::NEG_INFINITY, |meniscus| meniscus.curvature);
-        passage.touch(&obstacles, burst).unwrap_or(burst)
+        (Passage::new(left.left().clone(), right.right().clone()), obstacles)
     }
 }

@@ -9,19 +9,24 @@
 //!
 //! Left out: areas swept by menisci between events, overlaps of a joined meniscus with a third one, films and corner flow.
 
+mod driven;
 mod fronts;
 mod loops;
 mod mesh;
 mod outflow;
 mod outline;
+mod standing;
+mod wall_chains;
 mod walls;
 
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
+pub use self::driven::{Advance, FrontId, GateFacts};
 use self::fronts::{Candidate, Front};
 use self::mesh::Mesh;
 use self::outflow::Outflow;
+pub use self::standing::{Beginning, Interfaces, Standing};
 use super::graph::{Network, Pores, Region};
 use super::menisci::Passage;
 use crate::geometry::curve::Curve;
@@ -140,6 +145,8 @@ pub struct Displacement {
     connected: Vec<bool>,
     outflow: Option<Outflow>,
     trapped: Vec<bool>,
+    /// Applied curvature in 1/m when an element was trapped, or when the half cycle before ended; NaN where there was none.
+    held: Vec<f64>,
     fronts: Vec<[Option<Front>; 2]>,
     queue: BinaryHeap<Candidate>,
     applied: f64,
@@ -172,7 +179,11 @@ impl Displacement {
     pub fn reverse(self, conditions: Conditions) -> Self {
         let invaded = self.invaded.iter().map(|invaded| !invaded).collect();
         let conditions = Conditions { events: self.conditions.events, ..conditions };
-        Self::begun(self.mesh, self.elements, self.centers, conditions, invaded)
+        // What bulged into the defending phase is seen from the other side now.
+        let last = if self.applied.is_finite() { -self.applied } else { f64::NAN };
+        let held = self.trapped.iter().zip(&self.held).map(|(&trapped, held)| if trapped { -held } else { last });
+        let held = held.collect();
+        Self { held, ..Self::begun(self.mesh, self.elements, self.centers, conditions, invaded) }
     }
 
     fn begun(
@@ -203,6 +214,7 @@ impl Displacement {
             connected,
             outflow,
             trapped,
+            held: vec![f64::NAN; count],
             fronts,
             queue: BinaryHeap::new(),
             applied: f64::NEG_INFINITY,
@@ -230,6 +242,7 @@ impl Displacement {
             let lost = self.outflow.as_mut().map(|outflow| outflow.remove(mesh, element)).unwrap_or_default();
             for lost in lost.into_iter().filter(|&lost| !self.invaded[lost]).collect::<Vec<_>>() {
                 self.trapped[lost] = true;
+                self.held[lost] = self.applied;
                 self.stop_fronts_into(mesh, lost);
             }
         }

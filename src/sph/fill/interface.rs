@@ -1,9 +1,9 @@
 //! Fills both sides of an interface that no lattice fits: a layer of particles on either side of it, and as many in each phase as it has room for.
 
 use super::lattice::each_with;
-use super::{CLOSEST, EQUAL, Lattice, Places, SAMPLING, apart, deepest};
-use crate::geometry::Geometry;
+use super::{CLOSEST, EQUAL, Lattice, Places, Region, SAMPLING, apart, deepest};
 use crate::geometry::shells::UnfittedSurface;
+use crate::geometry::{Geometry, Wall};
 use crate::math::{Bounds, Vec2};
 use crate::sph::domain::Domain;
 
@@ -12,17 +12,17 @@ const DOUBTFUL: f64 = 3.0;
 
 /// The initial interface between two phases in a pore.
 pub struct Interface<'a> {
-    region: &'a Geometry,
+    region: &'a Region,
     pore: &'a Geometry,
     surface: UnfittedSurface<'a>,
 }
 
 impl<'a> Interface<'a> {
-    /// The interface around a `region` that is filled in a `pore`, as its own solid: negative distance within.
+    /// The interface around a `region` that is filled in a `pore`.
     #[must_use]
-    pub fn new(region: &'a Geometry, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
+    pub fn new(region: &'a Region, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
         let spacing = lattice.volume().sqrt();
-        let surface = UnfittedSurface::new(region, 0.0, |a, b| lattice.fits(a, b))
+        let surface = UnfittedSurface::new(region.surface(), 0.0, |a, b| lattice.fits(a, b))
             .where_it(move |foot, normal| is_interface((foot, normal), pore, spacing));
         Self { region, pore, surface }
     }
@@ -43,7 +43,7 @@ impl<'a> Interface<'a> {
         }
         let spacing = lattice.volume().sqrt();
         let [inner, outer] = [0.5, -0.5].map(|depth| self.layer(depth * spacing, (lattice, domain)));
-        let within = (self.area(lattice) / lattice.volume()).round() as usize;
+        let within = (self.region.area().unwrap_or_else(|| self.area(lattice)) / lattice.volume()).round() as usize;
         let core = within.checked_sub(inner.len());
         let rest = places.fluid.len().checked_sub(within + outer.len());
         let (Some(core), Some(rest), false) = (core, rest, inner.is_empty() || outer.is_empty()) else {
@@ -54,7 +54,7 @@ impl<'a> Interface<'a> {
             Some(_) => f64::INFINITY,
             None => self.region.signed_distance(x).abs().max(DOUBTFUL * spacing),
         };
-        let found = each_with(places.fluid.drain(..), |x| (far(x), self.region.signed_distance(x) < 0.0));
+        let found = each_with(places.fluid.drain(..), |x| (far(x), self.region.holds(x)));
         let (mut inside, mut outside) = (Vec::new(), Vec::new());
         for (x, (far, is_inside)) in found {
             if is_inside { &mut inside } else { &mut outside }.push((far, x));
@@ -87,13 +87,15 @@ impl<'a> Interface<'a> {
         /// Parts of a cell along each side, where it is cut.
         const PARTS: usize = 4;
         let share = |x: Vec2| {
-            let is_cut = [self.region, self.pore].iter().any(|of| of.signed_distance(x).abs() < lattice.step.norm());
+            let distances = [self.region.signed_distance(x), self.pore.signed_distance(x)];
+            let is_cut = distances.iter().any(|distance| distance.abs() < lattice.step.norm());
             let parts = if is_cut { PARTS } else { 1 };
             let size = lattice.step / parts as f64;
             let middle = |k: usize| (k as f64 + 0.5) - 0.5 * parts as f64;
             let middles =
                 (0..parts * parts).map(|k| Vec2::new(middle(k % parts), middle(k / parts)).component_mul(&size));
-            let shares = middles.map(|by| (1.0 - above(self.region, x + by, size)) * above(self.pore, x + by, size));
+            let shares =
+                middles.map(|by| (1.0 - above(self.region.wall(x + by), size)) * above(self.pore.wall(x + by), size));
             shares.sum::<f64>() / (parts * parts) as f64
         };
         each_with(lattice.points(0.0, [false; 4]), share).map(|(_, share)| share).sum::<f64>() * lattice.volume()
@@ -119,10 +121,9 @@ fn is_interface((foot, normal): (Vec2, Vec2), pore: &Geometry, spacing: f64) -> 
     !lies_along(wall.distance, wall.normal) && !sides.iter().any(|(distance, normal)| lies_along(*distance, *normal))
 }
 
-/// The share of a cell of `size` around `x` (m) on the positive side of a surface, which is straight within it: exact where the surface lies along an
+/// The share of a cell of `size` (m) on the positive side of a surface, as seen from its middle, which is straight within it: exact where the surface lies along an
 /// axis or halves the cell.
-fn above(surface: &Geometry, x: Vec2, size: Vec2) -> f64 {
-    let wall = surface.wall(x);
+fn above(wall: Wall, size: Vec2) -> f64 {
     let width = wall.normal.abs().dot(&size);
     if width > 0.0 { (0.5 + wall.distance / width).clamp(0.0, 1.0) } else { f64::from(wall.distance > 0.0) }
 }

@@ -2,10 +2,12 @@
 
 mod interface;
 mod lattice;
+mod region;
 mod walls;
 
 pub use interface::Interface;
 pub use lattice::{Lattice, on_lattice};
+pub use region::Region;
 pub use walls::along_walls;
 
 use crate::math::Vec2;

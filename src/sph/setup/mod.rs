@@ -1,6 +1,8 @@
 //! From a checked case and its geometry to a solver: the only SPH folder that sees both.
 
 mod error;
+mod handed_back;
+mod handed_over;
 mod initial;
 mod method;
 mod open_sides;
@@ -22,7 +24,7 @@ use crate::case::checked::{Case, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
 use crate::sph::domain::{Domain, WallQuery};
-use crate::sph::fill::{self, Lattice};
+use crate::sph::fill::{self, Lattice, Region};
 use crate::sph::open::{self, Around, Ledger, Open};
 use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
@@ -64,10 +66,12 @@ pub fn build_watched(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Res
         let needed = fill::PERIODIC_SUPPORTS * support;
         return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
     }
-    let region = region(case, &sph.initial.wetting);
+    let region = match &sph.initial.network {
+        Some(start) => handed_over::region(case, sph, start),
+        None => Region::of_shapes(region(case, &sph.initial.wetting)),
+    };
     let phase = |x: Vec2| {
-        let inside = region.signed_distance(x) < 0.0;
-        let wetting = inside != sph.initial.wetting_is_background;
+        let wetting = region.holds(x) != sph.initial.wetting_is_background;
         if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
     };
     let walls = sides.map(|side| side == Side::Wall);
@@ -90,6 +94,9 @@ pub fn build_watched(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Res
     };
     open::fill(&mut particles, &mut depth, &open.sides, &around);
     initial::set(&mut particles, sph, &open, &inside, bounds);
+    if let Some(start) = &sph.initial.network {
+        handed_over::set_pressures(&mut particles, sph, &open, start);
+    }
     let ledger = Ledger::new(&particles.phase[..particles.fluids], u32::try_from(particles.len()).unwrap_or(u32::MAX));
     let open = Open { ledger, cell: lattice.step.x * lattice.step.y, ..open };
     let surroundings = surroundings(case, sph, &geometry);

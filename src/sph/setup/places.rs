@@ -6,7 +6,7 @@ use crate::geometry::Geometry;
 use crate::geometry::shells::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::fill::{self, Interface, Lattice, Places};
+use crate::sph::fill::{self, Interface, Lattice, Places, Region};
 use crate::sph::method::Method;
 use crate::sph::packing::Packing;
 
@@ -14,7 +14,7 @@ use crate::sph::packing::Packing;
 /// them; `done` is told the share of the packing that is done.
 pub(super) fn places(
     (geometry, domain): (&Geometry, &Domain),
-    region: Option<&Geometry>,
+    region: Option<&Region>,
     lattice: &Lattice,
     (method, fitted_walls): (&Method, bool),
     sides: [Side; 4],

@@ -1,5 +1,6 @@
 //! What measures and output know of the walls.
 
+use super::handed_back::hand_back;
 use crate::analysis::contour::Polyline;
 use crate::analysis::phases::wall_samples;
 use crate::case::checked::{Case, Sph};
@@ -21,6 +22,7 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surro
         wall_speeds: sph.wall_speeds,
         measures: sph.measure.clone(),
         grid_spacing: case.output.grid_ratio * sph.spacing,
+        hand_back: sph.initial.network.as_ref().map(|start| hand_back(start, sph.tension)),
     }
 }
 

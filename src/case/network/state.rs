@@ -1,0 +1,237 @@
+//! The state of a displacement as a file: phases of all elements, exact menisci, and what they belong to. A network writes it, and a network or a
+//! direct simulation of the same geometry begins with it.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::case::checked::{Side, Sides};
+use crate::case::raw::RawPhase;
+use crate::geometry::Geometry;
+use crate::geometry::curve::Curve;
+use crate::geometry::spec::GeometrySpec;
+use crate::math::Vec2;
+
+/// The format of state files that this program reads and writes.
+pub const FORMAT: u32 = 1;
+
+/// A distance below this share of the longer side of the domain is rounding, of numbers that were written and read.
+const SAME_PLACE: f64 = 1e-7;
+
+/// The state of a displacement. SI units; curvatures in 1/m, above 0 where the interface bulges into the wetting phase, so that tension times
+/// curvature is p_n - p_w.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NetworkState {
+    /// Version of the format: [`FORMAT`].
+    pub format: u32,
+    /// The program that wrote it.
+    pub version: String,
+    /// What the numbers mean.
+    pub note: String,
+    /// [`Geometry::hash`] in hexadecimal digits.
+    pub geometry_hash: String,
+    /// Lower left and upper right corner of the domain.
+    pub domain_m: [[f64; 2]; 2],
+    /// The left, right, bottom and top side.
+    pub sides: [Side; 4],
+    /// The phase that invades.
+    pub invading: RawPhase,
+    /// Number of the half cycle, from 1 on.
+    pub half_cycle: usize,
+    /// Number of its events so far.
+    pub events: usize,
+    /// Interfacial tension.
+    pub tension_n_per_m: f64,
+    /// The applied curvature, at which all menisci rest but those around what is trapped. In the middle of an avalanche it is that of the next event.
+    pub applied_curvature_per_m: f64,
+    /// Tension times that.
+    pub capillary_pressure_pa: f64,
+    /// The largest curvature that was applied so far; absent before the first event.
+    pub largest_applied_curvature_per_m: Option<f64>,
+    /// Smallest and largest contact angle on the walls through the wetting phase, in degrees.
+    pub contact_angles_deg: [f64; 2],
+    /// Share of the wetting phase by elements.
+    pub saturation: f64,
+    /// The same with the areas that menisci sweep beyond their gates; absent where it is not known.
+    pub saturation_with_menisci: Option<f64>,
+    /// The parts of the pore space that events fill.
+    pub elements: Vec<ElementState>,
+    /// All menisci.
+    pub menisci: Vec<MeniscusState>,
+    /// The boundary of the invading phase along walls and menisci, the phase on its left: numbers of segments and arcs.
+    pub invading_outline: Vec<Vec<f64>>,
+}
+
+/// A part of the pore space that is filled at once.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ElementState {
+    /// What it holds.
+    pub phase: RawPhase,
+    /// Whether it holds the defending phase and cannot let it go.
+    pub trapped: bool,
+    /// Curvature of the menisci around what is trapped.
+    pub trapped_curvature_per_m: Option<f64>,
+    /// Area.
+    pub area_m2: f64,
+    /// Its boundary in order, pore on the right: numbers of segments and arcs.
+    pub boundary: Vec<Vec<f64>>,
+}
+
+/// An interface between two walls.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeniscusState {
+    /// The element of the invading phase, and that of the defending phase.
+    pub between: [usize; 2],
+    /// Curvature; absent where no meniscus is known, and the chord of the gate stands for it.
+    pub curvature_per_m: Option<f64>,
+    /// Contacts with the walls on the left and on the right of the advance.
+    pub contacts_m: [[f64; 2]; 2],
+    /// Signed angle between the chord of both contacts and the interface in rad, above 0 where it bulges into the defending phase.
+    pub bend_rad: f64,
+    /// Area between the chord of the gate and the interface, above 0 where the interface is ahead; absent where it is not known.
+    pub swept_area_m2: Option<f64>,
+}
+
+/// A state that a run begins with.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Start {
+    /// Its file.
+    pub file: PathBuf,
+    /// A hash of its content.
+    pub digest: String,
+    /// What stands in it.
+    #[serde(skip)]
+    pub state: Arc<NetworkState>,
+}
+
+impl NetworkState {
+    /// A state without elements in a domain without size, to be filled in by tests.
+    #[cfg(test)]
+    pub fn empty() -> Self {
+        Self {
+            format: FORMAT,
+            version: String::new(),
+            note: String::new(),
+            geometry_hash: String::new(),
+            domain_m: [[0.0; 2]; 2],
+            sides: [Side::Inlet, Side::Outlet, Side::Wall, Side::Wall],
+            invading: RawPhase::NonWetting,
+            half_cycle: 1,
+            events: 0,
+            tension_n_per_m: 0.0,
+            applied_curvature_per_m: 0.0,
+            capillary_pressure_pa: 0.0,
+            largest_applied_curvature_per_m: None,
+            contact_angles_deg: [0.0; 2],
+            saturation: 0.0,
+            saturation_with_menisci: None,
+            elements: Vec::new(),
+            menisci: Vec::new(),
+            invading_outline: Vec::new(),
+        }
+    }
+
+    /// Whether the domain is joined along x and y.
+    pub fn periodic(&self) -> [bool; 2] {
+        [0, 2].map(|side| self.sides[side] == Side::Periodic)
+    }
+
+    /// What leads from a place in the domain to its nearest images in m, the place itself first.
+    pub fn images(&self) -> Vec<Vec2> {
+        let size = Vec2::from(self.domain_m[1]) - Vec2::from(self.domain_m[0]);
+        let shifts = self.periodic().map(|is_joined| if is_joined { &[0.0, -1.0, 1.0][..] } else { &[0.0][..] });
+        let rows = shifts[1];
+        let image = |&dx: &f64| rows.iter().map(move |&dy| size.component_mul(&Vec2::new(dx, dy)));
+        shifts[0].iter().flat_map(image).collect()
+    }
+
+    /// The state in a text.
+    ///
+    /// # Errors
+    /// What is wrong, with line and column where it has a place.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let state: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        if state.format != FORMAT {
+            return Err(format!("expected format {FORMAT}, found {}", state.format));
+        }
+        let all = state.elements.iter().flat_map(|element| &element.boundary).chain(&state.invading_outline);
+        if let Some(numbers) = all.into_iter().find(|numbers| Curve::from_numbers(numbers).is_none()) {
+            return Err(format!("expected the four numbers of a segment or the five of an arc, found {numbers:?}"));
+        }
+        let count = state.elements.len();
+        if let Some(element) = state.menisci.iter().flat_map(|it| it.between).find(|&element| element >= count) {
+            return Err(format!("a meniscus borders on element {element}, and there are {count} elements"));
+        }
+        Ok(state)
+    }
+
+    /// The curves of an outline.
+    pub fn curves(numbers: &[Vec<f64>]) -> Vec<Curve> {
+        numbers.iter().filter_map(|numbers| Curve::from_numbers(numbers)).collect()
+    }
+
+    /// What makes it a state of another geometry than this one; nothing where it is of this one.
+    pub fn misfit(&self, spec: &GeometrySpec) -> Option<String> {
+        if [spec.min, spec.max] != self.domain_m {
+            let ([a, b], [c, d]) = (self.domain_m, [spec.min, spec.max]);
+            return Some(format!("its domain reaches from {a:?} to {b:?} m, that of this case from {c:?} to {d:?} m"));
+        }
+        let geometry = Geometry::unchecked(spec);
+        let hash = format!("{:016x}", geometry.hash());
+        if hash == self.geometry_hash {
+            return None;
+        }
+        // A drawing that was cut in another way at the sides has another hash, and the same pores.
+        let geometry = geometry.with_sides(self.periodic(), self.sides.map(|side| side == Side::Wall));
+        let size = geometry.bounds().size().max();
+        let curves = self.elements.iter().flat_map(|element| Self::curves(&element.boundary));
+        let ends = curves.flat_map(|curve| [curve.point(0.0), curve.point(1.0)]);
+        let farthest = ends
+            .map(|x| (geometry.signed_distance(x).abs(), x))
+            .fold((0.0, Vec2::zeros()), |far, next| if next.0 > far.0 { next } else { far });
+        if farthest.0 > SAME_PLACE * size {
+            return Some(format!(
+                "its geometry has the hash {}, that of this case {hash}: a wall at ({:.4e}, {:.4e}) m is {:.1e} m off",
+                self.geometry_hash, farthest.1.x, farthest.1.y, farthest.0
+            ));
+        }
+        let (area, own) = (self.elements.iter().map(|element| element.area_m2).sum::<f64>(), geometry.porosity());
+        let own = own.value * geometry.bounds().area();
+        ((area - own).abs() > SAME_PLACE.sqrt() * own).then(|| {
+            format!(
+                "its pores have an area of {area:.6e} m2, those of this case {own:.6e} m2 (hash {hash}, {} there)",
+                self.geometry_hash
+            )
+        })
+    }
+
+    /// What of these sides does not go with those of the state: the first such side and why.
+    pub fn misfit_of_sides(&self, sides: &Sides) -> Option<(&'static str, String)> {
+        const NAMES: [&str; 4] = ["left", "right", "bottom", "top"];
+        let given = [sides.left, sides.right, sides.bottom, sides.top];
+        let fits = |state: Side, side: Side| match state {
+            Side::Periodic => side == Side::Periodic,
+            Side::Wall => side == Side::Wall,
+            // What was open can be closed.
+            _ => side != Side::Periodic,
+        };
+        let (name, state, side) = NAMES
+            .into_iter()
+            .zip(self.sides.into_iter().zip(given))
+            .map(|(name, (state, side))| (name, state, side))
+            .find(|&(_, state, side)| !fits(state, side))?;
+        let told = |side: Side| match side {
+            Side::Periodic => "periodic",
+            Side::Wall => "a wall",
+            Side::Image => "an image wall",
+            Side::Symmetry => "a symmetry line",
+            Side::Inlet => "the inlet",
+            Side::Outlet => "the outlet",
+        };
+        Some((name, format!("its side `{name}` is {}, that of this case {}", told(state), told(side))))
+    }
+}

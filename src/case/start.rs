@@ -1,0 +1,62 @@
+//! Reads the state of a network that a case begins with, and holds it against the geometry of the case.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::check::Checker;
+use super::network::state::{NetworkState, Start};
+use super::raw::RawCase;
+use crate::geometry::spec::GeometrySpec;
+use crate::input::file;
+use crate::math::{FNV1A_BASIS, fnv1a};
+
+/// What to do about a file that is no state.
+const WRITE: &str =
+    "a run of [network] with an inlet writes at-end.json and, where it breaks through, at-breakthrough.json";
+
+/// The key that names a state, and the file.
+fn named(raw: &RawCase) -> Option<(&'static str, &Path)> {
+    let of_sph = raw.sph.as_ref().and_then(|sph| sph.initial.as_ref()?.network.as_deref());
+    let of_network = raw.network.as_ref().and_then(|network| network.initial.as_deref());
+    of_sph.map(|file| ("sph.initial.network", file)).or(of_network.map(|file| ("network.initial", file)))
+}
+
+/// The state that the case begins with, looked for beside the case file in `folder`; none where none is named, or where it is refused.
+pub(super) fn start(
+    checker: &mut Checker,
+    raw: &RawCase,
+    folder: &Path,
+    geometry: Option<&GeometrySpec>,
+    sources: &mut Vec<PathBuf>,
+) -> Option<Start> {
+    let (key, file) = named(raw)?;
+    let path = folder.join(file);
+    let path = std::path::absolute(&path).unwrap_or(path);
+    sources.push(path.clone());
+    let text = match file::read_text(&path) {
+        Ok(text) => text,
+        Err(error) => {
+            let what = match error.kind() {
+                std::io::ErrorKind::NotFound => format!("there is no file {}", path.display()),
+                _ => format!("{} cannot be read: {error}", path.display()),
+            };
+            checker.refuse(key, what, format!("{WRITE}; it is looked for beside the case file"));
+            return None;
+        }
+    };
+    let state = match NetworkState::read(&text) {
+        Ok(state) => state,
+        Err(error) => {
+            checker.refuse(key, format!("{} is no state of a network: {error}", path.display()), WRITE);
+            return None;
+        }
+    };
+    if let Some(misfit) = geometry.and_then(|geometry| state.misfit(geometry)) {
+        let message = format!("{} is the state of another geometry: {misfit}", path.display());
+        checker.refuse(key, message, "run the network of this geometry first, and take the state that it writes");
+        return None;
+    }
+    // So that a saved run tells a changed file.
+    let digest = fnv1a(FNV1A_BASIS, text.bytes());
+    Some(Start { file: path, digest: format!("{digest:016x}"), state: Arc::new(state) })
+}

@@ -1,0 +1,36 @@
+//! Which part of the pore space a point lies in.
+
+use std::f64::consts::PI;
+
+use crate::geometry::curve::Curve;
+use crate::geometry::tree::Tree;
+use crate::math::{Bounds, Vec2};
+
+/// Parts of the plane by their exact boundaries, ready to be asked for many points.
+pub struct Elements {
+    boundaries: Vec<Vec<Curve>>,
+    tree: Tree,
+    images: Vec<Vec2>,
+}
+
+impl Elements {
+    /// Parts with the pore on the right of their `boundaries` (m); `images` lead from a place to its images in a periodic domain in m, zero first.
+    #[must_use]
+    pub fn new(boundaries: Vec<Vec<Curve>>, images: Vec<Vec2>) -> Self {
+        let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
+        let around = |curves: &Vec<Curve>| curves.iter().map(Curve::bounds).fold(none, |a, b| a.united(&b));
+        let tree = Tree::over(boundaries.iter().map(around));
+        Self { boundaries, tree, images }
+    }
+
+    /// The part that a point (m) lies in; the first one where it lies on a border.
+    #[must_use]
+    pub fn at(&self, x: Vec2) -> Option<usize> {
+        let winds =
+            |element: usize, x: Vec2| self.boundaries[element].iter().map(|curve| curve.winding(x)).sum::<f64>() < -PI;
+        self.images.iter().find_map(|image| {
+            let x = x + image;
+            self.tree.near_in_order(Bounds { min: x, max: x }).into_iter().find(|&element| winds(element, x))
+        })
+    }
+}

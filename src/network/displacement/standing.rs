@@ -1,0 +1,278 @@
+//! Where menisci stand now, as exact arcs, and the boundary of the invading phase along walls and menisci.
+//!
+//! All menisci that wait stand at one curvature: the applied one, or that of the next event where it comes at a lower one. In the middle of an avalanche the
+//! pressure falls so far where the area is given and not the pressure. Around what is trapped menisci keep the curvature at which it was cut off, or the lowest at which one of
+//! them would go on: its area does not change. Two menisci that have met on a grain stand as one, between the outer walls of both.
+//!
+//! Left out: menisci of different pressures around one cluster that was cut off in several parts; the angles at which menisci of an earlier half cycle
+//! stand, where walls have hysteresis. Where arcs would cross each other, the chords of their gates stand for them.
+
+use std::f64::consts::PI;
+
+use super::fronts::{Candidate, Neighbor};
+use super::loops::GateId;
+use super::wall_chains::{Side, WallChains};
+use super::{Conditions, Displacement, EventKind};
+use crate::geometry::curve::Curve;
+use crate::math::{Bounds, Vec2};
+use crate::network::graph::{Network, Pores};
+use crate::network::menisci::{Meniscus, Passage};
+
+/// An interface between two elements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Standing {
+    /// Elements of the invading and of the defending phase.
+    pub between: [usize; 2],
+    /// From the left wall to the right one in m, the defending phase on its left.
+    pub curve: Curve,
+    /// Curvature in 1/m, above 0 where it bulges into the defending phase; none where the chord of the gate stands for the meniscus.
+    pub curvature: Option<f64>,
+    /// Signed angle between the chord of both contacts and the interface in rad.
+    pub bend: f64,
+    /// Area in m² between the chord of the gate and the interface; none where two menisci have become one.
+    pub swept: Option<f64>,
+    /// Length of wall from the gate to the left and the right contact in m, where each has a gate of its own.
+    pub advances: [f64; 2],
+    /// Its gate, or both where two menisci have become one, with the ends at which they enter.
+    gates: Vec<(usize, usize)>,
+}
+
+/// All interfaces, and what the invading phase is bounded by.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Interfaces {
+    /// The interfaces.
+    pub menisci: Vec<Standing>,
+    /// The boundary of the invading phase in m, the phase on its left: along walls, then along menisci.
+    pub outline: Vec<Curve>,
+    /// For each element the curvature in 1/m of the menisci around what is trapped there; NaN where nothing is.
+    pub trapped: Vec<f64>,
+    /// Area of the invading phase in m²; none in a periodic domain where menisci have joined.
+    pub area: Option<f64>,
+}
+
+/// Two menisci that have met and wait as one.
+struct Pair {
+    /// Their gates with the ends at which they enter.
+    gates: [(usize, usize); 2],
+    /// The passage between the outer walls of both.
+    passage: Passage,
+}
+
+/// The phases with which a displacement begins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Beginning {
+    /// Whether the invading phase holds an element.
+    pub invaded: Vec<bool>,
+    /// The applied curvature in 1/m so far; below all where this half cycle begins with it.
+    pub applied: f64,
+    /// Curvature in 1/m at which an element was trapped; NaN where it was not.
+    pub held: Vec<f64>,
+}
+
+impl Displacement {
+    /// A displacement that begins with phases that are known; as [`new`](Self::new), it fills what is open at an inlet.
+    #[must_use]
+    pub fn beginning(network: &Network, pores: &Pores, conditions: Conditions, beginning: &Beginning) -> Self {
+        let fresh = Self::new(network, pores, Conditions { inlet: [false; 4], ..conditions.clone() });
+        let mut invaded = vec![false; fresh.mesh.elements.len()];
+        let mut held = vec![f64::NAN; fresh.mesh.elements.len()];
+        for (index, &element) in fresh.mesh.element_of.iter().enumerate() {
+            invaded[element] |= beginning.invaded[index];
+            held[element] = beginning.held[index];
+        }
+        let begun = Self::begun(fresh.mesh, fresh.elements, fresh.centers, conditions, invaded);
+        Self { applied: beginning.applied, held, ..begun }
+    }
+
+    /// For each element of the mesh the curvature in 1/m of the menisci around its trapped region: the one at which it was cut off, or the lowest at
+    /// which one of them would go on, since its area is given; NaN where nothing is trapped.
+    fn trapped_curvatures(&self) -> Vec<f64> {
+        let mesh = &self.mesh;
+        let angles = &self.conditions.angle;
+        let mut found = vec![f64::NAN; mesh.elements.len()];
+        let mut is_seen = vec![false; mesh.elements.len()];
+        for first in (0..mesh.elements.len()).filter(|&element| self.trapped[element]) {
+            if is_seen[first] {
+                continue;
+            }
+            is_seen[first] = true;
+            let (mut region, mut next, mut curvature) = (vec![first], 0, f64::INFINITY);
+            while let Some(&element) = region.get(next) {
+                next += 1;
+                curvature = curvature.min(self.held[element]);
+                for &(gate, to) in &mesh.elements[element].gates {
+                    let beyond = mesh.element(gate, 1 - to);
+                    if self.invaded[beyond] {
+                        let (passage, obstacles) = self.passage_at(angles, mesh, (gate, to), Vec2::zeros());
+                        curvature = curvature.min(self.own_event(&passage, &obstacles).1);
+                    } else if self.trapped[beyond] && !std::mem::replace(&mut is_seen[beyond], true) {
+                        region.push(beyond);
+                    }
+                }
+            }
+            region.into_iter().for_each(|element| found[element] = curvature);
+        }
+        found
+    }
+
+    /// The curvature in 1/m at which all menisci that wait can rest: `applied`, or that of the next event where it is lower.
+    #[must_use]
+    pub fn resting_curvature(&self, applied: f64) -> f64 {
+        let is_open = |it: &&Candidate| {
+            let front = (it.gate, it.to);
+            let meets = |(other, hand)| {
+                self.neighbor(&self.mesh, front, hand).is_some_and(|neighbor: Neighbor| neighbor.front == other)
+            };
+            self.fronts[it.gate][it.to].is_some() && it.partner.is_none_or(meets)
+        };
+        self.queue.iter().filter(is_open).map(|it| it.curvature).fold(applied, f64::min)
+    }
+
+    /// All interfaces at a resting curvature (1/m), in a domain that is joined along x and y where `periodic`.
+    #[must_use]
+    pub fn interfaces(&self, applied: f64, bounds: Bounds, periodic: [bool; 2]) -> Interfaces {
+        let mesh = &self.mesh;
+        let trapped = self.trapped_curvatures();
+        let mut menisci = self.standing(applied, &trapped);
+        let is_invaded: Vec<bool> = mesh.element_of.iter().map(|&element| self.invaded[element]).collect();
+        let chains = WallChains::new(mesh, &is_invaded, bounds, periodic);
+        let walls = loop {
+            let ends: Vec<[(Vec2, f64); 2]> = menisci
+                .iter()
+                .map(|it| [(it.curve.point(0.0), it.advances[0]), (it.curve.point(1.0), it.advances[1])])
+                .collect();
+            let traced = chains.traced(&ends);
+            let crossed: Vec<usize> =
+                traced.crossed.iter().copied().filter(|&index| menisci[index].curvature.is_some()).collect();
+            if crossed.is_empty() {
+                break traced.sides;
+            }
+            for index in crossed {
+                let gates = menisci[index].gates.clone();
+                menisci[index] = self.chord(gates[0]);
+                menisci.extend(gates[1..].iter().map(|&gate| self.chord(gate)));
+            }
+        };
+        let mut outline: Vec<Curve> = walls
+            .into_iter()
+            .map(|Side { piece, from, to }| chains.curves[piece].part(from, to).reversed())
+            .filter(|curve| curve.length() > 0.0)
+            .collect();
+        outline.extend(menisci.iter().map(|it| it.curve.reversed()));
+        let area = self.invading_area(&outline, &menisci, periodic);
+        let trapped = mesh.element_of.iter().map(|&element| trapped[element]).collect();
+        Interfaces { menisci, outline, trapped, area }
+    }
+
+    /// The interfaces in all gates between the phases; `trapped` are the curvatures of what is trapped.
+    fn standing(&self, applied: f64, trapped: &[f64]) -> Vec<Standing> {
+        let mesh = &self.mesh;
+        let joined = self.joined();
+        let is_joined = |front: (usize, usize)| joined.iter().any(|pair| pair.gates.contains(&front));
+        let mut found = Vec::new();
+        for (gate, to) in (0..mesh.gates.len()).flat_map(|gate| [(gate, 0), (gate, 1)]) {
+            let (from, into) = (mesh.element(gate, 1 - to), mesh.element(gate, to));
+            if !self.invaded[from] || self.invaded[into] || is_joined((gate, to)) {
+                continue;
+            }
+            let curvature = match &self.fronts[gate][to] {
+                Some(front) => applied.min(front.own),
+                None if self.trapped[into] => trapped[into],
+                None => self.held[from],
+            };
+            let curvature = if curvature.is_nan() { applied } else { curvature };
+            let own = self.fronts[gate][to].as_ref().map(|front| front.passage.clone());
+            let passage = own.unwrap_or_else(|| self.passage_of((gate, to)));
+            let burst = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
+            found.extend(self.at(&passage, curvature.min(burst), &[(gate, to)]));
+        }
+        for pair in &joined {
+            found.extend(self.at(&pair.passage, applied, &pair.gates));
+        }
+        found
+    }
+
+    /// The meniscus of a passage at a curvature, or the chords of its gates.
+    fn at(&self, passage: &Passage, curvature: f64, gates: &[(usize, usize)]) -> Vec<Standing> {
+        let found = passage.at(curvature).filter(|it: &Meniscus| it.bend.abs() < PI && it.chord() > 0.0);
+        let Some(meniscus) = found else { return gates.iter().map(|&gate| self.chord(gate)).collect() };
+        let is_one = gates.len() == 1;
+        let advance = |length: f64| if is_one { length } else { f64::INFINITY };
+        vec![Standing {
+            curve: meniscus.curve(),
+            curvature: Some(meniscus.curvature),
+            bend: meniscus.bend,
+            swept: is_one.then(|| passage.swept_area(&meniscus)),
+            advances: [advance(meniscus.left.advance), advance(meniscus.right.advance)],
+            gates: gates.to_vec(),
+            ..self.chord(gates[0])
+        }]
+    }
+
+    /// The chord of a gate in place of a meniscus.
+    fn chord(&self, (gate, to): (usize, usize)) -> Standing {
+        let sides = self.mesh.gates[gate].places;
+        let crossing = self.mesh.loops[sides[to].0].crossings[sides[to].1];
+        Standing {
+            between: [sides[1 - to].0, sides[to].0],
+            // The wall on the left goes on where the crossing ends.
+            curve: Curve::Segment { a: crossing.to, b: crossing.from },
+            curvature: None,
+            bend: 0.0,
+            swept: Some(0.0),
+            advances: [0.0; 2],
+            gates: vec![(gate, to)],
+        }
+    }
+
+    fn passage_of(&self, (gate, to): (usize, usize)) -> Passage {
+        self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()).0
+    }
+
+    /// Pairs of menisci that wait as one.
+    fn joined(&self) -> Vec<Pair> {
+        let mut waiting: Vec<_> =
+            self.queue.iter().filter(|it| it.is_joined && it.kind == EventKind::Overlap).collect();
+        waiting.sort();
+        let mut pairs: Vec<Pair> = Vec::new();
+        for candidate in waiting.into_iter().rev() {
+            let Some((other, hand)) = candidate.partner else { continue };
+            let one = (candidate.gate, candidate.to);
+            let is_new = |front: (usize, usize)| pairs.iter().all(|pair| !pair.gates.contains(&front));
+            if self.fronts[one.0][one.1].is_none() || !is_new(one) || !is_new(other) {
+                continue;
+            }
+            let neighbor = self.neighbor(&self.mesh, one, hand).filter(|neighbor| neighbor.front == other);
+            if let Some(neighbor) = neighbor {
+                let (passage, _) = self.joined_passage(&self.mesh, one, hand, &neighbor);
+                pairs.push(Pair { gates: [one, other], passage });
+            }
+        }
+        pairs
+    }
+
+    /// Area of the invading phase in m²: within its outline (Green), or by elements and what menisci sweep beyond their gates.
+    fn invading_area(&self, outline: &[Curve], menisci: &[Standing], periodic: [bool; 2]) -> Option<f64> {
+        let mesh = &self.mesh;
+        let holds = |index: usize| self.invaded[mesh.element_of[index]];
+        if periodic == [false; 2] {
+            let origin = outline.first().map_or_else(Vec2::zeros, |curve| curve.point(0.0));
+            let openings = mesh.loops.iter().enumerate().filter(|(index, _)| holds(*index)).flat_map(|(_, part)| {
+                let crossings = part.crossings.iter().chain(&part.apart);
+                crossings.filter(|crossing| matches!(crossing.gate, GateId::Opening(_)))
+            });
+            let openings = openings.map(|it| Curve::Segment { a: it.to, b: it.from }.area_about(origin));
+            return Some(outline.iter().map(|curve| curve.area_about(origin)).sum::<f64>() + openings.sum::<f64>());
+        }
+        let elements: f64 = (0..mesh.loops.len()).filter(|&index| holds(index)).map(|index| mesh.area[index]).sum();
+        menisci.iter().try_fold(elements, |area, it| Some(area + it.swept?))
+    }
+
+    /// The exact boundary of an element in m, pore on the right.
+    #[must_use]
+    pub fn boundary(&self, element: usize) -> Vec<Curve> {
+        let part = &self.mesh.loops[element];
+        let apart = part.apart.iter().map(|crossing| Curve::Segment { a: crossing.from, b: crossing.to });
+        part.curves().into_iter().chain(apart).filter(|curve| curve.length() > 0.0).collect()
+    }
+}

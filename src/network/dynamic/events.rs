@@ -1,0 +1,237 @@
+//! What happens when a meniscus reaches its event, and when an element is full.
+
+use super::graph::{Graph, Way};
+use super::rise::Rise;
+use super::step::{Goal, REACHED};
+use super::{Breakthrough, Dynamic, Filling, Meniscus, Occurrence};
+use crate::network::cycles::Invasion;
+use crate::network::displacement::{FrontId, Phase};
+use crate::network::laplacian::FlowError;
+
+impl Dynamic {
+    /// What the next step may come to.
+    pub(super) fn goals(&self, graph: &Graph) -> Vec<Goal> {
+        let mut link_of = vec![None; self.gates.len()];
+        for (index, link) in graph.links.iter().enumerate() {
+            if let Way::Meniscus((gate, _)) = link.way {
+                link_of[gate] = Some(index);
+            }
+        }
+        let waits = |front: FrontId| self.state.menisci[front.0][front.1].is_some_and(|meniscus| !meniscus.has_burst);
+        let mut goals = Vec::new();
+        for (index, advance) in self.advances.iter().enumerate() {
+            let (front, partner) = advance.fronts;
+            if !waits(front) {
+                continue;
+            }
+            match (link_of[front.0], partner) {
+                (Some(link), None) => goals.push(Goal::Own(index, link)),
+                (Some(link), Some(partner)) if waits(partner) => {
+                    let is_new = advance.fills.iter().any(|&element| self.state.filling[element].is_none());
+                    if let Some(other) = link_of[partner.0].filter(|_| is_new) {
+                        goals.push(Goal::Meeting(index, [link, other]));
+                    }
+                }
+                _ => {}
+            }
+        }
+        for (element, filling) in self.state.filling.iter().enumerate() {
+            let Some(filling) = filling.as_ref().filter(|_| !self.is_outlet[element]) else { continue };
+            let (mut burst, mut entering) = (Vec::new(), Vec::new());
+            for &(gate, end) in self.displacement.gates_of(element) {
+                match (link_of[gate], &self.state.menisci[gate][end]) {
+                    (Some(link), Some(meniscus)) if meniscus.has_burst => burst.push(link),
+                    (Some(link), Some(_)) => entering.push(link),
+                    _ => {}
+                }
+            }
+            let target = self.target(element, filling);
+            goals.push(Goal::Full { element, burst, entering, target });
+        }
+        goals
+    }
+
+    /// Area in m² of the invading phase in an element when it is full, with that of the menisci that then wait in its gates.
+    fn target(&self, element: usize, filling: &Filling) -> f64 {
+        let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
+        let menisci: f64 = ahead.map(|(_, rise)| rise.area(filling.curvature.min(rise.end().1))).sum();
+        self.displacement.elements()[element].area + menisci
+    }
+
+    /// The element that a meniscus enters.
+    fn ahead_of(&self, (gate, end): FrontId) -> usize {
+        self.gates[gate].elements[end]
+    }
+
+    /// Does all events that are due, one after the other; whether there was one.
+    pub(super) fn fire(&mut self) -> Result<bool, FlowError> {
+        let mut has_fired = false;
+        loop {
+            let graph = match self.graph.take() {
+                Some(graph) => graph,
+                None => self.graph()?,
+            };
+            let goals = self.goals(&graph);
+            let gaps = self.gaps(&graph, &goals);
+            // What is full comes first, then the event of the lowest curvature.
+            let curvature = |goal: usize| match goals[goal] {
+                Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.advances[advance].curvature,
+                Goal::Full { .. } => f64::NEG_INFINITY,
+            };
+            let due = (0..goals.len()).filter(|&goal| gaps[goal] <= REACHED);
+            let Some(first) = due.min_by(|&a, &b| curvature(a).total_cmp(&curvature(b))) else {
+                self.graph = Some(graph);
+                return Ok(has_fired);
+            };
+            has_fired = true;
+            match goals[first] {
+                Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.pass(advance),
+                Goal::Full { element, .. } => self.complete(element),
+            }
+        }
+    }
+
+    /// Lets the menisci of an advance into the elements ahead.
+    fn pass(&mut self, index: usize) {
+        let advance = self.advances[index].clone();
+        let (front, partner) = advance.fronts;
+        let saturation = self.invading_area() / self.pore_area;
+        self.state.history.push(Occurrence {
+            time: self.state.time,
+            kind: advance.kind,
+            throat: self.gates[front.0].throat,
+            curvature: advance.curvature,
+            saturation,
+            pressure: self.state.pressure,
+        });
+        let invasion =
+            Invasion { sequence: self.state.history.len(), applied: advance.curvature, displaced: saturation };
+        let is_joined = advance.fills.len() > 1;
+        for &element in &advance.fills {
+            if self.state.filling[element].is_none() {
+                self.begin_filling(element, advance.curvature, is_joined);
+                self.state.invasions[element].get_or_insert(invasion);
+            }
+        }
+        [Some(front), partner].into_iter().flatten().for_each(|front| self.burst(front));
+    }
+
+    fn begin_filling(&mut self, element: usize, event: f64, is_joined: bool) {
+        self.ahead[element] = self.menisci_ahead(element);
+        // Beyond the outlet no wall bends it.
+        let curvature = if self.is_outlet[element] { 0.0 } else { self.body_curvature(element).min(event) };
+        self.state.filling[element] = Some(Filling { area: 0.0, curvature, is_joined });
+    }
+
+    /// The menisci that may wait in the gates of an element once it is full.
+    pub(super) fn menisci_ahead(&self, element: usize) -> Vec<(FrontId, Rise)> {
+        let gates = self.displacement.gates_of(element).iter().map(|&(gate, end)| (gate, 1 - end));
+        let ahead = gates.filter(|&front| self.ahead_of(front) != element && !self.is_invaded(self.ahead_of(front)));
+        ahead
+            .filter_map(|front| {
+                let (passage, own) = self.displacement.front_to_come(front);
+                Some((front, Rise::new(&passage, own, self.gates[front.0].width)?))
+            })
+            .collect()
+    }
+
+    /// Curvature in 1/m of a body of invading phase in the largest inscribed circle of an element: cos θ over its radius, with the mean of
+    /// cos θ along its walls.
+    fn body_curvature(&self, element: usize) -> f64 {
+        let angles = self.displacement.angles();
+        let (mut length, mut sum) = (0.0, 0.0);
+        for piece in self.displacement.walls(element) {
+            let cos = angles.get(piece.shape as usize).map_or(0.0, |angle| angle.cos());
+            length += piece.curve.length();
+            sum += piece.curve.length() * cos;
+        }
+        let radius = self.network.regions[self.displacement.region(element)].radius;
+        if length > 0.0 { sum / (length * radius) } else { 0.0 }
+    }
+
+    fn burst(&mut self, front: FrontId) {
+        let element = self.ahead_of(front);
+        if let (Some(meniscus), Some(filling)) =
+            (&mut self.state.menisci[front.0][front.1], &mut self.state.filling[element])
+            && !std::mem::replace(&mut meniscus.has_burst, true)
+        {
+            filling.area += meniscus.area;
+        }
+        self.graph = None;
+        if self.is_outlet[element] && self.state.breakthrough.is_none() {
+            self.state.breakthrough = Some(Breakthrough {
+                time: self.state.time,
+                saturation: self.invading_area() / self.pore_area,
+                pressure: self.state.pressure,
+            });
+        }
+    }
+
+    /// An element is full: menisci wait in its gates, with the same area of the invading phase as before.
+    fn complete(&mut self, element: usize) {
+        let Some(filling) = self.state.filling[element].take() else { return };
+        let mut left = self.filled_area(element, &filling) - self.displacement.elements()[element].area;
+        for &(gate, end) in self.displacement.gates_of(element) {
+            self.state.menisci[gate][end] = None;
+            self.rises[gate][end] = None;
+        }
+        self.finish(element);
+        let new: Vec<(FrontId, Rise)> = std::mem::take(&mut self.ahead[element])
+            .into_iter()
+            .filter(|(front, _)| self.displacement.front(*front).is_some())
+            .collect();
+        // What they hold too much goes to the one that passes its event first.
+        let first = new.iter().map(|(front, rise)| (rise.end().1, *front)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let curvature = common_curvature(&new, left, first.map_or(f64::INFINITY, |(curvature, _)| curvature));
+        left -= new.iter().map(|(_, rise)| rise.area(curvature)).sum::<f64>();
+        for (front, rise) in new {
+            let mut area = rise.area(curvature);
+            if first.is_some_and(|(_, first)| first == front) {
+                area += std::mem::take(&mut left);
+            }
+            self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false });
+            self.rises[front.0][front.1] = Some(rise);
+            if self.state.filling[self.ahead_of(front)].as_ref().is_some_and(|filling| filling.is_joined) {
+                self.burst(front);
+            }
+        }
+        self.state.excess += left;
+        self.state.completed.push(element);
+        self.graph = None;
+    }
+
+    /// Tells the displacement that an element is full, and keeps what menisci wait for then.
+    pub(super) fn finish(&mut self, element: usize) {
+        self.displacement.complete(element);
+        debug_assert_eq!(self.displacement.phase(element), Phase::Invading);
+        let new = self.displacement.new_advances();
+        self.advances.extend(new);
+        let displacement = &self.displacement;
+        self.advances.retain(|advance| displacement.still_waits(advance));
+    }
+}
+
+/// The curvature in 1/m at which menisci hold an area in m² together, at most `most`.
+fn common_curvature(menisci: &[(FrontId, Rise)], area: f64, most: f64) -> f64 {
+    const HALVINGS: usize = 80;
+    let held = |k: f64| menisci.iter().map(|(_, rise)| rise.area(k)).sum::<f64>();
+    let mut high = most;
+    if menisci.is_empty() || held(high) <= area {
+        return high;
+    }
+    let mut low = menisci.iter().map(|(_, rise)| rise.start().1).fold(high, f64::min);
+    let mut reach = (high - low).max(high.abs()).max(f64::MIN_POSITIVE);
+    while held(low) > area && reach.is_finite() {
+        low -= reach;
+        reach *= 2.0;
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if held(middle) > area {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    low
+}

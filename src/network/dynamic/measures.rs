@@ -1,0 +1,151 @@
+//! The measures, the events and the diagrams of a displacement in time.
+
+use super::solver::DynamicSolver;
+use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::network::cycles::Fluid;
+use crate::network::measures::of_network_with_flow;
+use crate::network::tables::{counts, kind_name, numbers, numbers_of_throats, places, words};
+use crate::solver::{Measure, Series};
+use crate::table::Table;
+
+fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
+    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into() }
+}
+
+/// All measures.
+pub fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
+    let mut found = of_network_with_flow(&solver.still);
+    let dynamic = &solver.dynamic;
+    let terms = dynamic.terms();
+    let breakthrough = dynamic.breakthrough();
+    let of = |value: fn(&super::Breakthrough) -> f64| breakthrough.as_ref().map_or(f64::NAN, value);
+    let reached = if breakthrough.is_some() {
+        "when the first meniscus passed into the pores that are open at the outlet"
+    } else {
+        "the invading phase did not reach the outlet"
+    };
+    let pressures = dynamic.history().iter().map(|event| event.pressure).filter(|pressure| pressure.is_finite());
+    let largest = pressures.fold(f64::NAN, f64::max);
+    let saturation = solver.saturation();
+    let wetting = if solver.invading == Fluid::Wetting { saturation } else { 1.0 - saturation };
+    let trapped: f64 = dynamic
+        .trapped()
+        .into_iter()
+        .zip(dynamic.displacement().elements())
+        .enumerate()
+        .filter(|(_, (trapped, _))| *trapped)
+        .map(|(index, (_, element))| element.area * (1.0 - dynamic.share(index)))
+        .sum();
+    let fingers = dynamic.fingers(solver.still.setting());
+    let numbers = series.column("capillary_number").filter(|ca| ca.is_finite()).collect::<Vec<_>>();
+    let mean = numbers.iter().skip(1).sum::<f64>() / numbers.len().saturating_sub(1) as f64;
+    found.extend([
+        measure("breakthrough-time-s", of(|it| it.time), "s", reached),
+        measure(
+            "breakthrough-pressure-difference-Pa",
+            of(|it| it.pressure),
+            "Pa",
+            format!("pressure at the inlet less that at the outlet, {reached}"),
+        ),
+        measure(
+            "largest-pressure-difference-Pa",
+            largest,
+            "Pa",
+            "largest pressure at the inlet less that at the outlet, at all events",
+        ),
+        measure(
+            "saturation-at-breakthrough",
+            of(|it| it.saturation),
+            "",
+            format!("share of the pore space that the invading phase holds, {reached}"),
+        ),
+        measure("injected-pore-volumes", solver.injected(), "", "area that passed the inlet over that of the pores"),
+        measure(
+            "final-wetting-saturation",
+            wetting,
+            "",
+            "share of the pore space that the wetting phase holds at the end",
+        ),
+        measure(
+            "trapped-saturation",
+            trapped / dynamic.pore_area(),
+            "",
+            "share of the pore space that holds the displaced phase and from which none leads on to the outlet",
+        ),
+        measure(
+            "capillary-number",
+            mean,
+            "",
+            "viscosity of the invading phase x inflow / (length of the inlet side x tension), mean over the records",
+        ),
+        measure(
+            "viscosity-ratio",
+            terms.viscosity[0] / terms.viscosity[1],
+            "",
+            "viscosity of the invading phase over that of the displaced one",
+        ),
+        measure(
+            "finger-width-m",
+            fingers.width,
+            "m",
+            "mean on 64 lines across the flow, from the first to the last pore of a finger, solids in it included",
+        ),
+        measure(
+            "fingers-per-line",
+            fingers.count,
+            "",
+            "mean number of fingers on the lines that the invading phase has reached",
+        ),
+        measure("interface-length-m", dynamic.interface_length(), "m", "sum of the lengths of all menisci at the end"),
+        measure(
+            "balance-error",
+            dynamic.balance_error(),
+            "",
+            "area that the invading phase gained less what flowed in and out, over what it holds",
+        ),
+        measure("events", dynamic.history().len() as f64, "", "bursts, touches and overlaps"),
+        measure(
+            "solves-per-event",
+            dynamic.state.solves as f64 / dynamic.history().len().max(1) as f64,
+            "",
+            "linear systems solved over the number of events",
+        ),
+    ]);
+    found
+}
+
+/// `events.csv`.
+pub fn events(solver: &DynamicSolver) -> Table {
+    let tension = solver.invading.towards_wetting(solver.dynamic.terms().tension);
+    let number_of = numbers_of_throats(solver.still.setting());
+    let history = solver.dynamic.history();
+    let wetting = |invading: f64| if solver.invading == Fluid::Wetting { invading } else { 1.0 - invading };
+    Table {
+        name: "events",
+        columns: vec![
+            counts("sequence", 1..=history.len()),
+            numbers("time_s", history.iter().map(|event| event.time)),
+            words("event", history.iter().map(|event| kind_name(event.kind))),
+            places("throat", history.iter().map(|event| event.throat.and_then(|throat| number_of[throat]))),
+            numbers("meniscus_pressure_Pa", history.iter().map(|event| tension * event.curvature)),
+            numbers("pressure_difference_Pa", history.iter().map(|event| event.pressure)),
+            numbers("saturation", history.iter().map(|event| wetting(event.saturation))),
+        ],
+    }
+}
+
+/// Pressure difference and saturation over what was injected.
+pub fn diagrams(solver: &DynamicSolver) -> Vec<Diagram> {
+    let history = solver.dynamic.history();
+    let points =
+        history.iter().filter(|event| event.pressure.is_finite()).map(|event| [event.saturation, event.pressure]);
+    let axis = |label| Axis { label, logarithmic: false };
+    vec![Diagram {
+        name: "pressure-difference",
+        title: "Pressure difference at each event",
+        x: axis("saturation of the invading phase"),
+        y: axis("pressure at the inlet less that at the outlet in Pa"),
+        map: None,
+        traces: vec![Trace { name: "events".to_owned(), stroke: Stroke::Full, points: points.collect() }],
+    }]
+}

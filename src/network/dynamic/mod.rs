@@ -1,0 +1,375 @@
+//! Dynamic displacement: two incompressible fluids, viscous flow through throats, and menisci that hold area.
+//!
+//! Each part of the pore space between at most three walls (an element) holds one phase or is being filled. One pressure p belongs to each
+//! phase of each region. Flows through throats are q = Δp/R, with the resistance R = μ₁ r₁ + μ₂ r₂ of both halves of the throat. A meniscus
+//! e between the invading and the defending phase has swept the area v_e since the chord of its gate and resists with σ k_e(v_e), exact for
+//! the walls (`rise.rs`):
+//!
+//! R q = p_i − p_j − σ k_e(v_e),  dv_e/dt = q.
+//!
+//! Where it reaches its event (burst, touch, or overlap with its neighbor) it lets the invading phase into the element ahead, which fills
+//! against the curvature of a body in it, cos θ/R_j, until its area is full; then menisci wait in its other gates. Time goes by backward
+//! Euler, so that each step is one graph Laplacian, symmetric and positive definite however long the step is; a step ends at the next event.
+//! Areas change by what flows only, so that both phases are conserved, and what cannot flow out is trapped by that alone.
+//!
+//! After the moving capacitors of Primkulov et al. (2019, 2021) with the events of Cieplak and Robbins (1988, 1990).
+//!
+//! An element that is open at the outlet belongs to what lies beyond: what comes into it leaves, and it never closes the way of the phase
+//! that is displaced.
+//!
+//! Left out: an element that is full stays so (no snap-off, no way back through a throat), films, inertia, the speed's effect on angles.
+
+mod events;
+mod fingers;
+mod graph;
+mod measures;
+mod rise;
+pub mod solver;
+mod step;
+
+pub use step::StepEnd;
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use self::graph::Graph;
+use self::rise::Rise;
+use super::conductance::{opening_resistances, resistances};
+use super::cycles::Invasion;
+use super::displacement::{Advance, Displacement, EventKind, FrontId, GateFacts, Phase};
+use super::graph::Network;
+
+/// What drives the displacement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Drive {
+    /// Area injected per time in m²/s.
+    Rate(f64),
+    /// Pressure at the inlet less that at the outlet in Pa.
+    Pressure(f64),
+}
+
+/// Fluids and drive of a dynamic displacement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Terms {
+    /// Viscosities of the invading and the defending phase in Pa s.
+    pub viscosity: [f64; 2],
+    /// Interfacial tension in N/m.
+    pub tension: f64,
+    /// What drives it.
+    pub drive: Drive,
+    /// Most pore volumes that pass the inlet in one step.
+    pub largest_step: f64,
+    /// Sides at which the invading phase comes in: left, right, bottom, top.
+    pub inlet: [bool; 4],
+    /// Sides at which both phases leave.
+    pub outlet: [bool; 4],
+}
+
+/// A meniscus in a gate.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Meniscus {
+    /// Area in m² that it has swept since the chord of the gate.
+    area: f64,
+    /// Whether it has passed its event; its area is then that of the element ahead.
+    has_burst: bool,
+}
+
+/// An element that is being filled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Filling {
+    /// Area in m² that came in through menisci that have burst.
+    area: f64,
+    /// Curvature in 1/m of the body of invading phase in it.
+    curvature: f64,
+    /// Whether it lies between two menisci that have met around a grain.
+    is_joined: bool,
+}
+
+/// One event that took place.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Occurrence {
+    /// Time in s.
+    pub time: f64,
+    /// What happened.
+    pub kind: EventKind,
+    /// The throat that was passed, an index into those of the network.
+    pub throat: Option<usize>,
+    /// Curvature of the meniscus in 1/m, above 0 where it bulges into the defending phase.
+    pub curvature: f64,
+    /// Saturation of the invading phase.
+    pub saturation: f64,
+    /// Pressure at the inlet less that at the outlet in Pa.
+    pub pressure: f64,
+}
+
+/// What happened when the invading phase reached the outlet.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Breakthrough {
+    /// Time in s.
+    pub time: f64,
+    /// Saturation of the invading phase.
+    pub saturation: f64,
+    /// Pressure at the inlet less that at the outlet in Pa.
+    pub pressure: f64,
+}
+
+/// All that the future depends on.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+struct State {
+    time: f64,
+    steps: u64,
+    /// By gate and end.
+    menisci: Vec<[Option<Meniscus>; 2]>,
+    /// By element.
+    filling: Vec<Option<Filling>>,
+    /// Elements in the order in which they became full.
+    completed: Vec<usize>,
+    /// Area in m² of the invading phase that found no room where an element became full.
+    excess: f64,
+    /// Areas in m² that came in and went out by phase: invading in, invading out, defending out.
+    passed: [f64; 3],
+    history: Vec<Occurrence>,
+    invasions: Vec<Option<Invasion>>,
+    breakthrough: Option<Breakthrough>,
+    /// Pressure at the inlet less that at the outlet in Pa, and flow into the inlet in m²/s, in the last step.
+    pressure: f64,
+    inflow: f64,
+    /// Length in s of the last step in which no element was filled, and of the shortest one in which one was.
+    last_steps: [f64; 2],
+    solves: u64,
+}
+
+/// A dynamic displacement.
+#[derive(Debug, Clone)]
+pub struct Dynamic {
+    displacement: Displacement,
+    network: Arc<Network>,
+    terms: Terms,
+    gates: Vec<GateFacts>,
+    /// Openings with their elements.
+    openings: Vec<(usize, usize)>,
+    /// In 1/m².
+    resistances: Vec<[f64; 2]>,
+    opening_resistances: Vec<f64>,
+    pore_area: f64,
+    /// Area of the invading phase at the beginning.
+    first_area: f64,
+    rises: Vec<[Option<Rise>; 2]>,
+    /// Of elements that are being filled: menisci that may wait in their gates once they are full.
+    ahead: Vec<Vec<(FrontId, Rise)>>,
+    advances: Vec<Advance>,
+    /// By element: whether it is open at the outlet and not at the inlet.
+    is_outlet: Vec<bool>,
+    state: State,
+    graph: Option<Graph>,
+}
+
+impl Dynamic {
+    /// The pore space full of the defending phase, except the elements that are open at an inlet, with flat menisci in their gates. The
+    /// displacement must be at its beginning, without trapping.
+    #[must_use]
+    pub fn new(network: Arc<Network>, displacement: Displacement, terms: Terms) -> Self {
+        let elements = displacement.elements().len();
+        let gates = displacement.gates();
+        let mut dynamic = Self {
+            openings: displacement.openings(),
+            resistances: resistances(&network),
+            opening_resistances: opening_resistances(&network),
+            pore_area: displacement.elements().iter().map(|element| element.area).sum(),
+            first_area: 0.0,
+            rises: vec![const { [None, None] }; gates.len()],
+            ahead: vec![Vec::new(); elements],
+            advances: Vec::new(),
+            is_outlet: Vec::new(),
+            state: State {
+                menisci: vec![[None; 2]; gates.len()],
+                filling: vec![None; elements],
+                invasions: vec![None; elements],
+                ..State::default()
+            },
+            graph: None,
+            gates,
+            displacement,
+            network,
+            terms,
+        };
+        dynamic.is_outlet = vec![false; elements];
+        for &(opening, element) in &dynamic.openings {
+            let opens = terms.outlet[dynamic.network.openings[opening].side];
+            dynamic.is_outlet[element] |= opens && !dynamic.is_invaded(element);
+        }
+        dynamic.begin();
+        dynamic
+    }
+
+    fn begin(&mut self) {
+        self.advances = self.displacement.new_advances();
+        for front in self.displacement.waiting().collect::<Vec<_>>() {
+            if let Some(rise) = self.rise_of(front) {
+                let area = rise.area(0.0_f64.max(rise.start().1));
+                self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false });
+                self.rises[front.0][front.1] = Some(rise);
+            }
+        }
+        let invaded = (0..self.state.filling.len()).filter(|&e| self.is_invaded(e)).collect::<Vec<_>>();
+        self.first_area = self.invading_area();
+        let displaced = self.first_area / self.pore_area;
+        invaded.into_iter().for_each(|element| {
+            self.state.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
+        });
+        if self.displacement.reached_outlet() {
+            self.state.breakthrough = Some(Breakthrough { time: 0.0, saturation: displaced, pressure: f64::NAN });
+        }
+    }
+
+    /// Takes up a saved state: elements are filled anew in their order, so that the same menisci wait for the same events.
+    fn restore(&mut self, state: State) -> Result<(), String> {
+        let elements = self.state.filling.len();
+        let counts = [
+            state.menisci.len() == self.gates.len(),
+            state.filling.len() == elements,
+            state.invasions.len() == elements,
+        ];
+        if counts != [true; 3] || state.completed.iter().any(|&element| element >= elements) {
+            return Err("it is that of another network".to_owned());
+        }
+        state.completed.iter().for_each(|&element| self.finish(element));
+        self.state = state;
+        for (gate, end) in self.displacement.waiting().collect::<Vec<_>>() {
+            self.rises[gate][end] = self.rise_of((gate, end));
+        }
+        for element in (0..elements).filter(|&element| self.state.filling[element].is_some()).collect::<Vec<_>>() {
+            self.ahead[element] = self.menisci_ahead(element);
+        }
+        self.graph = None;
+        Ok(())
+    }
+
+    fn rise_of(&self, front: FrontId) -> Option<Rise> {
+        let (passage, own) = self.displacement.front(front)?;
+        Rise::new(passage, own, self.gates[front.0].width)
+    }
+
+    /// Elements, gates, and the phases of the elements that are full.
+    #[must_use]
+    pub fn displacement(&self) -> &Displacement {
+        &self.displacement
+    }
+
+    /// Fluids and drive.
+    #[must_use]
+    pub fn terms(&self) -> &Terms {
+        &self.terms
+    }
+
+    /// The time in s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// All events so far.
+    #[must_use]
+    pub fn history(&self) -> &[Occurrence] {
+        &self.state.history
+    }
+
+    /// When the elements began to be filled; `applied` is the curvature of the meniscus that let the invading phase in.
+    #[must_use]
+    pub fn invasions(&self) -> &[Option<Invasion>] {
+        &self.state.invasions
+    }
+
+    /// When the invading phase reached the outlet.
+    #[must_use]
+    pub fn breakthrough(&self) -> Option<Breakthrough> {
+        self.state.breakthrough
+    }
+
+    /// Area of all pores in m².
+    #[must_use]
+    pub fn pore_area(&self) -> f64 {
+        self.pore_area
+    }
+
+    fn is_invaded(&self, element: usize) -> bool {
+        self.displacement.phase(element) == Phase::Invading
+    }
+
+    /// Area in m² of the invading phase in an element that is being filled.
+    fn filled_area(&self, element: usize, filling: &Filling) -> f64 {
+        filling.area + self.entering(element).map(|(_, meniscus)| meniscus.area).sum::<f64>()
+    }
+
+    /// The menisci that wait to enter an element.
+    fn entering(&self, element: usize) -> impl Iterator<Item = (FrontId, Meniscus)> + '_ {
+        let fronts = self.displacement.gates_of(element).iter().copied();
+        let meniscus = |front: FrontId| self.state.menisci[front.0][front.1].map(|meniscus| (front, meniscus));
+        fronts.filter_map(meniscus).filter(|(_, meniscus)| !meniscus.has_burst)
+    }
+
+    /// Share of an element that the invading phase holds: 1 where it is full, above 0 where it is being filled or a meniscus bulges into it.
+    #[must_use]
+    pub fn share(&self, element: usize) -> f64 {
+        if self.is_invaded(element) {
+            return 1.0;
+        }
+        let area = self.displacement.elements()[element].area;
+        let came = self.state.filling[element].as_ref().map_or(0.0, |filling| filling.area);
+        let waiting: f64 = self.entering(element).map(|(_, meniscus)| meniscus.area).sum();
+        ((came + waiting) / area).clamp(0.0, 1.0)
+    }
+
+    /// Area in m² that the invading phase holds.
+    #[must_use]
+    pub fn invading_area(&self) -> f64 {
+        let elements = self.displacement.elements().iter().enumerate();
+        let full: f64 = elements.filter(|(index, _)| self.is_invaded(*index)).map(|(_, element)| element.area).sum();
+        let filling: f64 = self.state.filling.iter().flatten().map(|filling| filling.area).sum();
+        let menisci = self.state.menisci.iter().flatten().flatten().filter(|meniscus| !meniscus.has_burst);
+        full + filling + menisci.map(|meniscus| meniscus.area).sum::<f64>() + self.state.excess
+    }
+
+    /// What the invading phase gained less what flowed in and out, over what it holds: an error of the program.
+    #[must_use]
+    pub fn balance_error(&self) -> f64 {
+        let [inflow, outflow, _] = self.state.passed;
+        let area = self.invading_area();
+        (area - self.first_area - (inflow - outflow)) / area.abs().max(f64::MIN_POSITIVE)
+    }
+
+    /// The menisci, each a polyline in m.
+    #[must_use]
+    pub fn menisci(&self) -> Vec<Vec<crate::math::Vec2>> {
+        const POINTS: usize = 17;
+        self.arcs().map(|arc| arc.points(POINTS)).collect()
+    }
+
+    /// The menisci that wait.
+    fn arcs(&self) -> impl Iterator<Item = super::menisci::Meniscus> + '_ {
+        self.displacement.waiting().filter_map(|front| {
+            let meniscus = self.state.menisci[front.0][front.1].filter(|meniscus| !meniscus.has_burst)?;
+            let rise = self.rises[front.0][front.1].as_ref()?;
+            let (passage, own) = self.displacement.front(front)?;
+            passage.at(rise.curvature(meniscus.area).0.min(own))
+        })
+    }
+
+    /// For each element whether it holds the defending phase and no other element that does leads on to an outlet.
+    #[must_use]
+    pub fn trapped(&self) -> Vec<bool> {
+        let count = self.state.filling.len();
+        let mut flows = vec![false; count];
+        let mut open: Vec<usize> = (0..count).filter(|&element| self.is_outlet[element]).collect();
+        while let Some(element) = open.pop() {
+            if self.is_invaded(element) || std::mem::replace(&mut flows[element], true) {
+                continue;
+            }
+            open.extend(
+                self.displacement.gates_of(element).iter().map(|&(gate, end)| self.gates[gate].elements[1 - end]),
+            );
+        }
+        (0..count).map(|element| !self.is_invaded(element) && !flows[element]).collect()
+    }
+}

@@ -1,0 +1,95 @@
+//! The curvature of a meniscus over the area that it has swept in its gate, up to its event.
+
+use crate::network::menisci::Passage;
+
+/// Menisci that a table is made of; they stand closer towards the event, where the curvature of a burst is level.
+const PLACES: usize = 17;
+/// Capacity, in widths cubed, of a meniscus that is drawn back as far as it can be: so small that it hardly gives more, and above 0, so
+/// that it comes forth again by itself.
+const CLOSED: f64 = 1e-4;
+/// Least area between two points in squared widths.
+const LEAST: f64 = 1e-9;
+
+/// A rising, piecewise linear function.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rise {
+    /// Swept area in m² since the chord of the gate, rising.
+    area: Vec<f64>,
+    /// Curvature in 1/m, rising.
+    curvature: Vec<f64>,
+    /// Change of curvature with area in 1/m³ before the first point.
+    closed: f64,
+}
+
+impl Rise {
+    /// The stable menisci of a passage up to its event at the curvature `event` (1/m), between walls `width` (m) apart at the chord; none
+    /// where no meniscus ever passes.
+    #[must_use]
+    pub fn new(passage: &Passage, event: f64, width: f64) -> Option<Self> {
+        if !event.is_finite() || !(width > 0.0) {
+            return None;
+        }
+        let lowest = passage.lowest()?.curvature.min(event);
+        let (mut area, mut curvature): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
+        for point in 0..PLACES {
+            let left = 1.0 - point as f64 / (PLACES - 1) as f64;
+            let k = event - (event - lowest) * left * left;
+            let Some(swept) = passage.at(k).map(|meniscus| passage.swept_area(&meniscus)) else { continue };
+            let is_next = area.last().is_none_or(|&before| swept > before + LEAST * width * width)
+                && curvature.last().is_none_or(|&last| k > last);
+            if is_next {
+                area.push(swept);
+                curvature.push(k);
+            }
+        }
+        (!area.is_empty()).then(|| Self { area, curvature, closed: 1.0 / (CLOSED * width.powi(3)) })
+    }
+
+    /// Curvature in 1/m at a swept area in m², and its change with the area in 1/m³.
+    #[must_use]
+    pub fn curvature(&self, area: f64) -> (f64, f64) {
+        if self.area.len() < 2 || area < self.area[0] {
+            return (self.curvature[0] + self.closed * (area - self.area[0]), self.closed);
+        }
+        let end = self.area.partition_point(|&a| a <= area).clamp(1, self.area.len() - 1);
+        let slope = self.slope(end);
+        (self.curvature[end] + slope * (area - self.area[end]), slope)
+    }
+
+    fn slope(&self, end: usize) -> f64 {
+        (self.curvature[end] - self.curvature[end - 1]) / (self.area[end] - self.area[end - 1])
+    }
+
+    /// Swept area in m² at a curvature in 1/m, at most that at the event.
+    #[must_use]
+    pub fn area(&self, curvature: f64) -> f64 {
+        let end = self.curvature.partition_point(|&k| k < curvature);
+        if end == self.curvature.len() {
+            self.end().0
+        } else if end == 0 {
+            self.area[0] + (curvature - self.curvature[0]) / self.closed
+        } else {
+            self.area[end] + (curvature - self.curvature[end]) / self.slope(end)
+        }
+    }
+
+    /// Swept area in m² and curvature in 1/m at the event.
+    #[must_use]
+    pub fn end(&self) -> (f64, f64) {
+        let last = self.area.len() - 1;
+        (self.area[last], self.curvature[last])
+    }
+
+    /// Swept area in m² and curvature in 1/m of the meniscus that is drawn back as far as it can be.
+    #[must_use]
+    pub fn start(&self) -> (f64, f64) {
+        (self.area[0], self.curvature[0])
+    }
+
+    /// The area in m² that errors of areas are compared with.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        let range = self.end().0 - self.area[0];
+        range.max(self.end().1.abs().max(f64::MIN_POSITIVE) / self.closed)
+    }
+}

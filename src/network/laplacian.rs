@@ -1,0 +1,234 @@
+//! Flow in a graph of conductors: one pressure per node, flows that sum to the source of every node.
+//!
+//! The matrix is a graph Laplacian, symmetric and positive definite once one node of each part that hangs on no given pressure has the
+//! pressure 0. It is factored by Cholesky; where it has its entries is found once per graph.
+//!
+//! Conductances may differ by more than the digits of a number: open throats lead a fluid far better than menisci let it go. Nodes that are
+//! joined by conductors marked as good are a cluster. Its unknowns are the pressure of one of its nodes and the differences of the others
+//! from it, so that the sum of what flows out of a cluster is an equation of its own, in which what flows within does not stand.
+
+use faer::Side;
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
+
+use crate::math::factor_in_one_thread;
+
+/// A network that does not fit into the memory as a matrix, or whose conductances are no numbers above 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the flow through a network of {nodes} nodes could not be solved: its conductances differ too much, or memory is short"
+)]
+pub struct FlowError {
+    /// Number of nodes.
+    pub nodes: usize,
+}
+
+/// Where a conductor begins and ends; without an end it leads to a given pressure.
+pub type Ends = (usize, Option<usize>);
+
+/// What drives a flow through a conductor: flow = conductance × (pressure of its first node + jump − pressure of its second node).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conductor {
+    /// Flow over pressure difference, above 0.
+    pub conductance: f64,
+    /// Pressure difference between both ends besides that of the nodes.
+    pub jump: f64,
+}
+
+/// Pressures and flows.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Flow {
+    /// Pressure of each node.
+    pub pressure: Vec<f64>,
+    /// Flow through each conductor, from its first node to its second. Sums over a node are right to rounding of the flows, however
+    /// much larger pressures are than their differences.
+    pub through: Vec<f64>,
+}
+
+/// A conductor of a graph.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge {
+    /// Where it begins and ends.
+    pub ends: Ends,
+    /// Whether it may conduct far better than others.
+    pub is_good: bool,
+}
+
+/// A graph of conductors.
+#[derive(Debug, Clone)]
+pub struct Laplacian {
+    nodes: usize,
+    edges: Vec<Edge>,
+    /// Of each node the unknowns whose sum is its pressure: that of its cluster and its own.
+    rows_of: Vec<[Option<usize>; 2]>,
+    /// None where there is nothing to solve.
+    pattern: Option<Pattern>,
+}
+
+#[derive(Debug, Clone)]
+struct Pattern {
+    matrix: SymbolicSparseColMat<usize>,
+    order: Argsort<usize>,
+    elimination: SymbolicLlt<usize>,
+    size: usize,
+}
+
+/// Most corrections of the flows by what is left over in each node.
+const REFINEMENTS: usize = 12;
+/// What may be left over in a node, over the largest flow.
+const LEFT: f64 = 1e-15;
+
+/// The unknowns that an edge joins, with their signs in the difference of pressures.
+type Incidence = [Option<(usize, f64)>; 4];
+
+impl Laplacian {
+    /// The graph of conductors between `nodes` nodes.
+    ///
+    /// # Errors
+    /// [`FlowError`] where it does not fit into the memory.
+    pub fn new(nodes: usize, edges: Vec<Edge>) -> Result<Self, FlowError> {
+        factor_in_one_thread();
+        let (rows_of, size) = unknowns(nodes, &edges);
+        let mut laplacian = Self { nodes, edges, rows_of, pattern: None };
+        let mut pairs = Vec::with_capacity(3 * laplacian.edges.len());
+        laplacian.each_entry(|_, row, col, _| pairs.push(Pair { row, col }));
+        if size > 0 {
+            let error = FlowError { nodes };
+            let (matrix, order) = SymbolicSparseColMat::try_new_from_indices(size, size, &pairs).map_err(|_| error)?;
+            let elimination = SymbolicLlt::try_new(matrix.as_ref(), Side::Lower).map_err(|_| error)?;
+            laplacian.pattern = Some(Pattern { matrix, order, elimination, size });
+        }
+        Ok(laplacian)
+    }
+
+    /// Whether a source in a node has a way to a given pressure.
+    #[must_use]
+    pub fn hangs_on_a_pressure(&self, node: usize) -> bool {
+        let mut parent = parts(self.nodes, self.edges.iter().map(|edge| edge.ends));
+        let part = root(&mut parent, node);
+        self.edges.iter().any(|edge| edge.ends.1.is_none() && root(&mut parent, edge.ends.0) == part)
+    }
+
+    fn incidence(&self, edge: &Edge) -> Incidence {
+        let (from, to) = edge.ends;
+        let from = self.rows_of[from];
+        let Some(to) = to.map(|to| self.rows_of[to]) else { return [plus(from[0]), plus(from[1]), None, None] };
+        let minus = |row: Option<usize>| row.map(|row| (row, -1.0));
+        let mut all = [plus(from[0]), plus(from[1]), minus(to[0]), minus(to[1])];
+        for k in 0..2 {
+            // The pressure of a cluster drives nothing within it, nor that of a node from it to itself around the period.
+            if from[k] == to[k] {
+                (all[k], all[k + 2]) = (None, None);
+            }
+        }
+        all
+    }
+
+    /// Calls `f` with conductor, row, column and sign of each entry of the lower triangle.
+    fn each_entry(&self, mut f: impl FnMut(usize, usize, usize, f64)) {
+        for (index, edge) in self.edges.iter().enumerate() {
+            let incidence = self.incidence(edge);
+            for (row, sign) in incidence.into_iter().flatten() {
+                for (col, other) in incidence.into_iter().flatten().filter(|&(col, _)| col <= row) {
+                    f(index, row, col, sign * other);
+                }
+            }
+        }
+    }
+
+    /// Pressures and flows, with the sources of all nodes.
+    ///
+    /// # Errors
+    /// [`FlowError`] where a conductance is not a number above 0.
+    pub fn solve(&self, conductors: &[Conductor], sources: &[f64]) -> Result<Flow, FlowError> {
+        let error = FlowError { nodes: self.nodes };
+        let mut flow = Flow {
+            pressure: vec![0.0; self.nodes],
+            through: conductors.iter().map(|conductor| conductor.conductance * conductor.jump).collect(),
+        };
+        let Some(Pattern { matrix, order, elimination, size }) = &self.pattern else { return Ok(flow) };
+        let mut values = Vec::with_capacity(3 * conductors.len());
+        self.each_entry(|index, _, _, sign| values.push(sign * conductors[index].conductance));
+        let matrix = SparseColMat::new_from_argsort(matrix.clone(), order, &values).map_err(|_| error)?;
+        let factors =
+            Llt::try_new_with_symbolic(elimination.clone(), matrix.as_ref(), Side::Lower).map_err(|_| error)?;
+        let mut left = faer::Mat::<f64>::zeros(*size, 1);
+        for round in 0..=REFINEMENTS {
+            left.fill(0.0);
+            for (&source, rows) in sources.iter().zip(&self.rows_of) {
+                rows.iter().flatten().for_each(|&row| left[(row, 0)] += source);
+            }
+            let mut largest: f64 = 0.0;
+            for (edge, &through) in self.edges.iter().zip(&flow.through) {
+                largest = largest.max(through.abs());
+                self.incidence(edge).into_iter().flatten().for_each(|(row, sign)| left[(row, 0)] -= sign * through);
+            }
+            if round > 1 && (0..*size).all(|row| left[(row, 0)].abs() <= LEFT * largest) {
+                break;
+            }
+            let change = factors.solve(&left);
+            for (pressure, rows) in flow.pressure.iter_mut().zip(&self.rows_of) {
+                *pressure += rows.iter().flatten().map(|&row| change[(row, 0)]).sum::<f64>();
+            }
+            for ((edge, conductor), through) in self.edges.iter().zip(conductors).zip(&mut flow.through) {
+                let drop: f64 =
+                    self.incidence(edge).into_iter().flatten().map(|(row, sign)| sign * change[(row, 0)]).sum();
+                *through += conductor.conductance * drop;
+            }
+        }
+        if flow.pressure.iter().all(|p| p.is_finite()) { Ok(flow) } else { Err(error) }
+    }
+}
+
+fn plus(row: Option<usize>) -> Option<(usize, f64)> {
+    row.map(|row| (row, 1.0))
+}
+
+/// The unknowns of each node and their number: one node of each part without a given pressure has the pressure 0.
+fn unknowns(nodes: usize, edges: &[Edge]) -> (Vec<[Option<usize>; 2]>, usize) {
+    let mut parent = parts(nodes, edges.iter().map(|edge| edge.ends));
+    let mut cluster = parts(nodes, edges.iter().filter(|edge| edge.is_good).map(|edge| edge.ends));
+    let mut is_given = vec![false; nodes];
+    for edge in edges.iter().filter(|edge| edge.ends.1.is_none()) {
+        is_given[root(&mut parent, edge.ends.0)] = true;
+    }
+    let mut rows = 0;
+    let mut next = || {
+        rows += 1;
+        rows - 1
+    };
+    let mut of_cluster: Vec<Option<usize>> = vec![None; nodes];
+    let found = (0..nodes)
+        .map(|node| {
+            let (part, first) = (root(&mut parent, node), root(&mut cluster, node));
+            // The first node of a part is the first of its cluster, since the smallest index names both.
+            if first == node && (part != node || is_given[part]) {
+                of_cluster[node] = Some(next());
+            }
+            [of_cluster[first], (first != node).then(&mut next)]
+        })
+        .collect();
+    (found, rows)
+}
+
+/// A forest whose roots name the parts of the graph: the smallest index of each.
+fn parts(nodes: usize, ends: impl Iterator<Item = Ends>) -> Vec<usize> {
+    let mut parent: Vec<usize> = (0..nodes).collect();
+    for (from, to) in ends {
+        if let Some(to) = to {
+            let (a, b) = (root(&mut parent, from), root(&mut parent, to));
+            parent[a.max(b)] = a.min(b);
+        }
+    }
+    parent
+}
+
+/// The smallest index of the part of a node, where each node leads to a smaller one of its part.
+pub fn root(parent: &mut [usize], mut node: usize) -> usize {
+    while parent[node] != node {
+        parent[node] = parent[parent[node]];
+        node = parent[node];
+    }
+    node
+}

@@ -1,0 +1,33 @@
+//! A displacement at one moment, kept while the displacement goes on.
+
+use super::cycles::Cycles;
+use super::displacement::Displacement;
+
+/// A displacement at one moment.
+#[derive(Debug, Clone)]
+pub struct Moment {
+    /// The displacement of the half cycle.
+    pub displacement: Displacement,
+    /// Index of the half cycle.
+    pub half_cycle: usize,
+    /// Number of its events so far.
+    pub events: usize,
+    /// Applied curvature towards the wetting phase in 1/m; none before the first event.
+    pub applied: Option<f64>,
+    /// Saturation of the wetting phase.
+    pub saturation: f64,
+}
+
+impl Cycles {
+    /// The present moment.
+    #[must_use]
+    pub fn moment(&self) -> Moment {
+        Moment {
+            displacement: self.displacement().clone(),
+            half_cycle: self.half_cycle_index(),
+            events: self.outcomes()[self.half_cycle_index()].events,
+            applied: self.applied(),
+            saturation: self.saturation(),
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! What output sees of a displacement at one moment, whether it is quasi-static or one in time.
+
+use super::cycles::{Cycles, Fluid, Invasion};
+use super::displacement::{Element, Phase};
+use crate::math::Vec2;
+
+/// Which fluid holds what, and how it came there.
+#[derive(Debug, Clone)]
+pub struct Occupation<'a> {
+    /// The elements; they tile the pore space.
+    pub elements: &'a [Element],
+    /// The phase that comes in.
+    pub invading: Fluid,
+    /// Share of each element that it holds.
+    pub share: Vec<f64>,
+    /// Whether an element holds the other phase without a way to the outlet.
+    pub trapped: Vec<bool>,
+    /// When elements were invaded in this displacement or half cycle.
+    pub invasions: &'a [Option<Invasion>],
+    /// The events of this displacement or half cycle in their order: the throat that was passed.
+    pub passed: Vec<Option<usize>>,
+    /// The menisci, each a polyline in m.
+    pub menisci: Vec<Vec<Vec2>>,
+    /// What it is and how far it has come, for pictures.
+    pub note: String,
+}
+
+impl Occupation<'_> {
+    /// Whether the invading phase holds most of an element.
+    #[must_use]
+    pub fn is_invaded(&self, element: usize) -> bool {
+        self.share[element] > 0.5
+    }
+
+    /// The fluid that holds most of an element.
+    #[must_use]
+    pub fn fluid(&self, element: usize) -> Fluid {
+        if self.is_invaded(element) { self.invading } else { self.invading.other() }
+    }
+
+    /// Curvature of menisci bulging into the wetting phase in 1/m for one that bulges into the phase that is displaced by `curvature`.
+    #[must_use]
+    pub fn towards_wetting(&self, curvature: f64) -> f64 {
+        self.invading.towards_wetting(curvature)
+    }
+}
+
+impl Cycles {
+    /// The present state.
+    #[must_use]
+    pub fn occupation(&self) -> Occupation<'_> {
+        let displacement = self.displacement();
+        let elements = displacement.elements();
+        let present = self.history().iter().filter(|entry| entry.half_cycle == self.half_cycle_index());
+        Occupation {
+            elements,
+            invading: self.half_cycle().invading,
+            share: (0..elements.len()).map(|e| f64::from(u8::from(displacement.phase(e) == Phase::Invading))).collect(),
+            trapped: (0..elements.len()).map(|e| displacement.is_trapped(e)).collect(),
+            invasions: self.invasions(),
+            passed: present.map(|entry| entry.throat).collect(),
+            menisci: self.menisci(),
+            note: format!(
+                "{} {}: wetting saturation {:.3}",
+                self.half_cycle().name(),
+                self.half_cycle_index() / 2 + 1,
+                self.saturation()
+            ),
+        }
+    }
+
+    /// The menisci at the applied pressure, each a polyline in m.
+    #[must_use]
+    pub fn menisci(&self) -> Vec<Vec<Vec2>> {
+        let applied = self.applied().map_or(0.0, |applied| self.half_cycle().towards_wetting(applied));
+        self.displacement().menisci(applied)
+    }
+}

@@ -1,0 +1,124 @@
+//! `at-breakthrough.json` and `at-end.json`: states that a network or a direct simulation of the same geometry can begin with.
+
+use super::cycles::{Cycles, Fluid, HalfCycle};
+use super::displacement::{Beginning, Element, Phase, Standing};
+use super::moment::Moment;
+use super::solver::{NetworkSolver, Setting};
+use crate::case::network::state::{ElementState, FORMAT, MeniscusState, NetworkState};
+use crate::case::raw::RawPhase;
+use crate::geometry::curve::Curve;
+use crate::table::Document;
+
+const NOTE: &str = "SI units; curvatures above 0 where an interface bulges into the wetting phase: tension times curvature is p_n - p_w; \
+                    curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
+
+/// The states at the first breakthrough and at the present moment.
+pub fn documents(solver: &NetworkSolver) -> Vec<Document> {
+    let Some(cycles) = solver.cycles() else { return Vec::new() };
+    let breakthrough =
+        cycles.breakthrough().map(|moment| document("at-breakthrough.json", solver.setting(), cycles, moment));
+    let end = document("at-end.json", solver.setting(), cycles, &cycles.moment());
+    breakthrough.into_iter().chain([end]).collect()
+}
+
+fn document(name: &'static str, setting: &Setting, cycles: &Cycles, moment: &Moment) -> Document {
+    // Numbers, texts and lists of them can always be written.
+    let text = serde_json::to_string(&state(setting, cycles.half_cycles(), moment)).unwrap_or_default();
+    Document { name, text: text + "\n" }
+}
+
+fn raw(fluid: Fluid) -> RawPhase {
+    match fluid {
+        Fluid::Wetting => RawPhase::Wetting,
+        Fluid::NonWetting => RawPhase::NonWetting,
+    }
+}
+
+/// The state at a moment.
+#[must_use]
+pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> NetworkState {
+    let half = &half_cycles[moment.half_cycle];
+    let displacement = &moment.displacement;
+    // Before the first event menisci are taken as flat as their walls allow.
+    let largest = moment.applied.map_or(0.0, |applied| half.towards_wetting(applied));
+    let resting = displacement.resting_curvature(largest);
+    let interfaces = displacement.interfaces(resting, setting.bounds, setting.periodic);
+    let applied = half.towards_wetting(resting);
+    let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
+    let invading = interfaces.area.map(|area| area / pore_area);
+    let angle =
+        |angle: &f64| if half.invading == Fluid::Wetting { 180.0 - angle.to_degrees() } else { angle.to_degrees() };
+    let angles = || half.conditions.angle.iter().map(angle);
+    let tension = setting.tension.unwrap_or(f64::NAN);
+    NetworkState {
+        format: FORMAT,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        note: NOTE.to_owned(),
+        geometry_hash: setting.geometry_hash.clone(),
+        domain_m: [setting.bounds.min.into(), setting.bounds.max.into()],
+        sides: setting.sides,
+        invading: raw(half.invading),
+        half_cycle: moment.half_cycle + 1,
+        events: moment.events,
+        tension_n_per_m: tension,
+        applied_curvature_per_m: applied,
+        capillary_pressure_pa: tension * applied,
+        largest_applied_curvature_per_m: moment.applied,
+        contact_angles_deg: [angles().fold(f64::INFINITY, f64::min), angles().fold(f64::NEG_INFINITY, f64::max)],
+        saturation: moment.saturation,
+        saturation_with_menisci: invading.map(|share| match half.invading {
+            Fluid::Wetting => share,
+            Fluid::NonWetting => 1.0 - share,
+        }),
+        elements: elements(half, moment, &interfaces.trapped),
+        menisci: interfaces.menisci.iter().map(|standing| meniscus(half, standing)).collect(),
+        invading_outline: interfaces.outline.iter().map(Curve::numbers).collect(),
+    }
+}
+
+fn elements(half: &HalfCycle, moment: &Moment, trapped: &[f64]) -> Vec<ElementState> {
+    let displacement = &moment.displacement;
+    let element = |(index, element): (usize, &Element)| {
+        let trapped_at = trapped[index];
+        ElementState {
+            phase: raw(match displacement.phase(index) {
+                Phase::Invading => half.invading,
+                Phase::Defending => half.invading.other(),
+            }),
+            trapped: displacement.is_trapped(index),
+            trapped_curvature_per_m: trapped_at.is_finite().then(|| half.towards_wetting(trapped_at)),
+            area_m2: element.area,
+            boundary: displacement.boundary(index).iter().map(Curve::numbers).collect(),
+        }
+    };
+    displacement.elements().iter().enumerate().map(element).collect()
+}
+
+fn meniscus(half: &HalfCycle, standing: &Standing) -> MeniscusState {
+    MeniscusState {
+        between: standing.between,
+        curvature_per_m: standing.curvature.map(|curvature| half.towards_wetting(curvature)),
+        contacts_m: [standing.curve.point(0.0).into(), standing.curve.point(1.0).into()],
+        bend_rad: standing.bend,
+        swept_area_m2: standing.swept,
+    }
+}
+
+/// The phases of a state for a half cycle in which `invading` invades.
+#[must_use]
+pub fn beginning(state: &NetworkState, invading: Fluid) -> Beginning {
+    let is_same = state.invading == raw(invading);
+    let sign = if invading == Fluid::NonWetting { 1.0 } else { -1.0 };
+    let largest = state.largest_applied_curvature_per_m.map(|applied| sign * applied);
+    // Where the other phase invaded so far, what it holds keeps the last curvature.
+    let held = |element: &ElementState| match element.trapped_curvature_per_m {
+        Some(curvature) => sign * curvature,
+        None if is_same => f64::NAN,
+        None => sign * state.applied_curvature_per_m,
+    };
+    Beginning {
+        invaded: state.elements.iter().map(|element| element.phase == raw(invading)).collect(),
+        applied: largest.filter(|_| is_same).unwrap_or(f64::NEG_INFINITY),
+        held: state.elements.iter().map(held).collect(),
+    }
+}

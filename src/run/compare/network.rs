@@ -1,0 +1,76 @@
+//! The network of a comparison, from event to event.
+
+use super::{CompareError, Grid, Record, Track};
+use crate::case::checked::Side;
+use crate::case::network::state::NetworkState;
+use crate::geometry::curve::Curve;
+use crate::math::Vec2;
+use crate::network::displacement::Phase;
+use crate::network::solver::NetworkSolver;
+use crate::network::state;
+use crate::solver::{Series, Solver};
+
+/// The present state; none where nothing is displaced.
+pub fn state(solver: &NetworkSolver) -> Option<NetworkState> {
+    let cycles = solver.cycles()?;
+    Some(state::state(solver.setting(), cycles.half_cycles(), &cycles.moment()))
+}
+
+/// Runs the first half cycle.
+pub fn track(solver: &mut NetworkSolver, grid: &Grid) -> Result<Track, CompareError> {
+    let mut records = vec![record(solver, grid)];
+    let elements = solver.cycles().map_or(0, |cycles| cycles.displacement().elements().len());
+    let mut filled = vec![None; elements];
+    note_filled(solver, 0, &mut filled);
+    while !solver.is_done() {
+        solver.step(f64::INFINITY)?;
+        let Some(cycles) = solver.cycles().filter(|cycles| cycles.half_cycle_index() == 0) else { break };
+        if cycles.history().len() + 1 > records.len() {
+            records.push(record(solver, grid));
+            note_filled(solver, records.len() - 1, &mut filled);
+        }
+    }
+    let statistics = solver.statistics();
+    let seconds = statistics.parts.iter().map(|part| part.seconds).sum();
+    let measures = solver.measures(&Series::default());
+    let permeability = measures.iter().find(|it| it.name == "permeability-x-m2").map(|it| it.value);
+    let permeability = permeability.filter(|value| value.is_finite());
+    Ok(Track { records, filled, seconds, unknowns: statistics.unknowns, steps: statistics.steps, permeability })
+}
+
+fn record(solver: &NetworkSolver, grid: &Grid) -> Record {
+    let tension = solver.setting().tension.unwrap_or(f64::NAN);
+    let Some(cycles) = solver.cycles() else {
+        return Record { saturation: f64::NAN, pressure: f64::NAN, invaded: Vec::new() };
+    };
+    let holds = |element: usize| cycles.displacement().phase(element) == Phase::Invading;
+    Record {
+        saturation: cycles.saturation(),
+        pressure: cycles.applied().map_or(f64::NAN, |applied| tension * applied),
+        invaded: grid.cells.iter().map(|&(_, element)| holds(element)).collect(),
+    }
+}
+
+fn note_filled(solver: &NetworkSolver, record: usize, filled: &mut [Option<usize>]) {
+    let Some(cycles) = solver.cycles() else { return };
+    for (element, filled) in filled.iter_mut().enumerate() {
+        if cycles.displacement().phase(element) == Phase::Invading {
+            filled.get_or_insert(record);
+        }
+    }
+}
+
+/// The elements that are open at the outlet.
+pub fn outlet_elements(state: &NetworkState) -> Vec<usize> {
+    let Some(side) = state.sides.iter().position(|&side| side == Side::Outlet) else { return Vec::new() };
+    let [min, max] = state.domain_m.map(Vec2::from);
+    let (axis, at) = (side / 2, if side.is_multiple_of(2) { min[side / 2] } else { max[side / 2] });
+    // Openings lie on the side, within the rounding of numbers that were computed.
+    let same = 1e-9 * (max - min).max();
+    let lies_there = |curve: &Curve| match curve {
+        Curve::Segment { a, b } => (a[axis] - at).abs() < same && (b[axis] - at).abs() < same,
+        Curve::Arc { .. } => false,
+    };
+    let is_open = |element: &usize| NetworkState::curves(&state.elements[*element].boundary).iter().any(lies_there);
+    (0..state.elements.len()).filter(is_open).collect()
+}

@@ -1,0 +1,93 @@
+//! The page of a comparison: one HTML file without outside resources.
+
+use std::fmt::Write;
+
+use super::{Comparison, Side};
+use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::io::diagram;
+
+const STYLE: &str = "body{font:16px/1.45 system-ui,sans-serif;margin:2em auto;max-width:70em;padding:0 1em;color:#222}\
+table{border-collapse:collapse;margin:1em 0;font-variant-numeric:tabular-nums}\
+th,td{border:1px solid #ccc;padding:.3em .6em;text-align:left}th{background:#f2f2f2}svg{max-width:100%;height:auto}\
+figure{margin:1em 0}figcaption{font-size:.9em;color:#444}";
+
+/// The page as HTML.
+#[must_use]
+pub fn page(comparison: &Comparison) -> String {
+    let [network, direct] = comparison.titles.each_ref().map(|title| escaped(title));
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
+         <title>{direct}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>Network and direct simulation</h1>\n\
+         <p>Network: {network}.<br>Direct simulation: {direct}.</p>\n"
+    );
+    html += &table(comparison);
+    html += "<h2>Capillary pressure over saturation</h2>\n";
+    html += &curve(comparison);
+    html += "\n<h2>At equal saturation</h2>\n<p>Network on the left, direct simulation on the right; the invading phase is light.</p>\n";
+    for at in &comparison.at_equal_saturation {
+        let [one, other] = at.saturation;
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            html,
+            "<figure>{}<figcaption>Saturation of the wetting phase {one:.3} and {other:.3}; overlap of the invaded areas {:.3}</figcaption></figure>",
+            at.picture, at.overlap
+        );
+    }
+    html + "</body>\n</html>\n"
+}
+
+fn table(comparison: &Comparison) -> String {
+    let number = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.4e}"));
+    let share = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.3}"));
+    let both = [&comparison.network, &comparison.direct];
+    let row = |name: &str, cells: [String; 2]| {
+        format!("<tr><th>{name}</th><td>{}</td><td>{}</td></tr>\n", cells[0], cells[1])
+    };
+    let of = |value: &dyn Fn(&Side) -> String| both.map(value);
+    let rows = [
+        row("breakthrough pressure in Pa", of(&|side| number(side.breakthrough_pressure_pa))),
+        row("saturation at breakthrough", of(&|side| share(side.saturation_at_breakthrough))),
+        row("permeability along x in m&sup2;", of(&|side| number(side.permeability_m2))),
+        row("pores; particles", of(&|side| side.unknowns.to_string())),
+        row("events; time steps", of(&|side| side.steps.to_string())),
+        row("wall time in s", of(&|side| format!("{:.2}", side.wall_time_s))),
+    ];
+    format!(
+        "<table>\n<tr><th></th><th>network</th><th>direct simulation</th></tr>\n{}</table>\n<p>Rank correlation of the order in which {} \
+         elements were filled: {}. Overlap of the invaded areas, mean over all records: {}.</p>\n",
+        rows.concat(),
+        comparison.elements_in_both,
+        share(comparison.rank_correlation),
+        share(comparison.mean_overlap)
+    )
+}
+
+/// Both curves on one pair of axes.
+fn curve(comparison: &Comparison) -> String {
+    let known = |side: &Side| -> Vec<[f64; 2]> {
+        let pairs = side.saturation.iter().zip(&side.capillary_pressure_pa);
+        pairs.filter_map(|(saturation, pressure)| Some([*saturation, (*pressure)?])).collect()
+    };
+    // Of the network the pressure rises at constant saturation, and the saturation changes at constant pressure.
+    let network = known(&comparison.network);
+    let first = comparison.network.saturation.first().copied();
+    let before = first.into_iter().chain(network.iter().map(|point| point[0]));
+    let stairs = network.iter().zip(before).flat_map(|(point, before)| [[before, point[1]], *point]).collect();
+    let trace = |name: &str, points| Trace { name: name.to_owned(), stroke: Stroke::Full, points };
+    let diagram = Diagram {
+        name: "compare",
+        title: "Capillary pressure over saturation",
+        x: Axis { label: "saturation of the wetting phase", logarithmic: false },
+        y: Axis { label: "capillary pressure p_n - p_w in Pa", logarithmic: false },
+        map: None,
+        traces: vec![trace("network", stairs), trace("direct simulation", known(&comparison.direct))],
+    };
+    match diagram::svg(&diagram) {
+        Ok(svg) => svg.unwrap_or_else(|| "<p>There is no pressure to show.</p>".to_owned()),
+        Err(error) => format!("<p>{}</p>", escaped(&error.to_string())),
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

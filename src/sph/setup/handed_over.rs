@@ -1,0 +1,93 @@
+//! A start from the state of a network: the region of its invading phase, and the pressures of both.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::case::checked::{Case, Side, Sph};
+use crate::case::network::state::{NetworkState, Start};
+use crate::case::raw::RawPhase;
+use crate::geometry::Geometry;
+use crate::geometry::curve::Curve;
+use crate::math::{Bounds, Vec2};
+use crate::sph::fill::Region;
+use crate::sph::open::Open;
+use crate::sph::particles::{Particles, Phase};
+
+/// Interfaces are led so many spacings into the solid, so that they are seen from all places beside the wall.
+const INTO_SOLID: f64 = 3.0;
+
+/// Largest angle of an arc that is led on, in rad: it must not meet itself.
+const WIDEST: f64 = 0.9 * TAU;
+
+/// The region of the invading phase.
+pub(super) fn region(case: &Case, sph: &Sph, start: &Start) -> Region {
+    let bounds = Bounds { min: case.geometry.min.into(), max: case.geometry.max.into() };
+    let periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
+    let outline = NetworkState::curves(&start.state.invading_outline);
+    // The menisci come last.
+    let interfaces = &outline[outline.len().saturating_sub(start.state.menisci.len())..];
+    let led_on: Vec<Curve> = interfaces.iter().map(|curve| led_on(curve, INTO_SOLID * sph.spacing)).collect();
+    let of = |pieces: &[Curve]| Geometry::of_surface(bounds, periodic, pieces);
+    let pore_area: f64 = start.state.elements.iter().map(|element| element.area_m2).sum();
+    let area = start.state.saturation_with_menisci.map(|wetting| match start.state.invading {
+        RawPhase::Wetting => wetting * pore_area,
+        RawPhase::NonWetting => (1.0 - wetting) * pore_area,
+    });
+    Region::bounded(of(&outline), of(&led_on), area)
+}
+
+/// A curve with `length` (m) more at both of its ends.
+fn led_on(curve: &Curve, length: f64) -> Curve {
+    let share = length / curve.length();
+    let share = match curve {
+        Curve::Segment { .. } => share,
+        Curve::Arc { sweep, .. } => share.min(0.5 * (WIDEST / sweep.abs() - 1.0)).max(0.0),
+    };
+    curve.part(-share, 1.0 + share)
+}
+
+/// Sets the pressures of the fluid particles: one for each phase, the non-wetting one above the wetting one by tension times applied curvature,
+/// and for what is trapped that of its own menisci. At a side with a given pressure the phase there has that one.
+pub(super) fn set_pressures(particles: &mut Particles, sph: &Sph, open: &Open, start: &Start) {
+    let state = &start.state;
+    let jump = sph.tension * state.applied_curvature_per_m;
+    let of_phase = |phase: Phase| if phase == Phase::NonWetting { jump } else { 0.0 };
+    let given = open.sides.iter().find_map(|side| Some(side.given_pressure()? - of_phase(side.main)));
+    let base = given.unwrap_or(0.0);
+    let clusters = Clusters::new(state, sph.tension, jump);
+    for a in 0..particles.fluids {
+        let phase = particles.phase[a];
+        let own = clusters.pressure(phase, particles.position[a]);
+        particles.pressure[a] = base + own.unwrap_or_else(|| of_phase(phase));
+    }
+}
+
+/// The elements whose fluid is trapped.
+struct Clusters {
+    phase: Phase,
+    elements: Vec<(Bounds, Vec<Curve>, f64)>,
+}
+
+impl Clusters {
+    /// Pressures in Pa above that of the wetting phase that is joined to a side; `jump` is that of the non-wetting one.
+    fn new(state: &NetworkState, tension: f64, jump: f64) -> Self {
+        let (phase, invading, sign) = match state.invading {
+            RawPhase::NonWetting => (Phase::Wetting, jump, -1.0),
+            RawPhase::Wetting => (Phase::NonWetting, 0.0, 1.0),
+        };
+        let trapped = state.elements.iter().filter_map(|element| Some((element, element.trapped_curvature_per_m?)));
+        let elements = trapped.filter_map(|(element, curvature)| {
+            let curves = NetworkState::curves(&element.boundary);
+            let bounds = curves.iter().map(Curve::bounds).reduce(|a, b| a.united(&b))?;
+            Some((bounds, curves, invading + sign * tension * curvature))
+        });
+        Self { phase, elements: elements.collect() }
+    }
+
+    /// The pressure of a trapped phase at `x` (m); none where it is not trapped.
+    fn pressure(&self, phase: Phase, x: Vec2) -> Option<f64> {
+        // The pore lies on the right of a boundary.
+        let winds = |curves: &[Curve]| curves.iter().map(|curve| curve.winding(x)).sum::<f64>() < -PI;
+        let mut around = self.elements.iter().filter(|(bounds, curves, _)| bounds.contains(x) && winds(curves));
+        if phase == self.phase { around.next().map(|(.., pressure)| *pressure) } else { None }
+    }
+}
