@@ -25,4 +25,6 @@ pub mod run;
 
 pub mod study;
 
+pub mod verify;
+
 pub mod cli;

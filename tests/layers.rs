@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// What each module of the crate may import besides itself. Output code sees snapshots, so `io` sees neither case nor solver
 /// modules; `sph` and `analysis` never meet but in one direction: `analysis` is pure.
-const MAY_IMPORT: [(&str, &[&str]); 16] = [
+const MAY_IMPORT: [(&str, &[&str]); 17] = [
     ("math", &[]),
     ("input", &["math"]),
     ("snapshot", &["math"]),
@@ -38,7 +38,8 @@ const MAY_IMPORT: [(&str, &[&str]); 16] = [
         ],
     ),
     ("study", &["input", "case", "analysis", "io", "run"]),
-    ("cli", &["math", "input", "geometry", "snapshot", "solver", "case", "analysis", "io", "run", "study"]),
+    ("verify", &["math", "input", "geometry", "case", "network", "io", "study"]),
+    ("cli", &["math", "input", "geometry", "snapshot", "solver", "case", "analysis", "io", "run", "study", "verify"]),
 ];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.

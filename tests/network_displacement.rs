@@ -61,6 +61,7 @@ fn conditions(angle_deg: f64, shapes: usize, trapping: bool, events: Events) -> 
         trapping,
         events,
         largest_curvature: f64::INFINITY,
+        measured: Vec::new(),
     }
 }
 

@@ -69,6 +69,7 @@ impl Pack {
             trapping,
             events: Events::All,
             largest_curvature: f64::INFINITY,
+            measured: Vec::new(),
         };
         Displacement::new(&self.network, &self.pores, conditions)
     }

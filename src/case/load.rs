@@ -96,7 +96,8 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
         Origin::BuiltIn => Path::new(""),
     };
     let start = start::start(&mut checker, raw, folder, geometry.as_ref(), &mut sources);
-    let model = model(&mut checker, raw, geometry.as_ref(), start);
+    let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
+    let model = model(&mut checker, &RawCase { network, ..raw.clone() }, geometry.as_ref(), start);
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref());
     let end = check::end(&mut checker, raw, model.as_ref());
     let output = check::output(&mut checker, raw, end);

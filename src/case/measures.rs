@@ -43,6 +43,7 @@ const NETWORK: &[&str] = &[
     "smallest-entry-pressure-Pa",
     "median-entry-pressure-Pa",
     "largest-entry-pressure-Pa",
+    "measured-entry-pressures",
     "breakthrough-pressure-Pa",
     "saturation-at-breakthrough",
     "residual-saturation",
@@ -205,8 +206,8 @@ groups! {
     cavity: ["u-min", "v-max", "v-min"],
     /// Drag on the solids of a periodic cell that a body force drives fluid through.
     cylinder_array: ["drag-over-mu-u", "mean-velocity-m-per-s", "permeability-m2", "unsteady-share"],
-    /// Capillary pressure over the entry pressure of the throat between two discs.
-    throat_entry: ["entry-pressure-ratio", "entry-curvature-ratio"],
+    /// Capillary pressure of a meniscus in the throat between two bodies; between discs over the exact entry pressure.
+    throat_entry: ["entry-pressure-Pa", "entry-pressure-ratio", "entry-curvature-ratio"],
     /// Difference of the mean levels on both sides of a plate.
     jurin: ["rise-difference-m", "rise-ratio"],
     /// Angles, speeds and forces of a drop that moves or is held on a wall.

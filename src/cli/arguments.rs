@@ -7,6 +7,7 @@ use clap_complete::Shell;
 
 use super::compare::CompareArguments;
 use super::import_arguments::ImportArguments;
+use super::verify_arguments::NetworkCommand;
 
 /// Exit codes, as the help tells them.
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 bug, 2 usage or output folder, 3 bad case or shape file, 4 solver failed, \
@@ -41,6 +42,7 @@ pub enum Command {
     /// Print a completion script for a shell
     Completions(CompletionArguments),
     /// Extract pores and throats of a shape file, and displace one fluid by another in them
+    #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
     Network(NetworkArguments),
     /// Run a network and a direct simulation of the same geometry, and write a page with both side by side
     Compare(CompareArguments),
@@ -114,8 +116,12 @@ pub struct WriteArguments {
 /// `network`.
 #[derive(Debug, Args)]
 pub struct NetworkArguments {
+    /// What else is done with a network
+    #[command(subcommand)]
+    pub command: Option<NetworkCommand>,
     /// Shape file, or a case file
-    pub file: PathBuf,
+    #[arg(required = true)]
+    pub file: Option<PathBuf>,
     /// Persistence ratio above which two maxima of the wall distance are one pore, 0.5 to 1 (default 0.95)
     #[arg(long, value_name = "RATIO")]
     pub persistence: Option<f64>,

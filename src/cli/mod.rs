@@ -25,6 +25,8 @@ mod study;
 mod study_run;
 mod summary;
 mod threads;
+mod verify;
+pub mod verify_arguments;
 mod write_shapes;
 
 pub use entry::main;

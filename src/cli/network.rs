@@ -1,10 +1,14 @@
 //! `meniscus network`: pores and throats of a shape file, and a displacement in them, without a case file.
 
+use std::path::Path;
+
 use super::arguments::{NetworkArguments, NetworkProcess, PeriodicAxes, SideName};
 use super::exit::{BAD_INPUT, Failure};
 use super::output::tell;
 use super::run::{finish, new_folder};
 use super::source::{self, Source};
+use super::verify::verify;
+use super::verify_arguments::NetworkCommand;
 use crate::case::network::quick as network_case;
 use crate::case::network::raw::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
 use crate::case::raw::{RawContactAngle, RawInterface, RawSideName, RawWetting};
@@ -18,13 +22,17 @@ const WHOLLY_WETTING: f64 = 0.0;
 
 /// Extracts the network of a shape file, or of the geometry of a case file, and displaces what the options say.
 pub fn network(arguments: &NetworkArguments) -> Result<u8, Failure> {
+    if let Some(NetworkCommand::Verify(arguments)) = &arguments.command {
+        return verify(arguments);
+    }
     let source = load(arguments)?;
     let folder = new_folder(arguments.out.as_deref(), &source.name, Mode::New);
     finish(&source, folder, Mode::New, arguments.threads)
 }
 
 fn load(arguments: &NetworkArguments) -> Result<Source, Failure> {
-    let path = &arguments.file;
+    // The command line asks for it.
+    let path = arguments.file.as_deref().unwrap_or(Path::new(""));
     if !source::is_case_file(path) {
         let geometry = source::geometry_of_file(
             path,
@@ -42,7 +50,7 @@ fn load(arguments: &NetworkArguments) -> Result<Source, Failure> {
 }
 
 fn quick(arguments: &NetworkArguments, geometry: GeometrySpec) -> Result<Source, Failure> {
-    let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = arguments.file.as_deref().and_then(Path::file_stem).unwrap_or_default().to_string_lossy().into_owned();
     if arguments.has_interface() && arguments.tension.is_none() {
         tell("no --tension: pressures are those of a tension of 1 N/m; multiply them by yours");
     }

@@ -15,6 +15,7 @@ fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Mea
 pub fn all(solver: &NetworkSolver) -> Vec<Measure> {
     let setting = solver.setting();
     let mut found = of_network_with_flow(solver);
+    found.extend(replaced(solver));
     if let Some(cycles) = solver.cycles() {
         found.extend(of_displacement(setting, cycles));
     }
@@ -95,6 +96,17 @@ fn entry_pressures(solver: &NetworkSolver) -> Vec<Measure> {
         measure("median-entry-pressure-Pa", at(last.map(|last| last / 2)), "Pa", format!("the median of the {method}")),
         measure("largest-entry-pressure-Pa", at(last), "Pa", format!("the largest of the {method}")),
     ]
+}
+
+/// How many entry pressures were measured, where any are given.
+fn replaced(solver: &NetworkSolver) -> Option<Measure> {
+    let first = solver.cycles().map(|cycles| &cycles.half_cycles()[0].conditions);
+    let conditions = first.or(solver.setting().entry.as_ref()).filter(|conditions| !conditions.measured.is_empty())?;
+    let given = conditions.measured.len();
+    let method = format!(
+        "throats whose entry pressure is the measured one in the first half cycle, of {given} that are given; the others are of another angle or have none"
+    );
+    Some(measure("measured-entry-pressures", solver.measured_throats(conditions) as f64, "", method))
 }
 
 fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {

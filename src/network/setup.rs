@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::cycles::{Cycles, End, Fluid, HalfCycle};
-use super::displacement::{Beginning, Conditions, Displacement, Element, Events};
+use super::displacement::{Beginning, Conditions, Displacement, Element, Events, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{self, Drive, Dynamic, Terms};
 use super::graph::{Network, Pores};
@@ -16,6 +16,7 @@ use crate::case::checked::{Case, PatchedWall, Side, WettingModel};
 use crate::case::network::checked::{
     Driven, NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop,
 };
+use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
 use crate::geometry::{Geometry, GeometryError};
 use crate::solver::Solver;
@@ -32,6 +33,17 @@ pub enum SetupError {
     /// The pores cannot be told apart.
     #[error("{0}")]
     Extract(#[from] super::ExtractError),
+    /// Entry pressures that were measured in another geometry.
+    #[error(
+        "the measured entry pressures (network.measured) are those of another geometry: its hash is {expected}, that of this one is {found}; measure \
+         them anew with `meniscus network verify`, or leave the key out"
+    )]
+    OtherGeometry {
+        /// Hash of the geometry that they were measured in.
+        expected: String,
+        /// Hash of this one.
+        found: String,
+    },
     /// The domain is solid.
     #[error("there is no pore in the domain: the solids fill all of it")]
     NoPore,
@@ -119,7 +131,24 @@ pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, S
         Some(start) => Some(Arc::new(beginning(start, wanted, &geometry, (&network, &pores))?)),
         None => None,
     };
-    Ok(assemble(wanted, &geometry, (network, pores), initial).timed(extraction))
+    let solver = assemble(wanted, &geometry, (network, pores), initial).timed(extraction);
+    let found = &solver.setting().geometry_hash;
+    match wanted.measured.as_ref().map(|measured| &measured.geometry_hash) {
+        Some(expected) if expected != found => {
+            Err(SetupError::OtherGeometry { expected: expected.clone(), found: found.clone() })
+        }
+        _ => Ok(solver),
+    }
+}
+
+/// The measured bursts of a case.
+fn measured(wanted: &PoreNetwork) -> Vec<MeasuredBurst> {
+    let burst = |one: &MeasuredThroat| MeasuredBurst {
+        throat: one.index,
+        formula: one.formula_curvature,
+        curvature: one.entry_curvature,
+    };
+    wanted.measured.iter().flat_map(|measured| &measured.throats).map(burst).collect()
 }
 
 /// Largest distance of the drawn walls from the walls, over the longer side of the domain: far below what a picture shows.
@@ -134,7 +163,9 @@ fn beginning(
 ) -> Result<Beginning, SetupError> {
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half = match (&wanted.displacement, &wanted.interface) {
-        (Some(displacement), Some(interface)) => half_cycles(displacement, interface, kinds(wanted), walls),
+        (Some(displacement), Some(interface)) => {
+            half_cycles(displacement, interface, kinds(wanted), (walls, &measured(wanted)))
+        }
         _ => Vec::new(),
     };
     let Some(first) = half.into_iter().next() else { return Err(SetupError::NoPore) };
@@ -171,7 +202,7 @@ pub fn assemble(
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) if displacement.dynamic.is_none() => {
-            half_cycles(displacement, interface, kinds(wanted), walls)
+            half_cycles(displacement, interface, kinds(wanted), (walls, &measured(wanted)))
         }
         _ => Vec::new(),
     };
@@ -182,6 +213,7 @@ pub fn assemble(
         trapping: false,
         events: Events::All,
         largest_curvature: f64::INFINITY,
+        measured: measured(wanted),
     });
     let setting = Setting {
         network: Arc::clone(&network),
@@ -218,6 +250,7 @@ fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Flui
         trapping: false,
         events: Events::All,
         largest_curvature: f64::INFINITY,
+        measured: Vec::new(),
     };
     let terms = Terms {
         viscosity: if invading == Fluid::Wetting { [wetting, non_wetting] } else { [non_wetting, wetting] },
@@ -246,7 +279,7 @@ fn half_cycles(
     displacement: &NetworkDisplacement,
     interface: &NetworkInterface,
     sides: [Side; 4],
-    walls: usize,
+    (walls, measured): (usize, &[MeasuredBurst]),
 ) -> Vec<HalfCycle> {
     let open = |kind: Side| sides.map(|side| side == kind);
     let half = |invading: Fluid, [from, to]: [Side; 2], stop: Stop| {
@@ -265,6 +298,7 @@ fn half_cycles(
                 largest_curvature: stop
                     .capillary_pressure
                     .map_or(f64::INFINITY, |pressure| sign * pressure / interface.tension),
+                measured: measured.to_vec(),
             },
             end: End {
                 at_breakthrough: stop.breakthrough,

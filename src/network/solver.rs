@@ -124,11 +124,20 @@ impl NetworkSolver {
         let throats = network.throats.len();
         let find = || {
             let known = self.cycles.as_ref().map(Cycles::displacement).filter(|it| it.events() == conditions.events);
-            let new =
-                || Displacement::new(network, pores, conditions.clone()).entry_curvatures(&conditions.angle, throats);
-            known.map_or_else(new, |displacement| displacement.entry_curvatures(&conditions.angle, throats))
+            let new = || Displacement::new(network, pores, conditions.clone()).entry_curvatures(conditions, throats);
+            known.map_or_else(new, |displacement| displacement.entry_curvatures(conditions, throats))
         };
         Some(self.entry_curvatures.get_or_init(find))
+    }
+
+    /// Number of throats of the network whose measured entry pressure takes the place of that of the formula under some conditions.
+    #[must_use]
+    pub fn measured_throats(&self, conditions: &Conditions) -> usize {
+        let Setting { network, pores, .. } = &self.setting;
+        let (throats, formula) = (network.throats.len(), Conditions { measured: Vec::new(), ..conditions.clone() });
+        let displacement = Displacement::new(network, pores, formula.clone());
+        let [with, without] = [conditions, &formula].map(|given| displacement.entry_curvatures(given, throats));
+        with.iter().zip(&without).filter(|(with, without)| with.is_finite() && with != without).count()
     }
 
     /// The conductances of all throats of the network.

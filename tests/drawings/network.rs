@@ -32,6 +32,7 @@ fn conditions(angle_deg: f64, shapes: usize, trapping: bool) -> Conditions {
         trapping,
         events: Events::All,
         largest_curvature: f64::INFINITY,
+        measured: Vec::new(),
     }
 }
 
@@ -164,9 +165,8 @@ fn entries_off(wanted: impl Fn(bool, f64) -> bool) -> f64 {
         let pores = Pores::merged(&network, 1.0);
         for (angle, column) in [(40.0, 7), (120.0, 8)] {
             let conditions = Conditions { inlet: [false; 4], outlet: [false; 4], ..conditions(angle, shapes, false) };
-            let angles = conditions.angle.clone();
-            let entries =
-                Displacement::new(&network, &pores, conditions).entry_curvatures(&angles, network.throats.len());
+            let displacement = Displacement::new(&network, &pores, conditions.clone());
+            let entries = displacement.entry_curvatures(&conditions, network.throats.len());
             for row in rows(&reference[key]["throats"]) {
                 let meets_a_side = [5, 6].iter().any(|&i| shape_of(row[i].as_str().unwrap()) >= 60);
                 if !wanted(meets_a_side, angle) {

@@ -3,6 +3,7 @@
 use super::checked::{
     Driven, DynamicDrive, NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop,
 };
+use super::measured;
 use super::raw::{RawDynamic, RawEvents, RawNetwork, RawNetworkSide, RawProcess};
 use super::state::Start;
 use crate::case::check::Checker;
@@ -41,6 +42,14 @@ pub(in crate::case) fn network(
         });
     let persistence = checker.within("network.persistence", raw.persistence, PERSISTENCE, "a persistence ratio");
     let interface = interface(checker, raw, sides.as_ref(), geometry);
+    let measured = measured::checked(checker, raw.measured_throats.as_ref());
+    if raw.dynamic.is_some() && raw.measured_throats.is_some() {
+        checker.refuse(
+            "network.measured",
+            "a displacement in time follows menisci through throats by the formula, and knows no measured pressures",
+            "leave it out, or leave out [network.dynamic]",
+        );
+    }
     let displacement = if raw.inlet.is_some() {
         if let (Some(start), Some(sides)) = (&start, &sides) {
             refuse_other_sides(checker, start, sides);
@@ -56,6 +65,7 @@ pub(in crate::case) fn network(
         non_wetting: non_wetting?,
         interface: interface?,
         persistence: persistence.unwrap_or(DEFAULT_PERSISTENCE),
+        measured: measured?,
         displacement,
     })
 }

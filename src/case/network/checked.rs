@@ -1,5 +1,6 @@
 //! A checked `[network]`: every value present, in SI units and in range.
 
+use super::measured::Measured;
 use super::state::Start;
 use crate::case::checked::{Fluid, Sides, WettingModel, WettingPatch};
 
@@ -16,6 +17,9 @@ pub struct PoreNetwork {
     pub interface: Option<NetworkInterface>,
     /// Persistence ratio above which two maxima of the wall distance are one pore.
     pub persistence: f64,
+    /// Entry pressures that were measured, in place of those of the formula.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Measured>,
     /// What is displaced; absent where there is no inlet.
     pub displacement: Option<NetworkDisplacement>,
 }

@@ -3,6 +3,7 @@
 
 mod check;
 pub mod checked;
+pub mod measured;
 mod quick;
 pub mod raw;
 mod resolve;

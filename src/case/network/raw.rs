@@ -33,6 +33,11 @@ tables! {
         /// Persistence ratio above which two maxima of the wall distance are one pore: the half width of the throat over the
         /// smaller inscribed radius, above 0 and at most 1 (default 0.95).
         pub persistence: f64,
+        /// File of measured entry pressures, `measured.json` of `meniscus network verify`, relative to the case file (default: all are those of
+        /// the formula).
+        pub measured: PathBuf,
+        /// The same values written here.
+        pub measured_throats: RawMeasured,
         /// Where the displacement ends before it comes to rest; of a cycle, where each drainage ends.
         pub stop: RawStop,
         /// State that the displacement begins with, relative to the case file (default: the pore space is full of the defending phase).
@@ -49,6 +54,24 @@ tables! {
         pub pressure_drop: f64,
         /// Most pore volumes that pass the inlet in one step (default 0.01).
         pub largest_step: f64,
+    }
+
+    /// Measured entry pressures.
+    pub struct RawMeasured {
+        /// Tells the geometry that they were measured in, as in `network.json`.
+        pub geometry_hash: String,
+        /// The throats.
+        pub throats: Vec<RawMeasuredThroat>,
+    }
+
+    /// A throat whose entry pressure was measured.
+    pub struct RawMeasuredThroat {
+        /// Its index among all throats, those that the merge dissolves included.
+        pub index: usize,
+        /// Curvature of the meniscus at entry by the formula in 1/m; where the formula gives another one, as for another angle, it stays.
+        pub formula_curvature: f64,
+        /// Measured curvature in 1/m.
+        pub entry_curvature: f64,
     }
 
     /// The sides that are neither inlet nor outlet.

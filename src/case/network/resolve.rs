@@ -1,6 +1,7 @@
 //! A checked network as a table that loads to the same network.
 
 use super::checked::{Driven, NetworkEvents, PoreNetwork, Process};
+use super::measured;
 use super::raw::{RawDynamic, RawEvents, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawStop};
 use crate::case::checked::Side;
 use crate::case::raw::{RawInterface, RawPhases, RawSideName};
@@ -29,6 +30,7 @@ pub(in crate::case) fn raw(network: &PoreNetwork) -> RawNetwork {
         interface: interface.map(|interface| RawInterface { tension: Some(interface.tension) }),
         wetting: interface.map(|interface| wetting::raw(&interface.wetting_model, &interface.patches)),
         persistence: Some(network.persistence),
+        measured_throats: network.measured.as_ref().map(measured::table),
         ..RawNetwork::default()
     };
     let Some(displacement) = &network.displacement else { return none };

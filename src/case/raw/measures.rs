@@ -36,7 +36,7 @@ tables! {
         pub cavity: Empty,
         /// Drag on the solids of a periodic cell that a body force drives fluid through.
         pub cylinder_array: Empty,
-        /// Capillary pressure over the entry pressure of the throat between two discs.
+        /// Capillary pressure of a meniscus in the throat between two bodies; between discs over the exact entry pressure.
         pub throat_entry: Empty,
         /// Difference of the mean levels on both sides of a plate.
         pub jurin: Empty,

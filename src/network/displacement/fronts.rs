@@ -95,7 +95,13 @@ impl Displacement {
     /// Lets a meniscus wait in a gate, about to enter it at its end `to`.
     pub(super) fn advance_through(&mut self, mesh: &Mesh, gate: usize, to: usize) {
         let (passage, obstacles) = self.passage(mesh, gate, to, Vec2::zeros());
-        let (kind, own) = self.own_event(&passage, &obstacles);
+        let (mut kind, mut own) = self.own_event(&passage, &obstacles);
+        // What touches before a measured burst still touches.
+        let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
+        let burst = self.conditions.burst(mesh.gates[gate].throat, formula);
+        if kind == EventKind::Burst || burst < own {
+            (kind, own) = (EventKind::Burst, burst);
+        }
         self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None, is_joined: false });
         if self.conditions.events == Events::All {
             self.meet_neighbors(mesh, (gate, to), &passage, own);

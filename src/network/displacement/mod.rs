@@ -28,6 +28,8 @@ use self::mesh::Mesh;
 use self::outflow::Outflow;
 pub use self::standing::{Beginning, Interfaces, Standing};
 use super::graph::{Network, Pores, Region};
+use super::menisci::Passage;
+use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 
 /// Which events move a meniscus.
@@ -57,6 +59,32 @@ pub struct Conditions {
     pub events: Events,
     /// No event takes place above this curvature in 1/m.
     pub largest_curvature: f64,
+    /// Bursts that were measured.
+    pub measured: Vec<MeasuredBurst>,
+}
+
+/// A burst that was measured, in place of that of the formula.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredBurst {
+    /// The throat.
+    pub throat: usize,
+    /// Curvature by the formula in 1/m when it was measured: where the formula gives another one, as for another angle, it stays.
+    pub formula: f64,
+    /// Curvature in 1/m as measured.
+    pub curvature: f64,
+}
+
+impl Conditions {
+    /// The curvature in 1/m at which a meniscus bursts through a throat where the formula gives `formula`.
+    #[must_use]
+    pub fn burst(&self, throat: Option<usize>, formula: f64) -> f64 {
+        /// Relative differences that come from rounding on another machine.
+        const ROUNDING: f64 = 1e-9;
+        let is_same = |one: &&MeasuredBurst| {
+            Some(one.throat) == throat && (one.formula - formula).abs() <= ROUNDING * formula.abs()
+        };
+        self.measured.iter().find(is_same).map_or(formula, |one| one.curvature)
+    }
 }
 
 /// The phases of a displacement.
@@ -288,15 +316,24 @@ impl Displacement {
         fronts.filter_map(|front| front.passage.at(applied.min(front.own))).map(|m| m.points(POINTS)).collect()
     }
 
-    /// Curvature in 1/m at which menisci burst through each throat, the larger one of both directions, with the contact angles of
-    /// [`Conditions::angle`]; NaN for throats that are no gates.
+    /// The passage of a meniscus through a throat into its region `to`, 0 or 1, and the walls ahead that it may touch, in the frame of that
+    /// region; none where the throat is no gate.
     #[must_use]
-    pub fn entry_curvatures(&self, angles: &[f64], throats: usize) -> Vec<f64> {
+    pub fn passage_through(&self, throat: usize, to: usize) -> Option<(Passage, Vec<Curve>)> {
+        let gate = self.mesh.gates.iter().position(|gate| gate.throat == Some(throat))?;
+        Some(self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()))
+    }
+
+    /// Curvature in 1/m at which menisci burst through each throat, the larger one of both directions, under other conditions; NaN for throats that
+    /// are no gates.
+    #[must_use]
+    pub fn entry_curvatures(&self, conditions: &Conditions, throats: usize) -> Vec<f64> {
         let mut found = vec![f64::NAN; throats];
         for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
             let burst = |to| {
-                let (passage, _) = self.passage_at(angles, &self.mesh, (gate, to), Vec2::zeros());
-                passage.burst().map_or(f64::NAN, |meniscus| meniscus.curvature)
+                let (passage, _) = self.passage_at(&conditions.angle, &self.mesh, (gate, to), Vec2::zeros());
+                let formula = passage.burst().map_or(f64::NAN, |meniscus| meniscus.curvature);
+                conditions.burst(Some(throat), formula)
             };
             found[throat] = burst(0).max(burst(1));
         }

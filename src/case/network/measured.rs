@@ -1,0 +1,99 @@
+//! Entry pressures that were measured by direct simulation: `measured.json` of `meniscus network verify`, and the same within a case.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::raw::{RawMeasured, RawMeasuredThroat, RawNetwork};
+use crate::case::check::Checker;
+
+/// Measured entry pressures of throats.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Measured {
+    /// Tells the geometry, as in `network.json`.
+    pub geometry_hash: String,
+    /// The throats.
+    pub throats: Vec<MeasuredThroat>,
+}
+
+/// One of them. Curvatures are those of the meniscus, above 0 where it bulges into the phase that is displaced.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct MeasuredThroat {
+    /// Index among all throats of the network, those that the merge dissolves included.
+    pub index: usize,
+    /// Curvature by the formula in 1/m.
+    pub formula_curvature: f64,
+    /// Measured curvature in 1/m.
+    pub entry_curvature: f64,
+}
+
+/// The case with the measured values of the file that it names, if it names one.
+pub(in crate::case) fn with_file(checker: &mut Checker, raw: &RawNetwork, folder: &Path) -> RawNetwork {
+    let mut whole = raw.clone();
+    let Some(file) = whole.measured.take() else { return whole };
+    const PATH: &str = "network.measured";
+    if raw.measured_throats.is_some() {
+        checker.refuse(
+            PATH,
+            "measured values are given twice, by this file and by [network.measured-throats]",
+            "keep one of both",
+        );
+        return whole;
+    }
+    let path = folder.join(&file);
+    let help = "name the measured.json of `meniscus network verify`, relative to the case file";
+    match std::fs::read(&path) {
+        Err(error) => checker.refuse(PATH, format!("{} cannot be read: {error}", path.display()), help),
+        Ok(bytes) => match serde_json::from_slice::<Measured>(&bytes) {
+            Err(error) => {
+                checker.refuse(PATH, format!("{} is no list of measured throats: {error}", path.display()), help)
+            }
+            Ok(measured) => whole.measured_throats = Some(table(&measured)),
+        },
+    }
+    whole
+}
+
+/// The values as a table of a case.
+pub(super) fn table(measured: &Measured) -> RawMeasured {
+    let throat = |one: &MeasuredThroat| RawMeasuredThroat {
+        index: Some(one.index),
+        formula_curvature: Some(one.formula_curvature),
+        entry_curvature: Some(one.entry_curvature),
+    };
+    RawMeasured {
+        geometry_hash: Some(measured.geometry_hash.clone()),
+        throats: Some(measured.throats.iter().map(throat).collect()),
+    }
+}
+
+/// Checks the values; the outer option is missing where a mistake was found.
+pub(super) fn checked(checker: &mut Checker, raw: Option<&RawMeasured>) -> Option<Option<Measured>> {
+    let Some(raw) = raw else { return Some(None) };
+    const PATH: &str = "network.measured-throats";
+    let hash = raw.geometry_hash.clone();
+    let geometry_hash =
+        checker.require(&format!("{PATH}.geometry-hash"), hash, "geometry-hash = \"...\" as in network.json");
+    let throat = |checker: &mut Checker, (at, raw): (usize, &RawMeasuredThroat)| {
+        let path = |key: &str| format!("{PATH}.throats[{at}].{key}");
+        let index = checker.require(&path("index"), raw.index, "index = 12");
+        let mut curvature = |key: &str, given: Option<f64>| {
+            let found = checker.require(&path(key), given, &format!("{key} = 4.0e4 # 1/m"));
+            if found.is_some_and(|found| !found.is_finite()) {
+                checker.refuse(
+                    path(key),
+                    "expected a curvature in 1/m, found no finite number",
+                    "leave the throat out",
+                );
+            }
+            found
+        };
+        let formula_curvature = curvature("formula-curvature", raw.formula_curvature);
+        let entry_curvature = curvature("entry-curvature", raw.entry_curvature);
+        Some(MeasuredThroat { index: index?, formula_curvature: formula_curvature?, entry_curvature: entry_curvature? })
+    };
+    let throats: Option<Vec<_>> = raw.throats.iter().flatten().enumerate().map(|one| throat(checker, one)).collect();
+    Some(Some(Measured { geometry_hash: geometry_hash?, throats: throats? }))
+}

@@ -1,0 +1,108 @@
+//! `meniscus network verify`: chosen throats of a network by direct simulation.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use super::arguments::{CoresArguments, Engine, StudyRunArguments};
+use super::exit::{BAD_INPUT, DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
+use super::output::{duration, say, tell};
+use super::verify_arguments::VerifyArguments;
+use super::{source, study_run};
+use crate::study::folder::StudyFolder;
+use crate::study::load::load;
+use crate::study::results::{RunResult, results};
+use crate::study::runs::plan as plan_runs;
+use crate::verify::case_text::Fluids;
+use crate::verify::choose::{Choice, choose};
+use crate::verify::cut_out::Impossible;
+use crate::verify::plan::{self, Planned, RUNS};
+use crate::verify::report;
+use crate::verify::results::{Row, Status, row};
+use crate::verify::subject::Subject;
+
+/// Chooses, writes, runs, and tells.
+pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
+    let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
+    let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
+    let usage = |error: &dyn std::fmt::Display| Failure::new(USAGE, &error);
+    let subject = Subject::new(&source.case).map_err(|error| bad(&error))?;
+    let choices: Vec<Choice> = arguments
+        .throats
+        .iter()
+        .map(|text| text.parse())
+        .collect::<Result<_, _>>()
+        .map_err(|error: String| usage(&error))?;
+    let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;
+    let mut planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
+    let given = if arguments.alike { [None; 2] } else { subject.fluids };
+    let fluids = Fluids { given, tension: subject.tension, invading: subject.invading };
+    let spacings: Vec<u32> = arguments.spacings.iter().map(|across| across.get()).collect();
+    let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}-verify", source.name)));
+    let name = arguments.case.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let written = plan::write(&folder, &planned, &fluids, &spacings, &name).map_err(|error| usage(&error))?;
+    for (place, why) in written.refused {
+        planned[place].cut_out = Err(Impossible::Case(why));
+    }
+    for one in &planned {
+        if let Err(why) = &one.cut_out {
+            tell(format_args!("throat {}: cut-out impossible: {why}", one.chosen.number));
+        }
+    }
+    for kept in &written.kept {
+        tell(format_args!("{} was changed by hand, and is run as it is", kept.display()));
+    }
+    let cut_out = planned.iter().filter(|one| one.cut_out.is_ok()).count();
+    tell(format_args!("{} throats, {cut_out} with a cut-out -> {}", planned.len(), folder.display()));
+    let runs_in = folder.join(RUNS);
+    let mut code = DONE;
+    let mut found = Vec::new();
+    if let Some(study) = written.study {
+        if !arguments.only_write {
+            code = study_run::run(&study_arguments(arguments, study.clone(), runs_in.clone()))?;
+        }
+        let loaded = load(&study).map_err(Failure::input)?;
+        found = results(&plan_runs(&loaded).map_err(Failure::input)?, &StudyFolder::new(&runs_in));
+    }
+    if code == INTERRUPTED || arguments.only_write || arguments.engine == Engine::Slurm && is_open(&found) {
+        tell("the same command goes on, and tells what came out");
+        return Ok(code);
+    }
+    let rows: Vec<Row> = planned.iter().map(|one| row(one, subject.tension, &fluids, &spacings, &found)).collect();
+    let title = format!("Throats of {name} by direct simulation");
+    let written = report::write(&folder, &subject, &rows, &spacings, &title).map_err(|error| usage(&error))?;
+    say(&title);
+    say(written.table.markdown().trim_end());
+    report::notes(&rows, subject.tension, subject.invading)
+        .iter()
+        .for_each(|note| say(format_args!("  note        {note}")));
+    let time = rows.iter().map(|row| row.wall_time).sum::<f64>();
+    say(format_args!("  all runs    {}", duration(time)));
+    say(format_args!(
+        "  replaced    {} of {} entry pressures, in {}",
+        written.replaced,
+        rows.len(),
+        written.measured.display()
+    ));
+    say(format_args!("  page        {}", written.page.display()));
+    say(format_args!("  table       {}", folder.join("verify.csv").display()));
+    let failed = rows.iter().any(|row| matches!(row.status, Status::Failed(_)));
+    Ok(if failed { SOLVER_FAILED } else { DONE })
+}
+
+fn is_open(results: &[RunResult]) -> bool {
+    results.iter().any(|result| result.standing.report().is_none())
+}
+
+fn study_arguments(arguments: &VerifyArguments, study: PathBuf, out: PathBuf) -> StudyRunArguments {
+    StudyRunArguments {
+        studies: vec![study],
+        out: Some(out),
+        cores: CoresArguments { threads: NonZeroUsize::MIN, jobs: arguments.threads },
+        memory: None,
+        engine: arguments.engine,
+        sbatch: arguments.sbatch.clone(),
+        index: None,
+        worker: false,
+        digest: None,
+    }
+}

@@ -1,0 +1,52 @@
+//! What can be written behind `network verify`.
+
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+use super::arguments::Engine;
+
+/// What is done with a network.
+#[derive(Debug, Subcommand)]
+pub enum NetworkCommand {
+    /// Verify chosen throats by direct simulation of cut-outs: entry pressures and conductances beside those of the formulas
+    Verify(VerifyArguments),
+}
+
+/// `network verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArguments {
+    /// Case file with [network] and an interface
+    pub case: PathBuf,
+    /// Throats: critical, unsure, random:N, or numbers of throats.csv as in 3,7,12; may be given several times
+    #[arg(long, value_name = "WHICH", required = true)]
+    pub throats: Vec<String>,
+    /// Spacings across each throat, one run for each
+    #[arg(long, value_name = "N,N", value_delimiter = ',', num_args = 1, default_values = ["8", "16"])]
+    pub spacings: Vec<NonZeroU32>,
+    /// Chooses the random throats
+    #[arg(long, default_value = "1")]
+    pub seed: u64,
+    /// Take two fluids alike that come to rest soon in place of those of [network.phases]; no pressure at rest depends on them
+    #[arg(long)]
+    pub alike: bool,
+    /// Change a value of the case
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Folder for cases, runs and results; out/NAME-verify where there is none. The same command goes on in it
+    #[arg(long, visible_alias = "output", value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Write cases and study file, and run nothing
+    #[arg(long)]
+    pub only_write: bool,
+    /// Runs at once, each on one thread; as many as there are cores where there is none
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// Where the runs are done
+    #[arg(long, value_enum, default_value = "local")]
+    pub engine: Engine,
+    /// Further option for the job array, as in --sbatch=--partition=long
+    #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
+    pub sbatch: Vec<String>,
+}

@@ -1,0 +1,180 @@
+//! The cases of a cut-out, as files that a user can open and change.
+
+use std::fmt::Write;
+
+use super::cut_out::CutOut;
+use crate::case::checked::Fluid;
+use crate::geometry::spec::{CurvedPolygon, ShapeSpec};
+use crate::network::cycles::Fluid as Phase;
+
+/// Density in kg/m³ where the network gives none: at rest no pressure depends on it.
+pub const DENSITY: f64 = 1000.0;
+/// Viscosity over √(density · tension · width) where the network gives none: menisci come to rest without a long swing.
+pub const OHNESORGE: f64 = 0.1;
+/// Reynolds number ρQ/μ of the flow that conductances are measured by.
+const REYNOLDS: f64 = 0.01;
+/// Latest end of a run with a meniscus, in times √(density · length³/tension) and density · length²/viscosity, the longer one of both.
+const CAPILLARY_TIMES: f64 = 12.0;
+/// The same in viscous times of the throat; a swing decays in one.
+const VISCOUS_TIMES: f64 = 6.0;
+/// End of a run of one phase in times density · height²/viscosity; the slowest mode between plates decays in a tenth of it.
+const FLOW_TIMES: f64 = 1.0;
+/// Largest deviation of the entry pressure from the formula that the case expects, as a share.
+const EXPECTED: f64 = 0.02;
+
+/// The fluids of the cut-outs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fluids {
+    /// The wetting and the non-wetting phase, where those of the network are wanted and known.
+    pub given: [Option<Fluid>; 2],
+    /// Interfacial tension in N/m.
+    pub tension: f64,
+    /// The phase that invades.
+    pub invading: Phase,
+}
+
+impl Fluids {
+    /// The wetting and the non-wetting phase for a throat of a width (m).
+    #[must_use]
+    pub fn of(&self, width: f64) -> [Fluid; 2] {
+        let other = self.given[0].or(self.given[1]);
+        let default = Fluid { density: DENSITY, viscosity: OHNESORGE * (DENSITY * self.tension * width).sqrt() };
+        self.given.map(|given| given.or(other).unwrap_or(default))
+    }
+
+    /// Contact angle through the wetting phase in degrees for one through the defending phase in rad.
+    fn wetting_angle(&self, angle: f64) -> f64 {
+        match self.invading {
+            Phase::NonWetting => angle.to_degrees(),
+            Phase::Wetting => (std::f64::consts::PI - angle).to_degrees(),
+        }
+    }
+}
+
+/// A throat for its titles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Named<'a> {
+    /// Its number in `throats.csv`.
+    pub number: usize,
+    /// The case of its network.
+    pub network: &'a str,
+    /// Spacings across.
+    pub across: u32,
+}
+
+fn head(named: &Named, cut_out: &CutOut, what: &str, title: &str) -> String {
+    let (middle, width) = (cut_out.frame.middle, cut_out.width);
+    format!(
+        "# {what}\n# Throat {} of {}, {width:.4e} m wide at ({:.4e}, {:.4e}) m; x is the way of the invading phase, {:.2} degrees \
+         counter-clockwise from that of the network.\nformat = 1\ntitle = \"{title}\"\n\n",
+        named.number,
+        named.network,
+        middle.x,
+        middle.y,
+        cut_out.frame.angle.to_degrees()
+    )
+}
+
+fn polygon(polygon: &CurvedPolygon) -> String {
+    let vertices: String =
+        polygon.outer.iter().map(|[x, y, bulge]| format!("    [{x:e}, {y:e}, {bulge:e}],\n")).collect();
+    format!("outer = [\n{vertices}]")
+}
+
+fn shapes(cut_out: &CutOut) -> String {
+    let geometry = &cut_out.geometry;
+    let corner = |x: [f64; 2]| format!("[{:e}, {:e}] # m", x[0], x[1]);
+    let mut text = format!("[geometry]\nmin = {}\nmax = {}\n", corner(geometry.min), corner(geometry.max));
+    for shape in &geometry.shapes {
+        // Writing to a string cannot fail; a cut-out has no other shapes.
+        let _ = match shape {
+            ShapeSpec::Disc(disc) => writeln!(
+                text,
+                "\n[[geometry.shapes]]\ndisc = {{ center = [{:e}, {:e}], radius = {:e} }} # m",
+                disc.center[0], disc.center[1], disc.radius
+            ),
+            ShapeSpec::HalfPlane(plane) => writeln!(
+                text,
+                "\n[[geometry.shapes]]\nhalf-plane = {{ point = [{:e}, {:e}], rotation-deg = {:e} }} # m",
+                plane.point[0], plane.point[1], plane.rotation_deg
+            ),
+            ShapeSpec::CurvedPolygon(shape) => {
+                writeln!(
+                    text,
+                    "\n[[geometry.shapes]]\n[geometry.shapes.curved-polygon] # x and y in m, bulge\n{}",
+                    polygon(shape)
+                )
+            }
+            _ => Ok(()),
+        };
+    }
+    text
+}
+
+fn phase(name: &str, fluid: Fluid) -> String {
+    format!("[sph.phases.{name}]\ndensity = {:e} # kg/m3\nviscosity = {:e} # Pa s\n\n", fluid.density, fluid.viscosity)
+}
+
+/// The case of the entry pressure: a closed box that the invading phase fills up to the meniscus of largest curvature.
+#[must_use]
+pub fn entry(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
+    let (width, tension) = (cut_out.width, fluids.tension);
+    let [wetting, other] = fluids.of(width);
+    // The thicker phase takes most of a swing away.
+    let density = wetting.density.max(other.density);
+    let viscosity = wetting.viscosity.max(other.viscosity);
+    let size = crate::math::Vec2::from(cut_out.geometry.max) - crate::math::Vec2::from(cut_out.geometry.min);
+    let length = size.min().max(width);
+    let end = (CAPILLARY_TIMES * (density * length.powi(3) / tension).sqrt())
+        .max(VISCOUS_TIMES * density * width * width / viscosity);
+    let sign = if fluids.invading == Phase::NonWetting { 1.0 } else { -1.0 };
+    let pressure = sign * tension * cut_out.meniscus.curvature;
+    let background = if fluids.invading == Phase::NonWetting { "wetting" } else { "non-wetting" };
+    let title = format!("Throat {}: entry pressure, {} spacings across", named.number, named.across);
+    let what = "The invading phase fills the closed box up to the meniscus of largest curvature, which rests there.";
+    let mut text = head(named, cut_out, what, &title);
+    text += &shapes(cut_out);
+    let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
+    text += &phase("wetting", wetting);
+    text += &phase("non-wetting", other);
+    let _ = write!(
+        text,
+        "[sph.interface]\ntension = {tension:e} # N/m\n\n[sph.wetting.young]\ncontact-angle-deg = {:e} # degrees through the wetting phase\n\n\
+         [sph.initial]\nbackground = \"{background}\"\n\n[[sph.initial.wetting]] # the invading phase: its arc is that of the meniscus\n\
+         [sph.initial.wetting.curved-polygon] # x and y in m, bulge\n{}\n\n[sph.measure.throat-entry]\n\n\
+         [time]\nend = {end:e} # s\n\n[time.steady]\ncapillary-number = 3.0e-4\n\n[output.vtk]\nevery-time = {end:e} # s\n\n\
+         [[expect]] # the formula\nmeasure = \"entry-pressure-Pa\"\nvalue = {pressure:e}\ntolerance = {:e}\n",
+        fluids.wetting_angle(cut_out.angle),
+        polygon(&cut_out.behind),
+        (EXPECTED * pressure).abs()
+    );
+    text
+}
+
+/// The case of the conductance: one phase passes the box, which is joined along the throat, at a given rate.
+#[must_use]
+pub fn flow(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
+    let width = cut_out.width;
+    let fluid = fluids.of(width)[0];
+    let height = cut_out.geometry.max[1] - cut_out.geometry.min[1];
+    let end = FLOW_TIMES * fluid.density * height * height / fluid.viscosity;
+    let title = format!("Throat {}: conductance, {} spacings across", named.number, named.across);
+    let what = "One phase passes the throat at a given rate; the box is joined along the way.";
+    let mut text = head(named, cut_out, what, &title);
+    text += &shapes(cut_out);
+    let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
+    text += &phase("wetting", fluid);
+    let _ = write!(
+        text,
+        "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n\n[sph.sides.open.left]\nflow-rate = {:e} # m2/s, Reynolds number {REYNOLDS}\n\n\
+         [time]\nend = {end:e} # s\n\n[output.vtk]\nevery-time = {end:e} # s\n",
+        flow_rate(fluid)
+    );
+    text
+}
+
+/// The flow rate in m²/s of the conductance.
+#[must_use]
+pub fn flow_rate(fluid: Fluid) -> f64 {
+    REYNOLDS * fluid.viscosity / fluid.density
+}

@@ -1,0 +1,217 @@
+//! What the runs of the cut-outs say, beside the formula.
+
+use super::case_text::Fluids;
+use super::plan::{Kind, Planned, case_name};
+use crate::network::cycles::Fluid;
+use crate::study::results::{RunResult, Standing};
+
+/// Relative difference of the entry pressures of both spacings above which neither is trusted.
+const COARSE_PRESSURE: f64 = 0.05;
+/// The same of conductances, which go with the third power of the width.
+const COARSE_FLOW: f64 = 0.15;
+/// Relative drift of a phase's area above which a run is not trusted.
+const LEAKED: f64 = 0.01;
+
+/// How the verification of a throat went.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Status {
+    /// All is as it should be.
+    Ok,
+    /// The meniscus still moves.
+    NotAtRest,
+    /// Both spacings differ, or a phase has no room.
+    UnderResolved(String),
+    /// A run failed.
+    Failed(String),
+    /// A run has not been done.
+    Open,
+    /// No cut-out.
+    Impossible(String),
+}
+
+impl std::fmt::Display for Status {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Ok => write!(f, "ok"),
+            Self::NotAtRest => write!(f, "not at rest"),
+            Self::UnderResolved(why) => write!(f, "under-resolved: {why}"),
+            Self::Failed(why) => write!(f, "failed: {why}"),
+            Self::Open => write!(f, "to do"),
+            Self::Impossible(why) => write!(f, "cut-out impossible: {why}"),
+        }
+    }
+}
+
+/// A value of a direct run with its error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direct {
+    /// Value at the finest spacing.
+    pub value: f64,
+    /// Difference from the next spacing, and the bar of the run; none with one spacing only.
+    pub error: Option<f64>,
+}
+
+/// A throat with both of its answers.
+#[derive(Debug)]
+pub struct Row<'a> {
+    /// The throat.
+    pub planned: &'a Planned,
+    /// Entry pressure by the formula in Pa, invading less defending phase.
+    pub pressure_formula: f64,
+    /// The same by direct simulation.
+    pub pressure: Option<Direct>,
+    /// Conductance of the cut-out by direct simulation in m².
+    pub conductance: Option<Direct>,
+    /// How it went.
+    pub status: Status,
+    /// How the flow went.
+    pub flow_status: Status,
+    /// Particles of the finest run.
+    pub particles: Option<f64>,
+    /// Wall time of all runs in s.
+    pub wall_time: f64,
+    /// Names of the complete runs, for their pictures.
+    pub runs: Vec<String>,
+}
+
+impl Row<'_> {
+    /// Relative difference of the direct entry pressure from the formula.
+    #[must_use]
+    pub fn pressure_difference(&self) -> Option<f64> {
+        Some(self.pressure?.value / self.pressure_formula - 1.0)
+    }
+
+    /// Relative difference of the direct conductance from the formula.
+    #[must_use]
+    pub fn conductance_difference(&self) -> Option<f64> {
+        Some(self.conductance?.value / self.planned.conductance? - 1.0)
+    }
+
+    /// Whether the direct value takes the place of the formula: it differs by more than its own error.
+    #[must_use]
+    pub fn is_replaced(&self) -> bool {
+        let Some(Direct { value, error: Some(error) }) = self.pressure else { return false };
+        self.status == Status::Ok && (value - self.pressure_formula).abs() > error
+    }
+}
+
+/// A run of one throat.
+struct Run<'a> {
+    result: &'a RunResult,
+}
+
+impl Run<'_> {
+    fn failed(&self) -> Option<String> {
+        match &self.result.standing {
+            Standing::Failed(report) => {
+                let why = report.error.clone().unwrap_or_default();
+                Some(why.lines().next().unwrap_or("the solver failed").to_owned())
+            }
+            _ => None,
+        }
+    }
+
+    fn is_complete(&self) -> bool {
+        self.result.standing.report().is_some()
+    }
+
+    fn number(&self, name: &str) -> Option<f64> {
+        self.result.number(name).filter(|value| value.is_finite())
+    }
+}
+
+/// The row of a throat; `spacings` in their order.
+#[must_use]
+pub fn row<'a>(
+    planned: &'a Planned,
+    tension: f64,
+    fluids: &Fluids,
+    spacings: &[u32],
+    results: &[RunResult],
+) -> Row<'a> {
+    let curvature = planned.cut_out.as_ref().map_or(f64::NAN, |cut_out| cut_out.meniscus.curvature);
+    let runs = |kind: Kind| -> Vec<Run> {
+        let mut across: Vec<u32> = spacings.to_vec();
+        across.sort_unstable();
+        let found = across.into_iter().filter_map(|across| {
+            let name = case_name(planned.chosen.number, kind, across);
+            results.iter().find(|result| result.run.case.file_stem().is_some_and(|stem| stem.to_string_lossy() == name))
+        });
+        found.map(|result| Run { result }).collect()
+    };
+    let (entries, flows) = (runs(Kind::Entry), runs(Kind::Flow));
+    let all = || entries.iter().chain(&flows).filter(|run| run.is_complete());
+    let mut row = Row {
+        planned,
+        pressure_formula: tension * curvature,
+        pressure: None,
+        conductance: None,
+        status: Status::Open,
+        flow_status: Status::Open,
+        particles: entries.last().and_then(|run| run.number("unknowns")),
+        wall_time: all().filter_map(|run| run.number("wall-time-s")).sum::<f64>() + 0.0,
+        runs: all().map(|run| run.result.run.name.clone()).collect(),
+    };
+    if let Err(why) = &planned.cut_out {
+        (row.status, row.flow_status) = (Status::Impossible(why.to_string()), Status::Impossible(why.to_string()));
+        return row;
+    }
+    let sign = if fluids.invading == Fluid::NonWetting { 1.0 } else { -1.0 };
+    let pressures = |run: &Run| {
+        let bar = run.result.uncertainty("entry-pressure-Pa").unwrap_or(0.0);
+        run.number("entry-pressure-Pa").map(|value| (sign * value, bar))
+    };
+    (row.pressure, row.status) = judged(&entries, COARSE_PRESSURE, &pressures);
+    if row.status == Status::Ok {
+        row.status = at_rest(&entries);
+    }
+    if planned.conductance.is_some() {
+        let viscosity = planned.cut_out.as_ref().map_or(f64::NAN, |cut_out| fluids.of(cut_out.width)[0].viscosity);
+        let conductance = |run: &Run| {
+            let drop = run.number("driving-pressure-drop-Pa")?;
+            Some((viscosity * run.number("asked-inflow-m2-per-s")? / drop, 0.0))
+        };
+        (row.conductance, row.flow_status) = judged(&flows, COARSE_FLOW, &conductance);
+    } else {
+        row.flow_status = Status::Impossible("no formula for the cut-out".to_owned());
+    }
+    row
+}
+
+/// The finest value with its error, from runs in the order of their spacings, coarse to fine; `coarse` is the largest relative difference of two
+/// of them.
+fn judged(runs: &[Run], coarse: f64, value: &dyn Fn(&Run) -> Option<(f64, f64)>) -> (Option<Direct>, Status) {
+    if let Some(why) = runs.iter().find_map(Run::failed) {
+        return (None, Status::Failed(why));
+    }
+    if runs.is_empty() || runs.iter().any(|run| !run.is_complete()) {
+        return (None, Status::Open);
+    }
+    let values: Vec<Option<(f64, f64)>> = runs.iter().map(value).collect();
+    let Some(&Some((finest, bar))) = values.last() else {
+        return (None, Status::UnderResolved("a phase has no particle away from the interface".to_owned()));
+    };
+    let coarser = values.len().checked_sub(2).map(|before| values[before].map(|(value, _)| value));
+    let error = coarser.flatten().map(|coarser| (finest - coarser).abs() + bar);
+    let direct = Direct { value: finest, error };
+    match coarser {
+        Some(None) => (Some(direct), Status::UnderResolved("the coarser run has no value".to_owned())),
+        Some(Some(coarser)) if (finest - coarser).abs() > coarse * finest.abs() => {
+            let percent = 100.0 * (coarser / finest - 1.0).abs();
+            (Some(direct), Status::UnderResolved(format!("both spacings differ by {percent:.1} %")))
+        }
+        _ => (Some(direct), Status::Ok),
+    }
+}
+
+/// Whether the finest run has come to rest, with its areas kept.
+fn at_rest(entries: &[Run]) -> Status {
+    let Some(finest) = entries.last() else { return Status::Open };
+    match finest.number("area-drift") {
+        Some(drift) if drift > LEAKED => {
+            Status::UnderResolved(format!("the area of a phase drifted by {:.1} %", 100.0 * drift))
+        }
+        _ if finest.number("steady-at-s").is_none() => Status::NotAtRest,
+        _ => Status::Ok,
+    }
+}

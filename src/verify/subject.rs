@@ -1,0 +1,123 @@
+//! What is verified: a network with its menisci, and how its first displacement went up to breakthrough.
+
+use crate::case::checked::{Case, Fluid as FluidOf, Model};
+use crate::network::cycles::{Cycles, Entry, Fluid};
+use crate::network::displacement::{Conditions, Displacement};
+use crate::network::graph::Throat;
+use crate::network::menisci::Passage;
+use crate::network::setup::{SetupError, build_still};
+use crate::network::solver::NetworkSolver;
+
+/// A case whose throats cannot be verified.
+#[derive(Debug, thiserror::Error)]
+pub enum SubjectError {
+    /// Another model.
+    #[error("throats are those of a network; the case needs [network]")]
+    NoNetwork,
+    /// No angle.
+    #[error(
+        "the network has no interface, so that no throat has an entry pressure; add [network.interface] and [network.wetting.young]"
+    )]
+    NoInterface,
+    /// The network cannot be made.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+}
+
+/// A network whose throats are verified.
+#[derive(Debug)]
+pub struct Subject {
+    /// The network with its tables.
+    pub solver: NetworkSolver,
+    /// Interfacial tension in N/m.
+    pub tension: f64,
+    /// The wetting and the non-wetting phase, where the case gives them.
+    pub fluids: [Option<FluidOf>; 2],
+    /// The phase that invades first.
+    pub invading: Fluid,
+    /// What it invades under.
+    pub conditions: Conditions,
+    /// Events of the first half cycle up to breakthrough, and the applied curvature in 1/m at that, towards the defending phase; none where
+    /// nothing is displaced or the outlet is not reached.
+    pub to_breakthrough: Option<(Vec<Entry>, f64)>,
+    /// Throats through which menisci overlapped in the first half cycle.
+    pub overlapped: Vec<usize>,
+    fresh: Displacement,
+}
+
+impl Subject {
+    /// The network of a case, displaced once.
+    ///
+    /// # Errors
+    /// [`SubjectError`].
+    pub fn new(case: &Case) -> Result<Self, SubjectError> {
+        let Model::Network(wanted) = &case.model else { return Err(SubjectError::NoNetwork) };
+        let Some(interface) = &wanted.interface else { return Err(SubjectError::NoInterface) };
+        let solver = build_still(case, wanted)?;
+        let half = solver.cycles().map(|cycles| cycles.half_cycles()[0].clone());
+        let invading = half.as_ref().map_or(Fluid::NonWetting, |half| half.invading);
+        let conditions = half.map(|half| half.conditions).or_else(|| solver.setting().entry.clone());
+        let Some(conditions) = conditions else { return Err(SubjectError::NoInterface) };
+        let history = solver.cycles().map(first_half_cycle).unwrap_or_default();
+        let setting = solver.setting();
+        let fresh = Displacement::new(&setting.network, &setting.pores, conditions.clone());
+        let overlaps = history.0.iter().filter(|entry| entry.kind == crate::network::displacement::EventKind::Overlap);
+        Ok(Self {
+            tension: interface.tension,
+            fluids: [wanted.wetting, wanted.non_wetting],
+            invading,
+            conditions,
+            overlapped: overlaps.filter_map(|entry| entry.throat).collect(),
+            to_breakthrough: history.1.map(|(count, applied)| (history.0[..count].to_vec(), applied)),
+            fresh,
+            solver,
+        })
+    }
+
+    /// The throats of the tables, as indices into those of the network.
+    #[must_use]
+    pub fn kept(&self) -> &[usize] {
+        &self.solver.setting().pores.throats
+    }
+
+    /// A throat by its index in the network.
+    #[must_use]
+    pub fn throat(&self, throat: usize) -> &Throat {
+        &self.solver.setting().network.throats[throat]
+    }
+
+    /// The passage through a throat into its region `to`, and the other walls ahead.
+    #[must_use]
+    pub fn passage(&self, throat: usize, to: usize) -> Option<(Passage, Vec<crate::geometry::curve::Curve>)> {
+        self.fresh.passage_through(throat, to)
+    }
+
+    /// The region into which a throat is entered at the larger pressure, and the curvature in 1/m there: that of `throats.csv`.
+    #[must_use]
+    pub fn entry(&self, throat: usize) -> Option<(usize, f64)> {
+        let burst = |to| Some((to, self.passage(throat, to)?.0.burst()?.curvature));
+        [1, 0].into_iter().filter_map(burst).reduce(|best, next| if next.1 > best.1 { next } else { best })
+    }
+
+    /// Tells the geometry, as in `network.json`.
+    #[must_use]
+    pub fn geometry_hash(&self) -> &str {
+        &self.solver.setting().geometry_hash
+    }
+}
+
+/// The events of the first half cycle; how many there are up to breakthrough, and the applied curvature in 1/m then.
+fn first_half_cycle(cycles: &Cycles) -> (Vec<Entry>, Option<(usize, f64)>) {
+    let mut cycles = cycles.clone();
+    let sign = cycles.half_cycle().towards_wetting(1.0);
+    let mut breakthrough = None;
+    while cycles.half_cycle_index() == 0 && cycles.advance().is_some() {
+        let events = cycles.history().iter().filter(|entry| entry.half_cycle == 0).count();
+        let reached = cycles.outcomes().first().and_then(|outcome| outcome.breakthrough);
+        if let (None, Some((applied, _))) = (breakthrough, reached) {
+            breakthrough = Some((events, sign * applied));
+        }
+    }
+    let first = cycles.history().iter().filter(|entry| entry.half_cycle == 0).copied().collect();
+    (first, breakthrough.filter(|(_, applied)| applied.is_finite()))
+}

@@ -1,0 +1,182 @@
+//! One wall of a throat in the frame of its cut-out, from behind the throat to ahead of it, cut where the cut-out needs no more of it.
+//!
+//! The frame has its origin in the middle of the chord; the meniscus advances along x, and the wall lies above: of the other wall this is
+//! the mirror image. Beyond the chord on either side a wall is followed until it rises above a level or ends; where it ends sooner, or is
+//! nearly parallel to the way, it goes on straight and steps up beside the end of the cut-out, whose two ends are then alike.
+
+use nalgebra::Rotation2;
+
+use crate::geometry::curve::Curve;
+use crate::math::Vec2;
+use crate::network::menisci::{Hand, Wall};
+
+/// Places along a curve at which its height is looked up before the crossing of a level is bisected.
+const SAMPLES: usize = 64;
+/// A double has 53 bits.
+const HALVINGS: usize = 60;
+
+/// Where a cut-out stands in the network.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Middle of the chord in m.
+    pub middle: Vec2,
+    /// Polar angle of the direction of advance in rad.
+    pub angle: f64,
+}
+
+impl Frame {
+    /// A curve of the network in the frame.
+    #[must_use]
+    pub fn curve(&self, curve: &Curve) -> Curve {
+        curve.placed(-self.angle, -(Rotation2::new(-self.angle) * self.middle))
+    }
+
+    /// A point of the network in the frame.
+    #[must_use]
+    pub fn point(&self, x: Vec2) -> Vec2 {
+        Rotation2::new(-self.angle) * (x - self.middle)
+    }
+}
+
+/// A curve with x or y of the other sign.
+#[must_use]
+pub fn mirrored(curve: &Curve, axis: usize) -> Curve {
+    let flip = |mut v: Vec2| {
+        v[axis] = -v[axis];
+        v
+    };
+    match *curve {
+        Curve::Segment { a, b } => Curve::Segment { a: flip(a), b: flip(b) },
+        Curve::Arc { center, radius, start, sweep } => {
+            let start = if axis == 0 { std::f64::consts::PI - start } else { -start };
+            Curve::Arc { center: flip(center), radius, start, sweep: -sweep }
+        }
+    }
+}
+
+/// A wall of a throat, seen as the upper one: its curves on both sides of the chord, each side in the order away from it and with x above 0
+/// on the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UpperWall {
+    /// Behind the chord, mirrored, and ahead of it.
+    pub sides: [Vec<Curve>; 2],
+}
+
+impl UpperWall {
+    /// The wall of a passage on one hand.
+    #[must_use]
+    pub fn of(wall: &Wall, hand: Hand, frame: &Frame) -> Self {
+        let upper = |curve: &Curve| match hand {
+            Hand::Left => frame.curve(curve),
+            // The other wall runs against the advance.
+            Hand::Right => mirrored(&frame.curve(curve).reversed(), 1),
+        };
+        let curves: Vec<Curve> = wall.parts.iter().map(|part| upper(&part.curve)).collect();
+        let (behind, ahead) = curves.split_at(wall.behind.min(curves.len()));
+        let backwards = |curve: &Curve| mirrored(&curve.reversed(), 0);
+        Self { sides: [behind.iter().rev().map(backwards).collect(), ahead.to_vec()] }
+    }
+
+    /// Height in m of each side at its farthest point along the way: as far as the wall is seen by who passes.
+    #[must_use]
+    pub fn widest(&self) -> [f64; 2] {
+        [0, 1].map(|side| {
+            let farthest = points(&self.sides[side]).max_by(|a, b| a.x.total_cmp(&b.x));
+            farthest.map_or(0.0, |point| point.y)
+        })
+    }
+
+    /// Largest height in m of each side.
+    #[must_use]
+    pub fn highest(&self) -> [f64; 2] {
+        [0, 1].map(|side| points(&self.sides[side]).fold(0.0, |high: f64, point| high.max(point.y)))
+    }
+
+    /// Largest height in m from the chord to a contact, which is in the frame of the wall; none where the contact is not on it.
+    #[must_use]
+    pub fn height_to(&self, contact: Vec2, tolerance: f64) -> Option<f64> {
+        [Vec2::new(-contact.x, contact.y), contact].into_iter().zip(&self.sides).find_map(|(contact, side)| {
+            let on = side.iter().position(|curve| (curve.project(contact).point - contact).norm() <= tolerance)?;
+            let foot = side[on].project(contact).u;
+            let last = side[on].part(0.0, foot);
+            let before = side[..on].iter().chain([&last]);
+            Some(before.flat_map(|curve| sampled(curve, 1.0)).fold(contact.y, |high, point| high.max(point.y)))
+        })
+    }
+}
+
+fn sampled(curve: &Curve, to: f64) -> impl Iterator<Item = Vec2> + use<> {
+    let curve = *curve;
+    (0..=SAMPLES).map(move |k| curve.point(to * k as f64 / SAMPLES as f64))
+}
+
+fn points(curves: &[Curve]) -> impl Iterator<Item = Vec2> {
+    curves.iter().flat_map(|curve| sampled(curve, 1.0))
+}
+
+/// One side of a wall as far as the cut-out needs it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Followed {
+    /// Its curves from the chord on.
+    pub curves: Vec<Curve>,
+    /// Where it ends.
+    pub end: Vec2,
+    /// Whether it has risen to the level.
+    pub is_risen: bool,
+}
+
+impl Followed {
+    /// How far it reaches along the way in m.
+    #[must_use]
+    pub fn farthest(&self) -> f64 {
+        points(&self.curves).map(|point| point.x).fold(self.end.x, f64::max)
+    }
+
+    /// Whether a point lies on it.
+    #[must_use]
+    pub fn holds(&self, x: Vec2, tolerance: f64) -> bool {
+        self.curves.iter().any(|curve| (curve.project(x).point - x).norm() <= tolerance)
+    }
+}
+
+/// Follows one side of a wall from `start`, the end of the chord, until it rises to `level` or is as far as `reach`, in m.
+#[must_use]
+pub fn follow(side: &[Curve], start: Vec2, level: f64, reach: f64) -> Followed {
+    let mut curves: Vec<Curve> = Vec::new();
+    let is_out = |point: Vec2| point.y >= level || point.x >= reach;
+    for curve in side {
+        let at = |k: usize| k as f64 / SAMPLES as f64;
+        let Some(k) = (0..=SAMPLES).find(|&k| is_out(curve.point(at(k)))) else {
+            curves.push(*curve);
+            continue;
+        };
+        let (mut low, mut high) = (at(k.saturating_sub(1)), at(k));
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if is_out(curve.point(middle)) { high = middle } else { low = middle }
+        }
+        if high > 0.0 {
+            curves.push(curve.part(0.0, high));
+        }
+        let end = curve.point(high);
+        return Followed { curves, end, is_risen: end.y >= level };
+    }
+    up_to_highest(side, start)
+}
+
+/// A side that does not rise so far: up to its highest place, beyond which it leads down behind the body.
+fn up_to_highest(side: &[Curve], start: Vec2) -> Followed {
+    let (mut end, mut last) = (start, None);
+    for (index, curve) in side.iter().enumerate() {
+        for k in 1..=SAMPLES {
+            let point = curve.point(k as f64 / SAMPLES as f64);
+            if point.y > end.y {
+                (end, last) = (point, Some((index, k)));
+            }
+        }
+    }
+    let Some((index, k)) = last else { return Followed { curves: Vec::new(), end, is_risen: false } };
+    let mut curves = side[..index].to_vec();
+    curves.push(if k == SAMPLES { side[index] } else { side[index].part(0.0, k as f64 / SAMPLES as f64) });
+    Followed { curves, end, is_risen: false }
+}
