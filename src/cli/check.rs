@@ -30,12 +30,16 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         return Ok(DONE);
     }
     say(&case.title);
-    if let Model::Network(_) = &case.model {
+    if let Model::Network(network) = &case.model {
         say(format_args!("  pores       {}", found.unknowns));
         if let Some(memory) = found.memory_bytes {
             say(format_args!("  memory      {:.0} MiB", memory as f64 / BYTES_PER_MEBIBYTE));
         }
-        say(format_args!("  run         at most {} events, about {}", found.steps, duration(found.duration_s)));
+        // Steps in time end at events, which are not known before.
+        match network.is_dynamic() {
+            true => say(format_args!("  run         until {} s, or where [network.stop] says", readable(case.end))),
+            false => say(format_args!("  run         at most {} events, about {}", found.steps, duration(found.duration_s))),
+        }
         advice.iter().for_each(tell_advice);
         return Ok(DONE);
     }
