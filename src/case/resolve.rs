@@ -24,6 +24,7 @@ fn raw(case: &Case) -> RawCase {
         Model::ThinFilm(film) => (None, Some(super::film::resolved(film)), None),
         Model::Network(network) => (None, None, Some(super::network::resolved(network))),
     };
+    let is_quasi_static = matches!(&case.model, Model::Network(network) if !network.is_dynamic());
     let geometry = &case.geometry;
     RawCase {
         format: Some(1),
@@ -37,10 +38,9 @@ fn raw(case: &Case) -> RawCase {
         }),
         sph,
         thin_film,
-        time: network
-            .is_none()
+        time: (!is_quasi_static)
             .then_some(RawTime { end: Some(case.end), steady: case.steady.as_ref().map(steady::raw) }),
-        output: Some(raw_output(&case.output, network.is_some())),
+        output: Some(raw_output(&case.output, matches!(&case.model, Model::Network(_)), is_quasi_static)),
         network,
         expect: Some(
             case.expect
@@ -55,7 +55,7 @@ fn raw(case: &Case) -> RawCase {
     }
 }
 
-fn raw_output(output: &Output, by_volume: bool) -> RawOutput {
+fn raw_output(output: &Output, is_network: bool, by_volume: bool) -> RawOutput {
     let every = |interval| {
         let interval = Some(interval);
         let none = RawEvery::default();
@@ -77,7 +77,7 @@ fn raw_output(output: &Output, by_volume: bool) -> RawOutput {
             compression: Some(compression),
         }),
         series: every(output.series_every),
-        grid: (!by_volume).then_some(RawGrid { ratio: Some(output.grid_ratio) }),
+        grid: (!is_network).then_some(RawGrid { ratio: Some(output.grid_ratio) }),
         restart: every(output.restart_every),
     }
 }

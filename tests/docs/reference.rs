@@ -191,10 +191,12 @@ fn solver(case: &str) -> Box<dyn Solver> {
 const FLOW: &str = "cases/poiseuille.toml";
 const FILM: &str = "cases/thin-film/partial-wetting.toml";
 const NETWORK: &str = "cases/network/drainage.toml";
+const IN_TIME: &str = "cases/network/dynamic.toml";
 
 #[test]
 fn every_column_of_the_series_is_described() {
-    for (case, title) in [(FLOW, "# `series.csv`"), (FILM, "Film columns"), (NETWORK, "Network columns")] {
+    let in_time = (IN_TIME, "Series of a displacement in time");
+    for (case, title) in [(FLOW, "# `series.csv`"), (FILM, "Film columns"), (NETWORK, "Network columns"), in_time] {
         let there = solver(case).sample().into_iter().map(|sample| sample.name).collect::<Vec<_>>();
         assert_eq!(names(&section(&page("docs/reference/output.md"), title)), there);
     }
@@ -235,6 +237,10 @@ fn every_column_of_the_tables_of_a_network_is_described() {
         count += 1;
     }
     assert_eq!(count, 4);
+    let in_time = self::solver(IN_TIME).results().tables;
+    let events = in_time.iter().find(|table| table.name == "events").unwrap();
+    let there = events.columns.iter().map(|column| column.name.to_owned()).collect::<Vec<_>>();
+    assert_eq!(names(&section(&page, "Events of a displacement in time")), there);
 }
 
 #[test]
@@ -267,7 +273,8 @@ fn columns_tell<'f>(rows: &[Vec<String>], groups: impl Iterator<Item = &'f [Fiel
 #[test]
 fn every_measure_is_described() {
     let mut there = BTreeSet::new();
-    let others = ["src/thin_film/measures.rs", "src/network/measures.rs"].map(|file| root().join(file));
+    let others = ["src/thin_film/measures.rs", "src/network/measures.rs", "src/network/dynamic/measures.rs"]
+        .map(|file| root().join(file));
     for file in files(&root().join("src/sph/measures"), &["rs"]).into_iter().chain(others) {
         let source = std::fs::read_to_string(file).unwrap();
         let calls = source.split("measure(").skip(1).filter_map(|rest| rest.trim_start().strip_prefix('"'));
@@ -279,7 +286,7 @@ fn every_measure_is_described() {
     there.insert(meniscus::run::report::STEADY_AT.to_owned());
     assert!(there.contains("contact-angle-deg") && there.contains("permeability-x-m2"), "{there:?}");
     assert_eq!(set(names(&page("docs/reference/measures.md").rows())), there);
-    let cases = ["sessile-drop", "network/drainage", "thin-film/spreading-drop"];
+    let cases = ["sessile-drop", "network/drainage", "network/dynamic", "thin-film/spreading-drop"];
     let known = cases.iter().flat_map(|case| {
         let loaded = load(&root().join(format!("cases/{case}.toml")), &Overrides::default()).unwrap();
         offers(&loaded.case.model, false)

@@ -43,7 +43,7 @@ pub(in crate::case) fn raw(network: &PoreNetwork) -> RawNetwork {
     RawNetwork {
         process: Some(process),
         cycles,
-        trapping: Some(displacement.trapping),
+        trapping: displacement.dynamic.is_none().then_some(displacement.trapping),
         events: Some(match displacement.events {
             NetworkEvents::All => RawEvents::All,
             NetworkEvents::Burst => RawEvents::Burst,
