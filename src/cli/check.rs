@@ -38,7 +38,9 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         // Steps in time end at events, which are not known before.
         match network.is_dynamic() {
             true => say(format_args!("  run         until {} s, or where [network.stop] says", readable(case.end))),
-            false => say(format_args!("  run         at most {} events, about {}", found.steps, duration(found.duration_s))),
+            false => {
+                say(format_args!("  run         at most {} events, about {}", found.steps, duration(found.duration_s)))
+            }
         }
         advice.iter().for_each(tell_advice);
         return Ok(DONE);
