@@ -65,7 +65,7 @@ def main() -> None:
     parser.add_argument("--seed", default="1")
     arguments = parser.parse_args()
     found = measure(arguments.dir)
-    print("| viscosity ratio | Ca | saturation | finger width in um | fingers per line | solves per event |")
+    print("| viscosity ratio | Ca | saturation | finger width in µm | fingers per line | solves per event |")
     print("|---|---|---|---|---|---|")
     for row in found:
         ratio = float(row["rows"][0]["viscosity-ratio"])

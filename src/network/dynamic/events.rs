@@ -5,7 +5,7 @@ use super::rise::Rise;
 use super::step::{Goal, REACHED};
 use super::{Breakthrough, Dynamic, Filling, Meniscus, Occurrence};
 use crate::network::cycles::Invasion;
-use crate::network::displacement::{FrontId, Phase};
+use crate::network::displacement::{EventKind, FrontId, Phase};
 use crate::network::laplacian::FlowError;
 
 impl Dynamic {
@@ -33,6 +33,13 @@ impl Dynamic {
                     }
                 }
                 _ => {}
+            }
+        }
+        for element in (0..self.state.filling.len()).filter(|&e| self.state.filling[e].is_none() && !self.is_invaded(e))
+        {
+            let links: Vec<usize> = self.entering(element).filter_map(|((gate, _), _)| link_of[gate]).collect();
+            if links.len() > 1 {
+                goals.push(Goal::Covered(element, links));
             }
         }
         for (element, filling) in self.state.filling.iter().enumerate() {
@@ -76,7 +83,7 @@ impl Dynamic {
             // What is full comes first, then the event of the lowest curvature.
             let curvature = |goal: usize| match goals[goal] {
                 Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.advances[advance].curvature,
-                Goal::Full { .. } => f64::NEG_INFINITY,
+                Goal::Covered(..) | Goal::Full { .. } => f64::NEG_INFINITY,
             };
             let due = (0..goals.len()).filter(|&goal| gaps[goal] <= REACHED);
             let Some(first) = due.min_by(|&a, &b| curvature(a).total_cmp(&curvature(b))) else {
@@ -86,26 +93,46 @@ impl Dynamic {
             has_fired = true;
             match goals[first] {
                 Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.pass(advance),
+                Goal::Covered(element, _) => self.cover(element),
                 Goal::Full { element, .. } => self.complete(element),
             }
         }
+    }
+
+    /// Notes an event of a meniscus at a curvature in 1/m.
+    fn note(&mut self, kind: EventKind, front: FrontId, curvature: f64) -> Invasion {
+        let saturation = self.invading_area() / self.pore_area;
+        self.state.history.push(Occurrence {
+            time: self.state.time,
+            kind,
+            throat: self.gates[front.0].throat,
+            curvature,
+            saturation,
+            pressure: self.state.pressure,
+        });
+        Invasion { sequence: self.state.history.len(), applied: curvature, displaced: saturation }
+    }
+
+    /// Lets all menisci that wait to enter an element into it: together they cover it, so that they have met.
+    fn cover(&mut self, element: usize) {
+        let fronts: Vec<(FrontId, f64)> = self
+            .entering(element)
+            .filter_map(|(front, meniscus)| {
+                Some((front, self.rises[front.0][front.1].as_ref()?.curvature(meniscus.area).0))
+            })
+            .collect();
+        let Some(&(first, curvature)) = fronts.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else { return };
+        let invasion = self.note(EventKind::Overlap, first, curvature);
+        self.begin_filling(element, curvature, false);
+        self.state.invasions[element].get_or_insert(invasion);
+        fronts.into_iter().for_each(|(front, _)| self.burst(front));
     }
 
     /// Lets the menisci of an advance into the elements ahead.
     fn pass(&mut self, index: usize) {
         let advance = self.advances[index].clone();
         let (front, partner) = advance.fronts;
-        let saturation = self.invading_area() / self.pore_area;
-        self.state.history.push(Occurrence {
-            time: self.state.time,
-            kind: advance.kind,
-            throat: self.gates[front.0].throat,
-            curvature: advance.curvature,
-            saturation,
-            pressure: self.state.pressure,
-        });
-        let invasion =
-            Invasion { sequence: self.state.history.len(), applied: advance.curvature, displaced: saturation };
+        let invasion = self.note(advance.kind, front, advance.curvature);
         let is_joined = advance.fills.len() > 1;
         for &element in &advance.fills {
             if self.state.filling[element].is_none() {
@@ -155,7 +182,13 @@ impl Dynamic {
             (&mut self.state.menisci[front.0][front.1], &mut self.state.filling[element])
             && !std::mem::replace(&mut meniscus.has_burst, true)
         {
-            filling.area += meniscus.area;
+            if self.is_outlet[element] {
+                // It lies beyond the outlet.
+                self.state.passed[1] += meniscus.area;
+                self.state.passed[2] -= meniscus.area;
+            } else {
+                filling.area += meniscus.area;
+            }
         }
         self.graph = None;
         if self.is_outlet[element] && self.state.breakthrough.is_none() {

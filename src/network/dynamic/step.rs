@@ -12,6 +12,8 @@ pub(super) enum Goal {
     Own(usize, usize),
     /// Two menisci meet: index of the advance, links of both.
     Meeting(usize, [usize; 2]),
+    /// Menisci that wait to enter an element cover all of it: element, links of the menisci.
+    Covered(usize, Vec<usize>),
     /// An element is full.
     Full {
         element: usize,
@@ -37,8 +39,6 @@ struct Trial {
 /// What may be missing until an event, and what may be beyond it, as a share of the way to it. What is beyond is not lost: the invading
 /// phase has it in the element ahead.
 pub(super) const REACHED: f64 = 1e-3;
-/// The same of an element that becomes full, over [`REACHED`]: no order of events hangs on it.
-const FULL: f64 = 10.0;
 /// Largest difference between the curvature of a meniscus at the end of a step and that which the step took, as a share of its range.
 const MATCHED: f64 = 1e-3;
 /// Most rounds of Newton's method.
@@ -255,11 +255,15 @@ impl Dynamic {
                 let width = rise(links[0]).map_or(1.0, |(_, width)| width);
                 (self.advances[*advance].curvature - mean) * width
             }
+            Goal::Covered(element, links) => {
+                let covered: f64 = links.iter().map(|&link| area[link]).sum();
+                1.0 - covered / self.displacement.elements()[*element].area
+            }
             Goal::Full { element, burst, entering, target } => {
                 let came: f64 = step.map_or(0.0, |(flow, dt)| burst.iter().map(|&link| flow.through[link] * dt).sum());
                 let filled = self.state.filling[*element].as_ref().map_or(0.0, |filling| filling.area);
                 let waiting: f64 = entering.iter().map(|&link| area[link]).sum();
-                (target - filled - came - waiting) / (FULL * self.displacement.elements()[*element].area)
+                (target - filled - came - waiting) / self.displacement.elements()[*element].area
             }
         }
     }
