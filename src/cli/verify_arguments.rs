@@ -17,7 +17,7 @@ pub enum NetworkCommand {
 /// `network verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArguments {
-    /// Case file with [network] and an interface
+    /// Case file with `[network]` and an interface
     pub case: PathBuf,
     /// Throats: critical, unsure, random:N, or numbers of throats.csv as in 3,7,12; may be given several times
     #[arg(long, value_name = "WHICH", required = true)]
