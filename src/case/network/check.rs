@@ -59,6 +59,9 @@ pub(in crate::case) fn network(
         refuse_without_inlet(checker, raw);
         None
     };
+    if raw.dynamic.is_some() && displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_none()) {
+        return None;
+    }
     Some(PoreNetwork {
         sides: sides?,
         wetting: wetting?,
