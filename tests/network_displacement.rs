@@ -8,31 +8,13 @@ use meniscus::network::displacement::{Conditions, Displacement, Event, EventKind
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores};
 
-/// Numbers that look random, the same on every machine.
-struct Dice(u64);
-
-impl Dice {
-    /// From 0 to 1.
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
+#[path = "support/dice.rs"]
+mod dice;
+use dice::scattered_discs;
 
 /// Discs of radius .4 to .6 at least .12 apart in a box that is periodic along y, as many as `tries` attempts place.
 fn pack(seed: u64, size: [f64; 2], tries: usize) -> GeometrySpec {
-    let mut dice = Dice(seed);
-    let mut discs: Vec<Disc> = Vec::new();
-    for _ in 0..tries {
-        let radius = 0.4 + 0.2 * dice.roll();
-        let center = [0, 1].map(|i| dice.roll() * size[i]);
-        let is_free =
-            discs.iter().all(|d| (d.center[0] - center[0]).hypot(d.center[1] - center[1]) > d.radius + radius + 0.12);
-        let is_inside = (0..2).all(|i| center[i] > radius + 0.06 && center[i] < size[i] - radius - 0.06);
-        if is_free && is_inside {
-            discs.push(Disc { center, radius });
-        }
-    }
+    let discs = scattered_discs(seed, tries, size, [0.4, 0.6], [0.12, 0.06]);
     GeometrySpec {
         min: [0.0; 2],
         max: size,

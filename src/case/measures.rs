@@ -29,7 +29,7 @@ const OPEN_SIDES: &[&str] = &[
     "largest-flow-rate-error",
     "driving-pressure-drop-Pa",
 ];
-/// Those of a pore network.
+/// Those of every pore network.
 const NETWORK: &[&str] = &[
     "porosity",
     "pores",
@@ -38,47 +38,36 @@ const NETWORK: &[&str] = &[
     "widest-throat-m",
     "permeability-x-m2",
     "permeability-y-m2",
-    "relative-permeability-wetting",
-    "relative-permeability-non-wetting",
     "smallest-entry-pressure-Pa",
     "median-entry-pressure-Pa",
     "largest-entry-pressure-Pa",
-    "measured-entry-pressures",
-    "breakthrough-pressure-Pa",
     "saturation-at-breakthrough",
-    "residual-saturation",
     "trapped-saturation",
     "final-wetting-saturation",
-    "largest-capillary-pressure-Pa",
     "events",
+];
+/// Those of one without time.
+const NETWORK_QUASI_STATIC: &[&str] = &[
+    "relative-permeability-wetting",
+    "relative-permeability-non-wetting",
+    "measured-entry-pressures",
+    "breakthrough-pressure-Pa",
+    "residual-saturation",
+    "largest-capillary-pressure-Pa",
     "hysteresis-work-J-per-m3",
 ];
-/// Those of every displacement in time.
+/// Those of a displacement in time.
 const NETWORK_IN_TIME: &[&str] = &[
-    "porosity",
-    "pores",
-    "throats",
-    "narrowest-throat-m",
-    "widest-throat-m",
-    "permeability-x-m2",
-    "permeability-y-m2",
-    "smallest-entry-pressure-Pa",
-    "median-entry-pressure-Pa",
-    "largest-entry-pressure-Pa",
     "breakthrough-time-s",
     "breakthrough-pressure-difference-Pa",
     "largest-pressure-difference-Pa",
-    "saturation-at-breakthrough",
     "injected-pore-volumes",
-    "final-wetting-saturation",
-    "trapped-saturation",
     "capillary-number",
     "viscosity-ratio",
     "finger-width-m",
     "fingers-per-line",
     "interface-length-m",
     "balance-error",
-    "events",
     "solves-per-event",
 ];
 /// Those of a thin film.
@@ -139,7 +128,8 @@ pub fn offers(model: &Model, is_steady: bool) -> Vec<Offer> {
         }
         Model::ThinFilm(_) => vec![steady, Offer::new(THIN_FILM, "a thin film", true)],
         Model::Network(network) => vec![
-            Offer::new(NETWORK, "quasi-static displacement", !network.is_dynamic()),
+            Offer::new(NETWORK, "a network", true),
+            Offer::new(NETWORK_QUASI_STATIC, "quasi-static displacement", !network.is_dynamic()),
             Offer::new(NETWORK_IN_TIME, "[network.dynamic]", network.is_dynamic()),
         ],
     }

@@ -10,29 +10,12 @@ use meniscus::sph::pairs::Pairs;
 use meniscus::sph::poisson::{Matrix, assemble};
 use meniscus::sph::terms::density;
 
+#[path = "dice.rs"]
+mod dice;
+pub use dice::Dice;
+
 /// Smoothing length over spacing, as cases have it by default.
 pub const SMOOTHING_RATIO: f64 = 1.5;
-
-/// Numbers that look random and are the same on every machine: the generator of Knuth's MMIX.
-pub struct Dice(u64);
-
-impl Dice {
-    /// Dice that fall the same way for the same `seed`.
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// The next number between `low` and `high`.
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// A vector with both components between -1 and 1.
-    pub fn vector(&mut self) -> Vec2 {
-        Vec2::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0))
-    }
-}
 
 /// Particles in the unit square.
 pub struct Cloud {

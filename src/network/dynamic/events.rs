@@ -35,11 +35,17 @@ impl Dynamic {
                 _ => {}
             }
         }
-        for element in (0..self.state.filling.len()).filter(|&e| self.state.filling[e].is_none() && !self.is_invaded(e))
-        {
+        for element in (0..self.state.filling.len()).filter(|&element| !self.is_invaded(element)) {
             let links: Vec<usize> = self.entering(element).filter_map(|((gate, _), _)| link_of[gate]).collect();
-            if links.len() > 1 {
-                goals.push(Goal::Covered(element, links));
+            // An element at the outlet is never full: what covers it leaves.
+            let is_leaving = self.is_outlet[element] && !links.is_empty();
+            if self.state.filling[element].is_some() && !is_leaving {
+                continue;
+            }
+            let bulges = self.bulges(element);
+            if links.len() + bulges.len() > 1 || self.state.filling[element].is_some() {
+                let held = bulges.iter().map(|(_, area)| area).sum();
+                goals.push(Goal::Covered { element, links, held });
             }
         }
         for (element, filling) in self.state.filling.iter().enumerate() {
@@ -52,7 +58,8 @@ impl Dynamic {
                     _ => {}
                 }
             }
-            let target = self.target(element, filling);
+            let bulges: f64 = self.bulges(element).iter().map(|(_, area)| area).sum();
+            let target = self.target(element, filling) - bulges;
             goals.push(Goal::Full { element, burst, entering, target });
         }
         goals
@@ -60,9 +67,34 @@ impl Dynamic {
 
     /// Area in m² of the invading phase in an element when it is full, with that of the menisci that then wait in its gates.
     fn target(&self, element: usize, filling: &Filling) -> f64 {
-        let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
-        let menisci: f64 = ahead.map(|(_, rise)| rise.area(filling.curvature.min(rise.end().1))).sum();
+        let menisci: f64 = self.to_come(element, filling).map(|(_, area)| area).sum();
         self.displacement.elements()[element].area + menisci
+    }
+
+    /// The menisci that will wait ahead of an element that is being filled, with their areas in m²: at most what is free there.
+    fn to_come<'a>(&'a self, element: usize, filling: &'a Filling) -> impl Iterator<Item = (FrontId, f64)> + 'a {
+        let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
+        ahead.map(|(front, rise)| {
+            let into = self.ahead_of(*front);
+            let held = self.state.filling[into].as_ref().map_or(0.0, |filling| filling.area)
+                + self.entering(into).map(|(_, meniscus)| meniscus.area.max(0.0)).sum::<f64>();
+            let free = (self.displacement.elements()[into].area - held).max(0.0);
+            (*front, rise.area(filling.curvature.min(rise.end().1)).min(free))
+        })
+    }
+
+    /// What neighbors that are being filled hold beyond their own areas stands in menisci that are to come: those that will enter an element,
+    /// with their areas in m².
+    fn bulges(&self, into: usize) -> Vec<(FrontId, f64)> {
+        let bulge = |&front: &FrontId| {
+            let neighbor = self.behind(front);
+            let filling = self.state.filling[neighbor].as_ref()?;
+            let beyond = self.filled_area(neighbor, filling) - self.displacement.elements()[neighbor].area;
+            let all: f64 = self.to_come(neighbor, filling).map(|(_, area)| area).sum();
+            let (_, area) = self.to_come(neighbor, filling).find(|(other, _)| *other == front)?;
+            (beyond > 0.0 && all > 0.0).then(|| (front, beyond.min(all) * area / all))
+        };
+        self.displacement.gates_of(into).iter().filter_map(bulge).collect()
     }
 
     /// The element that a meniscus enters.
@@ -70,20 +102,22 @@ impl Dynamic {
         self.gates[gate].elements[end]
     }
 
+    /// The element that a meniscus comes from.
+    fn behind(&self, (gate, end): FrontId) -> usize {
+        self.gates[gate].elements[1 - end]
+    }
+
     /// Does all events that are due, one after the other; whether there was one.
     pub(super) fn fire(&mut self) -> Result<bool, FlowError> {
         let mut has_fired = false;
         loop {
-            let graph = match self.graph.take() {
-                Some(graph) => graph,
-                None => self.graph()?,
-            };
+            let graph = self.current_graph()?;
             let goals = self.goals(&graph);
             let gaps = self.gaps(&graph, &goals);
             // What is full comes first, then the event of the lowest curvature.
             let curvature = |goal: usize| match goals[goal] {
                 Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.advances[advance].curvature,
-                Goal::Covered(..) | Goal::Full { .. } => f64::NEG_INFINITY,
+                Goal::Covered { .. } | Goal::Full { .. } => f64::NEG_INFINITY,
             };
             let due = (0..goals.len()).filter(|&goal| gaps[goal] <= REACHED);
             let Some(first) = due.min_by(|&a, &b| curvature(a).total_cmp(&curvature(b))) else {
@@ -93,7 +127,7 @@ impl Dynamic {
             has_fired = true;
             match goals[first] {
                 Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.pass(advance),
-                Goal::Covered(element, _) => self.cover(element),
+                Goal::Covered { element, .. } => self.cover(element),
                 Goal::Full { element, .. } => self.complete(element),
             }
         }
@@ -115,17 +149,24 @@ impl Dynamic {
 
     /// Lets all menisci that wait to enter an element into it: together they cover it, so that they have met.
     fn cover(&mut self, element: usize) {
-        let fronts: Vec<(FrontId, f64)> = self
+        let waiting: Vec<(FrontId, f64)> = self
             .entering(element)
             .filter_map(|(front, meniscus)| {
                 Some((front, self.rises[front.0][front.1].as_ref()?.curvature(meniscus.area).0))
             })
             .collect();
-        let Some(&(first, curvature)) = fronts.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else { return };
+        let to_come = self
+            .bulges(element)
+            .into_iter()
+            .filter_map(|(front, _)| Some((front, self.state.filling[self.behind(front)].as_ref()?.curvature)));
+        let all = waiting.iter().copied().chain(to_come);
+        let Some((first, curvature)) = all.max_by(|a, b| a.1.total_cmp(&b.1)) else { return };
         let invasion = self.note(EventKind::Overlap, first, curvature);
-        self.begin_filling(element, curvature, false);
+        if self.state.filling[element].is_none() {
+            self.begin_filling(element, curvature, false);
+        }
         self.state.invasions[element].get_or_insert(invasion);
-        fronts.into_iter().for_each(|(front, _)| self.burst(front));
+        waiting.into_iter().for_each(|(front, _)| self.burst(front));
     }
 
     /// Lets the menisci of an advance into the elements ahead.
@@ -202,6 +243,13 @@ impl Dynamic {
 
     /// An element is full: menisci wait in its gates, with the same area of the invading phase as before.
     fn complete(&mut self, element: usize) {
+        for (front, area) in self.bulges(element) {
+            for (holder, change) in [(self.behind(front), -area), (element, area)] {
+                if let Some(filling) = &mut self.state.filling[holder] {
+                    filling.area += change;
+                }
+            }
+        }
         let Some(filling) = self.state.filling[element].take() else { return };
         let mut left = self.filled_area(element, &filling) - self.displacement.elements()[element].area;
         for &(gate, end) in self.displacement.gates_of(element) {

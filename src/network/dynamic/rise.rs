@@ -42,6 +42,10 @@ impl Rise {
                 curvature.push(k);
             }
         }
+        // Where the last menisci differ by rounding only, the event is met where they stand.
+        if let Some(last) = curvature.last_mut() {
+            *last = event;
+        }
         (!area.is_empty()).then(|| Self { area, curvature, closed: 1.0 / (CLOSED * width.powi(3)) })
     }
 

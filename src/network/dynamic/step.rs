@@ -12,8 +12,14 @@ pub(super) enum Goal {
     Own(usize, usize),
     /// Two menisci meet: index of the advance, links of both.
     Meeting(usize, [usize; 2]),
-    /// Menisci that wait to enter an element cover all of it: element, links of the menisci.
-    Covered(usize, Vec<usize>),
+    /// Menisci that wait to enter an element cover all of it.
+    Covered {
+        element: usize,
+        /// Links of the menisci.
+        links: Vec<usize>,
+        /// Area in m² of those to come, from elements that are being filled.
+        held: f64,
+    },
     /// An element is full.
     Full {
         element: usize,
@@ -34,6 +40,17 @@ struct Trial {
     area: Vec<f64>,
     /// What is missing until each goal, as a share of the whole way.
     gaps: Vec<f64>,
+}
+
+/// What stays as it is while the length of a step is sought.
+struct Known {
+    goals: Vec<Goal>,
+    /// Swept area in m² of the menisci before the step, by link.
+    areas: Vec<f64>,
+    /// By link: resistance in Pa s/m², and the pressure drop in Pa without flow, but for a meniscus that waits.
+    drops: Vec<(f64, f64)>,
+    /// Of each node in m²/s.
+    sources: Vec<f64>,
 }
 
 /// What may be missing until an event, and what may be beyond it, as a share of the way to it. What is beyond is not lost: the invading
@@ -92,7 +109,8 @@ impl Dynamic {
         (self.state.pressure, self.state.inflow)
     }
 
-    fn current_graph(&mut self) -> Result<Graph, FlowError> {
+    /// The conductors of the present state, found anew after an event.
+    pub(super) fn current_graph(&mut self) -> Result<Graph, FlowError> {
         match self.graph.take() {
             Some(graph) => Ok(graph),
             None => self.graph(),
@@ -124,8 +142,7 @@ impl Dynamic {
     }
 
     /// A link in a step of the length `dt` in s, with the curvature at its end linear about the area `from`.
-    fn conductor(&self, link: &Link, from: f64, dt: f64) -> Conductor {
-        let (resistance, drop) = self.drop_without_rise(link);
+    fn conductor(&self, link: &Link, (resistance, drop): (f64, f64), from: f64, dt: f64) -> Conductor {
         if let Way::Meniscus((gate, end)) = link.way
             && let (Some(meniscus), Some(rise)) = (&self.state.menisci[gate][end], &self.rises[gate][end])
             && !meniscus.has_burst
@@ -151,12 +168,8 @@ impl Dynamic {
     /// The step of the length `dt` in s: by Newton's method with an exact line search, beginning with the flows of another length.
     ///
     /// Its flows are those of least ½ Σ R q² dt + Σ σ ∫ k dv among all that balance in every node, a convex problem since curvatures rise.
-    fn trial(&mut self, graph: &Graph, goals: &[Goal], start: Option<&Trial>, dt: f64) -> Result<Trial, FlowError> {
-        let areas = self.areas(graph);
-        let mut sources = vec![0.0; graph.nodes];
-        if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.terms.drive) {
-            sources[inlet] = rate;
-        }
+    fn trial(&mut self, graph: &Graph, known: &Known, start: Option<&Trial>, dt: f64) -> Result<Trial, FlowError> {
+        let areas = &known.areas;
         let mut through: Option<Vec<f64>> = start.map(|trial| trial.flow.through.clone());
         let mut round = 0;
         let flow = loop {
@@ -166,22 +179,23 @@ impl Dynamic {
                 Some(through) => areas.iter().zip(through).map(|(area, q)| area + q * dt).collect(),
                 None => areas.clone(),
             };
+            let links = graph.links.iter().zip(&known.drops).zip(&about);
             let conductors: Vec<Conductor> =
-                graph.links.iter().zip(&about).map(|(link, &from)| self.conductor(link, from, dt)).collect();
-            let mut flow = graph.laplacian.solve(&conductors, &sources)?;
+                links.map(|((link, &drop), &from)| self.conductor(link, drop, from, dt)).collect();
+            let mut flow = graph.laplacian.solve(&conductors, &known.sources)?;
             let share =
-                through.as_ref().map_or(1.0, |before| self.least_work(graph, &areas, [before, &flow.through], dt));
+                through.as_ref().map_or(1.0, |before| self.least_work(graph, known, [before, &flow.through], dt));
             if let Some(before) = through.filter(|_| share < 1.0) {
                 flow.through.iter_mut().zip(before).for_each(|(new, old)| *new = old + share * (*new - old));
             }
-            let matches = share == 1.0 && self.mismatch(graph, &areas, &about, &flow.through, dt) <= MATCHED;
+            let matches = share == 1.0 && self.mismatch(graph, areas, &about, &flow.through, dt) <= MATCHED;
             if matches || round >= ROUNDS {
                 break flow;
             }
             through = Some(flow.through);
         };
         let area: Vec<f64> = areas.iter().zip(&flow.through).map(|(area, q)| area + q * dt).collect();
-        let gaps = goals.iter().map(|goal| self.gap(graph, goal, &area, Some((&flow, dt)))).collect();
+        let gaps = known.goals.iter().map(|goal| self.gap(graph, goal, &area, Some((&flow, dt)))).collect();
         Ok(Trial { dt, flow, area, gaps })
     }
 
@@ -206,20 +220,20 @@ impl Dynamic {
     }
 
     /// The share of the way from some flows to others at which the work is least.
-    fn least_work(&self, graph: &Graph, areas: &[f64], [from, to]: [&[f64]; 2], dt: f64) -> f64 {
+    fn least_work(&self, graph: &Graph, known: &Known, [from, to]: [&[f64]; 2], dt: f64) -> f64 {
         const HALVINGS: usize = 40;
         let tension = self.terms.tension;
-        let links: Vec<(f64, f64)> = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
         let menisci: Vec<(usize, &Rise, f64)> = self.waiting(graph).collect();
         // The pressure drops along the links times the change of flows.
         let change = |share: f64| {
             let flow = |index: usize| from[index] + share * (to[index] - from[index]);
-            let fixed = links
+            let fixed = known
+                .drops
                 .iter()
                 .enumerate()
                 .map(|(index, (resistance, drop))| (resistance * flow(index) + drop) * (to[index] - from[index]));
             let rising = menisci.iter().map(|&(index, rise, _)| {
-                tension * rise.curvature(areas[index] + flow(index) * dt).0 * (to[index] - from[index])
+                tension * rise.curvature(known.areas[index] + flow(index) * dt).0 * (to[index] - from[index])
             });
             fixed.sum::<f64>() + rising.sum::<f64>()
         };
@@ -255,14 +269,15 @@ impl Dynamic {
                 let width = rise(links[0]).map_or(1.0, |(_, width)| width);
                 (self.advances[*advance].curvature - mean) * width
             }
-            Goal::Covered(element, links) => {
-                let covered: f64 = links.iter().map(|&link| area[link]).sum();
+            Goal::Covered { element, links, held } => {
+                let covered: f64 = held + links.iter().map(|&link| area[link]).sum::<f64>();
                 1.0 - covered / self.displacement.elements()[*element].area
             }
             Goal::Full { element, burst, entering, target } => {
                 let came: f64 = step.map_or(0.0, |(flow, dt)| burst.iter().map(|&link| flow.through[link] * dt).sum());
                 let filled = self.state.filling[*element].as_ref().map_or(0.0, |filling| filling.area);
-                let waiting: f64 = entering.iter().map(|&link| area[link]).sum();
+                // What a meniscus that recedes out of it takes along was in it before.
+                let waiting: f64 = entering.iter().map(|&link| area[link].max(0.0)).sum();
                 (target - filled - came - waiting) / self.displacement.elements()[*element].area
             }
         }
@@ -276,15 +291,20 @@ impl Dynamic {
 
     /// The step to the first event, or of the length `longest` in s where there is none before.
     fn trial_to_event(&mut self, graph: &Graph, longest: f64) -> Result<Trial, FlowError> {
-        let goals = self.goals(graph);
-        let first = self.gaps(graph, &goals);
+        let mut sources = vec![0.0; graph.nodes];
+        if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.terms.drive) {
+            sources[inlet] = rate;
+        }
+        let drops = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
+        let known = Known { goals: self.goals(graph), areas: self.areas(graph), drops, sources };
+        let first = self.gaps(graph, &known.goals);
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut before: Option<Trial> = None;
         let [loading, filling] = self.state.last_steps;
         let guess = if graph.is_filling { FIRST * filling } else { loading };
         let mut dt = if guess > 0.0 { guess.min(longest) } else { longest };
         for _ in 0..MOST_TRIALS {
-            let trial = self.trial(graph, &goals, before.as_ref(), dt)?;
+            let trial = self.trial(graph, &known, before.as_ref(), dt)?;
             let least = trial.gaps.iter().copied().fold(f64::INFINITY, f64::min);
             if least >= -REACHED && (least <= REACHED || dt >= longest) {
                 return Ok(trial);
@@ -305,7 +325,7 @@ impl Dynamic {
         }
         // As far as no event is passed; what is beyond an event is carried on by the areas.
         let dt = if low > 0.0 { low } else { dt };
-        self.trial(graph, &goals, before.as_ref(), dt)
+        self.trial(graph, &known, before.as_ref(), dt)
     }
 
     fn commit(&mut self, graph: &Graph, trial: &Trial) {
