@@ -216,6 +216,17 @@ pub struct Open {
     pub drive: Drive,
     /// Whether the phase that comes in is the wetting one; absent: what stands at the side at the start.
     pub enters_wetting: Option<bool>,
+    /// How a given pressure rises in steps.
+    pub pressure_steps: Option<PressureSteps>,
+}
+
+/// A pressure that rises in equal steps.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct PressureSteps {
+    /// Height of a step in Pa.
+    pub rise: f64,
+    /// Time for which each pressure is held in s.
+    pub every_time: f64,
 }
 
 /// What is given at an open side.

@@ -28,6 +28,7 @@ const OPEN_SIDES: &[&str] = &[
     "inflow-ratio",
     "largest-flow-rate-error",
     "driving-pressure-drop-Pa",
+    "burst-pressure-Pa",
 ];
 /// Those of every pore network.
 const NETWORK: &[&str] = &[

@@ -1,7 +1,7 @@
 //! Checks of `[sph.sides.open]`: what is given at inlets, outlets and periodic sides with a flow, and what cannot work.
 
 use super::check::Checker;
-use super::checked::{Drive, Open, Profile};
+use super::checked::{Drive, Open, PressureSteps, Profile};
 use super::raw::{RawOpenSide, RawPhase, RawProfile, RawSide, RawSides};
 
 const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
@@ -99,7 +99,25 @@ fn side(checker: &mut Checker, (name, kind): (&str, RawSide), raw: Option<&RawOp
             "at a given pressure the flow finds its own profile; leave this out",
         );
     }
-    Some(Open { drive, enters_wetting: raw.phase.map(|phase| phase == RawPhase::Wetting) })
+    let pressure_steps = pressure_steps(checker, &path, &raw);
+    Some(Open { drive, enters_wetting: raw.phase.map(|phase| phase == RawPhase::Wetting), pressure_steps })
+}
+
+fn pressure_steps(checker: &mut Checker, side: &str, raw: &RawOpenSide) -> Option<PressureSteps> {
+    let steps = raw.pressure_steps.as_ref()?;
+    let path = format!("{side}.pressure-steps");
+    if raw.pressure.is_none() {
+        checker.refuse(
+            path,
+            "a pressure that rises in steps needs the first one",
+            "give pressure = ... in Pa beside it, or leave this out",
+        );
+        return None;
+    }
+    let rise = checker.require_positive(&format!("{path}.rise"), steps.rise, "rise = 20.0", "a step in Pa");
+    let every = format!("{path}.every-time");
+    let every_time = checker.require_positive(&every, steps.every_time, "every-time = 1.0e-3", "a time in s");
+    Some(PressureSteps { rise: rise?, every_time: every_time? })
 }
 
 fn phase(checker: &mut Checker, name: &str, raw: &RawOpenSide, two_phases: bool) {

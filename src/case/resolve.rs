@@ -1,14 +1,14 @@
 //! A checked case written out as one case file: no defaults, presets, overrides or other files left.
 
 use super::checked::{
-    Case, Compression, Drive, Fluid, InitialVelocity, LineDelta, Model, Numerics, Open, Output, Profile, Side, Sides,
-    Sph, SurfaceForce, ViscousStep, ViscousTerm,
+    Case, Compression, Drive, Fluid, InitialVelocity, LineDelta, Model, Numerics, Open, Output, PressureSteps, Profile,
+    Side, Sides, Sph, SurfaceForce, ViscousStep, ViscousTerm,
 };
 use super::raw::{
     Empty, RawCase, RawCompression, RawCsf, RawEvery, RawExpectation, RawFluid, RawGeometry, RawGrid, RawInitial,
     RawInterface, RawLineDelta, RawNumerics, RawOpenSide, RawOpenSides, RawOutput, RawPhase, RawPhases,
-    RawPressureJump, RawProfile, RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime, RawVelocity,
-    RawViscousStep, RawViscousTerm, RawVtk, RawWallSpeeds, RawWalls,
+    RawPressureJump, RawPressureSteps, RawProfile, RawSide, RawSides, RawSph, RawSurfaceForce, RawTaylorGreen, RawTime,
+    RawVelocity, RawViscousStep, RawViscousTerm, RawVtk, RawWallSpeeds, RawWalls,
 };
 use super::{steady, wetting};
 
@@ -170,7 +170,8 @@ fn raw_open(open: Open) -> RawOpenSide {
         }
     };
     let phase = |wetting| if wetting { RawPhase::Wetting } else { RawPhase::NonWetting };
-    RawOpenSide { phase: open.enters_wetting.map(phase), ..given }
+    let steps = |steps: PressureSteps| RawPressureSteps { rise: Some(steps.rise), every_time: Some(steps.every_time) };
+    RawOpenSide { phase: open.enters_wetting.map(phase), pressure_steps: open.pressure_steps.map(steps), ..given }
 }
 
 fn raw_velocity(velocity: &InitialVelocity) -> RawVelocity {

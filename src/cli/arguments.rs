@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use super::compare::CompareArguments;
+use super::couple::CoupleArguments;
 use super::import_arguments::ImportArguments;
 use super::verify_arguments::NetworkCommand;
 
@@ -46,6 +47,8 @@ pub enum Command {
     Network(NetworkArguments),
     /// Run a network and a direct simulation of the same geometry, and write a page with both side by side
     Compare(CompareArguments),
+    /// Run a slow displacement in a network with one of its avalanches by direct simulation
+    Couple(CoupleArguments),
     /// Parameter studies: many runs from one file, with a table, curves and a page
     #[command(subcommand)]
     Study(StudyCommand),

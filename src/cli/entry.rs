@@ -8,7 +8,7 @@ use clap::{CommandFactory, Parser};
 use super::arguments::{Arguments, Command, RunArguments};
 use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{say, tell};
-use super::{check, compare, geometry, list, network, new, output, run, source, study, threads};
+use super::{check, compare, couple, geometry, list, network, new, output, run, source, study, threads};
 
 /// Reads the command line and does what it says.
 #[must_use]
@@ -74,6 +74,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
         }
         Some(Command::Network(arguments)) => network::network(&arguments),
         Some(Command::Compare(arguments)) => compare::compare(&arguments),
+        Some(Command::Couple(arguments)) => couple::couple(&arguments),
         Some(Command::Study(command)) => study::study(&command),
     }
 }

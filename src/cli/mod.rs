@@ -6,6 +6,7 @@
 pub mod arguments;
 mod check;
 mod compare;
+mod couple;
 mod entry;
 pub mod exit;
 mod geometry;

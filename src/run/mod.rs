@@ -5,6 +5,7 @@
 //! place that knows both a case and a solver. Nothing here prints: a [`Watcher`](simulation::Watcher) is told of each step.
 
 pub mod advice;
+pub mod avalanche;
 pub mod claim;
 pub mod compare;
 pub mod drift;

@@ -30,7 +30,9 @@ mod sph;
 mod wetting;
 
 pub use measures::{RawExpectation, RawMeasures};
-pub use sides::{RawOpenSide, RawOpenSides, RawProfile, RawSide, RawSideName, RawSides, RawWallSpeeds};
+pub use sides::{
+    RawOpenSide, RawOpenSides, RawPressureSteps, RawProfile, RawSide, RawSideName, RawSides, RawWallSpeeds,
+};
 pub use sph::{
     RawCsf, RawFluid, RawInitial, RawInterface, RawLineDelta, RawNumerics, RawPhase, RawPhases, RawPressureJump,
     RawSph, RawSurfaceForce, RawTaylorGreen, RawVelocity, RawViscousStep, RawViscousTerm, RawWalls,

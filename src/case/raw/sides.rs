@@ -50,6 +50,8 @@ tables! {
     pub struct RawOpenSide {
         /// Pressure at the side in Pa (inlet; outlet, default 0).
         pub pressure: f64,
+        /// How a pressure rises in steps.
+        pub pressure_steps: RawPressureSteps,
         /// Mean velocity inwards in m/s (inlet, periodic).
         pub velocity: f64,
         /// Area that comes in per time in m²/s: volume per time and depth (inlet, periodic).
@@ -58,6 +60,14 @@ tables! {
         pub profile: RawProfile,
         /// Phase that comes in (default: what stands at the side at the start).
         pub phase: RawPhase,
+    }
+
+    /// A pressure that rises in equal steps, each held for the same time.
+    pub struct RawPressureSteps {
+        /// Height of a step in Pa (required).
+        pub rise: f64,
+        /// Time for which each pressure is held in s (required).
+        pub every_time: f64,
     }
 }
 

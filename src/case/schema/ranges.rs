@@ -35,7 +35,7 @@ fn number(value: f64) -> Value {
 }
 
 /// Tables, by the name of their type, their keys and the ranges of these.
-pub(super) const RANGES: [(&str, &str, Range); 61] = [
+pub(super) const RANGES: [(&str, &str, Range); 63] = [
     ("RawAngleWindow", "advancing-angle-deg", Within(0.0, 180.0)),
     ("RawContactAngle", "contact-angle-deg", Within(0.0, 180.0)),
     ("RawCoxVoinov", "contact-angle-deg", Within(0.0, 180.0)),
@@ -77,6 +77,8 @@ pub(super) const RANGES: [(&str, &str, Range); 61] = [
     ("RawOpenSide", "flow-rate", Above(0.0)),
     ("RawOpenSide", "velocity", Above(0.0)),
     ("RawPartialWetting", "contact-angle-deg", Within(0.1, 45.0)),
+    ("RawPressureSteps", "every-time", Above(0.0)),
+    ("RawPressureSteps", "rise", Above(0.0)),
     ("RawSph", "reference-length", Above(0.0)),
     ("RawSph", "smoothing-ratio", Within(1.0, 3.0)),
     ("RawSph", "spacing", Above(0.0)),

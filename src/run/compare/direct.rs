@@ -10,6 +10,7 @@ use crate::math::Vec2;
 use crate::run::setup;
 use crate::snapshot::{Snapshot, Values};
 use crate::solver::{Series, Solver};
+use crate::sph::measures::open::PRESSURE_DIFFERENCE;
 
 /// Number of the non-wetting phase in the field `phase`; the wetting one is 0.
 const NON_WETTING: i64 = 1;
@@ -69,9 +70,12 @@ impl Track {
 fn as_record(solver: &dyn Solver, grid: &Grid, invading: RawPhase) -> Record {
     let sample = solver.sample();
     let value = |name: &str| sample.iter().find(|it| it.name == name).map_or(f64::NAN, |it| it.value);
+    // Where the pressure rises in steps, it is the one given, of the invading phase less the other.
+    let sign = if invading == RawPhase::NonWetting { 1.0 } else { -1.0 };
+    let given = Some(sign * value(PRESSURE_DIFFERENCE)).filter(|pressure| pressure.is_finite());
     Record {
         saturation: value("saturation"),
-        pressure: value("capillary_pressure_Pa"),
+        pressure: given.unwrap_or_else(|| value("capillary_pressure_Pa")),
         invaded: invaded(&solver.snapshot(), grid, invading),
     }
 }

@@ -12,6 +12,7 @@ mod rank;
 
 use serde::Serialize;
 
+pub(super) use self::network::outlet_elements;
 pub use self::page::page;
 use crate::case::checked::{Case, Model};
 use crate::case::network::state::NetworkState;

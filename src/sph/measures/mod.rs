@@ -12,7 +12,7 @@ mod jurin;
 mod laplace_drop;
 mod layered;
 mod moving_drop;
-pub(super) mod open;
+pub(crate) mod open;
 mod poiseuille;
 mod sessile_drop;
 mod sliding;

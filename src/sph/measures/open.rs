@@ -3,10 +3,22 @@
 use super::{Subject, measure};
 use crate::solver::Measure;
 use crate::sph::open::{Drive, Ledger, OpenSide, Through};
+use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
 
 fn is_open(flow: &Flow) -> bool {
     !flow.open.sides.is_empty() || !flow.open.through.is_empty()
+}
+
+/// Column of the pressure at a side where it rises in steps less that at the opposite side, in Pa.
+pub const PRESSURE_DIFFERENCE: &str = "pressure_difference_Pa";
+
+/// Column of the area of the phase at that side that left through the opposite one, in m².
+pub const PASSED: &str = "passed_m2";
+
+/// The first side whose pressure rises in steps.
+fn rising(flow: &Flow) -> Option<&OpenSide> {
+    flow.open.sides.iter().find(|side| side.steps.is_some())
 }
 
 /// Areas in m² that came in and left since time zero, by phase: particles times their area at rest.
@@ -26,6 +38,14 @@ pub fn columns(flow: &Flow) -> Vec<(&'static str, f64)> {
         ("flow_rate_x_m2_per_s", "driving_gradient_x_Pa_per_m"),
         ("flow_rate_y_m2_per_s", "driving_gradient_y_Pa_per_m"),
     ];
+    if let Some(side) = rising(flow) {
+        let opposite = flow.open.sides.iter().find(|other| other.number != side.number);
+        let [high, low] = [Some(side), opposite].map(|side| side.and_then(OpenSide::given_pressure).unwrap_or(0.0));
+        columns.push((PRESSURE_DIFFERENCE, high - low));
+        let phase = usize::from(side.main != Phase::Wetting);
+        let through = opposite.map_or(0, |opposite| flow.open.ledger.left[opposite.number][phase]);
+        columns.push((PASSED, area(through)));
+    }
     for through in &flow.open.through {
         let (rate, gradient) = names[through.side.axis()];
         let sign = through.side.inwards();
@@ -74,7 +94,35 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     if flow.time > 0.0 {
         found.extend(flow_rates(flow));
     }
+    found.extend(burst(s));
     found
+}
+
+/// The pressure, rising in steps, at which the phase that comes in passes to the opposite side: between the last one at which the menisci rested
+/// and the one at which it did.
+fn burst(s: &Subject) -> Option<Measure> {
+    /// Menisci rest where the saturation changes by less than this in the last quarter of a step.
+    const REST: f64 = 1e-3;
+    let hold = rising(s.flow)?.steps?.hold;
+    let [pressure, passed, time, saturation] =
+        [PRESSURE_DIFFERENCE, PASSED, "time_s", "saturation"].map(|name| s.series.column(name).collect::<Vec<f64>>());
+    let through = passed.iter().position(|&area| area > 0.0);
+    let rests = |end: &usize| {
+        let late = (0..*end).rev().find(|&row| time[row] <= time[*end] - 0.25 * hold);
+        late.is_some_and(|late| (saturation[*end] - saturation[late]).abs() < REST)
+    };
+    let bracket = through.and_then(|through| {
+        let ends = (1..through).filter(|&row| pressure[row + 1] > pressure[row]);
+        Some([pressure[ends.rev().find(rests)?], pressure[through]])
+    });
+    Some(measure(
+        "burst-pressure-Pa",
+        bracket.map_or(f64::NAN, |[low, high]| 0.5 * (low + high)),
+        "Pa",
+        bracket.map(|[low, high]| 0.5 * (high - low)),
+        "middle between the last pressure difference at which the menisci rested and that at which the phase that comes in reached the opposite \
+         side, both within the uncertainty; needs one of either kind",
+    ))
 }
 
 /// Rates since time zero beside those that were asked for.

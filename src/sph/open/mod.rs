@@ -18,7 +18,7 @@ pub use extrapolate::Feet;
 pub use ledger::Ledger;
 pub use pressure::Prescribed;
 pub use profile::{Opening, Profile, Shape, openings};
-pub use side::{DEPTH, Drive, OpenSide};
+pub use side::{DEPTH, Drive, OpenSide, Staircase};
 pub use through::{GivenFlow, Through};
 
 /// The open sides of a run with what passed through them.

@@ -31,6 +31,29 @@ pub struct OpenSide {
     pub main: Phase,
     /// Depth of the buffer in m, a whole number of spacings.
     pub depth: f64,
+    /// How the pressure rises.
+    pub steps: Option<Staircase>,
+}
+
+/// A pressure that rises in equal steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Staircase {
+    /// The first pressure in Pa.
+    pub first: f64,
+    /// Height of a step in Pa.
+    pub rise: f64,
+    /// Time for which each pressure is held in s.
+    pub hold: f64,
+}
+
+impl Staircase {
+    /// The pressure in Pa that begins at `time` (s), or holds then.
+    #[must_use]
+    pub fn at(&self, time: f64) -> f64 {
+        /// The end of a step is told in whole multiples of its length, up to rounding.
+        const ROUNDING: f64 = 1e-9;
+        self.first + self.rise * (time / self.hold + ROUNDING).floor()
+    }
 }
 
 impl OpenSide {
@@ -72,6 +95,13 @@ impl OpenSide {
         let mut v = Vec2::zeros();
         v[self.axis()] = self.inwards() * inwards;
         v
+    }
+
+    /// Sets the pressure that holds from `time` (s) on, where it rises in steps.
+    pub fn take_step(&mut self, time: f64) {
+        if let Some(steps) = self.steps {
+            self.drive = Drive::Pressure(steps.at(time));
+        }
     }
 
     /// The given velocity in m/s at `x`, none where a pressure is given.

@@ -251,6 +251,7 @@ impl Flow {
     /// See [`SolverError`]; positions, velocities and time are then those before the step.
     pub fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         let start = Instant::now();
+        self.open.sides.iter_mut().for_each(|side| side.take_step(self.time));
         if self.steps == 0 {
             self.find_first_pressure(until)?;
         }

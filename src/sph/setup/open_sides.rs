@@ -5,7 +5,7 @@ use crate::case::checked::{self, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
 use crate::sph::fill::Lattice;
-use crate::sph::open::{self, Open, OpenSide, Opening, Profile, Shape};
+use crate::sph::open::{self, Open, OpenSide, Opening, Profile, Shape, Staircase};
 use crate::sph::particles::Phase;
 
 /// Names of the sides in the order of their numbers.
@@ -36,6 +36,7 @@ pub(super) fn open_sides(
             enters,
             main: Phase::Wetting,
             depth: layers * lattice.step[axis],
+            steps: None,
         };
         let near_side = |y: f64| {
             let mut x = Vec2::zeros();
@@ -59,7 +60,12 @@ pub(super) fn open_sides(
                 .map(|shape| open::Drive::Velocity(Profile { mean, shape, openings: openings.clone() }))
         };
         side.drive = match given.drive {
-            checked::Drive::Pressure(pressure) => open::Drive::Pressure(pressure),
+            checked::Drive::Pressure(first) => {
+                let staircase =
+                    |steps: checked::PressureSteps| Staircase { first, rise: steps.rise, hold: steps.every_time };
+                side.steps = given.pressure_steps.map(staircase);
+                open::Drive::Pressure(first)
+            }
             checked::Drive::Velocity(mean, form) => profile(mean, form)?,
             checked::Drive::FlowRate(rate, form) => profile(rate / width, form)?,
         };

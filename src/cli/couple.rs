@@ -1,0 +1,183 @@
+//! `meniscus couple`: a slow displacement whose network hands one avalanche to a direct simulation, and takes up what it leaves.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED, USAGE};
+use super::output::{readable, say, tell};
+use super::run::{finish, new_folder};
+use super::source;
+use crate::case::checked::{Case, Drive, Model, Side};
+use crate::case::network::state::NetworkState;
+use crate::io::{FileError, atomic};
+use crate::run::avalanche::{Avalanche, AvalancheError, Wanted, find};
+use crate::run::execute::Mode;
+use crate::run::folder;
+
+/// Names of the sides in the order of their numbers.
+const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+
+/// `couple`.
+#[derive(Debug, Args)]
+pub struct CoupleArguments {
+    /// Case file with [network], an inlet and an outlet, without [network.dynamic]
+    pub network: PathBuf,
+    /// Case file with [sph] and two fluids, of the same geometry, an inlet with a pressure and an outlet, which begins with
+    /// [sph.initial] network = "..."; the state and the pressure are set by this command
+    pub direct: PathBuf,
+    /// The avalanche of the direct simulation, by its first event of a kind: breakthrough, overlap (two menisci meet), or pore:N (the pore of this number in pores.csv is entered)
+    #[arg(long, value_name = "WHICH", default_value = "breakthrough", value_parser = wanted)]
+    pub event: Wanted,
+    /// Pressure beyond that of the event, as a share of it
+    #[arg(long, value_name = "SHARE", default_value = "0.02")]
+    pub excess: f64,
+    /// Output folder, new or empty; where there is none: out/NAME-couple, out/NAME-couple-2, ..., NAME being that of the direct case
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads; all cores where there is none. The results do not depend on it
+    #[arg(long, value_name = "N")]
+    pub threads: Option<std::num::NonZeroUsize>,
+}
+
+fn wanted(text: &str) -> Result<Wanted, String> {
+    match text.split_once(':') {
+        None if text == "breakthrough" => Ok(Wanted::Breakthrough),
+        None if text == "overlap" => Ok(Wanted::Overlap),
+        Some(("pore", number)) => {
+            number.parse().map(Wanted::Pore).map_err(|_| format!("{number} is no number of a pore"))
+        }
+        _ => Err("expected breakthrough, overlap or pore:N, with the number N of a pore".to_owned()),
+    }
+}
+
+/// What came out, as written to `couple.json`.
+#[derive(Debug, Serialize)]
+struct Coupled {
+    /// The avalanche by the network.
+    avalanche: Avalanche,
+    /// Capillary pressure p_n - p_w in Pa that drives the direct simulation.
+    driving_pressure_pa: f64,
+    /// Saturation of the wetting phase when the direct simulation ended, by whole elements.
+    saturation_by_direct_simulation: f64,
+    /// Elements that hold the same phase after the avalanche by network and by direct simulation, over all.
+    same_elements: Option<f64>,
+}
+
+/// Runs the three parts, writes `couple.json`, and tells what came out.
+pub fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
+    let network = source::load_case(Some(&arguments.network), &[])?;
+    let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&error))?;
+    if !(arguments.excess > 0.0 && arguments.excess < 1.0) {
+        return Err(Failure::new(USAGE, &format!("--excess is above 0 and below 1, found {}", arguments.excess)));
+    }
+    let name = arguments.direct.file_stem().map_or_else(|| "direct".into(), |stem| stem.to_string_lossy().into_owned());
+    let out = new_folder(arguments.out.as_deref(), &format!("{name}-couple"), Mode::New);
+    let _claim = folder::create(&out).map_err(|error| Failure::new(USAGE, &error))?;
+    let [before, during, same, after] = ["1-network", "2-direct", "2-network", "3-network"].map(|part| out.join(part));
+    let direction = if avalanche.invading == crate::case::raw::RawPhase::NonWetting { 1.0 } else { -1.0 };
+    let beyond = |share: f64| avalanche.pressure_pa + direction * share * avalanche.pressure_pa.abs();
+    let driving = beyond(arguments.excess);
+    let stop = |pressure: f64| format!("network.stop.capillary-pressure={pressure:?}");
+    tell(format_args!(
+        "the avalanche begins at {} Pa and has {} events",
+        readable(avalanche.pressure_pa),
+        avalanche.events
+    ));
+
+    let run = |case: &Path, overrides: &[String], folder: PathBuf| -> Result<Option<u8>, Failure> {
+        let source = source::load_case(Some(case), overrides)?;
+        let code = finish(&source, folder, Mode::New, arguments.threads)?;
+        Ok((code != DONE).then_some(code))
+    };
+    if let Some(code) = run(&arguments.network, &[stop(avalanche.rest_pressure_pa)], before.clone())? {
+        return Ok(code);
+    }
+    let direct = source::load_case(Some(&arguments.direct), &[initial("sph.initial.network", &before)?])?;
+    let inlet = inlet_pressure(&direct.case, avalanche.inlet, direction * driving)?;
+    let overrides = [initial("sph.initial.network", &before)?, inlet];
+    if let Some(code) = run(&arguments.direct, &overrides, during.clone())? {
+        return Ok(code);
+    }
+    // What the network does in the same avalanche, to be held against it.
+    if let Some(code) = run(&arguments.network, &[stop(driving)], same.clone())? {
+        return Ok(code);
+    }
+    if let Some(code) = run(&arguments.network, &[initial("network.initial", &during)?], after)? {
+        return Ok(code);
+    }
+    let [by_direct, by_network] = [read(&during)?, read(&same)?];
+    let found = Coupled {
+        driving_pressure_pa: driving,
+        saturation_by_direct_simulation: by_direct.saturation,
+        same_elements: same_elements(&by_direct, &by_network),
+        avalanche,
+    };
+    let json = serde_json::to_string_pretty(&found).map_err(|error| Failure::new(BUG, &error))?;
+    let unwritten = |error: FileError| Failure::new(USAGE, &error);
+    atomic::write(&out.join("couple.json"), (json + "\n").as_bytes()).map_err(unwritten)?;
+    summary(&found, &out);
+    Ok(DONE)
+}
+
+/// `key` set to the state that a run in a folder left at its end.
+fn initial(key: &str, folder: &Path) -> Result<String, Failure> {
+    let path = std::path::absolute(folder.join("at-end.json")).map_err(|error| Failure::new(USAGE, &error))?;
+    Ok(format!("{key}={}", toml::Value::String(path.to_string_lossy().into_owned())))
+}
+
+/// The pressure at the inlet, `difference` in Pa above that at the outlet.
+fn inlet_pressure(case: &Case, inlet: usize, difference: f64) -> Result<String, Failure> {
+    let refused = || {
+        let expected =
+            format!("the direct case needs an outlet, and an inlet with a pressure on the side `{}`", SIDES[inlet]);
+        Failure::new(BAD_INPUT, &expected)
+    };
+    let Model::Sph(sph) = &case.model else { return Err(refused()) };
+    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let pressure = |side: usize| match sph.open[side].map(|open| open.drive) {
+        Some(Drive::Pressure(pressure)) => Some(pressure),
+        _ => None,
+    };
+    let outlet = sides.iter().position(|&side| side == Side::Outlet).and_then(pressure);
+    match (pressure(inlet), outlet) {
+        (Some(_), Some(outlet)) => Ok(format!("sph.sides.open.{}.pressure={:?}", SIDES[inlet], outlet + difference)),
+        _ => Err(refused()),
+    }
+}
+
+fn read(folder: &Path) -> Result<NetworkState, Failure> {
+    let path = folder.join("at-end.json");
+    let text =
+        std::fs::read_to_string(&path).map_err(|error| Failure::new(USAGE, &format!("{}: {error}", path.display())))?;
+    serde_json::from_str(&text).map_err(|error| Failure::new(BUG, &format!("{}: {error}", path.display())))
+}
+
+/// Share of the elements that hold the same phase in both.
+fn same_elements(one: &NetworkState, other: &NetworkState) -> Option<f64> {
+    let count = one.elements.len();
+    let same = one.elements.iter().zip(&other.elements).filter(|(a, b)| a.phase == b.phase).count();
+    (count > 0 && count == other.elements.len()).then(|| same as f64 / count as f64)
+}
+
+fn failure(error: &AvalancheError) -> Failure {
+    let code = if matches!(error, AvalancheError::Solver(_)) { SOLVER_FAILED } else { BAD_INPUT };
+    Failure::new(code, error)
+}
+
+fn summary(found: &Coupled, out: &Path) {
+    let [before, after] = found.avalanche.saturation.map(readable);
+    say(format_args!(
+        "the avalanche at {} Pa, driven at {} Pa",
+        readable(found.avalanche.pressure_pa),
+        readable(found.driving_pressure_pa)
+    ));
+    say(format_args!("  saturation before        {before}"));
+    say(format_args!("  after, by the network    {after}"));
+    say(format_args!("  after, by direct         {}", readable(found.saturation_by_direct_simulation)));
+    if let Some(same) = found.same_elements {
+        say(format_args!("  elements alike           {}", readable(same)));
+    }
+    say(format_args!("  written                  {}", out.join("couple.json").display()));
+}

@@ -1,0 +1,127 @@
+//! One avalanche of a slow displacement: the events that one rise of the pressure sets off, and the pressures around it.
+//!
+//! A direct simulation that begins at rest before it, at a pressure a little beyond, shows its dynamics.
+
+use serde::Serialize;
+
+use super::compare::outlet_elements;
+use super::setup::SetupError;
+use crate::case::checked::{Case, Model};
+use crate::case::raw::RawPhase;
+use crate::network::displacement::{EventKind, Phase};
+use crate::network::solver::NetworkSolver;
+use crate::network::state;
+use crate::solver::{Solver, SolverError};
+
+/// Which avalanche is meant: the one with the first such event.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wanted {
+    /// The invading phase reaches the outlet.
+    Breakthrough,
+    /// Two menisci meet.
+    Overlap,
+    /// The invading phase enters the pore of this number.
+    Pore(usize),
+}
+
+/// A displacement in which the avalanche cannot be found.
+#[derive(Debug, thiserror::Error)]
+pub enum AvalancheError {
+    /// The case is no slow displacement in a network.
+    #[error("the first case has no slow displacement in a network; give [network] an inlet, and no [network.dynamic]")]
+    NoNetwork,
+    /// There is no such event.
+    #[error(
+        "no event of the displacement does this; the network has {pores} pores, numbered from 0, and the table events.csv of a run lists its events"
+    )]
+    NoEvent {
+        /// Number of pores.
+        pores: usize,
+    },
+    /// What is asked for is there before the first event.
+    #[error("this is so from the beginning, without an event; name a later one")]
+    FromTheBeginning,
+    /// The case cannot be set up.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The network failed.
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+}
+
+/// An avalanche of the first half cycle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Avalanche {
+    /// The phase that invades.
+    pub invading: RawPhase,
+    /// Capillary pressure p_n - p_w in Pa at which it begins.
+    pub pressure_pa: f64,
+    /// One at which the menisci rest before it, in Pa.
+    pub rest_pressure_pa: f64,
+    /// Saturation of the wetting phase before and after it.
+    pub saturation: [f64; 2],
+    /// Number of its events.
+    pub events: usize,
+    /// Number of the inlet's side: left, right, bottom, top are 0 to 3.
+    pub inlet: usize,
+}
+
+/// Finds an avalanche.
+///
+/// # Errors
+/// [`AvalancheError`].
+pub fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheError> {
+    let Model::Network(network) = &case.model else { return Err(AvalancheError::NoNetwork) };
+    if network.is_dynamic() {
+        return Err(AvalancheError::NoNetwork);
+    }
+    let mut solver = crate::network::setup::build_still(case, network).map_err(SetupError::from)?;
+    let cycles = solver.cycles().ok_or(AvalancheError::NoNetwork)?;
+    let state = state::state(solver.setting(), cycles.half_cycles(), &cycles.moment());
+    let outlet = outlet_elements(&state);
+    let before = cycles.saturation();
+    if is_so(&solver, wanted, &outlet) {
+        return Err(AvalancheError::FromTheBeginning);
+    }
+    let mut target = None;
+    while !solver.is_done() {
+        solver.step(f64::INFINITY)?;
+        let Some(cycles) = solver.cycles().filter(|cycles| cycles.half_cycle_index() == 0) else { break };
+        if target.is_none() && is_so(&solver, wanted, &outlet) {
+            target = cycles.history().len().checked_sub(1);
+        }
+    }
+    let (Some(target), Some(cycles)) = (target, solver.cycles()) else {
+        return Err(AvalancheError::NoEvent { pores: solver.setting().pores.main_region.len() });
+    };
+    let history: Vec<_> = cycles.history().iter().filter(|entry| entry.half_cycle == 0).collect();
+    let applied = history[target].applied;
+    let first = history.iter().position(|entry| entry.applied == applied).unwrap_or(target);
+    let events = history[first..].iter().take_while(|entry| entry.applied == applied).count();
+    let tension = solver.setting().tension.ok_or(AvalancheError::NoNetwork)?;
+    let earlier = first.checked_sub(1).map(|index| history[index]);
+    let direction = if state.invading == RawPhase::NonWetting { 1.0 } else { -1.0 };
+    let rest = earlier.map_or(applied - direction * applied.abs(), |entry| 0.5 * (entry.applied + applied));
+    Ok(Avalanche {
+        invading: state.invading,
+        pressure_pa: tension * applied,
+        rest_pressure_pa: tension * rest,
+        saturation: [earlier.map_or(before, |entry| entry.saturation), history[first + events - 1].saturation],
+        events,
+        inlet: solver.setting().inlet.ok_or(AvalancheError::NoNetwork)?,
+    })
+}
+
+/// Whether what is asked for has happened.
+fn is_so(solver: &NetworkSolver, wanted: Wanted, outlet: &[usize]) -> bool {
+    let Some(cycles) = solver.cycles() else { return false };
+    let displacement = cycles.displacement();
+    let has = |element: usize| displacement.phase(element) == Phase::Invading;
+    match wanted {
+        Wanted::Breakthrough => outlet.iter().any(|&element| has(element)),
+        Wanted::Overlap => cycles.history().iter().any(|entry| entry.kind == EventKind::Overlap),
+        Wanted::Pore(pore) => (0..displacement.elements().len()).any(|element| {
+            has(element) && solver.setting().pores.pore_of[displacement.elements()[element].region] == pore
+        }),
+    }
+}
