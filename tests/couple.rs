@@ -89,6 +89,7 @@ fn what_cannot_be_coupled_is_refused() {
     for (event, network, direct, code, message) in [
         ("pore:99", &network, &direct, 3, "9 pores, numbered from 0"),
         ("burst", &network, &direct, 2, "expected breakthrough, overlap or pore:N"),
+        ("pore:-1", &network, &direct, 2, "-1 is no number of a pore"),
         ("breakthrough", &direct, &direct, 3, "no slow displacement"),
         ("breakthrough", &repository("cases/network/dynamic.toml"), &direct, 3, "no slow displacement"),
     ] {

@@ -251,6 +251,9 @@ pub enum Profile {
     Parabolic,
 }
 
+/// Names of the sides in the order of their numbers.
+pub const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+
 /// The four sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub struct Sides {

@@ -9,15 +9,12 @@ use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED, USAGE};
 use super::output::{readable, say, tell};
 use super::run::{finish, new_folder};
 use super::source;
-use crate::case::checked::{Case, Drive, Model, Side};
+use crate::case::checked::{Case, Drive, Model, SIDES, Side};
 use crate::case::network::state::NetworkState;
 use crate::io::{FileError, atomic};
 use crate::run::avalanche::{Avalanche, AvalancheError, Wanted, find};
 use crate::run::execute::Mode;
 use crate::run::folder;
-
-/// Names of the sides in the order of their numbers.
-const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
 
 /// `couple`.
 #[derive(Debug, Args)]
@@ -31,7 +28,7 @@ pub struct CoupleArguments {
     #[arg(long, value_name = "WHICH", default_value = "breakthrough", value_parser = wanted)]
     pub event: Wanted,
     /// Pressure beyond that of the event, as a share of it
-    #[arg(long, value_name = "SHARE", default_value = "0.02")]
+    #[arg(long, value_name = "SHARE", default_value = "0.02", value_parser = share)]
     pub excess: f64,
     /// Output folder, new or empty; where there is none: out/NAME-couple, out/NAME-couple-2, ..., NAME being that of the direct case
     #[arg(long, value_name = "DIR")]
@@ -52,6 +49,11 @@ fn wanted(text: &str) -> Result<Wanted, String> {
     }
 }
 
+fn share(text: &str) -> Result<f64, String> {
+    let share = text.parse().ok().filter(|share| (0.0..1.0).contains(share) && *share > 0.0);
+    share.ok_or_else(|| "expected a number above 0 and below 1".to_owned())
+}
+
 /// What came out, as written to `couple.json`.
 #[derive(Debug, Serialize)]
 struct Coupled {
@@ -69,9 +71,6 @@ struct Coupled {
 pub fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&error))?;
-    if !(arguments.excess > 0.0 && arguments.excess < 1.0) {
-        return Err(Failure::new(USAGE, &format!("--excess is above 0 and below 1, found {}", arguments.excess)));
-    }
     let name = arguments.direct.file_stem().map_or_else(|| "direct".into(), |stem| stem.to_string_lossy().into_owned());
     let out = new_folder(arguments.out.as_deref(), &format!("{name}-couple"), Mode::New);
     let _claim = folder::create(&out).map_err(|error| Failure::new(USAGE, &error))?;
@@ -151,7 +150,7 @@ fn read(folder: &Path) -> Result<NetworkState, Failure> {
     let path = folder.join("at-end.json");
     let text =
         std::fs::read_to_string(&path).map_err(|error| Failure::new(USAGE, &format!("{}: {error}", path.display())))?;
-    serde_json::from_str(&text).map_err(|error| Failure::new(BUG, &format!("{}: {error}", path.display())))
+    NetworkState::read(&text).map_err(|error| Failure::new(BUG, &format!("{}: {error}", path.display())))
 }
 
 /// Share of the elements that hold the same phase in both.

@@ -5,8 +5,8 @@ use crate::solver::{SolverError, StepInfo};
 use crate::sph::pairs::largest;
 use crate::sph::particles::Phase;
 use crate::sph::projection::{Flow, Predicted, Response};
+use crate::sph::terms::sharpening::Strays;
 use crate::sph::terms::shifting;
-use crate::sph::terms::strays::Strays;
 
 /// A particle that moves farther than this share of h in a step has run away.
 const LARGEST_MOVE: f64 = 0.5;

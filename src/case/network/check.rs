@@ -7,7 +7,7 @@ use super::measured;
 use super::raw::{RawDynamic, RawEvents, RawNetwork, RawNetworkSide, RawProcess};
 use super::state::Start;
 use crate::case::check::Checker;
-use crate::case::checked::{Side, Sides, WettingModel};
+use crate::case::checked::{SIDES, Side, Sides, WettingModel};
 use crate::case::raw::RawSideName;
 use crate::case::sph::fluid;
 use crate::case::wetting;
@@ -23,8 +23,6 @@ const MOST_CYCLES: f64 = 100.0;
 /// Most pore volumes per step where the case says nothing.
 pub(crate) const DEFAULT_LARGEST_STEP: f64 = 0.01;
 const LARGEST_STEP: (f64, f64) = (1e-6, 1.0);
-
-const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
 
 /// Checks `[network]`; `geometry` is missing where it was wrong.
 pub(in crate::case) fn network(

@@ -1,15 +1,12 @@
 //! Open sides, and periodic ones with a given flow: their openings, what drives them and what comes in.
 
 use super::SetupError;
-use crate::case::checked::{self, Side, Sph};
+use crate::case::checked::{self, SIDES, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
 use crate::sph::fill::Lattice;
 use crate::sph::open::{self, Open, OpenSide, Opening, Profile, Shape, Staircase};
 use crate::sph::particles::Phase;
-
-/// Names of the sides in the order of their numbers.
-const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
 
 /// How far inside of a side its openings are looked for, over the spacing: on the side itself a solid can end.
 const INSIDE: f64 = 1e-3;

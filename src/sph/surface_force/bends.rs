@@ -7,8 +7,8 @@
 
 use crate::math::{Vec2, perpendicular};
 use crate::sph::surface_force::circles::fit_from_contact;
+use crate::sph::surface_force::detected_lines::InterfaceLine;
 use crate::sph::surface_force::fit::angle_pulled;
-use crate::sph::surface_force::sightings::InterfaceLine;
 
 /// A wall bends at a line where the normals this far to both sides of it, over h, differ by more than `BENT`.
 const NEIGHBORHOOD: f64 = 1.0;

@@ -3,16 +3,16 @@
 //! [`SurfaceForce::Csf`] is the paper's: a volume force in a band, with the contact line force beside it. In
 //! [`SurfaceForce::PressureJump`] the jump σκ enters the pressure differences across the interface, as in the ghost fluid method
 //! (Fedkiw et al. 1999; Kang et al. 2000), and the wetting law is the angle at which the interface meets the wall.
-//! `points` finds the interface, `fit` its curvature by `circles` in `windows`, `sightings` its contact lines and
+//! `points` finds the interface, `fit` its curvature by `circles` in `windows`, `detected_lines` its contact lines and
 //! `bends` those at edges of walls, `jump` carries it to the pairs.
 
 pub mod bends;
 mod circles;
+pub mod detected_lines;
 pub mod equivalent;
 pub mod fit;
 pub mod jump;
 pub mod points;
-pub mod sightings;
 mod windows;
 
 use crate::sph::wetting::contact_line::LineDelta;

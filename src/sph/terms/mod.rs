@@ -10,7 +10,7 @@ pub mod density;
 pub mod divergence;
 pub mod poisson;
 pub mod pressure_gradient;
+pub mod sharpening;
 pub mod shifting;
-pub mod strays;
 pub mod surface_tension;
 pub mod viscosity;
