@@ -58,11 +58,12 @@ impl WendlandC2 {
         (w, r_ab * slope)
     }
 
-    /// W(r) and (1/r) dW/dr.
+    /// W(r) in 1/m² and (1/r) dW/dr in 1/m⁴.
     ///
     /// dW/dr = −5 q (1 − q/2)³ · 7/(4πh³), so that the gradient is regular at r = 0.
     #[inline]
-    fn w_and_slope(&self, r: f64) -> (f64, f64) {
+    #[must_use]
+    pub fn w_and_slope(&self, r: f64) -> (f64, f64) {
         let q = r / self.h;
         let t = (1.0 - 0.5 * q).max(0.0);
         (self.norm * wendland_c2(q), -self.gradient_norm * t * t * t)

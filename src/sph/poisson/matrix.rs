@@ -12,8 +12,8 @@ pub struct Matrix {
     pub start: Arc<Vec<usize>>,
     /// Columns of the off-diagonal entries.
     pub column: Arc<Vec<u32>>,
-    /// A_ab, the negative of the off-diagonal entries.
-    pub coupling: Vec<f64>,
+    /// A_ab, the negative of the off-diagonal entries, in single precision: the matrix is what these are, to the last bit of all sums.
+    pub coupling: Vec<f32>,
     /// D_a.
     pub diagonal: Vec<f64>,
 }
@@ -29,7 +29,10 @@ impl Matrix {
     #[inline]
     pub fn row(&self, a: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let row = self.start[a]..self.start[a + 1];
-        self.column[row.clone()].iter().zip(&self.coupling[row]).map(|(&b, &coupling)| (b as usize, coupling))
+        self.column[row.clone()]
+            .iter()
+            .zip(&self.coupling[row])
+            .map(|(&b, &coupling)| (b as usize, f64::from(coupling)))
     }
 
     /// Σ_b A_ab x_b.
@@ -58,7 +61,7 @@ impl Matrix {
     /// Bytes held, a pattern that it shares with the pairs included.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.start.len() * 8 + self.column.len() * 4 + (self.coupling.len() + self.diagonal.len()) * 8
+        self.start.len() * 8 + (self.column.len() + self.coupling.len()) * 4 + self.diagonal.len() * 8
     }
 }
 
