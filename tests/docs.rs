@@ -9,6 +9,8 @@ use meniscus::case::{load, load_shapes};
 use meniscus::geometry::import::Options;
 use meniscus::input::Overrides;
 
+#[path = "docs/keys.rs"]
+mod keys;
 #[path = "docs/page.rs"]
 mod page;
 #[path = "docs/reference.rs"]
