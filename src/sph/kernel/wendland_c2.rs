@@ -9,6 +9,7 @@ use crate::math::{Vec2, wendland_c2};
 pub struct WendlandC2 {
     /// Smoothing length h in m.
     pub h: f64,
+    inverse_h: f64,
     norm: f64,
     gradient_norm: f64,
 }
@@ -18,7 +19,7 @@ impl WendlandC2 {
     #[must_use]
     pub fn new(h: f64) -> Self {
         let norm = 7.0 / (4.0 * PI * h * h);
-        Self { h, norm, gradient_norm: 5.0 * norm / (h * h) }
+        Self { h, inverse_h: 1.0 / h, norm, gradient_norm: 5.0 * norm / (h * h) }
     }
 
     /// The same kernel with its value divided by `unity` = Σ_b dx² W and its gradient by `moment` = −½ Σ_b dx² r_ab·∇W, sums over
@@ -64,7 +65,7 @@ impl WendlandC2 {
     #[inline]
     #[must_use]
     pub fn w_and_slope(&self, r: f64) -> (f64, f64) {
-        let q = r / self.h;
+        let q = r * self.inverse_h;
         let t = (1.0 - 0.5 * q).max(0.0);
         (self.norm * wendland_c2(q), -self.gradient_norm * t * t * t)
     }

@@ -15,6 +15,7 @@ use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, conjugate_gr
 use crate::sph::images::Images;
 use crate::sph::method::ViscousTerm;
 use crate::sph::pairs::{GRAIN, Pair, Pairs, each, largest, split_rows};
+use crate::sph::poisson::weighted_sum;
 use crate::sph::terms::viscosity::Viscous;
 
 /// Largest relative residual of the change of the velocity.
@@ -56,6 +57,7 @@ impl Flow {
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let is_central = self.method.viscous_term == ViscousTerm::Szewc;
         let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
+        let inverse_root: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();
         let strength = |a: usize, ab: &Pair| {
             if !is_central {
                 return viscous.coupling(a, ab);
@@ -78,20 +80,27 @@ impl Flow {
         parts.into_par_iter().for_each(|((rows, coupling), diagonal)| {
             let mut couplings = coupling.iter_mut();
             for (a, diagonal) in rows.zip(diagonal) {
+                // What acts alike along both axes: all fluid in Morris's form.
+                let mut between = 0.0;
                 for (ab, coupling) in pairs.of(a).zip(&mut couplings) {
                     let (b, strength) = (images.source(ab.b), strength(a, &ab));
                     // The image of a central pair acts along another line, so that its blocks would not be symmetric: the diagonal stands
                     // for it.
                     let is_coupled = b < fluids && (ab.b == b || !is_central);
                     if is_coupled {
-                        let masses = root_mass[a] * root_mass[b];
-                        *coupling = (strength / masses) as f32;
+                        *coupling = (strength * (inverse_root[a] * inverse_root[b])) as f32;
                         // With the coupling as it is stored a common velocity feels nothing, to the last bit.
-                        *diagonal += block(a, &ab, f64::from(*coupling) * masses);
+                        let stored = f64::from(*coupling) * (root_mass[a] * root_mass[b]);
+                        if is_central {
+                            *diagonal += block(a, &ab, stored);
+                        } else {
+                            between += stored;
+                        }
                     } else {
                         *diagonal += block(a, &ab, strength);
                     }
                 }
+                *diagonal += Mat2::from_diagonal_element(between);
                 *diagonal /= root_mass[a] * root_mass[a];
             }
         });
@@ -158,8 +167,7 @@ impl System<'_> {
             let pairs = v.pairs.of(a).zip(coupling);
             pairs.map(|(ab, coupling)| f64::from(*coupling) * x[ab.b].dot(&ab.grad_w) * ab.grad_w).sum()
         } else {
-            let neighbors = v.pairs.neighbors()[row].iter().zip(coupling);
-            neighbors.map(|(&b, &coupling)| f64::from(coupling) * x[b as usize]).sum()
+            weighted_sum(&v.pairs.neighbors()[row], coupling, x)
         };
         self.diagonal[a] * x[a] - self.weight * coupled
     }
