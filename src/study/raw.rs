@@ -17,7 +17,7 @@ tables! {
         pub title: String,
         /// Base case, relative to the study file (required without `cases`).
         pub case: PathBuf,
-        /// Values for all runs: `"KEY=VALUE"`, as in `--set`.
+        /// Values for all runs, `"KEY=VALUE"` as in `--set`.
         pub set: Vec<String>,
         /// What varies; every value of an axis is combined with every value of the others.
         pub axis: Vec<RawAxis>,
@@ -43,11 +43,11 @@ tables! {
         pub range: RawRange,
         /// Parameters that vary together, with equally many values.
         pub pair: Vec<RawColumn>,
-        /// CSV file with a header line: one run per row, one parameter per column; `#` begins a comment.
+        /// CSV file with a header line: a run per row, a parameter per column; `#` begins a comment.
         pub table: PathBuf,
-        /// Key path of each column of the CSV file; other columns are numbers to compare with.
+        /// Key path of each CSV column; other columns are numbers to compare with.
         pub columns: BTreeMap<String, String>,
-        /// Base cases in place of `case`; the parameter is named `case` by default.
+        /// Base cases in place of `case`; default parameter name `case`.
         pub cases: Vec<PathBuf>,
     }
 
@@ -111,8 +111,8 @@ tables! {
 
     /// What the report shows.
     pub struct RawReport {
-        /// Measures in the table; also `steps`, `unknowns`, `wall-time-s`, `solver-time-s` (without output) and `cpu-s`
-        /// (default: all measures).
+        /// Measures in the table; also `steps`, `unknowns`, `wall-time-s`, `solver-time-s`, `cpu-s` (default: all
+        /// measures).
         pub measures: Vec<String>,
         /// The curves.
         pub curve: Vec<RawCurve>,

@@ -144,17 +144,17 @@ fn told(value: &Value) -> (Option<String>, String) {
     (Some(default.to_owned()), meaning.trim_end_matches('.').to_owned())
 }
 
-/// A table of keys; without values and defaults where there are none.
+/// A table of keys; of empty tables, which a page of their own describes, the names alone.
 fn table(rows: &[[String; 4]]) -> String {
-    let simple = rows.iter().all(|[_, value, default, _]| value == "empty table" && default.is_empty());
-    let columns: &[usize] = if simple { &[0, 3] } else { &[0, 1, 2, 3] };
+    if rows.iter().all(|[_, value, ..]| value == "empty table") {
+        return rows.iter().map(|[key, ..]| key.as_str()).collect::<Vec<_>>().join(", ") + ".\n";
+    }
     let line = |cells: &[String; 4]| {
-        let cells = columns.iter().map(|&i| if cells[i].is_empty() { " ".into() } else { format!(" {} ", cells[i]) });
+        let cells = cells.iter().map(|cell| if cell.is_empty() { " ".to_owned() } else { format!(" {cell} ") });
         format!("|{}|\n", cells.collect::<Vec<_>>().join("|"))
     };
     let head = ["key", "value", "default", "meaning"].map(str::to_owned);
-    let rule = format!("|{}\n", "---|".repeat(columns.len()));
-    line(&head) + &rule + &rows.iter().map(line).collect::<String>()
+    format!("{}|---|---|---|---|\n{}", line(&head), rows.iter().map(line).collect::<String>())
 }
 
 /// A page with its tables as the schema has them.

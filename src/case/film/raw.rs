@@ -12,7 +12,7 @@ tables! {
         pub fluid: RawFluid,
         /// Surface tension in N/m (default: that of the preset).
         pub tension: f64,
-        /// Gravity towards the wall in m/s², negative for hanging droplets; capillary length of at least 2 spacings
+        /// Gravity towards the wall in m/s², negative for hanging droplets; capillary length at least 2 spacings
         /// (default 0).
         pub gravity: f64,
         /// Initial distance of particles or nodes in m: at least 10 per half width, at most 1e7 on the wall.
@@ -90,7 +90,7 @@ tables! {
 
     /// Methods for thin films.
     pub struct RawFilmMethod {
-        /// Particles on an infinite line; only for the geometric equation in the plane.
+        /// Particles on an infinite line, for the geometric equation in the plane.
         pub particles: RawFilmParticles,
         /// Implicit finite differences, for every equation.
         pub finite_differences: RawFilmGrid,

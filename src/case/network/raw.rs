@@ -10,35 +10,34 @@ use crate::case::raw::{RawInterface, RawPhases, RawSideName, RawWetting, tables}
 tables! {
     /// A pore network: pores and throats of the geometry, and a displacement through them.
     pub struct RawNetwork {
-        /// Side where the invading phase enters; without it the network is only extracted.
+        /// Side where the invading phase enters; without it nothing is displaced.
         pub inlet: RawSideName,
         /// Opposite side where the defending phase leaves; without it none leaves and none is trapped.
         pub outlet: RawSideName,
         /// The sides that are neither inlet nor outlet (default: walls).
         pub sides: RawNetworkSides,
-        /// The fluids; only viscosities count, for conductances and `dynamic`, which requires both (default: 1 Pa s).
+        /// The fluids; only viscosities count, for conductances and `dynamic` (default: 1 Pa s).
         pub phases: RawPhases,
         /// Interface between the fluids (required with an inlet).
         pub interface: RawInterface,
         /// `young`, `tadmor` or `hysteresis`, and patches without stripes (required with an inlet).
         pub wetting: RawWetting,
-        /// Invasion by the non-wetting phase, by the wetting phase, or in turn: then the wetting phase returns through
-        /// the outlet (default `drainage`).
+        /// Invading phase: non-wetting, wetting, or both in turn; in a cycle the wetting phase returns through the
+        /// outlet (default `drainage`).
         pub process: RawProcess,
         /// Number of cycles (default 1).
         pub cycles: u32,
-        /// Traps defending regions without a path to the outlet; if false, films drain them (default true).
+        /// Traps defending regions without a path to the outlet; else films drain them (default true).
         pub trapping: bool,
         /// Burst, touch and overlap, or burst alone (invasion percolation) (default `all`).
         pub events: RawEvents,
-        /// Half width of a throat over the smaller inscribed radius, above which its two pores are one (default 0.95).
+        /// Half width of a throat over the smaller inscribed radius, above which its pores are one (default 0.95).
         pub persistence: f64,
-        /// Measured entry pressures of the same geometry: `measured.json` of `meniscus network verify` (default: entry
-        /// pressures by the formula).
+        /// Measured entry pressures: `measured.json` of `meniscus network verify` (default: those of the formula).
         pub measured: PathBuf,
-        /// The values of that file, inside a resolved case.
+        /// Contents of a file of measured entry pressures, in a resolved case.
         pub measured_throats: RawMeasured,
-        /// Criteria that end the displacement, in a cycle each drainage; the first one met counts.
+        /// Criteria that end the displacement or each drainage of a cycle; the first one met counts.
         pub stop: RawStop,
         /// File with the initial state, of a network or a direct simulation; not with `dynamic` (default: full of the
         /// defending phase).
@@ -67,9 +66,9 @@ tables! {
 
     /// A throat whose entry pressure was measured.
     pub struct RawMeasuredThroat {
-        /// Index of the throat, counting those that the merge dissolved.
+        /// Index of the throat before the merge.
         pub index: usize,
-        /// Entry curvature by the formula in 1/m; the measured value counts only where the formula gives this one.
+        /// Entry curvature in 1/m that the formula gives; the measured value replaces no other.
         pub formula_curvature: f64,
         /// Measured entry curvature in 1/m.
         pub entry_curvature: f64,
@@ -95,7 +94,7 @@ tables! {
         pub saturation: f64,
         /// Final capillary pressure `p_n - p_w` in Pa; not with `dynamic`.
         pub capillary_pressure: f64,
-        /// Finally injected pore volumes; only with `dynamic`.
+        /// Injected pore volumes; only with `dynamic`.
         pub injected: f64,
     }
 }

@@ -81,30 +81,29 @@ tables! {
 
     /// Domain and solids of a case.
     pub struct RawGeometry {
-        /// Shape file or drawing, relative to the case file.
+        /// Shape file or drawing.
         pub file: PathBuf,
         /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px (default: that of the file).
         pub unit: String,
-        /// Length of the drawing unit in m, in place of `unit`.
+        /// Drawing unit in m, in place of `unit`.
         pub scale: f64,
-        /// Part of the drawing that becomes the domain: lower left and upper right corner in m (default: the whole
-        /// drawing).
+        /// Lower left and upper right corner in m of the part that becomes the domain (default: all).
         pub window: [[f64; 2]; 2],
-        /// Layers of an SVG or DXF drawing to read (default: all).
+        /// Layers of an SVG or DXF drawing (default: all).
         pub layers: Vec<String>,
-        /// Gray value between solid (0 is black) and pore (1 is white) of a mask (default: that of the image).
+        /// Gray value between solid (0, black) and pore (1, white) of a mask (default: that of the image).
         pub threshold: f64,
         /// Side of a mask pixel in m (required for a mask).
         pub pixel_size: f64,
         /// Exchanges solid and pore of the file (default false).
         pub invert: bool,
-        /// Reads polygons whose vertices lie on a circle as discs (default true).
+        /// Reads polygons with vertices on a circle as discs (default true).
         pub recognize_circles: bool,
-        /// Polygon corners that turn by less than this angle become arcs; 0: none (default 20.0).
+        /// Polygon corners that turn by less become arcs; 0: none (default 20.0).
         pub smooth_below_deg: f64,
-        /// Columns of x, y and radius in a disc list, counted from 0 (default `[0, 1, 2]`).
+        /// Columns of x, y and radius in a disc list, from 0 (default `[0, 1, 2]`).
         pub columns: [usize; 3],
-        /// Separator of the columns of a disc list (default: any usual one).
+        /// Separator of a disc list (default: any usual one).
         pub separator: char,
         /// The third column of a disc list holds diameters; required if its header names them (default false).
         pub diameters: bool,
@@ -112,9 +111,9 @@ tables! {
         pub min: [f64; 2],
         /// Upper right corner of the domain in m (default: that of the file).
         pub max: [f64; 2],
-        /// Whether the shapes are solid or pore; with `file` use `invert` (default `inside`).
+        /// Whether the inside or the outside of the shapes is solid; with `file` use `invert` (default `inside`).
         pub solid: SolidSide,
-        /// The shapes, united; not with `file` (default: none).
+        /// The shapes, united; not with `file`.
         pub shapes: Vec<ShapeSpec>,
     }
 
@@ -122,28 +121,27 @@ tables! {
     pub struct RawTime {
         /// End of the simulation in s; with `steady` the latest end.
         pub end: f64,
-        /// Ends a run of `[sph]` when it is steady; the table may be empty.
+        /// Ends a run of `[sph]` when it is steady.
         pub steady: RawSteady,
     }
 
     /// When a simulation counts as steady: what is left to change of each quantity, and how far it moves within the last
     /// window, are both below its tolerance.
     pub struct RawSteady {
-        /// Length in s of the three compared windows, from five records of the series to a third of the end (default: a
-        /// fifth of the elapsed time).
+        /// Length in s of each of the three compared windows: at least five records, at most a third of the end
+        /// (default: a fifth of the elapsed time).
         pub window: f64,
         /// Tolerance of the mean contact angle in degrees (default 0.3).
         pub contact_angle_deg: f64,
-        /// Relative tolerance of the capillary pressure, or of tension over the longer side of the domain if larger
-        /// (default 0.005).
+        /// Tolerance relative to the capillary pressure, or to tension over the longer side if larger (default 0.005).
         pub capillary_pressure: f64,
         /// Tolerance of the saturation (default 0.001).
         pub saturation: f64,
-        /// Viscosity times speed over tension below which particles count as at rest (default 1e-4).
+        /// Viscosity times speed over tension below which particles rest (default 1e-4).
         pub capillary_number: f64,
-        /// Relative tolerance of the kinetic energy, for flows that do not come to rest (default 0.005).
+        /// Relative tolerance of the kinetic energy of flows that do not rest (default 0.005).
         pub kinetic_energy: f64,
-        /// Ends the run when steady; if false, the report only states the time (default true).
+        /// Ends the run when steady, or only reports the time (default true).
         pub stop: bool,
     }
 
@@ -155,7 +153,7 @@ tables! {
         pub series: RawEvery,
         /// Regular grid of the output.
         pub grid: RawGrid,
-        /// Saved states; an interrupted or failed run saves its state too (default: 10 records).
+        /// Saved states; also written on an interrupt or a failure (default: 10 records).
         pub restart: RawEvery,
     }
 

@@ -48,17 +48,17 @@ tables! {
 
     /// An inlet, an outlet, or a periodic side with a given flow; one of pressure, velocity and flow rate.
     pub struct RawOpenSide {
-        /// Dirichlet pressure at the side in Pa, in the phase that enters (default 0 at an outlet).
+        /// Dirichlet pressure in Pa, in the phase that enters (default 0 at an outlet).
         pub pressure: f64,
         /// A pressure that rises in equal steps.
         pub pressure_steps: RawPressureSteps,
-        /// Mean inward velocity over the opening in m/s; not at an outlet.
+        /// Mean inward velocity over the opening in m/s.
         pub velocity: f64,
-        /// Inward flow rate per depth in m²/s; not at an outlet.
+        /// Inward flow rate per depth in m²/s.
         pub flow_rate: f64,
-        /// Velocity profile over the opening; at periodic sides only the initial one (default `plug`).
+        /// Velocity profile over the opening; at periodic sides the initial one (default `plug`).
         pub profile: RawProfile,
-        /// Phase that enters (default: the phase at the side at time zero).
+        /// Phase that enters (default: the phase there at time zero).
         pub phase: RawPhase,
     }
 

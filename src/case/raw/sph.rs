@@ -17,8 +17,8 @@ tables! {
         pub spacing: f64,
         /// Smoothing length over spacing, `h/dx` (default 1.5).
         pub smoothing_ratio: f64,
-        /// Length of the dimensionless numbers in m (default: narrowest throat or square root of the drop area, the
-        /// shorter; else the shorter side).
+        /// Length of the dimensionless numbers in m (default: the shorter of narrowest throat and root of the drop
+        /// area; else the shorter side).
         pub reference_length: f64,
         /// Body force per mass along x and y in m/s² (default `[0.0, 0.0]`).
         pub gravity: [f64; 2],
@@ -44,9 +44,9 @@ tables! {
 
     /// The fluids.
     pub struct RawPhases {
-        /// The phase through which contact angles are measured.
+        /// Phase through which contact angles are measured.
         pub wetting: RawFluid,
-        /// The other phase; absent in single-phase flow.
+        /// The other phase.
         pub non_wetting: RawFluid,
     }
 
@@ -56,7 +56,7 @@ tables! {
         pub preset: Preset,
         /// Temperature of the preset in °C (default 20).
         pub temperature_c: f64,
-        /// Density in kg/m³; the ratio of the two densities is 1e-4 to 1e4 (default: that of the preset).
+        /// Density in kg/m³; the density ratio is 1e-4 to 1e4 (default: that of the preset).
         pub density: f64,
         /// Dynamic viscosity in Pa s (default: that of the preset).
         pub viscosity: f64,
@@ -78,14 +78,14 @@ tables! {
 
     /// The pressure jump.
     pub struct RawPressureJump {
-        /// For tests: curvature of all interfaces in 1/m, positive where the wetting phase is convex; overrides contact
-        /// angles (default: fitted).
+        /// For tests: curvature of all interfaces in 1/m, positive where the wetting phase is convex; contact angles
+        /// are then ignored (default: fitted).
         pub curvature: f64,
     }
 
     /// The continuum surface force.
     pub struct RawCsf {
-        /// Contact line force normalized along each line (Eqs. 21 and 22), or in closed form per particle (default
+        /// Line force normalized along each contact line (Eqs. 21 and 22), or in closed form per particle (default
         /// `normalized`).
         pub line_delta: RawLineDelta,
     }
@@ -131,23 +131,21 @@ tables! {
     pub struct RawNumerics {
         /// Form of the viscous term (default `stress`).
         pub viscous_term: RawViscousTerm,
-        /// Viscous force from the velocity at the end or the beginning of the step; `implicit` has no viscous limit of
-        /// the step (default `implicit`).
+        /// Viscous force from the velocity at the end or the beginning of the step (default `implicit`).
         pub viscous_step: RawViscousStep,
-        /// Density-error correction in the pressure equation: largest share of the error corrected per step (default
-        /// 0.2; with `csf` 0.02; without tension 0).
+        /// Density-error correction in the pressure equation: largest share of the error removed per step (default 0.2;
+        /// with `csf` 0.02; without tension 0).
         pub drift_source: f64,
-        /// Density-error correction by particle shifting: share of the error corrected per step (default 0; without
+        /// Density-error correction by particle shifting: share of the error removed per step (default 0; without
         /// tension 0.2).
         pub drift_correction: f64,
         /// Background pressure over `σ/h`, or over `ρ v²` without tension (default 0; with `csf` 0.5).
         pub background_pressure: f64,
         /// Strength of particle shifting (default 2; with `csf` 0).
         pub shifting: f64,
-        /// Strength of the anti-clustering force in the shifting (default 0.2; with `csf` or without tension 0).
+        /// Strength of the anti-clustering force in particle shifting (default 0.2; with `csf` or without tension 0).
         pub short_range_push: f64,
-        /// Largest stretch `β` of velocity differences at walls; sets the slip if no slip length is given (default
-        /// 10.0).
+        /// Largest stretch `β` of velocity differences at walls; sets the slip without a slip length (default 10.0).
         pub wall_stretch: f64,
         /// Wall particles follow walls that the lattice does not fit (default true).
         pub fitted_walls: bool,

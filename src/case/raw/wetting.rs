@@ -12,19 +12,19 @@ tables! {
         pub young: RawContactAngle,
         /// Static angle from the advancing and the receding one (Tadmor 2004).
         pub tadmor: RawAngleWindow,
-        /// Contact line friction in proportion to the line speed (Brochard-Wyart and de Gennes 1992).
+        /// Contact line friction (Brochard-Wyart and de Gennes 1992).
         pub line_friction: RawLineFriction,
         /// Molecular kinetic theory (Blake and Haynes 1969).
         pub molecular_kinetic: RawMolecularKinetic,
-        /// Viscous bending between the slip length and the resolved scale (Voinov 1976, Cox 1986).
+        /// Viscous bending below the resolved scale (Voinov 1976, Cox 1986).
         pub cox_voinov: RawCoxVoinov,
         /// Fit of Hoffman's data (Kistler 1993).
         pub kistler: RawContactAngle,
         /// Fit of Hoffman's data (Jiang, Oh and Slattery 1979).
         pub jiang: RawContactAngle,
-        /// A contact line is pinned between the receding and the advancing angle.
+        /// Contact lines pinned between the receding and the advancing angle.
         pub hysteresis: RawAngleWindow,
-        /// Parts of the walls with angles of their own, in the model of the case; later ones override earlier ones.
+        /// Parts of the walls with angles of their own, in the same model; later ones override earlier ones.
         pub patches: Vec<RawWettingPatch>,
     }
 
@@ -76,7 +76,7 @@ tables! {
         pub shape: u32,
         /// Wall side that is the patch (default: all walls).
         pub side: RawSideName,
-        /// Stripes of the patch (default: all of it).
+        /// Stripes of the patch (default: the whole patch).
         pub stripes: RawStripes,
         /// Static angle in degrees (required if the model has one).
         pub contact_angle_deg: f64,
