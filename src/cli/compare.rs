@@ -14,6 +14,7 @@ use crate::io::{FileError, atomic};
 use crate::run::compare::{CompareError, Comparison, compare as run_both, page};
 use crate::run::execute::Mode;
 use crate::run::folder;
+use crate::run::setup::SetupError;
 
 /// `compare`.
 #[derive(Debug, Args)]
@@ -45,7 +46,11 @@ pub fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
         let found =
             run_both((&network.case, &direct.case), arguments.records.get(), &mut |share| display.compared(share));
         display.finish();
-        found.map_err(|error| failure(&error))
+        found.map_err(|error| match &error {
+            CompareError::Setup(misfit @ SetupError::Network(_)) => network.refused(misfit),
+            CompareError::Setup(misfit) => direct.refused(misfit),
+            other => failure(other),
+        })
     })?;
     let json = serde_json::to_string_pretty(&found).map_err(|error| Failure::new(BUG, &error))?;
     let unwritten = |error: FileError| Failure::new(USAGE, &error);

@@ -103,6 +103,8 @@ tables! {
         pub along: String,
         /// Least observed order: the slope of log error over log parameter (default none).
         pub order: f64,
+        /// Error that counts as converged: what other errors than that of the parameter leave (default 0).
+        pub floor: f64,
         /// Only for runs with these values of parameters (default all runs).
         #[serde(rename = "where")]
         #[schemars(with = "Option<BTreeMap<String, serde_json::Value>>")]
