@@ -188,7 +188,7 @@ fn what_keeps_a_solver_from_being_made_is_told_at_the_key_to_change() {
     let open = [
         ("spacing = 4.0e-5", "spacing = 3.0e-5"),
         ("left = \"periodic\"", "left = \"inlet\""),
-        ("right = \"periodic\"", "right = \"outlet\"\n[sph.sides.open.left]\nvelocity = 0.01"),
+        ("right = \"periodic\"", "right = \"outlet\"\n[sph.sides.open.left]\nvelocity = 0.01\nprofile = \"parabolic\""),
     ];
     let direct = |shape: &str| with_shape(shape, &open);
     let network = |shape: &str, keys: &str| {
@@ -209,11 +209,7 @@ fn what_keeps_a_solver_from_being_made_is_told_at_the_key_to_change() {
             "left =",
             "ends at the open side",
         ),
-        (
-            direct("rectangle = { center = [0.0, 3.0e-4], size = [2.0e-4, 2.0e-4] }"),
-            "[sph.sides.open.left]",
-            "2 openings",
-        ),
+        (direct("rectangle = { center = [0.0, 3.0e-4], size = [2.0e-4, 2.0e-4] }"), "profile =", "2 openings"),
         (
             network(
                 "",

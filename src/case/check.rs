@@ -153,7 +153,8 @@ fn grid(checker: &mut Checker, ratio: f64, [width, height]: [f64; 2]) {
         );
     }
     let largest = width.min(height);
-    if ratio > largest {
+    // The domain is a whole number of spacings up to rounding.
+    if ratio > largest * (1.0 + 1e-9) {
         checker.refuse(
             "output.grid.ratio",
             format!(

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::check::{self, Checker};
 use super::checked::{Case, Model};
+use super::kind::other_than_a_case;
 use super::magnitude::magnitudes;
 use super::network::state::Start;
 use super::raw::{RawCase, RawGeometry, RawShapeFile};
@@ -91,6 +92,7 @@ pub fn load_default(overrides: &Overrides) -> Result<Loaded, InputError> {
 
 fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> Result<Loaded, InputError> {
     let document = Document::parse(name, text, overrides)?;
+    document.refuse(other_than_a_case(text).into_iter().collect())?;
     let reading = document.read::<RawCase>();
     let mut checker = Checker::default();
     let raw = &reading.value;
@@ -259,17 +261,18 @@ const BESIDE: &str = "the shape file is looked for beside the case file";
 
 fn shapes_at(path: &Path, options: &Options, sources: &mut Vec<PathBuf>) -> Result<Imported, NotRead> {
     sources.push(path.to_path_buf());
-    read_shapes(path, options)
+    read_shapes(path, options, BESIDE)
 }
 
-fn read_shapes(path: &Path, options: &Options) -> Result<Imported, NotRead> {
+/// The shapes of a file; `help` tells where the user should look when there is none.
+fn read_shapes(path: &Path, options: &Options, help: &str) -> Result<Imported, NotRead> {
     let name = path.display().to_string();
     if Format::of(path) == Some(Format::Toml) {
-        return shape_text(&name, &read(path, BESIDE)?, options);
+        return shape_text(&name, &read(path, help)?, options);
     }
     crate::geometry::load(path, options).map_err(|error| match error {
         ShapeFileError::Keys { problems, .. } => NotRead::Keys(problems),
-        ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, BESIDE)),
+        ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, help)),
         ShapeFileError::Parts { path, refusals } => NotRead::File(each_part(&name, &path, &refusals, |refusal| {
             (format!("{}: found {}", refusal.place, refusal.found), format!("expected {}", refusal.expected))
         })),
@@ -304,7 +307,7 @@ fn each_part<T>(name: &str, path: &Path, parts: &[T], told: impl Fn(&T) -> (Stri
 pub fn load_shapes(path: &Path, options: &Options) -> Result<Imported, InputError> {
     let name = path.display().to_string();
     let of_key = |problem: Problem| Mistake::of_file(&name, problem.message, &problem.help);
-    read_shapes(path, options).map_err(|error| match error {
+    read_shapes(path, options, "check the path of the shape file").map_err(|error| match error {
         NotRead::Keys(problems) => InputError { mistakes: problems.into_iter().map(of_key).collect() },
         NotRead::File(error) => error,
     })

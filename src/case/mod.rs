@@ -30,6 +30,7 @@ mod wetting;
 pub(crate) use check::Checker;
 pub use facts::{Facts, check_against};
 pub use kind::is_case;
+pub(crate) use kind::other_than_a_study;
 pub(crate) use load::read;
 pub use load::{Loaded, load, load_default, load_shapes, load_started};
 pub use schema::{schema, starter_case};

@@ -49,6 +49,20 @@ pub fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
         found.map_err(|error| match &error {
             CompareError::Setup(misfit @ SetupError::Network(_)) => network.refused(misfit),
             CompareError::Setup(misfit) => direct.refused(misfit),
+            CompareError::NoNetwork => network.refused_at(
+                "network",
+                "the first case has no displacement in a network",
+                "give [network] an inlet",
+            ),
+            CompareError::NoDirect => direct.refused_at(
+                "sph",
+                "the second case is no direct simulation of two fluids",
+                "give it [sph] with both phases",
+            ),
+            CompareError::OtherGeometry(_) => direct.refused_at("geometry", &error.to_string(), ""),
+            CompareError::OtherSides { side, .. } => {
+                direct.refused_at(&format!("sph.sides.{side}"), &error.to_string(), "")
+            }
             other => failure(other),
         })
     })?;

@@ -13,6 +13,16 @@ const TARGETS: [f64; 4] = [300.0, 600.0, 1000.0, 1600.0];
 const MOST_UNKNOWNS: f64 = 2500.0;
 const MOST_SHAPES: usize = 16;
 
+/// Wetting models that no case of the project has, for its drop on a wall.
+const WETTING: [&str; 6] = [
+    "{ tadmor = { advancing-angle-deg = 70.0, receding-angle-deg = 50.0 } }",
+    "{ line-friction = { contact-angle-deg = 60.0, friction = 0.8 } }",
+    "{ molecular-kinetic = { contact-angle-deg = 60.0, frequency = 3.0e6, jump-length = 1.0e-9 } }",
+    "{ cox-voinov = { contact-angle-deg = 60.0, slip-length = 1.0e-7 } }",
+    "{ kistler = { contact-angle-deg = 60.0 } }",
+    "{ jiang = { contact-angle-deg = 60.0 } }",
+];
+
 /// A case as text.
 pub struct Seed {
     pub name: String,
@@ -30,14 +40,18 @@ pub fn seeds() -> Vec<Seed> {
         files.sort();
         for path in files {
             let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-            found.extend(small(&path).map(|text| Seed { name, text }));
+            found.extend(small(&path, &[]).map(|text| Seed { name, text }));
         }
+    }
+    for model in WETTING {
+        let text = small(&project.join("cases/sessile-drop.toml"), &[format!("sph.wetting={model}")]);
+        found.push(Seed { name: model.to_owned(), text: text.expect(model) });
     }
     found
 }
 
-/// A case with all that is filled in, with as coarse a spacing as it takes.
-fn small(path: &Path) -> Option<String> {
+/// A case with all that is filled in and with `more` values, with as coarse a spacing as it takes.
+fn small(path: &Path, more: &[String]) -> Option<String> {
     let fine = case::load(path, &Overrides::default()).ok()?;
     if matches!(fine.case.model, Model::Network(_)) {
         return is_small(&fine.case).then_some(fine.resolved);
@@ -45,7 +59,8 @@ fn small(path: &Path) -> Option<String> {
     let key = if matches!(fine.case.model, Model::Sph(_)) { "sph.spacing" } else { "thin-film.spacing" };
     TARGETS.iter().find_map(|&count| {
         let spacing = format!("{key}={:e}", spacing(&fine.case, count));
-        let loaded: Loaded = case::load(path, &Overrides::parse(&[spacing]).ok()?).ok()?;
+        let overrides = Overrides::parse(&[more, &[spacing]].concat()).ok()?;
+        let loaded: Loaded = case::load(path, &overrides).ok()?;
         (setup::problems(&loaded.case).is_empty() && is_small(&loaded.case)).then_some(loaded.resolved)
     })
 }
