@@ -103,6 +103,9 @@ tables! {
         pub along: String,
         /// Smallest accepted order: least-squares slope of log error over log parameter.
         pub order: f64,
+        /// Error that counts as converged, as other causes leave it: errors below it need not fall and do not count for the
+        /// order (default 0).
+        pub floor: f64,
         /// Parameter values of the runs that count (default: all runs).
         #[serde(rename = "where")]
         #[schemars(with = "Option<BTreeMap<String, serde_json::Value>>")]

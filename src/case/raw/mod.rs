@@ -177,7 +177,7 @@ tables! {
 
     /// The regular grid of the output.
     pub struct RawGrid {
-        /// Distance of grid nodes over particle spacing (default 1).
+        /// Distance of grid nodes over particle spacing; at most the shorter side of the domain, and 2e7 nodes (default 1).
         pub ratio: f64,
     }
 }
