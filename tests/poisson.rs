@@ -90,7 +90,7 @@ fn small_systems_are_solved_directly() {
     let (kind, part) = (vec![0; n], parts(&cloud.pairs, &cloud.images, |_, _| true));
     assert!(part.iter().all(|part| *part == 0), "one pore, one part");
     let unknowns =
-        Unknowns { position: &cloud.points, kind: &kind, part: &part, anchored: &[], spacing: cloud.spacing };
+        Unknowns { position: &cloud.points, kind: &kind, part: &part, has_dirichlet: &[], spacing: cloud.spacing };
     let (mut b, mut p) = (right_side(n), vec![0.0; n]);
     let wanted = direct(&solver.matrix, &b);
     let tolerance = Tolerance { residual: 1e-6, iterations: 300 };

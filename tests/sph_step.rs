@@ -315,14 +315,14 @@ fn the_drift_source_rests_where_the_fluid_does() {
     // Share of the density error taken back in its time, where the fastest particle goes so many spacings in one that it does not shorten.
     let share = |ways: f64| {
         let speed = ways * method.spacing / method.drift_time(0.0);
-        method.drift_rate(speed) * method.drift_time(speed)
+        method.density_correction_rate(speed) * method.drift_time(speed)
     };
     assert_eq!((share(0.0), share(0.02), share(1.0)), (0.0, method.drift_source, method.drift_source));
     for (ways, of_all) in [(0.0025, 0.5), (0.005, 1.0)] {
         assert!((share(ways) - of_all * method.drift_source).abs() < 1e-15, "{ways}: {}", share(ways));
     }
     // Errors come in time, not in steps.
-    let rate = method.drift_rate(0.01);
+    let rate = method.density_correction_rate(0.01);
     method.time_step_factor = 0.5;
-    assert_eq!(method.drift_rate(0.01), rate);
+    assert_eq!(method.density_correction_rate(0.01), rate);
 }

@@ -113,7 +113,7 @@ fn a_gradient_over_its_moment_has_the_mean_of_a_linear_field() {
         let plain: Vec<f64> = gradient.iter().map(|g| -g.dot(&slope)).collect();
         let mut moment = vec![0.0; n];
         pressure_gradient::moment(&cloud.pairs, &cloud.volume, |a, b| cloud.separation(a, b), &mut moment);
-        pressure_gradient::normalize_by_moment(&moment, &mut gradient);
+        pressure_gradient::correct_gradient(&moment, &mut gradient);
         (plain, gradient.iter().map(|g| -g.dot(&slope)).collect::<Vec<f64>>())
     };
     let (slope, across) = (Vec2::new(0.6, -0.8), Vec2::new(0.8, 0.6));
@@ -291,7 +291,7 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
         mean_over: 1.0,
     };
     let found = LineParticles::find((&cloud.pairs, &cloud.images), &fields, &cloud.kernel, n);
-    let lines = following.follow(&[], &found.sightings(&fields, &cloud.domain), 0.0);
+    let lines = following.follow(&[], &found.detected_lines(&fields, &cloud.domain), 0.0);
     let angles: Vec<f64> = lines.iter().map(|line| line.angle).collect();
     found.line_force(&fields, delta, (&angles, 0.03), &mut force);
     let lines = found.count();

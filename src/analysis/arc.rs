@@ -105,12 +105,12 @@ impl Arc {
         Ok(best)
     }
 
-    /// The arc through the foot of a circle with its direction and curvature there.
+    /// The arc through the middle point of a circle with its direction and curvature there.
     fn traced(middle: CircleFit, force: Vec2, lengths: [f64; 2]) -> Self {
         let [reach, step] = lengths;
         let count = ((reach / step).ceil() as usize).min(MOST_NODES);
-        let curvature = |x: Vec2| middle.curvature + force.dot(&(x - middle.foot));
-        let start = Node { x: middle.foot, tangent: -perpendicular(middle.normal), curvature: middle.curvature };
+        let curvature = |x: Vec2| middle.curvature + force.dot(&(x - middle.at));
+        let start = Node { x: middle.at, tangent: -perpendicular(middle.normal), curvature: middle.curvature };
         let side = |by: f64| {
             let next = move |node: &Node| {
                 // By the midpoint rule.
@@ -185,7 +185,7 @@ impl Arc {
     /// Curvature in 1/m at `x`, positive where the arc turns to the left in the order of the points.
     #[must_use]
     pub fn curvature_at(&self, x: Vec2) -> f64 {
-        self.middle.curvature + self.force.dot(&(x - self.middle.foot))
+        self.middle.curvature + self.force.dot(&(x - self.middle.at))
     }
 }
 

@@ -27,14 +27,14 @@ pub struct CircleFit {
     /// Curvature in 1/m: positive where the points turn to the left in their order.
     pub curvature: f64,
     /// A point of the circle near the middle of the points, in m.
-    pub foot: Vec2,
-    /// Unit normal at `foot`, on the left of the points in their order; towards the center where `curvature` is positive.
+    pub at: Vec2,
+    /// Unit normal at `at`, on the left of the points in their order; towards the center where `curvature` is positive.
     pub normal: Vec2,
     /// Root mean square of the distances of the points in m.
     pub rms: f64,
     /// Number of points.
     pub count: usize,
-    /// Covariance of curvature (1/m), turn of the normal (rad) and shift of the foot along the normal (m).
+    /// Covariance of curvature (1/m), turn of the normal (rad) and shift of the point along the normal (m).
     pub covariance: Matrix3<f64>,
 }
 
@@ -48,7 +48,7 @@ impl CircleFit {
     /// Center in m, which is not finite for a straight line.
     #[must_use]
     pub fn center(&self) -> Vec2 {
-        self.foot + self.normal / self.curvature
+        self.at + self.normal / self.curvature
     }
 
     /// Standard error of the curvature in 1/m.
@@ -66,7 +66,7 @@ impl CircleFit {
     /// Standard errors of the center in m: along `normal` and across it.
     #[must_use]
     pub fn center_error(&self) -> [f64; 2] {
-        // center = foot + normal/curvature: along the normal the shift less d(curvature)/curvature², across it the turn.
+        // center = at + normal/curvature: along the normal the shift less d(curvature)/curvature², across it the turn.
         let along = Vector3::new(-self.curvature.powi(-2), 0.0, 1.0);
         let variance = (along.transpose() * self.covariance * along)[(0, 0)];
         [variance.max(0.0).sqrt(), self.covariance[(1, 1)].max(0.0).sqrt() / self.curvature.abs()]
@@ -75,13 +75,13 @@ impl CircleFit {
     /// Signed distance in m of `x` from the circle, positive on the side of `normal`.
     #[must_use]
     pub fn distance(&self, x: Vec2) -> f64 {
-        -Parameters::of(self).distance(x - self.foot)
+        -Parameters::of(self).distance(x - self.at)
     }
 
     /// Unit normal at `x` (near the circle), on the left of the points in their order.
     #[must_use]
     pub fn normal_at(&self, x: Vec2) -> Vec2 {
-        let to_center = self.normal - self.curvature * (x - self.foot);
+        let to_center = self.normal - self.curvature * (x - self.at);
         to_center / to_center.norm()
     }
 
@@ -103,7 +103,7 @@ impl CircleFit {
     pub fn perturbed(&self, change: Vector3<f64>) -> Self {
         let turn = nalgebra::Rotation2::new(change[1]);
         let normal = turn * self.normal;
-        Self { curvature: self.curvature + change[0], foot: self.foot + change[2] * self.normal, normal, ..*self }
+        Self { curvature: self.curvature + change[0], at: self.at + change[2] * self.normal, normal, ..*self }
     }
 }
 
@@ -193,7 +193,7 @@ pub fn fit(points: &[Vec2]) -> Result<CircleFit, CircleError> {
     let units = Matrix3::from_diagonal(&Vector3::new(1.0 / scale, 1.0, scale));
     Ok(CircleFit {
         curvature: solution.curvature / scale,
-        foot: origin + scale * solution.offset * solution.normal(),
+        at: origin + scale * solution.offset * solution.normal(),
         normal: solution.normal(),
         rms: scale * (solution.cost(&reduced) / count).sqrt(),
         count: points.len(),

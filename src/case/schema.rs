@@ -19,7 +19,7 @@ const MODELS: [&str; 3] = ["sph", "thin-film", "network"];
 
 /// Keys that their table requires.
 const REQUIRED: [(&str, &[&str]); 20] = [
-    ("RawAngleWindow", &["advancing-angle-deg", "receding-angle-deg"]),
+    ("RawHysteresisRange", &["advancing-angle-deg", "receding-angle-deg"]),
     ("RawContactAngle", &["contact-angle-deg"]),
     ("RawCoxVoinov", &["contact-angle-deg", "slip-length"]),
     ("RawDroplet", &["half-width", "height"]),

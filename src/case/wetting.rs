@@ -3,7 +3,7 @@
 use super::check::Checker;
 use super::checked::{PatchedWall, Side, Sides, Stripes, WettingModel, WettingPatch};
 use super::raw::{
-    RawAngleWindow, RawAxis, RawContactAngle, RawCoxVoinov, RawLineFriction, RawMolecularKinetic, RawSideName,
+    RawAxis, RawContactAngle, RawCoxVoinov, RawHysteresisRange, RawLineFriction, RawMolecularKinetic, RawSideName,
     RawStripes, RawWetting, RawWettingPatch,
 };
 use crate::geometry::spec::GeometrySpec;
@@ -63,14 +63,14 @@ pub(super) fn model(
     } else if let Some(raw) = &raw.cox_voinov {
         cox_voinov(checker, &at, raw)?
     } else if let Some(raw) = &raw.tadmor {
-        let [receding, advancing] = angle_window(checker, &at, raw)?;
+        let [receding, advancing] = hysteresis_range(checker, &at, raw)?;
         WettingModel::Tadmor { advancing, receding }
     } else {
-        let [receding, advancing] = angle_window(checker, &at, raw.hysteresis.as_ref()?)?;
+        let [receding, advancing] = hysteresis_range(checker, &at, raw.hysteresis.as_ref()?)?;
         WettingModel::Hysteresis { advancing, receding }
     };
     if tension == Some(0.0) {
-        let key = if model.has_window() { "advancing-angle-deg" } else { "contact-angle-deg" };
+        let key = if model.has_hysteresis() { "advancing-angle-deg" } else { "contact-angle-deg" };
         checker.refuse(
             format!("{at}.{key}"),
             "a contact angle needs a tension above 0",
@@ -82,7 +82,7 @@ pub(super) fn model(
 
 impl WettingModel {
     /// Whether it has an advancing and a receding angle in the place of a single one.
-    fn has_window(&self) -> bool {
+    fn has_hysteresis(&self) -> bool {
         matches!(self, Self::Tadmor { .. } | Self::Hysteresis { .. })
     }
 
@@ -113,7 +113,7 @@ fn contact_angle(checker: &mut Checker, at: &str, degrees: Option<f64>) -> Optio
     angle(checker, &format!("{at}.contact-angle-deg"), degrees, "contact-angle-deg = 40.0")
 }
 
-fn angle_window(checker: &mut Checker, at: &str, raw: &RawAngleWindow) -> Option<[f64; 2]> {
+fn hysteresis_range(checker: &mut Checker, at: &str, raw: &RawHysteresisRange) -> Option<[f64; 2]> {
     let path = |key: &str| format!("{at}.{key}-angle-deg");
     let advancing = angle(checker, &path("advancing"), raw.advancing_angle_deg, "advancing-angle-deg = 60.0");
     let receding = angle(checker, &path("receding"), raw.receding_angle_deg, "receding-angle-deg = 40.0");
@@ -192,14 +192,14 @@ pub(super) fn patches(
 /// Receding and advancing angle in rad; equal for models with a single one.
 fn patch_angles(checker: &mut Checker, at: &str, raw: &RawWettingPatch, model: WettingModel) -> Option<[f64; 2]> {
     let given = [
-        ("contact-angle-deg", raw.contact_angle_deg, !model.has_window()),
-        ("advancing-angle-deg", raw.advancing_angle_deg, model.has_window()),
-        ("receding-angle-deg", raw.receding_angle_deg, model.has_window()),
+        ("contact-angle-deg", raw.contact_angle_deg, !model.has_hysteresis()),
+        ("advancing-angle-deg", raw.advancing_angle_deg, model.has_hysteresis()),
+        ("receding-angle-deg", raw.receding_angle_deg, model.has_hysteresis()),
     ];
     for (key, value, fits) in given {
         if value.is_some() && !fits {
             let keys =
-                if model.has_window() { "advancing-angle-deg and receding-angle-deg" } else { "contact-angle-deg" };
+                if model.has_hysteresis() { "advancing-angle-deg and receding-angle-deg" } else { "contact-angle-deg" };
             checker.refuse(
                 format!("{at}.{key}"),
                 format!("the wetting model has no `{key}`"),
@@ -207,10 +207,12 @@ fn patch_angles(checker: &mut Checker, at: &str, raw: &RawWettingPatch, model: W
             );
         }
     }
-    if model.has_window() {
-        let window =
-            RawAngleWindow { advancing_angle_deg: raw.advancing_angle_deg, receding_angle_deg: raw.receding_angle_deg };
-        return angle_window(checker, at, &window);
+    if model.has_hysteresis() {
+        let range = RawHysteresisRange {
+            advancing_angle_deg: raw.advancing_angle_deg,
+            receding_angle_deg: raw.receding_angle_deg,
+        };
+        return hysteresis_range(checker, at, &range);
     }
     contact_angle(checker, at, raw.contact_angle_deg).map(|angle| [angle; 2])
 }
@@ -286,8 +288,8 @@ fn stripes(checker: &mut Checker, at: &str, raw: &RawStripes) -> Option<Stripes>
 pub(super) fn raw(model: &WettingModel, patches: &[WettingPatch]) -> RawWetting {
     let degrees = |angle: f64| Some(angle.to_degrees().clamp(0.0, 180.0));
     let single = |contact_angle| Some(RawContactAngle { contact_angle_deg: degrees(contact_angle) });
-    let window = |advancing, receding| {
-        Some(RawAngleWindow { advancing_angle_deg: degrees(advancing), receding_angle_deg: degrees(receding) })
+    let range = |advancing, receding| {
+        Some(RawHysteresisRange { advancing_angle_deg: degrees(advancing), receding_angle_deg: degrees(receding) })
     };
     let none = RawWetting {
         patches: (!patches.is_empty()).then(|| patches.iter().map(raw_patch).collect()),
@@ -297,9 +299,9 @@ pub(super) fn raw(model: &WettingModel, patches: &[WettingPatch]) -> RawWetting 
         WettingModel::Young { contact_angle } => RawWetting { young: single(contact_angle), ..none },
         WettingModel::Kistler { contact_angle } => RawWetting { kistler: single(contact_angle), ..none },
         WettingModel::Jiang { contact_angle } => RawWetting { jiang: single(contact_angle), ..none },
-        WettingModel::Tadmor { advancing, receding } => RawWetting { tadmor: window(advancing, receding), ..none },
+        WettingModel::Tadmor { advancing, receding } => RawWetting { tadmor: range(advancing, receding), ..none },
         WettingModel::Hysteresis { advancing, receding } => {
-            RawWetting { hysteresis: window(advancing, receding), ..none }
+            RawWetting { hysteresis: range(advancing, receding), ..none }
         }
         WettingModel::LineFriction { contact_angle, friction } => RawWetting {
             line_friction: Some(RawLineFriction {
@@ -331,7 +333,7 @@ fn raw_patch(patch: &WettingPatch) -> RawWettingPatch {
     let degrees = |angle: f64| Some(angle.to_degrees().clamp(0.0, 180.0));
     let [receding, advancing] = patch.model.angles();
     let names = [RawSideName::Left, RawSideName::Right, RawSideName::Bottom, RawSideName::Top];
-    let two = patch.model.has_window();
+    let two = patch.model.has_hysteresis();
     RawWettingPatch {
         shape: match patch.on {
             PatchedWall::Shape(shape) => Some(shape),

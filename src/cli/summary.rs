@@ -140,9 +140,9 @@ fn push_numbers(text: &mut String, report: &Report) {
 mod tests {
     use super::*;
     use crate::run::execute::{Job, Mode, execute};
+    use crate::run::mock::{MockSolver, case};
     use crate::run::report::Motion;
     use crate::run::simulation::Unwatched;
-    use crate::run::toy::{ToySolver, case};
 
     #[test]
     fn the_summary_shows_both_angles_measures_and_files() {
@@ -152,7 +152,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let job = Job { case: &case, resolved: "", folder: folder.path().to_path_buf(), mode: Mode::New };
         let never = std::sync::atomic::AtomicBool::new(false);
-        let mut finished = execute(&job, &mut ToySolver::new(), &never, &mut Unwatched).unwrap();
+        let mut finished = execute(&job, &mut MockSolver::new(), &never, &mut Unwatched).unwrap();
         assert!(summary(&finished).contains("requested 40.0 deg, not measured\n"));
         let none =
             Reading { value: None, unit: "deg".into(), uncertainty: None, method: "no line".into(), not_at_rest: None };

@@ -232,7 +232,7 @@ impl Body {
             Place::In
         } else {
             match self.curves.nearest(x) {
-                Some((curve, foot)) => Place::On(curve.normal(foot.u)),
+                Some((curve, closest)) => Place::On(curve.normal(closest.u)),
                 None => Place::Out,
             }
         }
@@ -262,9 +262,9 @@ impl Inside {
                 // Parry divides by zero at the center of a ball.
                 if distance.is_nan() { sign * curves.distance(x) } else { sign * distance }
             }
-            Self::Chain(chain) => {
-                chain.nearest(x).map_or(f64::INFINITY, |(curve, foot)| (x - foot.point).dot(&curve.normal(foot.u)))
-            }
+            Self::Chain(chain) => chain
+                .nearest(x)
+                .map_or(f64::INFINITY, |(curve, closest)| (x - closest.point).dot(&curve.normal(closest.u))),
             Self::Wound(winding) => {
                 let sign = if winding.turns(x) > 0.5 { -1.0 } else { 1.0 };
                 sign * curves.distance(x)

@@ -5,7 +5,7 @@
 //! within overlapping solids is the distance to the true surface, not the least depth over the bodies.
 
 use crate::geometry::body::{Body, Place};
-use crate::geometry::curve::{Curve, Foot};
+use crate::geometry::curve::{ClosestPoint, Curve};
 use crate::geometry::intersect::meeting_places;
 use crate::geometry::tree::Tree;
 use crate::math::{Bounds, Vec2};
@@ -28,7 +28,7 @@ pub(crate) struct Nearest {
     /// Index of the piece.
     pub piece: usize,
     /// The point on it.
-    pub foot: Foot,
+    pub closest: ClosestPoint,
 }
 
 /// A set of pieces that can be searched.
@@ -182,8 +182,8 @@ impl Boundary {
     /// The nearest points to `x` of all pieces within `reach` (m).
     pub fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = Nearest> {
         self.tree.within(x, reach).filter_map(move |piece| {
-            let foot = self.pieces.get(piece)?.curve.project(x);
-            ((foot.point - x).norm() <= reach).then_some(Nearest { piece, foot })
+            let closest = self.pieces.get(piece)?.curve.project(x);
+            ((closest.point - x).norm() <= reach).then_some(Nearest { piece, closest })
         })
     }
 
@@ -196,7 +196,7 @@ impl Boundary {
         } else {
             self.tree.nearest(x, |piece| squared(&self.pieces[piece])).map(|(piece, _)| piece)
         }?;
-        Some(Nearest { piece, foot: self.pieces[piece].curve.project(x) })
+        Some(Nearest { piece, closest: self.pieces[piece].curve.project(x) })
     }
 }
 

@@ -3,12 +3,12 @@
 //! At closest points within both curves the segment between them is normal to both: it lies on the line through the centers of two arcs,
 //! or on the normal of a segment through the center of an arc. Else one of them is an end of its curve.
 
-use crate::geometry::curve::{Curve, Foot};
+use crate::geometry::curve::{ClosestPoint, Curve};
 use crate::math::Vec2;
 
 /// The closest points of two curves that do not cross, the first one on `one`.
 #[must_use]
-pub fn closest_points(one: &Curve, other: &Curve) -> [Foot; 2] {
+pub fn closest_points(one: &Curve, other: &Curve) -> [ClosestPoint; 2] {
     let from_one = |x: Vec2| {
         let p = one.project(x);
         [p, other.project(p.point)]
@@ -20,7 +20,7 @@ pub fn closest_points(one: &Curve, other: &Curve) -> [Foot; 2] {
     // Any point of either curve with the nearest one of the other is a candidate; the closest pair is among these.
     let mut best = from_one(one.point(0.0));
     let mut least = squared_distance(&best);
-    let mut offer = |pair: [Foot; 2]| {
+    let mut offer = |pair: [ClosestPoint; 2]| {
         let distance = squared_distance(&pair);
         if distance < least {
             (best, least) = (pair, distance);
@@ -43,7 +43,7 @@ pub fn closest_points(one: &Curve, other: &Curve) -> [Foot; 2] {
     best
 }
 
-fn squared_distance([p, q]: &[Foot; 2]) -> f64 {
+fn squared_distance([p, q]: &[ClosestPoint; 2]) -> f64 {
     (p.point - q.point).norm_squared()
 }
 

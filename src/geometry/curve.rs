@@ -31,7 +31,7 @@ pub enum Curve {
 
 /// The nearest point of a curve.
 #[derive(Debug, Clone, Copy)]
-pub struct Foot {
+pub struct ClosestPoint {
     /// Parameter, 0 to 1; exactly 0 or 1 where the nearest point is an end.
     pub u: f64,
     /// Position in m.
@@ -132,7 +132,7 @@ impl Curve {
     }
 
     /// The nearest point to `x`. At the center of an arc all its points are nearest: the middle is returned.
-    pub fn project(&self, x: Vec2) -> Foot {
+    pub fn project(&self, x: Vec2) -> ClosestPoint {
         #[cfg(test)]
         work::count();
         match *self {
@@ -141,23 +141,23 @@ impl Curve {
                 let u = ((x - a).dot(&d) / d.norm_squared()).clamp(0.0, 1.0);
                 // An exact end keeps shared vertices recognizable.
                 let point = if u == 1.0 { b } else { a + d * u };
-                Foot { u, point }
+                ClosestPoint { u, point }
             }
             Self::Arc { center, radius, start, sweep } => {
                 let r = x - center;
                 let distance = r.norm();
                 if distance == 0.0 {
-                    return Foot { u: 0.5, point: self.point(0.5) };
+                    return ClosestPoint { u: 0.5, point: self.point(0.5) };
                 }
                 let angle = r.y.atan2(r.x);
                 let turned = ((angle - start) * sweep.signum()).rem_euclid(TAU) / sweep.abs();
                 if turned <= 1.0 {
-                    return Foot { u: turned, point: center + r * (radius / distance) };
+                    return ClosestPoint { u: turned, point: center + r * (radius / distance) };
                 }
                 // The end that is closer is the one under the smaller angle.
                 let (past_end, before_start) = (turned - 1.0, TAU / sweep.abs() - turned);
                 let u = if before_start <= past_end { 0.0 } else { 1.0 };
-                Foot { u, point: self.point(u) }
+                ClosestPoint { u, point: self.point(u) }
             }
         }
     }
@@ -299,8 +299,8 @@ mod tests {
     #[test]
     fn the_nearest_point_of_an_arc_may_be_an_end() {
         let arc = Curve::Arc { center: Vec2::zeros(), radius: 1.0, start: 0.0, sweep: TAU / 4.0 };
-        let foot = arc.project(Vec2::new(0.5, -1.0));
-        assert_eq!(foot.u, 0.0);
-        assert!((foot.point - Vec2::x()).norm() < 1e-15);
+        let closest = arc.project(Vec2::new(0.5, -1.0));
+        assert_eq!(closest.u, 0.0);
+        assert!((closest.point - Vec2::x()).norm() < 1e-15);
     }
 }

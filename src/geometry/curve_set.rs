@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use crate::geometry::curve::{Curve, Foot};
+use crate::geometry::curve::{ClosestPoint, Curve};
 use crate::geometry::tree::Tree;
 use crate::math::{Bounds, Vec2};
 
@@ -42,7 +42,7 @@ impl CurveSet {
     }
 
     /// The nearest curve to `x` and the nearest point on it; of curves equally near the first.
-    pub fn nearest(&self, x: Vec2) -> Option<(&Curve, Foot)> {
+    pub fn nearest(&self, x: Vec2) -> Option<(&Curve, ClosestPoint)> {
         let Some(tree) = &self.tree else { return nearest_of(self.curves.iter(), x) };
         let (_, squared) = tree.nearest(x, |index| (self.curves[index].project(x).point - x).norm_squared())?;
         let mut as_near: Vec<usize> = tree.within(x, squared.sqrt()).collect();
@@ -52,7 +52,7 @@ impl CurveSet {
 
     /// Distance of `x` from the nearest curve in m; infinite where there is none.
     pub fn distance(&self, x: Vec2) -> f64 {
-        self.nearest(x).map_or(f64::INFINITY, |(_, foot)| (foot.point - x).norm())
+        self.nearest(x).map_or(f64::INFINITY, |(_, closest)| (closest.point - x).norm())
     }
 
     /// The curves shifted by `by` in m.
@@ -70,7 +70,7 @@ impl CurveSet {
     }
 }
 
-fn nearest_of<'a>(curves: impl Iterator<Item = &'a Curve>, x: Vec2) -> Option<(&'a Curve, Foot)> {
+fn nearest_of<'a>(curves: impl Iterator<Item = &'a Curve>, x: Vec2) -> Option<(&'a Curve, ClosestPoint)> {
     curves
         .map(|curve| (curve, curve.project(x)))
         .min_by(|a, b| (a.1.point - x).norm_squared().total_cmp(&(b.1.point - x).norm_squared()))

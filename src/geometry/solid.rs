@@ -322,15 +322,15 @@ impl Geometry {
         if others.is_empty() { None } else { sum.try_normalize(CANCELED) }
     }
 
-    pub(crate) fn wall_at(&self, x: Vec2, Nearest { piece, foot }: Nearest) -> Wall {
+    pub(crate) fn wall_at(&self, x: Vec2, Nearest { piece, closest }: Nearest) -> Wall {
         let curve = &self.boundary.pieces[piece].curve;
         let shape = self.boundary.pieces[piece].shape;
-        let offset = x - foot.point;
-        let flat = curve.normal(foot.u);
-        if curve.is_closed() || (foot.u > 0.0 && foot.u < 1.0) {
+        let offset = x - closest.point;
+        let flat = curve.normal(closest.u);
+        if curve.is_closed() || (closest.u > 0.0 && closest.u < 1.0) {
             return Wall { distance: offset.dot(&flat), normal: flat, shape };
         }
-        let corner = self.boundary.corners[piece][usize::from(foot.u > 0.5)];
+        let corner = self.boundary.corners[piece][usize::from(closest.u > 0.5)];
         let distance = offset.norm();
         // So near to the corner the direction is lost to rounding.
         const AT_CORNER: f64 = 1e-3;

@@ -11,6 +11,8 @@ pub mod compare;
 pub mod drift;
 pub mod execute;
 pub mod folder;
+#[cfg(test)]
+pub(crate) mod mock;
 pub mod numbers;
 pub mod processor_time;
 pub mod report;
@@ -19,7 +21,5 @@ pub mod setup;
 pub mod simulation;
 pub mod sink;
 pub mod steady;
-#[cfg(test)]
-pub(crate) mod toy;
 pub mod trial;
 mod writer;

@@ -99,12 +99,12 @@ fn memory() -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::toy::{ToySolver, case};
+    use super::super::mock::{MockSolver, case};
     use super::*;
 
     #[test]
     fn a_trial_counts_the_steps_that_are_left() {
-        let found = trial(&case(), &mut ToySolver::new(), &mut |_| {}).unwrap();
+        let found = trial(&case(), &mut MockSolver::new(), &mut |_| {}).unwrap();
         // The toy takes steps of 0.0234 s through 1 s.
         assert_eq!((found.unknowns, found.steps), (36, 43.0));
         assert!(found.duration_s > 0.0);
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn a_solver_that_fails_at_once_is_told() {
-        let mut solver = ToySolver::new();
+        let mut solver = MockSolver::new();
         solver.fails_after = Some(2);
         assert!(trial(&case(), &mut solver, &mut |_| {}).is_err());
     }
@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn steps_that_take_long_are_tried_once_and_tell_as_much() {
         for (patience, steps) in [(f64::INFINITY, 5), (0.0, 1)] {
-            let (mut solver, mut told) = (ToySolver::new(), Vec::new());
+            let (mut solver, mut told) = (MockSolver::new(), Vec::new());
             let found = trial_within(&case(), &mut solver, patience, &mut |share| told.push(share)).unwrap();
             assert_eq!((solver.steps(), found.steps), (steps, 43.0));
             assert_eq!(told[..2], [0.0, 0.2]);

@@ -103,8 +103,8 @@ fn write_all(
 
 #[cfg(test)]
 mod tests {
+    use super::super::mock::MockSolver;
     use super::super::sink::vtk_sinks;
-    use super::super::toy::ToySolver;
     use super::*;
     use crate::io::atomic;
     use crate::io::journal::Mark;
@@ -123,7 +123,7 @@ mod tests {
     #[test]
     fn records_are_written_in_their_order_and_all_before_the_end() {
         let folder = tempfile::tempdir().unwrap();
-        let (mut writer, mut solver) = (writer(folder.path()), ToySolver::new());
+        let (mut writer, mut solver) = (writer(folder.path()), MockSolver::new());
         for step in 0..5 {
             writer.write(Record::Frame(Box::new(Frame::of(&solver)))).unwrap();
             writer.write(state(step)).unwrap();
@@ -139,7 +139,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         atomic::write(&folder.path().join("grid"), b"").unwrap();
         let mut writer = writer(folder.path());
-        let mut told = writer.write(Record::Frame(Box::new(Frame::of(&ToySolver::new()))));
+        let mut told = writer.write(Record::Frame(Box::new(Frame::of(&MockSolver::new()))));
         for step in 0..5 {
             told = told.and_then(|()| writer.write(state(step)));
         }

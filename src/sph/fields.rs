@@ -3,7 +3,7 @@
 //! Everything here is a function of the particles alone, so that a resumed run finds the same bits.
 
 use crate::math::Vec2;
-use crate::sph::boundary::carry;
+use crate::sph::boundary::shepard;
 use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::images::Images;
 use crate::sph::method::Method;
@@ -70,7 +70,7 @@ pub struct Fields {
     /// The contact lines now: the state of the next step.
     pub lines: Vec<Line>,
     /// Receding and advancing angle in rad of the wall next to each fluid particle, NaN where none is in reach.
-    pub wall_window: Vec<[f64; 2]>,
+    pub wall_hysteresis: Vec<[f64; 2]>,
 }
 
 impl Fields {
@@ -95,7 +95,7 @@ impl Fields {
         self.density.clear();
         self.density.extend((0..n).map(|a| if a < moving { mass(a) / self.volume[a] } else { method.mean_density() }));
         images.extend(&mut self.density);
-        carry::into_walls(pairs, &self.fluid_volume, moving, &mut self.density);
+        shepard::into_walls(pairs, &self.fluid_volume, moving, &mut self.density);
         images.extend(&mut self.density);
         self.viscosity.clear();
         self.viscosity
@@ -205,7 +205,7 @@ impl Fields {
             weight: &weight,
         };
         let found = LineParticles::find((pairs, images), &fields, &method.kernel, fluids);
-        let seen = found.sightings(&fields, place.domain);
+        let seen = found.detected_lines(&fields, place.domain);
         self.contact_lines = found.count();
         self.lines = place.following(method, |following| following.follow(lines, &seen, dt));
         let angles: Vec<f64> = self.lines.iter().map(|line| line.angle).collect();
@@ -247,12 +247,12 @@ impl Fields {
         let lengths = (method.spacing, method.kernel.h);
         let points = interface_points((pairs, images), domain, &fields, moving, lengths);
         let mut fit = InterfaceFit::new(&points, domain, lengths, place.wall).under(method.curvature_gradient());
-        let mut bends = Vec::new();
+        let mut pinned = Vec::new();
         if method.wetting.is_some() {
             let seen = fit.lines();
             self.contact_lines = seen.len();
             self.lines = place.following(method, |following| following.follow(lines, &seen, dt));
-            bends.extend(seen.iter().zip(&self.lines).filter_map(|(line, now)| line.bend(now.angle)));
+            pinned.extend(seen.iter().zip(&self.lines).filter_map(|(line, now)| line.pinned(now.angle)));
         }
         let lines = &self.lines;
         let angle_at = |x: Vec2, outward: Vec2| {
@@ -263,10 +263,10 @@ impl Fields {
             line.map_or_else(|| model.static_angle(), |line| line.angle)
         };
         if method.wetting.is_some() {
-            fit = fit.held_to(&angle_at).with_bends(&bends);
+            fit = fit.held_to(&angle_at).with_pinned_lines(&pinned);
         }
         let mut side = sharp.to_vec();
-        carry::into_walls(pairs, &self.fluid_volume, moving, &mut side);
+        shepard::into_walls(pairs, &self.fluid_volume, moving, &mut side);
         let mut jump = Jump::default();
         let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
         let curvature_at = |x: Vec2| given.or_else(|| fit.curvature(x));
@@ -275,11 +275,11 @@ impl Fields {
             *kappa = if found.is_nan() { 0.0 } else { *found };
         }
         self.jump = Some(jump);
-        let window = |a: usize| {
+        let range = |a: usize| {
             let model = if self.wall_distance[a].is_finite() { place.spots.model(method, position[a]) } else { None };
-            model.map_or([f64::NAN; 2], |model| model.window())
+            model.map_or([f64::NAN; 2], |model| model.hysteresis_range())
         };
-        self.wall_window = (0..fluids).map(window).collect();
+        self.wall_hysteresis = (0..fluids).map(range).collect();
     }
 }
 

@@ -15,7 +15,7 @@ const LARGEST_SYMMETRIC_RATIO: f64 = 5.0;
 const LARGEST_WEIGHTED_RATIO: f64 = 20.0;
 
 /// The drift source has its full rate where the fastest particle goes this far, over dx, in its time.
-const FULL_DRIFT_WAY: f64 = 0.005;
+const FULL_CORRECTION_WAY: f64 = 0.005;
 
 /// Forms of the pressure gradient, see `terms::pressure_gradient`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -160,9 +160,9 @@ impl Method {
     /// Density errors come with motion. Where hardly anything moves, to push for errors that are there would be what moves the particles.
     /// And they come in time, not in steps: a light gas, whose viscosity asks for short steps, must not be pushed in every one as hard.
     #[must_use]
-    pub fn drift_rate(&self, fastest: f64) -> f64 {
+    pub fn density_correction_rate(&self, fastest: f64) -> f64 {
         let tau = self.drift_time(fastest);
-        self.drift_source / tau * (fastest * tau / (FULL_DRIFT_WAY * self.spacing)).min(1.0)
+        self.drift_source / tau * (fastest * tau / (FULL_CORRECTION_WAY * self.spacing)).min(1.0)
     }
 
     /// ∇κ = (ρ_w − ρ_n) g/σ in 1/m² of an interface at rest, κ positive where the wetting phase is convex (Young and Laplace).

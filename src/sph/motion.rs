@@ -5,7 +5,7 @@ use crate::solver::{SolverError, StepInfo};
 use crate::sph::pairs::largest;
 use crate::sph::particles::Phase;
 use crate::sph::projection::{Flow, Predicted, Response};
-use crate::sph::terms::sharpening::Strays;
+use crate::sph::terms::sharpening::Sharpening;
 use crate::sph::terms::shifting;
 
 /// A particle that moves farther than this share of h in a step has run away.
@@ -76,16 +76,16 @@ impl Flow {
             shifting::shift(&self.uneven(), diffusion, m.kernel.h, &mut by);
         }
         if let Some(jump) = &f.jump {
-            let strays = Strays {
+            let strays = Sharpening {
                 side: &jump.side,
                 normal: &f.normal,
                 fluid_volume: &f.fluid_volume,
                 wall_distance: &f.wall_distance,
                 wall_normal: &f.wall_normal,
                 weight: (m.wetting_fluid.density - m.other_fluid.density) / m.mean_density() * m.gravity,
-                wall_window: &f.wall_window,
+                wall_hysteresis: &f.wall_hysteresis,
             };
-            strays.send_back(&self.pairs, m.kernel.h, (m.capillary_speed(), dt), &mut by);
+            strays.displace(&self.pairs, m.kernel.h, (m.capillary_speed(), dt), &mut by);
         } else if diffusion == 0.0 {
             return;
         }

@@ -10,7 +10,7 @@ mod band;
 
 use self::band::Band;
 use crate::geometry::Geometry;
-use crate::geometry::shells::UnfittedSurface;
+use crate::geometry::offset_curves::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
@@ -172,8 +172,13 @@ impl Packing<'_> {
         let ones = vec![1.0; volume.len()];
         assemble(&mut solve.matrix, (pairs, images), &volume, &ones, |_, _| true);
         let part = parts(pairs, images, |_, _| true);
-        let unknowns =
-            Unknowns { position: &points[..n], kind: &vec![0; n], part: &part, anchored: &[], spacing: self.spacing };
+        let unknowns = Unknowns {
+            position: &points[..n],
+            kind: &vec![0; n],
+            part: &part,
+            has_dirichlet: &[],
+            spacing: self.spacing,
+        };
         let mut potential = vec![0.0; n];
         // What the solve leaves over, the next round takes.
         let system = System { b: &mut source, x: &mut potential, tolerance: TOLERANCE };

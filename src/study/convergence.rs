@@ -135,7 +135,7 @@ pub fn all(study: &Study, results: &[RunResult]) -> Vec<Convergence> {
 mod tests {
     use toml::Value;
 
-    use super::super::toy::{complete, study};
+    use super::super::mock::{complete, study};
     use super::super::verdict::{Verdict, judgments};
     use super::*;
 

@@ -186,7 +186,7 @@ fn draw<'a>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::toy::{complete, study};
+    use super::super::mock::{complete, study};
     use super::*;
 
     #[test]

@@ -16,6 +16,8 @@ pub mod execute;
 pub mod folder;
 pub mod load;
 mod measured;
+#[cfg(test)]
+mod mock;
 mod names;
 pub mod page;
 pub mod raw;
@@ -24,8 +26,6 @@ pub mod results;
 pub mod runs;
 pub mod slurm;
 pub mod table;
-#[cfg(test)]
-mod toy;
 pub mod values;
 pub mod verdict;
 

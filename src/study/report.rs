@@ -112,8 +112,8 @@ fn unknown(study: &Study, results: &[RunResult]) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::mock::{complete, study};
     use super::super::results::Standing;
-    use super::super::toy::{complete, study};
     use super::*;
 
     #[test]

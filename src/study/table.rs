@@ -114,8 +114,8 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
+    use super::super::mock::{complete, study};
     use super::super::results::Standing;
-    use super::super::toy::{complete, study};
     use super::*;
 
     #[test]

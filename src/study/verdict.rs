@@ -135,7 +135,7 @@ pub fn significant(number: f64, digits: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::toy::{complete, study};
+    use super::super::mock::{complete, study};
     use super::*;
 
     #[test]

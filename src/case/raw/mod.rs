@@ -38,7 +38,7 @@ pub use sph::{
     RawSph, RawSurfaceForce, RawTaylorGreen, RawVelocity, RawViscousStep, RawViscousTerm, RawWalls,
 };
 pub use wetting::{
-    RawAngleWindow, RawAxis, RawContactAngle, RawCoxVoinov, RawLineFriction, RawMolecularKinetic, RawStripes,
+    RawAxis, RawContactAngle, RawCoxVoinov, RawHysteresisRange, RawLineFriction, RawMolecularKinetic, RawStripes,
     RawWetting, RawWettingPatch,
 };
 

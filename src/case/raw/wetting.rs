@@ -11,7 +11,7 @@ tables! {
         /// Static angle by the unbalanced Young force (Huber et al. 2013, Eqs. 7 and 23).
         pub young: RawContactAngle,
         /// Static angle from the advancing and the receding one (Tadmor 2004).
-        pub tadmor: RawAngleWindow,
+        pub tadmor: RawHysteresisRange,
         /// Contact line friction (Brochard-Wyart and de Gennes 1992).
         pub line_friction: RawLineFriction,
         /// Molecular kinetic theory (Blake and Haynes 1969).
@@ -23,7 +23,7 @@ tables! {
         /// Fit of Hoffman's data (Jiang, Oh and Slattery 1979).
         pub jiang: RawContactAngle,
         /// Contact lines pinned between the receding and the advancing angle.
-        pub hysteresis: RawAngleWindow,
+        pub hysteresis: RawHysteresisRange,
         /// Parts of the walls with angles of their own, in the same model; later ones override earlier ones.
         pub patches: Vec<RawWettingPatch>,
     }
@@ -35,7 +35,7 @@ tables! {
     }
 
     /// Two contact angles.
-    pub struct RawAngleWindow {
+    pub struct RawHysteresisRange {
         /// Advancing contact angle in degrees.
         pub advancing_angle_deg: f64,
         /// Receding contact angle in degrees, 0 to the advancing one.

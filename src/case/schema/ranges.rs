@@ -36,7 +36,7 @@ fn number(value: f64) -> Value {
 
 /// Tables, by the name of their type, their keys and the ranges of these.
 pub(super) const RANGES: [(&str, &str, Range); 63] = [
-    ("RawAngleWindow", "advancing-angle-deg", Within(0.0, 180.0)),
+    ("RawHysteresisRange", "advancing-angle-deg", Within(0.0, 180.0)),
     ("RawContactAngle", "contact-angle-deg", Within(0.0, 180.0)),
     ("RawCoxVoinov", "contact-angle-deg", Within(0.0, 180.0)),
     ("RawCoxVoinov", "slip-length", Above(0.0)),

@@ -90,9 +90,9 @@ fn divide(walls: &Walls, k: usize, [from, to]: [f64; 2], density: f64, found: &m
     if length > FLOOR * walls.tolerance {
         let (x, normal) = (wall.curve.point(middle), wall.curve.normal(middle));
         let neighbors = [wall.next, wall.before];
-        let faces = walls.any_within(x, 0.5 * length * density, |image, foot| {
+        let faces = walls.any_within(x, 0.5 * length * density, |image, closest| {
             let is_neighbor = |link: &Option<Link>| link.is_some_and(|link| (link.wall, link.shift) == image);
-            image != (k, [0, 0]) && !neighbors.iter().any(is_neighbor) && (foot - x).dot(&normal) > walls.tolerance
+            image != (k, [0, 0]) && !neighbors.iter().any(is_neighbor) && (closest - x).dot(&normal) > walls.tolerance
         });
         if faces {
             divide(walls, k, [from, middle], density, found);

@@ -195,10 +195,10 @@ fn passes(walls: &Walls, axis: &Curve, from: &Opposite, is_first: bool) -> Optio
     images
         .map(|shift| begin + walls.offset(shift))
         .filter_map(|x| {
-            let foot = axis.project(x);
+            let closest = axis.project(x);
             // The point at which the axis begins is also the end of a circle.
-            let u = if is_first && foot.u * axis.length() <= near && axis.is_closed() { 1.0 } else { foot.u };
-            let counts = (foot.point - x).norm() <= near && (!is_first || u * axis.length() > near);
+            let u = if is_first && closest.u * axis.length() <= near && axis.is_closed() { 1.0 } else { closest.u };
+            let counts = (closest.point - x).norm() <= near && (!is_first || u * axis.length() > near);
             counts.then_some(u)
         })
         .min_by(f64::total_cmp)

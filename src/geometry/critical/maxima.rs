@@ -30,9 +30,9 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
     let mut of = triple.walls;
     let mut x = triple.start;
     for _ in 0..EXCHANGES {
-        let (center, feet) = equidistant(walls, &of, x)?;
+        let (center, closest_points) = equidistant(walls, &of, x)?;
         x = center;
-        let radius = (feet[0] - x).norm();
+        let radius = (closest_points[0] - x).norm();
         if !walls.is_within(x) || radius <= walls.tolerance {
             return None;
         }
@@ -42,7 +42,7 @@ pub(crate) fn maximum(walls: &Walls, triple: &Triple) -> Option<Maximum> {
         }
         // The nearer wall takes the place of the one beside it.
         let v = nearest.point - x;
-        let beside = |i: &usize| -(feet[*i] - x).dot(&v) / (feet[*i] - x).norm();
+        let beside = |i: &usize| -(closest_points[*i] - x).dot(&v) / (closest_points[*i] - x).norm();
         let replaced = (0..3).min_by(|i, j| beside(i).total_cmp(&beside(j)))?;
         if of[replaced] == (nearest.wall, nearest.shift) {
             return None;
@@ -94,12 +94,12 @@ fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(
     let farthest = walls.domain.size().norm();
     let begin = x;
     for _ in 0..NEWTON_STEPS {
-        let feet = of.map(|wall| foot(walls, of, wall, x));
-        let d = feet.map(|foot| (x - foot).norm());
+        let closest_points = of.map(|wall| closest(walls, of, wall, x));
+        let d = closest_points.map(|closest| (x - closest).norm());
         if d.contains(&0.0) {
             return None;
         }
-        let away: Vec<Vec2> = (0..3).map(|i| (x - feet[i]) / d[i]).collect();
+        let away: Vec<Vec2> = (0..3).map(|i| (x - closest_points[i]) / d[i]).collect();
         let (r, s) = (away[1] - away[0], away[2] - away[0]);
         let determinant = r.x * s.y - r.y * s.x;
         let (e, f) = (d[0] - d[1], d[0] - d[2]);
@@ -115,27 +115,27 @@ fn equidistant(walls: &Walls, of: &[(usize, Shift); 3], mut x: Vec2) -> Option<(
             return None;
         }
         if length <= 1e-15 * farthest + 1e-14 * d[0] {
-            let feet = of.map(|wall| foot(walls, of, wall, x));
-            return Some((x, feet));
+            let closest_points = of.map(|wall| closest(walls, of, wall, x));
+            return Some((x, closest_points));
         }
     }
-    let feet = of.map(|wall| foot(walls, of, wall, x));
-    let d = feet.map(|foot| (x - foot).norm());
+    let closest_points = of.map(|wall| closest(walls, of, wall, x));
+    let d = closest_points.map(|closest| (x - closest).norm());
     let spread = d.iter().fold(0.0_f64, |most, other| most.max((other - d[0]).abs()));
-    (spread <= slack(walls, d[0])).then_some((x, feet))
+    (spread <= slack(walls, d[0])).then_some((x, closest_points))
 }
 
 /// The nearest point of a piece or of the one before it, which shares its first vertex, unless that is one of the three itself.
-fn foot(walls: &Walls, of: &[(usize, Shift); 3], (wall, shift): (usize, Shift), x: Vec2) -> Vec2 {
+fn closest(walls: &Walls, of: &[(usize, Shift); 3], (wall, shift): (usize, Shift), x: Vec2) -> Vec2 {
     let curve = walls.curve(wall, shift);
-    let foot = curve.project(x);
+    let closest = curve.project(x);
     let before = walls.walls[wall].before.map(|before| (before.wall, plus(shift, before.shift)));
-    match before.filter(|before| foot.u == 0.0 && !of.contains(before)) {
+    match before.filter(|before| closest.u == 0.0 && !of.contains(before)) {
         Some(before) => {
             let other = walls.curve(before.0, before.1).project(x).point;
-            if (other - x).norm_squared() < (foot.point - x).norm_squared() { other } else { foot.point }
+            if (other - x).norm_squared() < (closest.point - x).norm_squared() { other } else { closest.point }
         }
-        None => foot.point,
+        None => closest.point,
     }
 }
 

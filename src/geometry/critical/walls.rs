@@ -189,14 +189,14 @@ impl Walls {
     pub fn nearest(&self, x: Vec2) -> Option<(f64, Contact)> {
         let (y, shift) = self.wrapped(x);
         let found = self.index.nearest(y)?;
-        let contact = self.contact(found.piece, found.foot.u, found.foot.point, shift);
+        let contact = self.contact(found.piece, found.closest.u, found.closest.point, shift);
         Some(((contact.point - x).norm(), contact))
     }
 
     /// The distance of the nearest wall from `x` in m; infinite where there is none.
     pub fn distance(&self, x: Vec2) -> f64 {
         let y = self.wrapped(x).0;
-        self.index.nearest(y).map_or(f64::INFINITY, |found| (found.foot.point - y).norm())
+        self.index.nearest(y).map_or(f64::INFINITY, |found| (found.closest.point - y).norm())
     }
 
     /// The nearest points of all pieces within `reach` (m) of `x`, in the order of their pieces; each vertex once.
@@ -204,7 +204,7 @@ impl Walls {
         let (y, shift) = self.wrapped(x);
         let within = self.index.within(y, reach);
         let mut found: Vec<Contact> =
-            within.map(|near| self.contact(near.piece, near.foot.u, near.foot.point, shift)).collect();
+            within.map(|near| self.contact(near.piece, near.closest.u, near.closest.point, shift)).collect();
         found.sort_by(|a, b| (a.wall, a.shift).cmp(&(b.wall, b.shift)).then(a.u.total_cmp(&b.u)));
         found.dedup_by(|a, b| (a.wall, a.shift, a.u) == (b.wall, b.shift, b.u));
         found
@@ -229,7 +229,7 @@ impl Walls {
         let back = self.offset(shift);
         self.index.within(y, reach).any(|near| {
             let (wall, own) = self.images[near.piece];
-            counts((wall, plus(own, shift)), near.foot.point + back)
+            counts((wall, plus(own, shift)), near.closest.point + back)
         })
     }
 

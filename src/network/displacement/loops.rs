@@ -6,7 +6,7 @@
 //! is left. The parts tile the region.
 
 use crate::geometry::closest::closest_points as closest;
-use crate::geometry::curve::{Curve, Foot, cross};
+use crate::geometry::curve::{ClosestPoint, Curve, cross};
 use crate::geometry::intersect::meeting_places;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
@@ -55,7 +55,7 @@ struct WallPoint {
 }
 
 impl WallPoint {
-    fn of(piece: usize, at: Foot) -> Self {
+    fn of(piece: usize, at: ClosestPoint) -> Self {
         Self { piece, u: at.u, point: at.point }
     }
 }

@@ -139,9 +139,9 @@ impl WallChains {
         for (i, j) in shifts(0).iter().flat_map(|&i| shifts(1).iter().map(move |&j| (i, j))) {
             let x = x + Vec2::new(i * size.x, j * size.y);
             let Some(nearest) = self.boundary.nearest(x) else { continue };
-            let distance = (nearest.foot.point - x).norm();
+            let distance = (nearest.closest.point - x).norm();
             if best.is_none_or(|(least, ..)| distance < least) {
-                best = Some((distance, nearest.piece, nearest.foot.u));
+                best = Some((distance, nearest.piece, nearest.closest.u));
             }
         }
         best.filter(|(distance, ..)| *distance <= ON_WALL * size.max()).map(|(_, piece, u)| (piece, u))

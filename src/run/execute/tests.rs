@@ -1,6 +1,6 @@
 //! Runs of a toy solver: files, resuming, failures and folders.
 
-use super::super::toy::{Interrupter, ToySolver, case};
+use super::super::mock::{Interrupter, MockSolver, case};
 use super::files::files;
 use super::*;
 use crate::case::checked::SteadyStop;
@@ -12,7 +12,7 @@ fn job<'a>(case: &'a Case, folder: &Path, mode: Mode) -> Job<'a> {
 
 fn run(case: &Case, folder: &Path, mode: Mode) -> Result<Finished, RunError> {
     let never = AtomicBool::new(false);
-    execute(&job(case, folder, mode), &mut ToySolver::new(), &never, &mut Unwatched)
+    execute(&job(case, folder, mode), &mut MockSolver::new(), &never, &mut Unwatched)
 }
 
 fn json(folder: &Path) -> serde_json::Value {
@@ -60,7 +60,7 @@ fn a_broken_and_resumed_run_leaves_the_same_bytes_as_an_unbroken_one() {
         let interrupt = AtomicBool::new(false);
         let mut after = Interrupter { steps, interrupt: &interrupt };
         let broken =
-            execute(&job(&case(), folder.path(), Mode::New), &mut ToySolver::new(), &interrupt, &mut after).unwrap();
+            execute(&job(&case(), folder.path(), Mode::New), &mut MockSolver::new(), &interrupt, &mut after).unwrap();
         assert_eq!(broken.report.status, Status::Interrupted);
         assert_eq!(json(folder.path())["expectations"][0]["pass"], serde_json::Value::Null);
         let resumed = run(&case(), folder.path(), Mode::Resume).unwrap();
@@ -78,7 +78,7 @@ fn a_killed_run_resumes_from_its_last_saved_state_without_doubling_a_time() {
     // What a kill leaves: files that run ahead of the saved state, here by all that followed time zero.
     let early = tempfile::tempdir().unwrap();
     let interrupt = AtomicBool::new(true);
-    execute(&job(&case(), early.path(), Mode::New), &mut ToySolver::new(), &interrupt, &mut Unwatched).unwrap();
+    execute(&job(&case(), early.path(), Mode::New), &mut MockSolver::new(), &interrupt, &mut Unwatched).unwrap();
     std::fs::copy(early.path().join("restart/state.bin"), killed.path().join("restart/state.bin")).unwrap();
     run(&case(), killed.path(), Mode::Resume).unwrap();
     assert!(files(killed.path()) == files(unbroken.path()));
@@ -88,7 +88,7 @@ fn a_killed_run_resumes_from_its_last_saved_state_without_doubling_a_time() {
 fn a_run_killed_between_its_last_state_and_its_report_is_told_anew() {
     let folder = tempfile::tempdir().unwrap();
     let interrupt = AtomicBool::new(true);
-    execute(&job(&case(), folder.path(), Mode::New), &mut ToySolver::new(), &interrupt, &mut Unwatched).unwrap();
+    execute(&job(&case(), folder.path(), Mode::New), &mut MockSolver::new(), &interrupt, &mut Unwatched).unwrap();
     let old = std::fs::read(folder.path().join("report.json")).unwrap();
     run(&case(), folder.path(), Mode::Resume).unwrap();
     std::fs::write(folder.path().join("report.json"), old).unwrap();
@@ -134,7 +134,7 @@ fn a_broken_and_resumed_run_is_steady_at_the_same_moment() {
         let folder = tempfile::tempdir().unwrap();
         let (case, interrupt) = (steady_case(), AtomicBool::new(false));
         let mut after = Interrupter { steps, interrupt: &interrupt };
-        execute(&job(&case, folder.path(), Mode::New), &mut ToySolver::new(), &interrupt, &mut after).unwrap();
+        execute(&job(&case, folder.path(), Mode::New), &mut MockSolver::new(), &interrupt, &mut after).unwrap();
         assert_eq!(json(folder.path())["status"], "interrupted");
         assert!(!run(&case, folder.path(), Mode::Resume).unwrap().was_at_end);
         assert!(files(folder.path()) == files(unbroken.path()), "the bytes differ after a stop at step {steps}");
@@ -166,7 +166,7 @@ fn a_run_with_too_few_records_says_that_it_cannot_tell() {
 fn a_solver_that_fails_leaves_its_last_good_state_and_a_report() {
     let folder = tempfile::tempdir().unwrap();
     let never = AtomicBool::new(false);
-    let mut solver = ToySolver::new();
+    let mut solver = MockSolver::new();
     solver.fails_after = Some(13);
     let finished = execute(&job(&case(), folder.path(), Mode::New), &mut solver, &never, &mut Unwatched).unwrap();
     assert_eq!(finished.report.status, Status::Failed);
@@ -230,7 +230,7 @@ fn a_record_that_cannot_be_written_stops_the_run_with_a_report_that_says_so() {
     let mut spoiler = Spoiler(folder.path());
     let case = case();
     let job = job(&case, folder.path(), Mode::New);
-    let error = execute(&job, &mut ToySolver::new(), &never, &mut spoiler).unwrap_err().to_string();
+    let error = execute(&job, &mut MockSolver::new(), &never, &mut spoiler).unwrap_err().to_string();
     assert!(error.contains("grid") && error.contains("--out DIR"), "{error}");
     assert_eq!(json(folder.path())["status"], "failed");
     assert_eq!(json(folder.path())["error"], error);

@@ -2,7 +2,7 @@
 
 use super::lattice::each_with;
 use super::{CLOSEST, EQUAL, Lattice, Places, Region, SAMPLING, apart, deepest};
-use crate::geometry::shells::UnfittedSurface;
+use crate::geometry::offset_curves::UnfittedSurface;
 use crate::geometry::{Geometry, Wall};
 use crate::math::{Bounds, Vec2};
 use crate::sph::domain::Domain;
@@ -23,7 +23,7 @@ impl<'a> Interface<'a> {
     pub fn new(region: &'a Region, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
         let spacing = lattice.volume().sqrt();
         let surface = UnfittedSurface::new(region.surface(), 0.0, |a, b| lattice.fits(a, b))
-            .where_it(move |foot, normal| is_interface((foot, normal), pore, spacing));
+            .where_it(move |closest, normal| is_interface((closest, normal), pore, spacing));
         Self { region, pore, surface }
     }
 
@@ -77,7 +77,7 @@ impl<'a> Interface<'a> {
             };
             lattice.holds(x) && has_room()
         };
-        let lines = self.surface.shells(depth, SAMPLING * spacing, is_in_pore);
+        let lines = self.surface.offset_curves(depth, SAMPLING * spacing, is_in_pore);
         let points: Vec<Vec2> = lines.iter().flat_map(|line| line.every(spacing)).collect();
         apart(&points, domain, CLOSEST * spacing).into_iter().map(|a| points[a]).collect()
     }
@@ -104,19 +104,19 @@ impl<'a> Interface<'a> {
 
 /// Whether a point of a region's outline is interface: not deep in a wall or out of the box, and no side of the region that lies along one of
 /// these, as those of a rectangle from wall to wall.
-fn is_interface((foot, normal): (Vec2, Vec2), pore: &Geometry, spacing: f64) -> bool {
+fn is_interface((closest, normal): (Vec2, Vec2), pore: &Geometry, spacing: f64) -> bool {
     let lies_along = |distance: f64, wall: Vec2| {
         /// Cosine of the angle between two surfaces that are taken for one.
         const ALONG: f64 = 0.99;
         distance < -spacing || (distance.abs() < 0.5 * spacing && normal.dot(&wall).abs() > ALONG)
     };
     let Bounds { min, max } = pore.bounds();
-    let wall = pore.wall(foot);
+    let wall = pore.wall(closest);
     let sides = [
-        (foot.x - min.x, Vec2::x()),
-        (max.x - foot.x, Vec2::x()),
-        (foot.y - min.y, Vec2::y()),
-        (max.y - foot.y, Vec2::y()),
+        (closest.x - min.x, Vec2::x()),
+        (max.x - closest.x, Vec2::x()),
+        (closest.y - min.y, Vec2::y()),
+        (max.y - closest.y, Vec2::y()),
     ];
     !lies_along(wall.distance, wall.normal) && !sides.iter().any(|(distance, normal)| lies_along(*distance, *normal))
 }

@@ -42,7 +42,7 @@ impl Places {
     }
 }
 
-/// Distance between samples of a shell over the distance of particles.
+/// Distance between samples of an offset curve over the distance of particles.
 const SAMPLING: f64 = 1.0 / 16.0;
 
 /// Distances that differ by less than this share of the spacing are equal, as those of points in mirrored places.

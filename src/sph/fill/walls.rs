@@ -2,7 +2,7 @@
 
 use super::lattice::each_with;
 use super::{CLOSEST, EQUAL, Lattice, Places, SAMPLING, apart, deepest};
-use crate::geometry::shells::UnfittedSurface;
+use crate::geometry::offset_curves::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
 
@@ -37,7 +37,7 @@ pub fn along_walls(
     let extent = lattice.extent(support, walls);
     let mut depth = 0.5 * spacing;
     while depth < support {
-        let lines = unfitted.shells(depth, SAMPLING * spacing, |x| extent.contains(x));
+        let lines = unfitted.offset_curves(depth, SAMPLING * spacing, |x| extent.contains(x));
         lines.iter().flat_map(|line| line.every(spacing)).for_each(|x| places.push_wall(x, depth));
         depth += spacing;
     }

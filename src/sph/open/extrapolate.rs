@@ -1,4 +1,4 @@
-//! Fields of the fluid carried beyond an open side along its normal: value by moving least squares at a foot within the fluid.
+//! Fields of the fluid carried beyond an open side along its normal: value by moving least squares at an interior point within the fluid.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -9,24 +9,24 @@ use crate::sph::kernel::WendlandC2;
 use crate::sph::open::OpenSide;
 use crate::sph::particles::Particles;
 
-/// How far inside of the side the feet lie, over h: there the window of the fit has fluid on both sides.
+/// How far inside of the side the interior points lie, over h: there the stencil of the fit has fluid on both sides.
 const INSET: f64 = 1.0;
 
 /// Weights whose sizes sum to more than this would blow the noise of single particles up: the fit is not to be trusted.
 const LARGEST_SUM: f64 = 2.5;
 
-/// For each buffer particle of a pressure side the fluid particles around its foot, with weights that sum to one.
+/// For each buffer particle of a pressure side the fluid particles around its interior point, with weights that sum to one.
 #[derive(Debug, Clone, Default)]
-pub struct Feet {
+pub struct InteriorPoints {
     start: Vec<usize>,
     terms: Vec<(u32, f64)>,
 }
 
-impl Feet {
-    /// The feet of all buffer particles; those of sides with a given velocity have none.
+impl InteriorPoints {
+    /// The interior points of all buffer particles; those of sides with a given velocity have none.
     #[must_use]
     pub fn new(particles: &Particles, sides: &[OpenSide], domain: &Domain, kernel: &WendlandC2) -> Self {
-        let mut feet = Self { start: vec![0], terms: Vec::new() };
+        let mut interior = Self { start: vec![0], terms: Vec::new() };
         let reach = (2.0 * INSET + 1.0) * kernel.support();
         let is_near = |x: Vec2| sides.iter().any(|side| side.given_pressure().is_some() && -side.beyond(x) < reach);
         let fluid: Vec<u32> =
@@ -37,22 +37,22 @@ impl Feet {
         for b in particles.buffer() {
             let x = particles.position[b];
             if let Some(side) = sides.iter().find(|side| side.beyond(x) >= 0.0 && side.given_pressure().is_some()) {
-                let foot = side.placed(x, -INSET * kernel.h);
+                let inside = side.placed(x, -INSET * kernel.h);
                 near.clear();
-                cells.visit_near(foot, |i, r| {
+                cells.visit_near(inside, |i, r| {
                     let w = kernel.w(r.norm());
                     if w > 0.0 {
                         near.push((fluid[i as usize], w, -r / kernel.h));
                     }
                 });
-                feet.terms.extend(weights(&near, 1 - side.axis()));
+                interior.terms.extend(weights(&near, 1 - side.axis()));
             }
-            feet.start.push(feet.terms.len());
+            interior.start.push(interior.terms.len());
         }
-        feet
+        interior
     }
 
-    /// The value of `field` at the foot of the `i`-th buffer particle; none without fluid around it.
+    /// The value of `field` at the interior point of the `i`-th buffer particle; none without fluid around it.
     #[must_use]
     pub fn value(&self, i: usize, field: &[Vec2]) -> Option<Vec2> {
         let terms = &self.terms[self.start[i]..self.start[i + 1]];
@@ -62,7 +62,7 @@ impl Feet {
 
 /// Weights that give fields exactly that are linear along the normal and quadratic along the side: a plain or linear average would
 /// flatten a parabola, and the pressure would have to make up for the lost flow. Where the particles around do not allow that,
-/// linear ones, then those of the plain average. `r` from the foot over h.
+/// linear ones, then those of the plain average. `r` from the interior point over h.
 fn weights(near: &[(u32, f64, Vec2)], along: usize) -> Vec<(u32, f64)> {
     let sum: f64 = near.iter().map(|n| n.1).sum();
     let quadratic = |r: Vec2| Vector4::new(1.0, r[0], r[1], r[along] * r[along]);
@@ -72,7 +72,7 @@ fn weights(near: &[(u32, f64, Vec2)], along: usize) -> Vec<(u32, f64)> {
         .unwrap_or_else(|| near.iter().map(|&(a, w, _)| (a, w / sum)).collect())
 }
 
-/// The weights of the fit of a `basis` whose first function is 1 and whose others vanish at the foot.
+/// The weights of the fit of a `basis` whose first function is 1 and whose others vanish at the interior point.
 fn fitted(near: &[(u32, f64, Vec2)], sum: f64, basis: impl Fn(Vec2) -> Vector4<f64>) -> Option<Vec<(u32, f64)>> {
     let mut moments = Matrix4::zeros();
     for &(_, w, r) in near {

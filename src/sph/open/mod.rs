@@ -14,7 +14,7 @@ mod side;
 mod through;
 
 pub use buffer::{Around, exchange, fill};
-pub use extrapolate::Feet;
+pub use extrapolate::InteriorPoints;
 pub use ledger::Ledger;
 pub use pressure::Prescribed;
 pub use profile::{Opening, Profile, Shape, openings};

@@ -23,19 +23,19 @@ pub struct SparseCholesky {
 pub struct FactorizationError(String);
 
 impl SparseCholesky {
-    /// Solves M x = b. Each part without a given value, that is, not `anchored`, has its first unknown held at zero.
+    /// Solves M x = b. Each part without a Dirichlet value has its first unknown held at zero.
     ///
     /// # Errors
     /// [`FactorizationError`] where the matrix is not positive definite after that.
     pub fn solve(
         &mut self,
         matrix: &Matrix,
-        (part, anchored): (&[u32], &[bool]),
+        (part, has_dirichlet): (&[u32], &[bool]),
         b: &[f64],
         x: &mut [f64],
     ) -> Result<(), FactorizationError> {
         factor_in_one_thread();
-        let lower = lower_triangle(matrix, part, anchored)?;
+        let lower = lower_triangle(matrix, part, has_dirichlet)?;
         let failed = |e: &dyn std::fmt::Debug| FactorizationError(format!("{e:?}"));
         if self.pattern.0 != matrix.start || self.pattern.1 != matrix.column {
             self.symbolic = None;
@@ -56,13 +56,13 @@ impl SparseCholesky {
 fn lower_triangle(
     matrix: &Matrix,
     part: &[u32],
-    anchored: &[bool],
+    has_dirichlet: &[bool],
 ) -> Result<SparseColMat<usize, f64>, FactorizationError> {
     let mut seen = Vec::new();
     let mut entries = Vec::with_capacity(matrix.column.len() / 2 + matrix.rows());
     for (a, part) in part.iter().enumerate().take(matrix.rows()) {
         // Doubling one diagonal entry per part holds that unknown near zero without a change of the range's solution.
-        let first = !seen.contains(&part) && !anchored.get(*part as usize).copied().unwrap_or(false);
+        let first = !seen.contains(&part) && !has_dirichlet.get(*part as usize).copied().unwrap_or(false);
         if first {
             seen.push(part);
         }

@@ -5,13 +5,13 @@
 mod aggregation;
 mod assemble;
 mod cholesky;
-mod given;
+mod dirichlet;
 mod matrix;
 mod multigrid;
 mod solve;
 
 pub use assemble::{assemble, parts};
-pub use given::give;
+pub use dirichlet::impose;
 pub use matrix::{Matrix, weighted_sum};
 pub use multigrid::Multigrid;
 pub use solve::{PressureSolve, System, Tolerance, Unknowns};

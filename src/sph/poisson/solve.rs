@@ -27,7 +27,7 @@ pub struct Unknowns<'a> {
     /// Part of the pore space, numbered from 0.
     pub part: &'a [u32],
     /// Whether a pressure is given somewhere in the part; parts beyond the end have none.
-    pub anchored: &'a [bool],
+    pub has_dirichlet: &'a [bool],
     /// Distance of neighboring points in m.
     pub spacing: f64,
 }
@@ -71,7 +71,7 @@ impl PressureSolve {
 
     fn solve_directly(&mut self, unknowns: &Unknowns, system: &mut System) -> Convergence {
         let (b, x) = (&*system.b, &mut *system.x);
-        if self.cholesky.solve(&self.matrix, (unknowns.part, unknowns.anchored), b, x).is_err() {
+        if self.cholesky.solve(&self.matrix, (unknowns.part, unknowns.has_dirichlet), b, x).is_err() {
             return self.iterate(unknowns, std::slice::from_mut(system))[0];
         }
         let mut r = vec![0.0; b.len()];
@@ -108,7 +108,7 @@ fn subtract_mean(unknowns: &Unknowns, weight: &[f64], values: &mut [f64]) {
         sum[part as usize] += value;
         total[part as usize] += weight;
     }
-    for (sum, _) in sum.iter_mut().zip(unknowns.anchored).filter(|(_, anchored)| **anchored) {
+    for (sum, _) in sum.iter_mut().zip(unknowns.has_dirichlet).filter(|(_, has_dirichlet)| **has_dirichlet) {
         *sum = 0.0;
     }
     for ((&part, value), weight) in part.iter().zip(values.iter_mut()).zip(weight) {

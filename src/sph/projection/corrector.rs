@@ -21,7 +21,7 @@ impl Flow {
             pressure.iter_mut().zip(&response.potential).for_each(|(p, by)| *p += change * by);
         }
         velocity.extend(std::iter::repeat_n(Vec2::zeros(), self.particles.open));
-        self.set_buffer_velocity(&predicted.feet, &mut velocity);
+        self.set_buffer_velocity(&predicted.interior, &mut velocity);
         Corrected { velocity, pressure, drift, gradient_changes, responses }
     }
 
@@ -44,12 +44,12 @@ impl Flow {
             PressureGradient::Symmetric => pressure_gradient::symmetric(pairs, volume, density, &p, &mut acceleration),
             PressureGradient::Weighted => pressure_gradient::weighted(pairs, volume, density, &p, &mut acceleration),
             PressureGradient::Difference => {
-                let at_rest = self.at_rest();
-                let rise = |a: usize, b: usize| at_rest.rise(a, b);
+                let hydrostatic = self.hydrostatic();
+                let rise = |a: usize, b: usize| hydrostatic.difference(a, b);
                 pressure_gradient::difference(pairs, volume, density, &p, rise, &mut acceleration);
                 // Not without tension: there vortices keep their rate better as the sums are (docs/numerics/pressure.md).
                 if f.jump.is_some() {
-                    pressure_gradient::normalize_by_moment(&f.moment, &mut acceleration);
+                    pressure_gradient::correct_gradient(&f.moment, &mut acceleration);
                 }
             }
         }

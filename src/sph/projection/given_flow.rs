@@ -77,7 +77,7 @@ impl Flow {
         if self.gradient_in_pressure() {
             let rise = |a: usize, b: usize| -way.dot(&self.separation(a, b));
             pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, rise, &mut acceleration);
-            pressure_gradient::normalize_by_moment(&f.moment, &mut acceleration);
+            pressure_gradient::correct_gradient(&f.moment, &mut acceleration);
         } else {
             pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, |_, _| 0.0, &mut acceleration);
             acceleration.iter_mut().zip(&f.density).for_each(|(by, density)| *by += way / *density);

@@ -2,9 +2,9 @@
 //!
 //! [`Flow::step`] is that order; the files beside this one hold its stages.
 
-mod at_rest;
 mod corrector;
 mod given_flow;
+mod hydrostatic;
 mod implicit_viscosity;
 mod predictor;
 mod pressure;
@@ -20,7 +20,7 @@ use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::fields::{Fields, Place};
 use crate::sph::images::Images;
 use crate::sph::method::{Method, ViscousStep};
-use crate::sph::open::{self, Feet, Open};
+use crate::sph::open::{self, InteriorPoints, Open};
 use crate::sph::pairs::{Pairs, largest};
 use crate::sph::particles::Particles;
 use crate::sph::poisson::{PressureSolve, parts};
@@ -116,7 +116,7 @@ pub(super) struct Predicted {
     /// v_int over particles and images in m/s, without the gravity that goes with the pressure.
     velocity: Vec<Vec2>,
     /// Where the buffers of open sides take the velocity from.
-    feet: Feet,
+    interior: InteriorPoints,
     /// What comes of the viscous solve.
     damped: Damped,
 }
@@ -233,8 +233,8 @@ impl Flow {
     /// The turn of the normal along the wall nearest to `x` (m) over its length, in 1/m.
     fn curvature_of_wall(&self, x: Vec2) -> f64 {
         let (distance, normal) = (self.wall)(x);
-        let (foot, along) = (x - distance * normal, perpendicular(normal));
-        let normal_at = |way: f64| (self.wall)(foot + way * along).1;
+        let (inside, along) = (x - distance * normal, perpendicular(normal));
+        let normal_at = |way: f64| (self.wall)(inside + way * along).1;
         let step = TURN_OVER * self.method.spacing;
         let curvature = (normal_at(step) - normal_at(-step)).dot(&along) / (2.0 * step);
         if curvature.abs() * self.method.kernel.h < TIGHTEST { curvature } else { 0.0 }

@@ -5,14 +5,14 @@ use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::method::{PressureGradient, ViscousStep};
 use crate::sph::motion::relative_speed;
-use crate::sph::open::Feet;
+use crate::sph::open::InteriorPoints;
 use crate::sph::pairs::{each, largest};
 use crate::sph::terms::pressure_gradient;
 use crate::sph::time_step::landing;
 
 impl Flow {
     /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25], without the gravity that goes with the
-    /// pressure (`at_rest`). The step ends at `until` (s) or before, and is at most `longest` (s) long. Viscosity goes on as
+    /// pressure (`hydrostatic`). The step ends at `until` (s) or before, and is at most `longest` (s) long. Viscosity goes on as
     /// `viscous_step` says; how long the step is does not hang on it.
     pub(super) fn predict(
         &self,
@@ -57,12 +57,12 @@ impl Flow {
             ViscousStep::Explicit => Damped::default(),
         };
         each(&mut velocity[..fluids], |a| particles.velocity[a] + step.dt * acceleration[a]);
-        let feet = Feet::new(particles, &self.open.sides, &self.domain, &self.method.kernel);
-        self.set_buffer_velocity(&feet, &mut velocity);
+        let interior = InteriorPoints::new(particles, &self.open.sides, &self.domain, &self.method.kernel);
+        self.set_buffer_velocity(&interior, &mut velocity);
         // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
         velocity[moving..particles.len()].fill(Vec2::zeros());
         self.images.extend_velocity(&mut velocity);
-        Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, feet, damped })
+        Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, interior, damped })
     }
 
     /// Makes of the `acceleration` (m/s²) of the forces at the beginning of a step of length `dt` (s) the one with which viscosity holds at its
@@ -95,14 +95,14 @@ impl Flow {
     }
 
     /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
-    /// given pressure the normal part of that at the foot, so that it goes on along the normal.
-    pub(super) fn set_buffer_velocity(&self, feet: &Feet, velocity: &mut [Vec2]) {
+    /// given pressure the normal part of that at the interior point, so that it goes on along the normal.
+    pub(super) fn set_buffer_velocity(&self, interior: &InteriorPoints, velocity: &mut [Vec2]) {
         for (i, b) in self.particles.buffer().enumerate() {
             let x = self.particles.position[b];
             let Some(side) = self.open.sides.iter().find(|side| side.beyond(x) >= 0.0) else { continue };
             velocity[b] = side.given_velocity(x).unwrap_or_else(|| {
-                let at_foot = feet.value(i, velocity).unwrap_or_default();
-                side.velocity(side.inwards() * at_foot[side.axis()])
+                let inside = interior.value(i, velocity).unwrap_or_default();
+                side.velocity(side.inwards() * inside[side.axis()])
             });
         }
     }

@@ -8,7 +8,7 @@ use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::open::{Prescribed, Through};
 use crate::sph::pairs::{GRAIN, each};
-use crate::sph::poisson::{Matrix, System, Tolerance, Unknowns, assemble, give};
+use crate::sph::poisson::{Matrix, System, Tolerance, Unknowns, assemble, impose};
 use crate::sph::terms::divergence::divergence;
 use crate::sph::terms::pressure_gradient;
 
@@ -19,10 +19,10 @@ const LARGEST_SMOOTH_RATIO: f64 = 5.0;
 const OPPOSITE: f64 = -0.5;
 
 /// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
-const GIVEN: u8 = 2;
+const DIRICHLET: u8 = 2;
 
 /// Largest relative residual of the drift correction: what one step leaves, the next ones take.
-const DRIFT_RESIDUAL: f64 = 0.01;
+const CORRECTION_RESIDUAL: f64 = 0.01;
 
 /// What one pressure solve finds.
 pub(super) struct Projected {
@@ -51,15 +51,15 @@ impl Flow {
         let mut source = vec![0.0; n];
         divergence(&self.pairs, &f.volume, &predicted.velocity, &mut source);
         // A long step takes back all there is, and no more.
-        let drift = method.drift_rate(predicted.fastest).min(1.0 / dt) / dt;
+        let drift = method.density_correction_rate(predicted.fastest).min(1.0 / dt) / dt;
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
             if self.sees_the_fluid(a) { -f.volume[a] * (source[a] / dt - drift * self.density_error(a)) } else { 0.0 }
         });
         let matrix = self.assembled();
         let (method, f) = (&self.method, &self.fields);
-        self.at_rest().subtract_from(&mut b, &matrix, &self.pairs);
-        self.keep_tight(&predicted.damped, &matrix, &mut b);
+        self.hydrostatic().subtract_from(&mut b, &matrix, &self.pairs);
+        self.subtract_divergence_error(&predicted.damped, &matrix, &mut b);
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
         let mut others = Vec::new();
@@ -69,7 +69,7 @@ impl Flow {
                 let seen = if self.sees_the_fluid(a) { self.density_error(a) } else { 0.0 };
                 method.drift_correction * f.volume[a] * seen
             });
-            others.push((error, Tolerance { residual: DRIFT_RESIDUAL, ..method.tolerance }));
+            others.push((error, Tolerance { residual: CORRECTION_RESIDUAL, ..method.tolerance }));
         }
         let tolerance = Tolerance { residual: RESPONSE_RESIDUAL, ..method.tolerance };
         let ways: Vec<Vec2> = self.open.through.iter().map(Through::way).collect();
@@ -119,18 +119,19 @@ impl Flow {
         let (fluids, tolerance) = (self.particles.fluids, self.method.tolerance);
         let given = |a: usize| prescribed.of(a, fluids);
         let mut kind = self.kinds();
-        let mut anchored = vec![false; self.particles.part.iter().max().map_or(0, |last| *last as usize + 1)];
+        let mut has_dirichlet = vec![false; self.particles.part.iter().max().map_or(0, |last| *last as usize + 1)];
         for a in self.particles.buffer().filter(|&a| given(a).is_some()) {
-            anchored[self.particles.part[a] as usize] = true;
-            kind[a] = GIVEN;
+            has_dirichlet[self.particles.part[a] as usize] = true;
+            kind[a] = DIRICHLET;
             others.iter_mut().for_each(|(right, _)| right[a] = 0.0);
         }
-        give(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
+        impose(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
         self.pressure.matrix = matrix;
         let part = &self.particles.part;
         let position = &self.particles.position;
-        let unknowns = Unknowns { position, kind: &kind, part, anchored: &anchored, spacing: self.method.spacing };
-        let offset = |a: usize| if anchored[part[a] as usize] { prescribed.reference } else { 0.0 };
+        let unknowns =
+            Unknowns { position, kind: &kind, part, has_dirichlet: &has_dirichlet, spacing: self.method.spacing };
+        let offset = |a: usize| if has_dirichlet[part[a] as usize] { prescribed.reference } else { 0.0 };
         p.iter_mut().enumerate().for_each(|(a, p)| *p = if given(a).is_some() { 0.0 } else { *p - offset(a) });
         let volume = &self.fields.volume[..p.len()];
         let mut found: Vec<Vec<f64>> = others.iter().map(|(right, _)| vec![0.0; right.len()]).collect();
@@ -173,7 +174,7 @@ impl Flow {
     ///
     /// The divergence of the gradient is not quite the Laplacian, so that a pressure leaves the divergence Δt (Laplacian − divergence of the
     /// gradient): in a steady flow as much in any step, and through walls. So no step leaks more than an explicit one.
-    fn keep_tight(&self, damped: &Damped, matrix: &Matrix, b: &mut [f64]) {
+    fn subtract_divergence_error(&self, damped: &Damped, matrix: &Matrix, b: &mut [f64]) {
         if damped.excess == 0.0 {
             return;
         }
@@ -183,12 +184,12 @@ impl Flow {
         self.images.extend_velocity(&mut acceleration);
         let mut of_gradient = vec![0.0; n];
         divergence(&self.pairs, &f.volume, &acceleration, &mut of_gradient);
-        let mut at_rest = vec![0.0; n];
-        self.at_rest().subtract_from(&mut at_rest, matrix, &self.pairs);
+        let mut hydrostatic = vec![0.0; n];
+        self.hydrostatic().subtract_from(&mut hydrostatic, matrix, &self.pairs);
         let pressure = &self.particles.pressure;
         b.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, b)| {
             if self.sees_the_fluid(a) {
-                let laplacian = matrix.diagonal[a] * pressure[a] - matrix.coupled(a, pressure) - at_rest[a];
+                let laplacian = matrix.diagonal[a] * pressure[a] - matrix.coupled(a, pressure) - hydrostatic[a];
                 *b += damped.excess * (laplacian - f.volume[a] * of_gradient[a]);
             }
         });

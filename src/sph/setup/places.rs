@@ -3,7 +3,7 @@
 use super::walls::places_of_sides;
 use crate::case::checked::Side;
 use crate::geometry::Geometry;
-use crate::geometry::shells::UnfittedSurface;
+use crate::geometry::offset_curves::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
 use crate::sph::fill::{self, Interface, Lattice, Places, Region};

@@ -37,14 +37,14 @@ pub(super) fn wall_spots(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallSpot
             Some(side) => Vec2::new(speeds[side as usize], 0.0),
             None => Vec2::zeros(),
         };
-        let foot = geometry.wrapped(x - wall.distance * wall.normal);
+        let closest = geometry.wrapped(x - wall.distance * wall.normal);
         let lies_there = |patch: &WettingPatch| {
             let on = match patch.on {
                 PatchedWall::All => true,
                 PatchedWall::Shape(shape) => wall.shape == shape,
                 PatchedWall::Side(number) => side == Some(number),
             };
-            on && wall.distance.is_finite() && patch.stripes.is_none_or(|stripes| stripes.contains(foot))
+            on && wall.distance.is_finite() && patch.stripes.is_none_or(|stripes| stripes.contains(closest))
         };
         WallSpot { patch: patches.iter().rposition(lies_there), velocity }
     })))

@@ -16,10 +16,10 @@ const FEWEST: usize = 5;
 /// Most steps of the search for the contact point; a few do.
 const ITERATIONS: usize = 12;
 
-/// The contact point is found when it moves by less than this share of the window.
+/// The contact point is found when it moves by less than this share of the stencil.
 const CONVERGED: f64 = 1e-9;
 
-/// A point of the window relative to the nearest one, with its weight.
+/// A point of the stencil relative to the nearest one, with its weight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Near {
     pub(super) index: usize,
@@ -64,7 +64,7 @@ impl Circle {
     /// The point of the circle nearest to `x` (m) and the unit normal there, none for the center.
     ///
     /// F = a + b u + k (u² + v²)/2 − v is quadratic, and on the line through x along ∇F it is F − t|∇F| + k t²/2.
-    pub(super) fn foot(&self, x: Vec2) -> Option<(Vec2, Vec2)> {
+    pub(super) fn closest_point(&self, x: Vec2) -> Option<(Vec2, Vec2)> {
         let slope = |u: f64, v: f64| Vec2::new(self.b + self.k * u, self.k * v - 1.0);
         let (u, v) = (x.dot(&self.tangent), x.dot(&self.normal));
         let off = self.a + self.b * u + 0.5 * self.k * (u * u + v * v) - v;
@@ -74,10 +74,10 @@ impl Circle {
             return None;
         }
         let way = 2.0 * off / (steep + square.sqrt());
-        let foot = Vec2::new(u, v) - way / steep * slope(u, v);
-        let normal = -slope(foot.x, foot.y).try_normalize(0.0)?;
+        let closest = Vec2::new(u, v) - way / steep * slope(u, v);
+        let normal = -slope(closest.x, closest.y).try_normalize(0.0)?;
         let turned = |y: Vec2| y.x * self.tangent + y.y * self.normal;
-        Some((turned(foot), turned(normal)))
+        Some((turned(closest), turned(normal)))
     }
 }
 

@@ -1,13 +1,13 @@
 //! The contact lines of a sharp interface: where points of it touch a wall.
 //!
 //! Points nearer to the wall than 2 dx, where both phases touch it, that continue to the same place are one line. Around that place, the points within the
-//! window of a fit tell its speed and its angle. Leaves out lines with fewer points than a fit needs.
+//! stencil of a fit tell its speed and its angle. Leaves out lines with fewer points than a fit needs.
 
 use crate::math::{Vec2, perpendicular};
 use crate::sph::domain::Domain;
 use crate::sph::surface_force::circles::{Circle, Near, angle_through, fit_from_contact};
-use crate::sph::surface_force::fit::{FEWEST_HELD, Foot, InterfaceFit};
-use crate::sph::wetting::lines::Sighting;
+use crate::sph::surface_force::fit::{ContactPoint, FEWEST_HELD, InterfaceFit};
+use crate::sph::wetting::lines::DetectedLine;
 
 /// Points nearer to the wall than this, over dx, tell the place of a line: those between its first two layers of particles, or where
 /// a moving line has parted them those above.
@@ -37,50 +37,50 @@ impl InterfaceFit<'_> {
     #[must_use]
     pub fn lines(&self) -> Vec<InterfaceLine<'_>> {
         const NONE: usize = usize::MAX;
-        let feet: Vec<(usize, Foot)> = (0..self.points.len())
+        let ends: Vec<(usize, ContactPoint)> = (0..self.points.len())
             .filter(|&i| self.points[i].touches && self.points[i].wall_distance < NEAR_WALL * self.spacing)
             .filter(|&i| is_inside(self.domain, self.points[i].x))
-            .filter_map(|i| Some((i, self.foot(&self.points[i])?)))
+            .filter_map(|i| Some((i, self.contact_point(&self.points[i])?)))
             .collect();
         let mut foot_of = vec![NONE; self.points.len()];
-        for (k, (i, _)) in feet.iter().enumerate() {
+        for (k, (i, _)) in ends.iter().enumerate() {
             foot_of[*i] = k;
         }
-        let mut taken = vec![false; feet.len()];
+        let mut taken = vec![false; ends.len()];
         let mut lines = Vec::new();
-        for first in 0..feet.len() {
+        for first in 0..ends.len() {
             if std::mem::replace(&mut taken[first], true) {
                 continue;
             }
             let (mut group, mut next) = (vec![first], 0);
             while let Some(&k) = group.get(next) {
                 next += 1;
-                let (i, foot) = &feet[k];
+                let (i, end) = &ends[k];
                 self.cells.visit_near(self.points[*i].x, |j, r| {
                     let other = foot_of[j as usize];
                     if other == NONE || taken[other] {
                         return;
                     }
-                    let (_, there) = &feet[other];
-                    // From the foot of k to that of the other one; r = x_k − x_j.
-                    let apart = (there.contact - r - foot.contact).norm();
+                    let (_, there) = &ends[other];
+                    // From the contact point of k to that of the other one; r = x_k − x_j.
+                    let apart = (there.contact - r - end.contact).norm();
                     // On the other side of a narrow throat, or of a small drop, ν lies on the other side of the normal.
-                    if there.side == foot.side && apart < ONE_LINE * self.h {
+                    if there.side == end.side && apart < ONE_LINE * self.h {
                         taken[other] = true;
                         group.push(other);
                     }
                 });
             }
-            lines.extend(self.line(&feet, &group));
+            lines.extend(self.line(&ends, &group));
         }
         lines
     }
 
-    /// The line at the mean of the feet of a group.
-    fn line(&self, feet: &[(usize, Foot)], group: &[usize]) -> Option<InterfaceLine<'_>> {
-        let from = self.points[feet[group[0]].0].x;
-        let weight = |k: &usize| self.points[feet[*k].0].weight;
-        let place = |k: &usize| self.domain.separation(self.points[feet[*k].0].x, from) + feet[*k].1.contact;
+    /// The line at the mean of the contact points of a group.
+    fn line(&self, ends: &[(usize, ContactPoint)], group: &[usize]) -> Option<InterfaceLine<'_>> {
+        let from = self.points[ends[group[0]].0].x;
+        let weight = |k: &usize| self.points[ends[*k].0].weight;
+        let place = |k: &usize| self.domain.separation(self.points[ends[*k].0].x, from) + ends[*k].1.contact;
         let sum: f64 = group.iter().map(weight).sum();
         if sum <= 0.0 {
             return None;
@@ -88,11 +88,11 @@ impl InterfaceFit<'_> {
         let mean = from + group.iter().map(|k| weight(k) * place(k)).sum::<Vec2>() / sum;
         let (distance, normal) = (self.wall)(mean);
         let place = mean - distance * normal;
-        let into_wetting: Vec2 = group.iter().map(|k| weight(k) * self.points[feet[*k].0].normal).sum();
+        let into_wetting: Vec2 = group.iter().map(|k| weight(k) * self.points[ends[*k].0].normal).sum();
         let into_wetting = into_wetting.try_normalize(f64::EPSILON)?;
-        let side = feet[group[0]].1.side;
+        let side = ends[group[0]].1.side;
         let outward = side * perpendicular(normal);
-        let level = self.window(into_wetting, place);
+        let level = self.stencil(into_wetting, place);
         let circle = Circle::through(&self.of_one_curvature(&level, Vec2::zeros()), into_wetting);
         let kappa = circle.and_then(|circle| circle.curvature()).unwrap_or(0.0);
         let near = self.of_one_curvature(&self.on_interface(&level, kappa), Vec2::zeros());
@@ -113,7 +113,7 @@ fn is_inside(domain: &Domain, x: Vec2) -> bool {
     domain.mirrors.iter().all(|m| domain.bounds.min[m.axis] <= x[m.axis] && x[m.axis] <= domain.bounds.max[m.axis])
 }
 
-impl Sighting for InterfaceLine<'_> {
+impl DetectedLine for InterfaceLine<'_> {
     fn place(&self) -> Vec2 {
         self.fit.domain.wrapped(self.place)
     }

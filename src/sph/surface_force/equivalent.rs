@@ -4,7 +4,7 @@ use crate::math::Vec2;
 use crate::sph::projection::Flow;
 use crate::sph::terms::{curvature, surface_tension};
 use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
-use crate::sph::wetting::lines::{LINE_REACH, Sighting, nearest};
+use crate::sph::wetting::lines::{DetectedLine, LINE_REACH, nearest};
 
 /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³, with the curvature and the normal
 /// that the jump uses; the forces of the flow itself where they are volume forces.
@@ -32,11 +32,11 @@ pub fn volume_forces(flow: &Flow) -> (Vec<Vec2>, Vec<Vec2>) {
         };
         let found = LineParticles::find((&flow.pairs, &flow.images), &fields, &m.kernel, p.fluids);
         // A line that the jump does not know is not driven: its angle is that which is there.
-        let angle = |seen: &dyn Sighting| {
+        let angle = |seen: &dyn DetectedLine| {
             nearest(&f.lines, &flow.domain, seen.place(), seen.outward(), LINE_REACH * m.kernel.h)
                 .map_or_else(|| seen.present(None), |line| line.angle)
         };
-        let angles: Vec<f64> = found.sightings(&fields, &flow.domain).iter().map(|seen| angle(seen)).collect();
+        let angles: Vec<f64> = found.detected_lines(&fields, &flow.domain).iter().map(|seen| angle(seen)).collect();
         found.line_force(&fields, LineDelta::Normalized, (&angles, m.tension), &mut line);
     }
     (surface, line)

@@ -1,22 +1,22 @@
 //! Curvature of the interface from local fits of circles (`circles`), free in the bulk and held to the contact angle at walls.
 //!
-//! Under gravity the curvature of an interface at rest varies by ∇κ = (ρ_w − ρ_n) g/σ (Young and Laplace). A window that ends at a
+//! Under gravity the curvature of an interface at rest varies by ∇κ = (ρ_w − ρ_n) g/σ (Young and Laplace). A stencil that ends at a
 //! wall would take the curvature of its middle for that at its end. What the known gradient has bent the interface is taken out
-//! of the points before a circle is fitted (`windows`).
+//! of the points before a circle is fitted (`stencils`).
 //!
-//! The points lie on the level 1/2 of the smoothed color, which is drawn towards the center of curvature by h²κ/7. So a window is
+//! The points lie on the level 1/2 of the smoothed color, which is drawn towards the center of curvature by h²κ/7. So a stencil is
 //! fitted more than once: for the curvature that moves its points to the interface, and there.
 
 use crate::math::{Vec2, perpendicular};
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
-use crate::sph::surface_force::bends::Bend;
 use crate::sph::surface_force::circles::{Circle, Near, fit_from_contact};
+use crate::sph::surface_force::pinned_lines::PinnedLine;
 use crate::sph::surface_force::points::InterfacePoint;
-use crate::sph::surface_force::windows::WINDOW;
+use crate::sph::surface_force::stencils::STENCIL_RADIUS;
 use crate::sph::wetting::lines::LINE_REACH;
 
-/// The points of a window are moved from the level to the interface so many times. At a wall, the circle through the level is not the
+/// The points of a stencil are moved from the level to the interface so many times. At a wall, the circle through the level is not the
 /// one that meets it at the angle; each time gains more than a digit.
 const MOVES: usize = 3;
 
@@ -58,11 +58,11 @@ pub struct InterfaceFit<'a> {
     pub(super) wall: &'a Wall<'a>,
     pub(super) domain: &'a Domain,
     /// The contact lines at edges and tight bends of the walls.
-    bends: &'a [Bend],
+    pinned_lines: &'a [PinnedLine],
 }
 
 /// Where the straight continuation of the interface meets the wall.
-pub(super) struct Foot {
+pub(super) struct ContactPoint {
     /// From the point of the interface to the wall, in m.
     pub(super) contact: Vec2,
     /// Wall normal there.
@@ -78,8 +78,8 @@ impl<'a> InterfaceFit<'a> {
     #[must_use]
     pub fn new(points: &'a [InterfacePoint], domain: &'a Domain, (spacing, h): (f64, f64), wall: &'a Wall<'a>) -> Self {
         let places: Vec<Vec2> = points.iter().map(|p| p.x).collect();
-        let cells = Cells::build(&places, domain, WINDOW * h);
-        Self { points, cells, h, spacing, angle: None, gradient: Vec2::zeros(), wall, domain, bends: &[] }
+        let cells = Cells::build(&places, domain, STENCIL_RADIUS * h);
+        Self { points, cells, h, spacing, angle: None, gradient: Vec2::zeros(), wall, domain, pinned_lines: &[] }
     }
 
     /// The same interface under gravity, with the gradient (1/m²) of its curvature at rest.
@@ -96,11 +96,11 @@ impl<'a> InterfaceFit<'a> {
 
     /// The same interface with its contact lines at edges and tight bends.
     #[must_use]
-    pub fn with_bends(self, bends: &'a [Bend]) -> Self {
-        Self { bends, ..self }
+    pub fn with_pinned_lines(self, pinned_lines: &'a [PinnedLine]) -> Self {
+        Self { pinned_lines, ..self }
     }
 
-    /// Curvature in 1/m of the interface nearest to `x`, none where there is no interface within the window.
+    /// Curvature in 1/m of the interface nearest to `x`, none where there is no interface within the stencil.
     #[must_use]
     pub fn curvature(&self, x: Vec2) -> Option<f64> {
         let (sum, count) = self
@@ -111,10 +111,10 @@ impl<'a> InterfaceFit<'a> {
         (count > 0).then(|| sum / f64::from(count))
     }
 
-    /// The curvature at `x` from the window near the point `p`, from which x lies at `from_p`.
+    /// The curvature at `x` from the stencil near the point `p`, from which x lies at `from_p`.
     fn curvature_at(&self, p: usize, from_p: Vec2, x: Vec2) -> Option<f64> {
         let nearest = InterfacePoint { x: x - from_p, ..self.points[p] };
-        let (point, level) = self.window_at_foot(nearest, x);
+        let (point, level) = self.stencil_at_closest_point(nearest, x);
         let mut kappa = self.fitted(&point, &level)?;
         for _ in 0..MOVES {
             kappa = self.fitted(&point, &self.on_interface(&level, kappa))?;
@@ -125,7 +125,7 @@ impl<'a> InterfaceFit<'a> {
         kappa.is_finite().then(|| kappa.clamp(-limit, limit))
     }
 
-    /// Curvature in 1/m of the window `near` at `point`: held to the angle at a wall, free far from one.
+    /// Curvature in 1/m of the stencil `near` at `point`: held to the angle at a wall, free far from one.
     fn fitted(&self, point: &InterfacePoint, near: &[Near]) -> Option<f64> {
         let free = Circle::through(&self.of_one_curvature(near, Vec2::zeros()), point.normal);
         let free = free.and_then(|circle| circle.curvature());
@@ -137,7 +137,7 @@ impl<'a> InterfaceFit<'a> {
     }
 
     /// The straight way from `point` to a wall in reach, none where the interface runs along the wall.
-    pub(super) fn foot(&self, point: &InterfacePoint) -> Option<Foot> {
+    pub(super) fn contact_point(&self, point: &InterfacePoint) -> Option<ContactPoint> {
         if !point.wall_distance.is_finite() {
             return None;
         }
@@ -152,10 +152,10 @@ impl<'a> InterfaceFit<'a> {
         if down.dot(&point.wall_normal) > 0.0 {
             down = -down;
         }
-        let foot = point.x + way * down;
-        let (distance, normal) = (self.wall)(foot);
-        let contact = foot - distance * normal - point.x;
-        Some(Foot { contact, normal, side, way })
+        let end = point.x + way * down;
+        let (distance, normal) = (self.wall)(end);
+        let contact = end - distance * normal - point.x;
+        Some(ContactPoint { contact, normal, side, way })
     }
 
     /// The curvature held to the contact angle, and its share, where the interface meets a wall near `point`.
@@ -164,14 +164,14 @@ impl<'a> InterfaceFit<'a> {
         if self.angle.is_none() || !touches || near.len() < FEWEST_HELD {
             return None;
         }
-        let Foot { mut contact, mut normal, side, way } = self.foot(point)?;
+        let ContactPoint { mut contact, mut normal, side, way } = self.contact_point(point)?;
         let share = ((REACH * self.h - way) / (2.0 * self.h)).clamp(0.0, 1.0);
         if share == 0.0 {
             return None;
         }
-        if let Some(bend) = self.bend_of(point.x + contact, side) {
-            let contact = self.domain.separation(bend.place, point.x);
-            let wall = (side * perpendicular(bend.normal), bend.normal);
+        if let Some(line) = self.pinned_line_at(point.x + contact, side) {
+            let contact = self.domain.separation(line.place, point.x);
+            let wall = (side * perpendicular(line.normal), line.normal);
             return Some((self.fit_at(point, near, contact, wall)?.0, share));
         }
         let mut kappa = None;
@@ -200,10 +200,11 @@ impl<'a> InterfaceFit<'a> {
     }
 
     /// The line at a bend to which an interface belongs that meets the wall about `x` (m), on the given side.
-    fn bend_of(&self, x: Vec2, side: f64) -> Option<&Bend> {
-        let distance = |bend: &&Bend| self.domain.separation(bend.place, x).norm();
-        let bends = self.bends.iter().filter(|bend| bend.side == side && distance(bend) < LINE_REACH * self.h);
-        bends.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    fn pinned_line_at(&self, x: Vec2, side: f64) -> Option<&PinnedLine> {
+        let distance = |line: &&PinnedLine| self.domain.separation(line.place, x).norm();
+        let pinned_lines =
+            self.pinned_lines.iter().filter(|line| line.side == side && distance(line) < LINE_REACH * self.h);
+        pinned_lines.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 }
 

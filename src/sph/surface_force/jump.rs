@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::math::{LINE_MOMENT, Vec2};
 use crate::sph::images::Images;
 use crate::sph::pairs::{GRAIN, Pairs, each};
-use crate::sph::surface_force::windows::{SMOOTHNESS, WINDOW};
+use crate::sph::surface_force::stencils::{SMOOTHNESS, STENCIL_RADIUS};
 
 /// Passes of the smoothing of the curvature along the interface.
 const PASSES: usize = 1;
@@ -13,11 +13,11 @@ const PASSES: usize = 1;
 /// What the kernel's average takes from a wave of the wavenumber k, over k²h²: half its second moment, 5 h²/18 along each direction.
 const LOSS_OF_A_PASS: f64 = 5.0 / 36.0;
 
-/// What a circle fit takes, over k²h²: k² r²/(4s + 14) for its window r and the weight (1 − d²/r²)^s.
-const LOSS_OF_THE_FIT: f64 = WINDOW * WINDOW / (4 * SMOOTHNESS + 14) as f64;
+/// What a circle fit takes, over k²h²: k² r²/(4s + 14) for its stencil r and the weight (1 − d²/r²)^s.
+const LOSS_OF_THE_FIT: f64 = STENCIL_RADIUS * STENCIL_RADIUS / (4 * SMOOTHNESS + 14) as f64;
 
 /// How often the loss of all passes is given back, so that it makes up for those of color and fit too.
-const GIVEN_BACK: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 * LOSS_OF_A_PASS);
+const DECONVOLUTION: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 * LOSS_OF_A_PASS);
 
 /// What decides the jump of each pair; slices over particles and images.
 #[derive(Debug, Clone, Default)]
@@ -116,7 +116,7 @@ fn smoothed(
     };
     let once = average(curvature);
     let twice = average(once.clone());
-    once.iter().zip(&twice).map(|(once, twice)| once + GIVEN_BACK * (once - twice)).collect()
+    once.iter().zip(&twice).map(|(once, twice)| once + DECONVOLUTION * (once - twice)).collect()
 }
 
 /// Σ_b W κ_b/Σ_b W over the neighbors of a that have a curvature, and what a has `own`: its κ W and W. NaN where there is none.

@@ -3,17 +3,17 @@
 //! [`SurfaceForce::Csf`] is the paper's: a volume force in a band, with the contact line force beside it. In
 //! [`SurfaceForce::PressureJump`] the jump σκ enters the pressure differences across the interface, as in the ghost fluid method
 //! (Fedkiw et al. 1999; Kang et al. 2000), and the wetting law is the angle at which the interface meets the wall.
-//! `points` finds the interface, `fit` its curvature by `circles` in `windows`, `detected_lines` its contact lines and
-//! `bends` those at edges of walls, `jump` carries it to the pairs.
+//! `points` finds the interface, `fit` its curvature by `circles` in `stencils`, `detected_lines` its contact lines and
+//! `pinned_lines` those at edges of walls, `jump` carries it to the pairs.
 
-pub mod bends;
 mod circles;
 pub mod detected_lines;
 pub mod equivalent;
 pub mod fit;
 pub mod jump;
+pub mod pinned_lines;
 pub mod points;
-mod windows;
+mod stencils;
 
 use crate::sph::wetting::contact_line::LineDelta;
 

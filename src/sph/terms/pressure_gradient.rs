@@ -55,7 +55,7 @@ pub fn moment(pairs: &Pairs, volume: &[f64], r_ab: impl Fn(usize, usize) -> Vec2
 ///
 /// Divergence, gradient and the Laplacian of Eq. (30) all have this factor. Once taken out of the gradient, the divergence of the gradient
 /// is the Laplacian, on the mean over directions. A particle with few neighbors keeps what it has.
-pub fn normalize_by_moment(moment: &[f64], acceleration: &mut [Vec2]) {
+pub fn correct_gradient(moment: &[f64], acceleration: &mut [Vec2]) {
     for (acceleration, &moment) in acceleration.iter_mut().zip(moment) {
         if moment > SMALLEST_MOMENT {
             *acceleration /= moment;

@@ -1,4 +1,4 @@
-//! Strays: single particles that an advancing or receding interface leaves in the other phase.
+//! Interface sharpening: moves back single particles that an advancing or receding interface leaves in the other phase.
 //!
 //! Nothing in the equations brings them back: the smoothed color does not see a particle alone, and a wall that holds the
 //! first layer of particles leaves a trail of them behind a receding contact line. Like the compression of the color
@@ -31,7 +31,7 @@ const SAG: f64 = 2.0;
 const SMALLEST_GRADIENT: f64 = 0.02;
 
 /// What decides which particles are strays; slices over particles and images, the wall distance over fluid particles.
-pub struct Strays<'a> {
+pub struct Sharpening<'a> {
     /// Side of the interface: 1 in the wetting phase, 0 in the other.
     pub side: &'a [f64],
     /// Gradient of the smoothed color in 1/m.
@@ -45,12 +45,12 @@ pub struct Strays<'a> {
     /// Density of the wetting less that of the other phase over their mean, times the body force per mass, in m/s².
     pub weight: Vec2,
     /// Receding and advancing angle in rad of the wall next to each fluid particle, NaN where there is none.
-    pub wall_window: &'a [[f64; 2]],
+    pub wall_hysteresis: &'a [[f64; 2]],
 }
 
-impl Strays<'_> {
+impl Sharpening<'_> {
     /// Adds to `shift` (m) the way of strays across the interface. `h` in m, capillary speed in m/s, `dt` in s.
-    pub fn send_back(&self, pairs: &Pairs, h: f64, (speed, dt): (f64, f64), shift: &mut [Vec2]) {
+    pub fn displace(&self, pairs: &Pairs, h: f64, (speed, dt): (f64, f64), shift: &mut [Vec2]) {
         let mut back = vec![Vec2::zeros(); shift.len()];
         each(&mut back, |a| {
             let n = self.normal[a];
@@ -81,7 +81,7 @@ impl Strays<'_> {
 
     /// What a share of one half becomes in the thin wedge of its phase at a wall, over one half.
     fn wedge(&self, a: usize) -> f64 {
-        let [receding, advancing] = self.wall_window[a];
+        let [receding, advancing] = self.wall_hysteresis[a];
         let own = if self.side[a] > 0.5 { receding } else { PI - advancing };
         if own.is_nan() { 1.0 } else { (own / FRAC_PI_2).clamp(f64::EPSILON, 1.0) }
     }
@@ -115,17 +115,17 @@ mod tests {
         let pairs = Pairs::find(&points, points.len(), &domain, &WendlandC2::new(H));
         let normal = vec![Vec2::new(-0.5 / H, 0.0); points.len()];
         let (ones, far, zeros) = (vec![1.0; 256], vec![f64::INFINITY; 256], vec![Vec2::zeros(); 256]);
-        let strays = Strays {
+        let strays = Sharpening {
             side: &side,
             normal: &normal,
             fluid_volume: &ones,
             wall_distance: &far,
             wall_normal: &zeros,
             weight,
-            wall_window: &vec![[f64::NAN; 2]; 256],
+            wall_hysteresis: &vec![[f64::NAN; 2]; 256],
         };
         let mut shift = vec![Vec2::zeros(); points.len()];
-        strays.send_back(&pairs, H, (1.0, 0.1), &mut shift);
+        strays.displace(&pairs, H, (1.0, 0.1), &mut shift);
         points.into_iter().zip(shift).collect()
     }
 

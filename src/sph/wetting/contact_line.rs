@@ -10,7 +10,7 @@ use crate::sph::images::Images;
 use crate::sph::kernel::WendlandC2;
 use crate::sph::pairs::Pairs;
 use crate::sph::wetting::driving_force;
-use crate::sph::wetting::lines::Sighting;
+use crate::sph::wetting::lines::DetectedLine;
 
 /// Where the unit normal has less than this share along the wall, the interface runs parallel to it: no line there.
 const SMALLEST_TANGENT: f64 = 0.15;
@@ -80,7 +80,7 @@ pub struct MeanLine {
     present: f64,
 }
 
-impl Sighting for MeanLine {
+impl DetectedLine for MeanLine {
     fn place(&self) -> Vec2 {
         self.place
     }
@@ -116,13 +116,13 @@ impl LineParticles {
 
     /// What is seen of each line, small ones included, in their order.
     #[must_use]
-    pub fn sightings(&self, fields: &LineFields, domain: &Domain) -> Vec<MeanLine> {
+    pub fn detected_lines(&self, fields: &LineFields, domain: &Domain) -> Vec<MeanLine> {
         self.lines.iter().zip(&self.norm).map(|(line, norm)| mean(line, *norm, fields, domain)).collect()
     }
 
     /// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eq. 23].
     ///
-    /// `angles` in rad are those of the wetting law at each line, in the order of the sightings; `tension` is σ_wn in N/m.
+    /// `angles` in rad are those of the wetting law at each line, in the order of detection; `tension` is σ_wn in N/m.
     pub fn line_force(
         &self,
         fields: &LineFields,
@@ -159,8 +159,8 @@ fn mean(line: &[LineParticle], norm: f64, fields: &LineFields, domain: &Domain) 
     let (mut moved, mut along) = (0.0, 0.0);
     for p in line {
         let weight = fields.volume[p.a] * p.delta / norm;
-        let foot = fields.position[p.a] - fields.wall_distance[p.a] * fields.wall_normal[p.a];
-        place += weight * domain.separation(foot, from);
+        let closest = fields.position[p.a] - fields.wall_distance[p.a] * fields.wall_normal[p.a];
+        place += weight * domain.separation(closest, from);
         outward += weight * p.tangent;
         cosine += weight * p.cos_alpha;
         moved += weight * fields.velocity[p.a].dot(&fields.unit_normal[p.a]);

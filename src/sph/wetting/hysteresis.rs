@@ -1,8 +1,8 @@
-//! A hysteresis window: between the receding and the advancing angle the contact line holds its place.
+//! A hysteresis range: between the receding and the advancing angle the contact line holds its place.
 //!
 //! At rest the angle is whatever the drop needs, up to the bounds; at a bound the line lets go and moves with the angle of that
 //! bound (Dussan 1979). With the pressure jump the line holds indeed: the fit passes through the anchor of the line, a point of the wall
-//! that only a line at a bound takes along (see `lines`). With the continuum force a line within its window is only not driven,
+//! that only a line at a bound takes along (see `lines`). With the continuum force a line within its range is only not driven,
 //! and creeps with whatever flow there is.
 
 use crate::analysis::laws::drops::tadmor;
@@ -18,7 +18,7 @@ pub struct Hysteresis {
 }
 
 impl Hysteresis {
-    /// The present angle within the window, else the bound next to it, in rad.
+    /// The present angle within the range, else the bound next to it, in rad.
     #[must_use]
     pub fn angle(&self, line: &LineState) -> f64 {
         line.present.max(self.receding).min(self.advancing)

@@ -1,13 +1,13 @@
 //! Contact lines that last from step to step: where they stand, how fast they move, and where they are held.
 //!
 //! **Speed.** An interface that moves along a wall with the speed U has the normal velocity v·n = U ν·n at every height, ν along the wall
-//! towards the non-wetting phase and n into the wetting one. So U = Σ w v·n/Σ w ν·n over the interface within the window of a fit,
+//! towards the non-wetting phase and n into the wetting one. So U = Σ w v·n/Σ w ν·n over the interface within the stencil of a fit,
 //! less the speed of the wall: a mean over a dozen points in which the flow along the interface has no part. Noise must not feed back
 //! through a law θ(U), so each line keeps the mean over the time τ = √(ρ̄h³/σ) + μh/σ, in which an interface of the size h
 //! answers to a change of its angle, as part of the state.
 //!
 //! **Place.** A line of a model that holds has an anchor, a point of the wall. The circle fit goes through it, with the angle free.
-//! Where that angle is within the window, the interface is to meet the wall at that angle: a line that has left its anchor is
+//! Where that angle is within the range, the interface is to meet the wall at that angle: a line that has left its anchor is
 //! drawn back. Where it is not, the angle is the bound, and the anchor moves to where the fit with that angle meets the wall.
 
 use serde::{Deserialize, Serialize};
@@ -45,7 +45,7 @@ pub struct Line {
 }
 
 /// What the interface tells of a contact line at one time.
-pub trait Sighting {
+pub trait DetectedLine {
     /// About where the line is: a point of the wall in m.
     fn place(&self) -> Vec2;
     /// ν_ns.
@@ -77,15 +77,15 @@ pub struct Following<'a> {
 }
 
 impl Following<'_> {
-    /// The lines now, from those of the step before, `dt` (s) ago, and from what is seen; those seen come first, in the order of the sightings.
+    /// The lines now, from those of the step before, `dt` (s) ago, and from what is seen; those seen come first, in the order of detection.
     #[must_use]
-    pub fn follow(&self, before: &[Line], seen: &[impl Sighting], dt: f64) -> Vec<Line> {
+    pub fn follow(&self, before: &[Line], seen: &[impl DetectedLine], dt: f64) -> Vec<Line> {
         let moved: Vec<Line> = before.iter().map(|line| self.carried(line, dt)).collect();
         let known = self.matches(&moved, seen);
         let mut lines: Vec<Line> = seen
             .iter()
             .zip(&known)
-            .map(|(sighting, known)| self.update(sighting, known.map(|i| moved[i]), dt))
+            .map(|(detected, known)| self.update(detected, known.map(|i| moved[i]), dt))
             .collect();
         let lost = |i: &usize| !known.contains(&Some(*i)) && moved[*i].unseen + dt < KEPT * self.mean_over;
         lines.extend((0..moved.len()).filter(lost).map(|i| Line { unseen: moved[i].unseen + dt, ..moved[i] }));
@@ -98,13 +98,13 @@ impl Following<'_> {
         Line { anchor: self.domain.wrapped(line.anchor + by), ..*line }
     }
 
-    /// For each sighting the line that it is, nearest pairs first.
-    fn matches(&self, lines: &[Line], seen: &[impl Sighting]) -> Vec<Option<usize>> {
+    /// For each detected line the line that it is, nearest pairs first.
+    fn matches(&self, lines: &[Line], seen: &[impl DetectedLine]) -> Vec<Option<usize>> {
         let mut near = Vec::new();
-        for (s, sighting) in seen.iter().enumerate() {
+        for (s, detected) in seen.iter().enumerate() {
             for (i, line) in lines.iter().enumerate() {
-                let distance = self.domain.separation(sighting.place(), line.position).norm();
-                if distance < SAME_LINE * self.h && sighting.outward().dot(&line.outward) > 0.0 {
+                let distance = self.domain.separation(detected.place(), line.position).norm();
+                if distance < SAME_LINE * self.h && detected.outward().dot(&line.outward) > 0.0 {
                     near.push((distance, s, i));
                 }
             }
@@ -119,7 +119,7 @@ impl Following<'_> {
         found
     }
 
-    fn update(&self, seen: &impl Sighting, known: Option<Line>, dt: f64) -> Line {
+    fn update(&self, seen: &impl DetectedLine, known: Option<Line>, dt: f64) -> Line {
         let (place, outward) = (seen.place(), seen.outward());
         let speed = seen.speed() - (self.wall_velocity)(place).dot(&outward);
         let speed = match known {
@@ -166,7 +166,7 @@ mod tests {
         speed: f64,
     }
 
-    impl Sighting for Straight {
+    impl DetectedLine for Straight {
         fn place(&self) -> Vec2 {
             Vec2::new(self.x, 0.0)
         }
@@ -204,24 +204,26 @@ mod tests {
         angle.to_radians()
     }
 
-    fn window() -> Wetting {
+    fn with_hysteresis() -> Wetting {
         Wetting::Hysteresis(Hysteresis { advancing: degrees(100.0), receding: degrees(60.0) })
     }
 
     #[test]
-    fn a_line_within_its_window_is_drawn_back_to_its_anchor() {
-        let start = follow(window(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
+    fn a_line_within_its_range_is_drawn_back_to_its_anchor() {
+        let start = follow(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
         assert_eq!(start[0].anchor, Vec2::zeros());
-        let off = follow(window(), 0.0, &start, &[Straight { x: 0.01, angle: degrees(80.0), speed: 0.0 }], 0.1);
+        let off =
+            follow(with_hysteresis(), 0.0, &start, &[Straight { x: 0.01, angle: degrees(80.0), speed: 0.0 }], 0.1);
         assert_eq!(off[0].anchor, Vec2::zeros());
         // An interface that went out is to stand steeper, which draws it in.
         assert!(off[0].angle > degrees(80.0) && off[0].angle < degrees(100.0), "{:?}", off[0]);
     }
 
     #[test]
-    fn a_line_beyond_its_window_has_the_bound_and_takes_its_anchor_along() {
-        let start = follow(window(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(95.0), speed: 0.0 }], 0.0);
-        let off = follow(window(), 0.0, &start, &[Straight { x: 0.05, angle: degrees(95.0), speed: 0.0 }], 0.1);
+    fn a_line_beyond_its_range_has_the_bound_and_takes_its_anchor_along() {
+        let start = follow(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(95.0), speed: 0.0 }], 0.0);
+        let off =
+            follow(with_hysteresis(), 0.0, &start, &[Straight { x: 0.05, angle: degrees(95.0), speed: 0.0 }], 0.1);
         assert!((off[0].angle - degrees(100.0)).abs() < 1e-12, "{:?}", off[0]);
         assert!(off[0].anchor.x > 0.01 && off[0].anchor == off[0].position && off[0].travel > 0.01, "{:?}", off[0]);
     }
@@ -229,10 +231,10 @@ mod tests {
     #[test]
     fn an_anchor_goes_with_its_wall_and_through_a_periodic_side() {
         let at = |x: f64| [Straight { x, angle: degrees(80.0), speed: 1.0 }];
-        let mut lines = follow(window(), 1.0, &[], &at(4.98), 0.0);
+        let mut lines = follow(with_hysteresis(), 1.0, &[], &at(4.98), 0.0);
         for step in 1..=4 {
             let x = 4.98 + 0.01 * f64::from(step);
-            lines = follow(window(), 1.0, &lines, &at(if x >= 5.0 { x - 10.0 } else { x }), 0.01);
+            lines = follow(with_hysteresis(), 1.0, &lines, &at(if x >= 5.0 { x - 10.0 } else { x }), 0.01);
         }
         let [line] = lines[..] else { panic!("{lines:?}") };
         assert!((line.anchor.x + 4.98).abs() < 1e-9 && line.speed.abs() < 1e-12, "{line:?}");
@@ -253,9 +255,9 @@ mod tests {
 
     #[test]
     fn a_line_that_is_lost_for_a_moment_keeps_its_anchor() {
-        let start = follow(window(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
-        let lost = follow(window(), 0.0, &start, &[], 0.5);
+        let start = follow(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
+        let lost = follow(with_hysteresis(), 0.0, &start, &[], 0.5);
         assert_eq!((lost.len(), lost[0].anchor, lost[0].unseen), (1, start[0].anchor, 0.5));
-        assert!(follow(window(), 0.0, &lost, &[], 10.0).is_empty());
+        assert!(follow(with_hysteresis(), 0.0, &lost, &[], 10.0).is_empty());
     }
 }

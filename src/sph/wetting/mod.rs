@@ -86,9 +86,9 @@ impl Wetting {
         }
     }
 
-    /// The angles in rad between which a line at rest can stand: receding and advancing, equal but for a hysteresis window.
+    /// The angles in rad between which a line at rest can stand: receding and advancing, equal but for a hysteresis range.
     #[must_use]
-    pub fn window(&self) -> [f64; 2] {
+    pub fn hysteresis_range(&self) -> [f64; 2] {
         match self {
             Self::Young(model) => [model.contact_angle; 2],
             Self::Tadmor(model) => [model.contact_angle(); 2],
@@ -106,11 +106,11 @@ impl Wetting {
     pub fn static_angle(&self) -> f64 {
         match self {
             Self::Hysteresis(model) => model.equilibrium(),
-            _ => self.window()[0],
+            _ => self.hysteresis_range()[0],
         }
     }
 
-    /// Whether the line stays where it stands while its angle is within the window.
+    /// Whether the line stays where it stands while its angle is within the range.
     #[must_use]
     pub fn holds(&self) -> bool {
         matches!(self, Self::Hysteresis(_))

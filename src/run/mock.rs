@@ -22,7 +22,7 @@ const STEP: f64 = 0.0234;
 
 /// Particles on circles about the origin.
 #[derive(Debug, Clone)]
-pub struct ToySolver {
+pub struct MockSolver {
     time: f64,
     dt: f64,
     steps: u64,
@@ -31,14 +31,14 @@ pub struct ToySolver {
     pub fails_after: Option<u64>,
 }
 
-impl ToySolver {
+impl MockSolver {
     pub fn new() -> Self {
         let points = (1..=36).map(|i| Vec2::new(f64::from(i % 6 + 1) / 6.0, f64::from(i / 6) / 6.0)).collect();
         Self { time: 0.0, dt: 0.0, steps: 0, points, fails_after: None }
     }
 }
 
-impl Solver for ToySolver {
+impl Solver for MockSolver {
     fn time(&self) -> f64 {
         self.time
     }

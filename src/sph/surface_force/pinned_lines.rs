@@ -27,7 +27,7 @@ const LIFT: f64 = 0.5;
 
 /// A contact line where its wall bends.
 #[derive(Debug, Clone, Copy)]
-pub struct Bend {
+pub struct PinnedLine {
     /// A place in m on the tangent of the wall that the interface meets.
     pub(super) place: Vec2,
     /// The wall normal of the tangent.
@@ -46,7 +46,7 @@ struct End {
 impl InterfaceLine<'_> {
     /// Where the interface meets the wall at the `angle` (rad), if the wall bends there.
     #[must_use]
-    pub fn bend(&self, angle: f64) -> Option<Bend> {
+    pub fn pinned(&self, angle: f64) -> Option<PinnedLine> {
         let (fit, place) = (self.fit, self.place);
         let normal_at = |way: f64| (fit.wall)(place + way * fit.h * self.outward).1;
         if normal_at(NEIGHBORHOOD).dot(&normal_at(-NEIGHBORHOOD)) > BENT {
@@ -73,7 +73,7 @@ impl InterfaceLine<'_> {
             let (distance, normal) = (fit.wall)(place + next);
             end = End { contact: next - distance * normal, normal };
         }
-        Some(Bend { place: fit.domain.wrapped(place + end.contact), normal: end.normal, side: self.side })
+        Some(PinnedLine { place: fit.domain.wrapped(place + end.contact), normal: end.normal, side: self.side })
     }
 
     /// A place above an end from which the wall is found again with the same normal.
@@ -128,8 +128,9 @@ mod tests {
         for degrees in [62.0_f64, 80.0, 112.0, 130.0, 148.0] {
             let points = drop(degrees.to_radians());
             let fit = InterfaceFit::new(&points, &domain, (0.1, H), &wall).held_to(&law);
-            let bends: Vec<Bend> = fit.lines().iter().filter_map(|line| line.bend(60_f64.to_radians())).collect();
-            let fit = fit.with_bends(&bends);
+            let pinned_lines: Vec<PinnedLine> =
+                fit.lines().iter().filter_map(|line| line.pinned(60_f64.to_radians())).collect();
+            let fit = fit.with_pinned_lines(&pinned_lines);
             for point in points.iter().filter(|p| p.x.norm() < 0.4) {
                 let (kappa, from) = (fit.curvature(point.x).unwrap(), point.x.norm());
                 assert!((kappa - 1.0).abs() < 3e-3, "at {degrees} degrees, {from:.3} from the edge: {kappa}");

@@ -1,4 +1,4 @@
-//! Shells: lines at a constant depth below the surface of a solid, or above it, along which particles stand.
+//! Offset curves: lines at a constant depth below the surface of a solid, or above it, along which particles stand.
 //!
 //! The surface is followed from piece to piece. Each sample of it is moved along the normal, a fan of samples around each
 //! corner closes the gap that opens there, and a sample is kept where it has its depth indeed: where bodies
@@ -27,14 +27,14 @@ const JOINED: f64 = 2.0;
 
 /// A line at a constant depth.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shell {
+pub struct OffsetCurve {
     /// Its points in m, finely sampled.
     pub points: Vec<Vec2>,
     /// Whether the last point is joined to the first.
     pub closed: bool,
 }
 
-impl Shell {
+impl OffsetCurve {
     /// Length in m.
     #[must_use]
     pub fn length(&self) -> f64 {
@@ -146,15 +146,15 @@ impl<'a> UnfittedSurface<'a> {
     pub fn near(&self, x: Vec2, reach: f64) -> Option<Near> {
         let (x, boundary) = (self.geometry.wrapped(x), &self.geometry.boundary);
         let nearest = match &self.counts {
-            None => boundary.nearest(x).filter(|nearest| (nearest.foot.point - x).norm() <= reach),
+            None => boundary.nearest(x).filter(|nearest| (nearest.closest.point - x).norm() <= reach),
             Some(counts) => {
-                let normal = |near: &Nearest| boundary.pieces[near.piece].curve.normal(near.foot.u);
-                let counted = boundary.within(x, reach).filter(|near| counts(near.foot.point, normal(near)));
-                counted.min_by(|a, b| (a.foot.point - x).norm().total_cmp(&(b.foot.point - x).norm()))
+                let normal = |near: &Nearest| boundary.pieces[near.piece].curve.normal(near.closest.u);
+                let counted = boundary.within(x, reach).filter(|near| counts(near.closest.point, normal(near)));
+                counted.min_by(|a, b| (a.closest.point - x).norm().total_cmp(&(b.closest.point - x).norm()))
             }
         }?;
-        let Nearest { piece, foot } = nearest;
-        let beside = match foot.u {
+        let Nearest { piece, closest } = nearest;
+        let beside = match closest.u {
             _ if boundary.pieces[piece].curve.is_closed() => None,
             0.0 => self.before[piece],
             1.0 => self.next[piece],
@@ -167,13 +167,13 @@ impl<'a> UnfittedSurface<'a> {
 
     /// The lines at `depth` below the surface, or above it where that is negative, as far as `within` holds, sampled every `step`; all in m.
     #[must_use]
-    pub fn shells(&self, depth: f64, step: f64, within: impl Fn(Vec2) -> bool + Sync) -> Vec<Shell> {
-        let mut shells = Vec::new();
+    pub fn offset_curves(&self, depth: f64, step: f64, within: impl Fn(Vec2) -> bool + Sync) -> Vec<OffsetCurve> {
+        let mut offset_curves = Vec::new();
         for (chain, is_closed) in chains(&self.geometry.boundary.pieces, &self.next) {
             let samples = self.samples(&chain, is_closed, depth, step);
-            shells.extend(self.cut(&samples, is_closed, (depth, step), &within));
+            offset_curves.extend(self.cut(&samples, is_closed, (depth, step), &within));
         }
-        shells
+        offset_curves
     }
 
     /// The samples of a chain moved to `depth`; those of parts that are left out are none, and cut the line.
@@ -228,7 +228,7 @@ impl<'a> UnfittedSurface<'a> {
         is_closed: bool,
         (depth, step): (f64, f64),
         within: impl Fn(Vec2) -> bool + Sync,
-    ) -> Vec<Shell> {
+    ) -> Vec<OffsetCurve> {
         let has_depth = |x: Vec2| {
             let is_at_depth = |near: Near| (near.distance + depth).abs() < SAME_DEPTH * step && near.is_unfitted;
             within(x) && self.near(x, 2.0 * depth.abs()).is_some_and(is_at_depth)
@@ -247,7 +247,7 @@ impl<'a> UnfittedSurface<'a> {
         let n = samples.len();
         let first = if is_closed { good.iter().position(|good| !good) } else { None };
         let Some(first) = first.or((!is_closed).then_some(0)) else {
-            return vec![Shell { points: (0..n).map(place).collect(), closed: true }];
+            return vec![OffsetCurve { points: (0..n).map(place).collect(), closed: true }];
         };
         let mut lines: Vec<Vec<Vec2>> = Vec::new();
         let mut line: Vec<Vec2> = Vec::new();
@@ -280,7 +280,7 @@ fn fan(corner: Vec2, spoke: Vec2, angle: f64, step: f64) -> impl Iterator<Item =
 }
 
 /// Joins lines whose ends are nearer than `reach` (m) to the begin of the next one; none shorter than that is kept.
-fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<Shell> {
+fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<OffsetCurve> {
     let mut joined: Vec<Vec<Vec2>> = Vec::new();
     for line in lines {
         match joined.last_mut().filter(|last| (last[last.len() - 1] - line[0]).norm() < reach) {
@@ -288,26 +288,26 @@ fn join(lines: Vec<Vec<Vec2>>, is_closed: bool, reach: f64) -> Vec<Shell> {
             None => joined.push(line),
         }
     }
-    let mut shells: Vec<Shell> = joined.into_iter().map(|points| Shell { points, closed: false }).collect();
+    let mut curves: Vec<OffsetCurve> = joined.into_iter().map(|points| OffsetCurve { points, closed: false }).collect();
     if is_closed {
-        close(&mut shells, reach);
+        close(&mut curves, reach);
     }
-    shells.retain(|shell| shell.points.len() > 1 && shell.length() > reach);
-    shells
+    curves.retain(|line| line.points.len() > 1 && line.length() > reach);
+    curves
 }
 
 /// Joins the last line of a closed chain to the first where it leads on into it.
-fn close(shells: &mut Vec<Shell>, reach: f64) {
-    let Some(last) = shells.pop() else { return };
+fn close(curves: &mut Vec<OffsetCurve>, reach: f64) {
+    let Some(last) = curves.pop() else { return };
     let end = last.points[last.points.len() - 1];
-    match shells.first_mut() {
+    match curves.first_mut() {
         None => {
             let closed = (end - last.points[0]).norm() < reach;
-            shells.push(Shell { closed, ..last });
+            curves.push(OffsetCurve { closed, ..last });
         }
         Some(first) if (end - first.points[0]).norm() < reach => {
             first.points = last.points.into_iter().chain(std::mem::take(&mut first.points)).collect();
         }
-        Some(_) => shells.push(last),
+        Some(_) => curves.push(last),
     }
 }

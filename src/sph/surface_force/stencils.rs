@@ -1,4 +1,4 @@
-//! Windows: the points of the interface around one of them, and where they would lie for a fit of one circle.
+//! Stencils: the points of the interface around one of them, and where they would lie for a fit of one circle.
 //!
 //! The level 1/2 of the smoothed color is drawn towards the center of curvature by h²κ/7 (`LINE_MOMENT`). A gradient of the curvature
 //! bends the interface away from its circle by the deflection w with w'' = ∇κ·x along it, w = ∇κ·d |d|²/6 at the distance d.
@@ -8,14 +8,15 @@ use crate::sph::surface_force::circles::{Circle, Near};
 use crate::sph::surface_force::fit::InterfaceFit;
 use crate::sph::surface_force::points::InterfacePoint;
 
-/// Radius r of the window of a fit over h.
-pub const WINDOW: f64 = 3.0;
+/// Radius r of the stencil of a fit over h.
+pub const STENCIL_RADIUS: f64 = 3.0;
 
 /// A point at the distance d has the weight (1 − d²/r²) to this power. Two sees waves of two to three spacings upside down.
 pub const SMOOTHNESS: i32 = 6;
 
-/// A window is moved to the foot of its particle so many times: by the circle around the nearest point, and by that around the foot found.
-const FEET: usize = 2;
+/// A stencil is moved to the closest point of its particle so many times: by the circle around the nearest point, and by that around the
+/// closest point found.
+const CLOSEST_POINT_PASSES: usize = 2;
 
 /// Squared distances that differ by less than this share are equal.
 const TIE: f64 = 1e-9;
@@ -29,7 +30,7 @@ const LARGEST_CURVATURE: f64 = 0.75;
 impl InterfaceFit<'_> {
     /// Index of the nearest point and x − x_p; all of those that are equally near, so that a mirrored flow stays mirrored.
     pub(super) fn nearest(&self, x: Vec2) -> Vec<(usize, Vec2)> {
-        let mut least = (WINDOW * self.h).powi(2);
+        let mut least = (STENCIL_RADIUS * self.h).powi(2);
         let mut nearest = Vec::new();
         self.cells.visit_near(x, |i, r| {
             if r.norm_squared() <= least * (1.0 + TIE) {
@@ -41,30 +42,30 @@ impl InterfaceFit<'_> {
         nearest
     }
 
-    /// The foot of `x` (m) on the interface near the point `nearest` of it, and the window there.
+    /// The closest point of `x` (m) on the interface near the point `nearest` of it, and the stencil there.
     ///
-    /// The foot moves as x does. The nearest point does not: particles inside see the dents of a rough interface and those outside its
-    /// bumps, so that the curvatures on both sides of one place differ. Near a wall the interface ends, and a foot may lie behind the
-    /// wall or at the other line of a small base: there the window stays around the nearest point.
-    pub(super) fn window_at_foot(&self, nearest: InterfacePoint, x: Vec2) -> (InterfacePoint, Vec<Near>) {
+    /// The closest point moves as x does. The nearest point does not: particles inside see the dents of a rough interface and those outside its
+    /// bumps, so that the curvatures on both sides of one place differ. Near a wall the interface ends, and a closest point may lie behind the
+    /// wall or at the other line of a small base: there the stencil stays around the nearest point.
+    pub(super) fn stencil_at_closest_point(&self, nearest: InterfacePoint, x: Vec2) -> (InterfacePoint, Vec<Near>) {
         let mut point = nearest;
-        let mut near = self.window(point.normal, point.x);
+        let mut near = self.stencil(point.normal, point.x);
         if nearest.wall_distance.is_finite() {
             return (point, near);
         }
-        for _ in 0..FEET {
+        for _ in 0..CLOSEST_POINT_PASSES {
             let circle = Circle::through(&self.of_one_curvature(&near, Vec2::zeros()), point.normal);
-            let Some((foot, normal)) = circle.and_then(|circle| circle.foot(x - point.x)) else { break };
-            point.x += foot * (self.h / foot.norm()).min(1.0);
+            let Some((closest, normal)) = circle.and_then(|circle| circle.closest_point(x - point.x)) else { break };
+            point.x += closest * (self.h / closest.norm()).min(1.0);
             point.normal = normal;
-            near = self.window(point.normal, point.x);
+            near = self.stencil(point.normal, point.x);
         }
         (point, near)
     }
 
-    /// The points of the piece with about the unit `normal` within the window around `x_p` (m).
-    pub(super) fn window(&self, normal: Vec2, x_p: Vec2) -> Vec<Near> {
-        let reach2 = (WINDOW * self.h).powi(2);
+    /// The points of the piece with about the unit `normal` within the stencil around `x_p` (m).
+    pub(super) fn stencil(&self, normal: Vec2, x_p: Vec2) -> Vec<Near> {
+        let reach2 = (STENCIL_RADIUS * self.h).powi(2);
         let mut near = Vec::new();
         self.cells.visit_near(x_p, |i, r| {
             let index = i as usize;
@@ -80,15 +81,15 @@ impl InterfaceFit<'_> {
         near
     }
 
-    /// The points of a window moved from the level 1/2 of the smoothed color to the interface, which has the curvature `kappa` (1/m)
-    /// in the middle of the window.
+    /// The points of a stencil moved from the level 1/2 of the smoothed color to the interface, which has the curvature `kappa` (1/m)
+    /// in the middle of the stencil.
     pub(super) fn on_interface(&self, near: &[Near], kappa: f64) -> Vec<Near> {
         let limit = self.limit();
         let drawn = |x: Vec2| LINE_MOMENT * self.h * self.h * (kappa + self.gradient.dot(&x)).clamp(-limit, limit);
         near.iter().map(|q| Near { x: q.x - drawn(q.x) * self.points[q.index].normal, ..*q }).collect()
     }
 
-    /// The points of a window as they would lie if the interface had everywhere the curvature that it has at `origin`.
+    /// The points of a stencil as they would lie if the interface had everywhere the curvature that it has at `origin`.
     pub(super) fn of_one_curvature(&self, near: &[Near], origin: Vec2) -> Vec<Near> {
         near.iter()
             .map(|q| {

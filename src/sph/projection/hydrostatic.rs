@@ -8,14 +8,14 @@ use rayon::prelude::*;
 
 use super::Flow;
 use crate::math::Vec2;
-use crate::sph::boundary::carry;
+use crate::sph::boundary::shepard;
 use crate::sph::method::PressureGradient;
 use crate::sph::pairs::{GRAIN, Pairs};
 use crate::sph::poisson::Matrix;
 use crate::sph::surface_force::jump::Jump;
 
 /// What makes the pressure of a fluid at rest uneven.
-pub(super) struct AtRest<'a> {
+pub(super) struct HydrostaticDifference<'a> {
     jump: Option<&'a Jump>,
     tension: f64,
     /// In kg/m³ over particles and images, empty without gravity.
@@ -28,7 +28,7 @@ pub(super) struct AtRest<'a> {
 
 impl Flow {
     /// The fluid at its present places, at rest.
-    pub(super) fn at_rest(&self) -> AtRest<'_> {
+    pub(super) fn hydrostatic(&self) -> HydrostaticDifference<'_> {
         let gravity = self.balanced_gravity();
         let mut potential = Vec::new();
         if gravity != Vec2::zeros() {
@@ -39,7 +39,7 @@ impl Flow {
         let density = if potential.is_empty() { Vec::new() } else { self.density_at_rest() };
         let driving = self.driving_gradient();
         let driven = (driving != Vec2::zeros() && self.gradient_in_pressure()).then_some((driving, self));
-        AtRest { jump, tension: self.method.tension, density, potential, driven }
+        HydrostaticDifference { jump, tension: self.method.tension, density, potential, driven }
     }
 
     /// The density in kg/m³ of the phase, over particles and images; walls have that of the side they take, or of the fluid nearby.
@@ -53,7 +53,7 @@ impl Flow {
         let mut density: Vec<f64> = of_phase.collect();
         density.resize(particles.len(), method.mean_density());
         self.images.extend(&mut density);
-        carry::into_walls(&self.pairs, &self.fields.fluid_volume, moving, &mut density);
+        shepard::into_walls(&self.pairs, &self.fields.fluid_volume, moving, &mut density);
         self.images.extend(&mut density);
         density
     }
@@ -70,11 +70,11 @@ impl Flow {
     }
 }
 
-impl AtRest<'_> {
+impl HydrostaticDifference<'_> {
     /// p_b − p_a = σ κ̄_ab (c_b − c_a) + (ρ_a + ρ_b)/2 g·(x_b − x_a) + G·(x_b − x_a) in Pa; G drives given flows, and the pressure is
     /// that without its mean gradient −G.
     #[inline]
-    pub(super) fn rise(&self, a: usize, b: usize) -> f64 {
+    pub(super) fn difference(&self, a: usize, b: usize) -> f64 {
         let jump = self.jump.map_or(0.0, |jump| self.tension * jump.of(a, b));
         let jump = self.driven.map_or(jump, |(gradient, flow)| jump - gradient.dot(&flow.separation(a, b)));
         if self.potential.is_empty() {
@@ -95,7 +95,7 @@ impl AtRest<'_> {
                 return;
             }
             let rises = pairs.of(a).zip(&matrix.coupling[pairs.row(a)]);
-            *right -= rises.map(|(ab, coupling)| f64::from(*coupling) * self.rise(a, ab.b)).sum::<f64>();
+            *right -= rises.map(|(ab, coupling)| f64::from(*coupling) * self.difference(a, ab.b)).sum::<f64>();
         });
     }
 }
