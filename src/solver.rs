@@ -260,8 +260,8 @@ pub trait Solver {
     /// The final results; `series` holds all rows recorded so far.
     fn measures(&self, series: &Series) -> Vec<Measure>;
 
-    /// What a reader must know before trusting the measures, now: what is not resolved, what is out of the model's reach.
-    fn warnings(&self) -> Vec<String> {
+    /// What a reader must know before trusting the measures, now: what is not resolved, what is out of the model's reach; `series` as for [`measures`](Self::measures).
+    fn warnings(&self, _series: &Series) -> Vec<String> {
         Vec::new()
     }
 

@@ -8,8 +8,9 @@ mod flow;
 use std::f64::consts::TAU;
 
 use boxes::{SURFACE_FORCES, case, fastest, steps};
-use flow::flow;
+use flow::{flow, solver};
 use meniscus::math::Vec2;
+use meniscus::solver::Solver;
 use meniscus::sph::particles::Phase;
 use meniscus::sph::projection::Flow;
 use meniscus::sph::terms::shifting::{carried_velocity, keep_along, short_range, take_out_mean};
@@ -325,4 +326,54 @@ fn the_drift_source_rests_where_the_fluid_does() {
     let rate = method.density_correction_rate(0.01);
     method.time_step_factor = 0.5;
     assert_eq!(method.density_correction_rate(0.01), rate);
+}
+
+/// A disc in a periodic cell, and a force that turns from x to y at 0.5 ms.
+const TURNING: &str = r#"
+format = 1
+title = "a force that turns"
+[geometry]
+min = [0.0, 0.0]
+max = [4.0e-4, 4.0e-4]
+shapes = [{ disc = { center = [2.1e-4, 2.0e-4], radius = 1.0e-4 } }]
+[sph]
+spacing = 2.0e-5
+gravity = [1.0, 2.0]
+[sph.phases.wetting]
+density = 1000.0
+viscosity = 0.01
+[sph.sides]
+left = "periodic"
+right = "periodic"
+bottom = "periodic"
+top = "periodic"
+[sph.measure.permeability]
+[time]
+end = 1.0e-3
+"#;
+
+#[test]
+fn a_run_resumed_before_at_or_after_the_turn_of_its_force_takes_the_same_steps() {
+    let to = |solver: &mut dyn Solver, until: f64| {
+        while solver.time() < until {
+            solver.step(until).unwrap();
+        }
+    };
+    for resumed_at in [3.0e-4, 5.0e-4, 7.0e-4] {
+        let (mut whole, mut first, mut second) = (solver(TURNING), solver(TURNING), solver(TURNING));
+        to(&mut first, resumed_at);
+        to(&mut whole, resumed_at);
+        second.restore(&first.state()).unwrap();
+        to(&mut whole, 1.0e-3);
+        to(&mut second, 1.0e-3);
+        assert_eq!(whole.flow.particles, second.flow.particles, "resumed at {resumed_at} s");
+        assert_eq!(whole.flow.method.gravity, Vec2::new(0.0, 2.0));
+    }
+    let mut solver = solver(TURNING);
+    assert_eq!(solver.flow.method.gravity, Vec2::new(1.0, 0.0));
+    // A step that would pass the turn ends there.
+    while solver.time() < 5.0e-4 {
+        solver.step(1.0).unwrap();
+    }
+    assert_eq!(solver.time(), 5.0e-4);
 }

@@ -217,6 +217,8 @@ groups! {
     cavity: ["u-min", "v-max", "v-min"],
     /// Drag on the solids of a periodic cell that a body force drives fluid through.
     cylinder_array: ["drag-over-mu-u", "mean-velocity-m-per-s", "permeability-m2", "unsteady-share"],
+    /// Permeability tensor of a periodic cell by a body force along each axis in turn.
+    permeability: ["permeability-xx-m2", "permeability-xy-m2", "permeability-yx-m2", "permeability-yy-m2", "unsteady-share-x", "unsteady-share-y"],
     /// Capillary pressure of a meniscus in the throat between two bodies; between discs over the exact entry pressure.
     throat_entry: ["entry-pressure-Pa", "entry-pressure-ratio", "entry-curvature-ratio"],
     /// Difference of the mean levels on both sides of a plate.

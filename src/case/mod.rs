@@ -16,6 +16,7 @@ pub mod network;
 mod numerics;
 mod open;
 mod patches;
+mod permeability;
 pub mod preset;
 pub mod raw;
 mod resolve;

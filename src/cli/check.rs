@@ -12,7 +12,7 @@ use crate::run::execute::Mode;
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
 use crate::run::trial::{Trial, trial};
-use crate::solver::Solver;
+use crate::solver::{Series, Solver};
 
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: f64 = 1048576.0;
@@ -24,7 +24,7 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let mut solver = built(&source, Mode::New)?;
     let found = tried(case, solver.as_mut())?;
     let advice = advice::advice(case, Some(&found));
-    let warnings = setup::warnings(case, solver.as_ref());
+    let warnings = setup::warnings(case, solver.as_ref(), &Series::default());
     if arguments.json {
         let told = Told { trial: &found, warnings: &warnings, advice: advice.as_ref() };
         say(told.json().map_err(|error| Failure::new(BUG, &error))?);

@@ -173,7 +173,7 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
         machine: Machine::present(),
         wall_time_s: wall_time(0.0, statistics.parts.iter().copied().chain(records.parts())),
         cpu_s: None,
-        warnings: setup::warnings(job.case, solver),
+        warnings: setup::warnings(job.case, solver, records.series()),
         solver: SolverReport::from(&statistics),
     }
 }

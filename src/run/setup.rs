@@ -5,7 +5,7 @@ use crate::case::{Facts, check_against};
 use crate::geometry::Geometry;
 use crate::input::Problem;
 use crate::math::{Bounds, Vec2};
-use crate::solver::Solver;
+use crate::solver::{Series, Solver};
 use crate::{network, sph, thin_film};
 
 /// A case that no solver can be made for.
@@ -98,15 +98,15 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
     }
 }
 
-/// What a reader must know before trusting a run of the case, by the case and by the present state of its solver.
+/// What a reader must know before trusting a run of the case, by the case and by the present state of its solver with the rows so far.
 #[must_use]
-pub fn warnings(case: &Case, solver: &dyn Solver) -> Vec<String> {
+pub fn warnings(case: &Case, solver: &dyn Solver, series: &Series) -> Vec<String> {
     let of_case = match &case.model {
         Model::ThinFilm(film) => film.notes(case.end),
         Model::Sph(sph) => coarse_throat(case, sph).into_iter().chain(not_at_rest(sph)).collect(),
         Model::Network(_) => Vec::new(),
     };
-    of_case.into_iter().chain(solver.warnings()).collect()
+    of_case.into_iter().chain(solver.warnings(series)).collect()
 }
 
 /// Spacings across a throat below which its menisci and their angles are off by degrees.

@@ -24,6 +24,7 @@ pub mod poisson;
 pub mod projection;
 pub mod setup;
 pub mod solver;
+pub mod stages;
 pub mod state;
 pub mod surface_force;
 pub mod terms;

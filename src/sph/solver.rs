@@ -9,10 +9,11 @@ use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{
     Measure, Quantity, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
 };
-use crate::sph::measures::{DiscOf, Subject, all, columns};
+use crate::sph::measures::{DiscOf, Subject, all, columns, permeability};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Particles;
 use crate::sph::projection::Flow;
+use crate::sph::stages::Stages;
 use crate::sph::warnings::warnings;
 use crate::sph::{output, state};
 use crate::table::Document;
@@ -43,6 +44,8 @@ pub struct Surroundings {
     pub plates: Vec<Bounds>,
     /// Speeds of the walls at the left, right, bottom and top side in m/s.
     pub wall_speeds: [f64; 4],
+    /// Body forces that act one after the other, where that is what is measured.
+    pub stages: Option<Stages>,
     /// Groups of measures.
     pub measures: MeasureSet,
     /// Distance of grid nodes in m.
@@ -56,7 +59,16 @@ impl SphSolver {
     #[must_use]
     pub fn new(flow: Flow, surroundings: Surroundings) -> Self {
         let seen = Observation::of(&flow, &surroundings.wall_samples);
-        Self { flow, start: seen.areas, seen: OnceLock::from(seen), surroundings }
+        let mut solver = Self { flow, start: seen.areas, seen: OnceLock::from(seen), surroundings };
+        solver.turn_force();
+        solver
+    }
+
+    /// Gives the flow the body force of its time, where several act one after the other.
+    fn turn_force(&mut self) {
+        if let Some(stages) = &self.surroundings.stages {
+            self.flow.method.gravity = stages.force(self.flow.time);
+        }
     }
 
     /// What can be seen of the flow now. Found once between two steps: series, files and report all ask for it.
@@ -88,7 +100,9 @@ impl Solver for SphSolver {
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         self.seen.take();
-        self.flow.step(until)
+        self.turn_force();
+        let time = self.flow.time;
+        self.flow.step(self.surroundings.stages.as_ref().map_or(until, |stages| stages.stop(time, until)))
     }
 
     fn snapshot(&self) -> Snapshot<'_> {
@@ -155,12 +169,16 @@ impl Solver for SphSolver {
             discs: &around.discs,
             plates: &around.plates,
             wall_speeds: around.wall_speeds,
+            stages: around.stages.as_ref(),
         };
         all(&subject, &around.measures)
     }
 
-    fn warnings(&self) -> Vec<String> {
-        warnings(&self.flow, self.observe())
+    fn warnings(&self, series: &Series) -> Vec<String> {
+        let area = self.observe().areas.wetting;
+        let of_permeability = |stages| permeability::warnings(&self.flow, stages, series, area);
+        let of_tensor = self.surroundings.stages.as_ref().map(of_permeability);
+        warnings(&self.flow, self.observe()).into_iter().chain(of_tensor.into_iter().flatten()).collect()
     }
 
     fn results(&self) -> Results<'_> {
@@ -181,6 +199,7 @@ impl Solver for SphSolver {
         let (start, flow) = postcard::take_from_bytes(state).map_err(|error| StateError(error.to_string()))?;
         state::load(&mut self.flow, flow)?;
         self.start = start;
+        self.turn_force();
         Ok(())
     }
 

@@ -36,6 +36,8 @@ tables! {
         pub cavity: Empty,
         /// Drag on the solids of a periodic cell.
         pub cylinder_array: Empty,
+        /// Permeability tensor of a periodic cell.
+        pub permeability: Empty,
         /// Capillary pressure of a meniscus in the throat between two bodies.
         pub throat_entry: Empty,
         /// Difference of the mean levels on both sides of a plate.

@@ -192,7 +192,7 @@ impl Solver for DynamicSolver {
         measures::all(self, series)
     }
 
-    fn warnings(&self) -> Vec<String> {
+    fn warnings(&self, _: &Series) -> Vec<String> {
         let mut found = Vec::new();
         if self.is_closed {
             found.push("the injected phase has no way out any more: the displacement ended there".to_owned());

@@ -13,6 +13,7 @@ mod laplace_drop;
 mod layered;
 mod moving_drop;
 pub(crate) mod open;
+pub(crate) mod permeability;
 mod poiseuille;
 mod sessile_drop;
 mod sliding;
@@ -32,6 +33,7 @@ use crate::solver::{Measure, Series};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
+use crate::sph::stages::Stages;
 
 /// A disc of the geometry, for measures that compare with closed forms.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +60,8 @@ pub struct Subject<'a> {
     pub plates: &'a [Bounds],
     /// Speeds of the walls at the left, right, bottom and top side in m/s.
     pub wall_speeds: [f64; 4],
+    /// The body forces, where they act one after the other.
+    pub stages: Option<&'a Stages>,
 }
 
 impl Subject<'_> {
@@ -89,7 +93,7 @@ type Group = fn(&Subject) -> Vec<Measure>;
 pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
     let mut measures = every_run::measures(subject);
     measures.extend(open::measures(subject));
-    let groups: [(bool, Group); 20] = [
+    let groups: [(bool, Group); 21] = [
         (set.sessile_drop, sessile_drop::measures),
         (set.laplace_drop, laplace_drop::measures),
         (set.poiseuille, poiseuille::measures),
@@ -104,6 +108,7 @@ pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
         (set.layered_poiseuille, layered::measures),
         (set.cavity, cavity::measures),
         (set.cylinder_array, cylinder_array::measures),
+        (set.permeability, permeability::measures),
         (set.throat_entry, throat::measures),
         (set.jurin, jurin::measures),
         (set.moving_drop, sliding::measures),
@@ -121,6 +126,9 @@ pub fn all(subject: &Subject, set: &MeasureSet) -> Vec<Measure> {
 #[must_use]
 pub fn columns(flow: &Flow, seen: &Observation, set: &MeasureSet) -> Vec<(&'static str, f64)> {
     let mut columns = open::columns(flow);
+    if set.permeability {
+        columns.extend(permeability::columns(flow));
+    }
     if set.oscillating_drop || set.shear_drop {
         columns.extend(moving_drop::columns(flow));
     }

@@ -10,6 +10,7 @@ use crate::math::{Bounds, Vec2};
 use crate::snapshot::Lines;
 use crate::sph::measures::DiscOf;
 use crate::sph::solver::Surroundings;
+use crate::sph::stages::Stages;
 
 /// The surroundings of the flow of a case.
 pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surroundings {
@@ -20,6 +21,7 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surro
         discs: discs(&case.geometry),
         plates: plates(&case.geometry),
         wall_speeds: sph.wall_speeds,
+        stages: sph.measure.permeability.then(|| Stages::new(sph.gravity, case.end)).flatten(),
         measures: sph.measure.clone(),
         grid_spacing: case.output.grid_ratio * sph.spacing,
         hand_back: sph.initial.network.as_ref().map(|start| hand_back(start, sph.tension)),

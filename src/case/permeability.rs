@@ -1,0 +1,127 @@
+//! Checks of `[sph.measure.permeability]`: one fluid, periodic sides, and a force along each axis that they let through.
+
+use super::check::Checker;
+use super::checked::{Model, Output, SIDES, Side, Sph};
+use crate::geometry::spec::GeometrySpec;
+
+/// Fewest records under each force: the last two tell whether the flow is steady.
+const FEWEST_RECORDS: f64 = 2.0;
+
+/// Checks what the measure asks of the model.
+pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometry: Option<&GeometrySpec>) {
+    let Some(sph) = measured(model) else { return };
+    if sph.non_wetting.is_some() {
+        checker.refuse(
+            "sph.phases.non-wetting",
+            "a permeability is that of one fluid, and there are two: their interface moves or holds them back",
+            "leave out the second phase with its interface and wetting, or [sph.measure.permeability]",
+        );
+    }
+    if sph.measure.cylinder_array || sph.measure.poiseuille {
+        let other = if sph.measure.cylinder_array { "cylinder-array" } else { "poiseuille" };
+        checker.refuse(
+            "sph.measure.permeability",
+            format!("the force acts along x and y in turn, and [sph.measure.{other}] is that of one force"),
+            "keep one of both",
+        );
+    }
+    sides(checker, sph);
+    let has_walls = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top].contains(&Side::Wall);
+    if geometry.is_some_and(|geometry| geometry.shapes.is_empty()) && !has_walls {
+        checker.refuse(
+            "sph.measure.permeability",
+            "there are no solids that would hold the flow back",
+            "add [geometry] shapes",
+        );
+    }
+}
+
+/// Sides that are open, driven or moving, and a force that does not go with the others.
+fn sides(checker: &mut Checker, sph: &Sph) {
+    let kinds = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let before = checker.problems.len();
+    for (i, side) in SIDES.iter().enumerate() {
+        let is_driven = sph.open[i].is_some() || matches!(kinds[i], Side::Inlet | Side::Outlet);
+        if is_driven {
+            let opposite = SIDES[i ^ 1];
+            checker.refuse(
+                if kinds[i] == Side::Periodic { format!("sph.sides.open.{side}") } else { format!("sph.sides.{side}") },
+                format!(
+                    "fluid is driven through the side `{side}`, and a permeability is measured with sph.gravity alone"
+                ),
+                format!("set {side} and {opposite} to \"periodic\" with no table in [sph.sides.open]"),
+            );
+        }
+        if sph.wall_speeds[i] != 0.0 {
+            let help = "leave the speed out, or [sph.measure.permeability]";
+            checker.refuse(
+                format!("sph.sides.speed.{side}"),
+                "a wall that moves drives the flow beside sph.gravity",
+                help,
+            );
+        }
+    }
+    let is_periodic = [kinds[0] == Side::Periodic, kinds[2] == Side::Periodic];
+    if checker.problems.len() > before {
+        return;
+    }
+    if is_periodic == [false; 2] {
+        checker.refuse(
+            "sph.measure.permeability",
+            "nothing can flow through: no side is periodic",
+            "set left and right, or bottom and top, to \"periodic\" in [sph.sides]",
+        );
+        return;
+    }
+    for axis in 0..2 {
+        let (name, force) = (["x", "y"][axis], sph.gravity[axis]);
+        let [one, other] = [SIDES[2 * axis], SIDES[2 * axis + 1]];
+        if is_periodic[axis] && force == 0.0 {
+            checker.refuse(
+                "sph.gravity",
+                format!("the sides `{one}` and `{other}` are periodic, and the force along {name} is 0"),
+                "give a component along each axis with periodic sides, in m/s2; they act one after the other",
+            );
+        } else if !is_periodic[axis] && force != 0.0 {
+            checker.refuse(
+                "sph.gravity",
+                format!("a force along {name} drives nothing through the closed sides `{one}` and `{other}`"),
+                format!("set its component along {name} to 0: the tensor then has the column of the other axis; or make these sides periodic"),
+            );
+        }
+    }
+}
+
+/// Checks the records and the end; `end` in s is missing where it was wrong.
+pub(super) fn records(
+    checker: &mut Checker,
+    model: Option<&Model>,
+    (end, is_steady): (Option<f64>, bool),
+    output: &Output,
+) {
+    let (Some(sph), Some(end)) = (measured(model), end) else { return };
+    let forces = (0..2).filter(|&axis| sph.gravity[axis] != 0.0).count().max(1) as f64;
+    if is_steady && forces > 1.0 {
+        checker.refuse(
+            "time.steady",
+            "sph.gravity turns from x to y at half the time, and a run that ends before has no second column",
+            "leave this out; unsteady-share-x and unsteady-share-y tell how steady both flows are",
+        );
+    }
+    let most = end / forces / FEWEST_RECORDS;
+    if output.series_every > most {
+        checker.refuse(
+            "output.series.every-time",
+            format!("{:?} s leaves fewer than {FEWEST_RECORDS} records under each force", output.series_every),
+            format!("a row every {most:.2e} s or more often would do"),
+        );
+    }
+}
+
+/// The direct simulation that asks for its permeability.
+fn measured(model: Option<&Model>) -> Option<&Sph> {
+    match model {
+        Some(Model::Sph(sph)) if sph.measure.permeability => Some(sph),
+        _ => None,
+    }
+}

@@ -1,0 +1,124 @@
+//! Body forces that act one after the other in one run, so that the linear response of a slow flow to each is known at its end.
+//!
+//! The force follows from the time alone, so that a resumed run turns it as an unbroken one.
+
+use crate::math::Vec2;
+use crate::solver::Series;
+
+/// Times closer than this share of a stage are one: far above the rounding of records, far below a time step.
+const SAME: f64 = 1.0e-9;
+
+/// Stages of equal length, each with a body force along one axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stages {
+    /// Axes that a force acts along, 0 for x and 1 for y, in order.
+    axes: Vec<usize>,
+    /// Body force per mass in m/s², whose components act one after the other.
+    force: Vec2,
+    /// Length of a stage in s.
+    length: f64,
+}
+
+impl Stages {
+    /// The components of `force` (m/s²) that are not zero, x first, for the same time each until `end` (s); none where there is no force.
+    #[must_use]
+    pub fn new(force: Vec2, end: f64) -> Option<Self> {
+        let axes: Vec<usize> = (0..2).filter(|&axis| force[axis] != 0.0).collect();
+        let length = end / axes.len() as f64;
+        (!axes.is_empty()).then_some(Self { axes, force, length })
+    }
+
+    /// The axes in the order of their stages.
+    #[must_use]
+    pub fn axes(&self) -> &[usize] {
+        &self.axes
+    }
+
+    /// Body force per mass in m/s² of the step that begins at `time` (s).
+    #[must_use]
+    pub fn force(&self, time: f64) -> Vec2 {
+        let stage = self.axes.iter().enumerate().skip(1).filter(|(stage, _)| self.starts_by(*stage, time)).count();
+        self.force_of(stage)
+    }
+
+    /// Body force per mass in m/s² of a stage; none of one that is not there.
+    #[must_use]
+    pub fn force_of(&self, stage: usize) -> Vec2 {
+        let acts = |axis| self.axes.get(stage) == Some(&axis);
+        Vec2::from_fn(|axis, _| if acts(axis) { self.force[axis] } else { 0.0 })
+    }
+
+    /// The end of a step from `time` (s) to `until` (s), at the next turn of the force where that comes first.
+    #[must_use]
+    pub fn stop(&self, time: f64, until: f64) -> f64 {
+        let starts = (1..self.axes.len()).filter(|&stage| !self.starts_by(stage, time));
+        starts.map(|stage| self.start(stage)).fold(until, |stop, start| {
+            let is_before = start < stop - SAME * self.length;
+            if is_before { start } else { stop }
+        })
+    }
+
+    /// The last two rows of the series within a stage, which may begin with the row at its start; none where it has fewer.
+    #[must_use]
+    pub fn last_rows<'s>(&self, series: &'s Series, stage: usize) -> Option<[&'s [f64]; 2]> {
+        let slack = SAME * self.length;
+        let (from, to) = (self.start(stage) - slack, self.start(stage + 1) + slack);
+        let rows: Vec<&Vec<f64>> = series.rows.iter().filter(|row| (from..=to).contains(&row[0])).collect();
+        match rows[..] {
+            [.., before, last] => Some([before, last]),
+            _ => None,
+        }
+    }
+
+    fn start(&self, stage: usize) -> f64 {
+        stage as f64 * self.length
+    }
+
+    fn starts_by(&self, stage: usize, time: f64) -> bool {
+        time >= self.start(stage) - SAME * self.length
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_force_turns_once_at_half_the_time() {
+        let stages = Stages::new(Vec2::new(2.0, 3.0), 1.0).unwrap();
+        let halfway = 0.1 + 0.2 + 0.2 - f64::EPSILON;
+        for (time, force) in [(0.0, [2.0, 0.0]), (0.4999, [2.0, 0.0]), (halfway, [0.0, 3.0]), (1.0, [0.0, 3.0])] {
+            assert_eq!(stages.force(time), Vec2::from(force), "at {time} s");
+        }
+    }
+
+    #[test]
+    fn steps_land_on_the_turn_without_a_sliver() {
+        let stages = Stages::new(Vec2::new(2.0, 3.0), 1.0).unwrap();
+        assert_eq!((stages.stop(0.0, 0.3), stages.stop(0.3, 0.7), stages.stop(0.5, 0.7)), (0.3, 0.5, 0.7));
+        let almost = 0.5 - f64::EPSILON;
+        assert_eq!((stages.stop(0.3, 0.5 + f64::EPSILON), stages.stop(almost, 0.7)), (0.5 + f64::EPSILON, 0.7));
+    }
+
+    #[test]
+    fn a_force_along_one_axis_acts_all_the_time() {
+        let stages = Stages::new(Vec2::new(0.0, -3.0), 1.0).unwrap();
+        assert_eq!(
+            (stages.axes(), stages.force(0.0), stages.force(0.9)),
+            (&[1][..], stages.force(0.1), stages.force(0.1))
+        );
+        assert_eq!(stages.stop(0.3, 0.7), 0.7);
+        assert_eq!(Stages::new(Vec2::zeros(), 1.0), None);
+    }
+
+    #[test]
+    fn rows_belong_to_the_stage_that_they_end() {
+        let stages = Stages::new(Vec2::new(2.0, 3.0), 1.0).unwrap();
+        let rows = [0.0, 0.25, 0.5, 0.75, 1.0].map(|time| vec![time]).to_vec();
+        let series = Series { columns: vec!["time_s".into()], rows };
+        let times = |stage| stages.last_rows(&series, stage).map(|rows| rows.map(|row| row[0]));
+        assert_eq!((times(0), times(1)), (Some([0.25, 0.5]), Some([0.75, 1.0])));
+        let half = Series { rows: series.rows[..2].to_vec(), ..series.clone() };
+        assert_eq!(stages.last_rows(&half, 1), None);
+    }
+}
