@@ -82,7 +82,7 @@ impl Dynamic {
     }
 
     /// The element that a meniscus enters.
-    fn ahead_of(&self, (gate, end): FrontId) -> usize {
+    pub(super) fn ahead_of(&self, (gate, end): FrontId) -> usize {
         self.gates[gate].elements[end]
     }
 

@@ -26,7 +26,7 @@ pub(super) enum Goal {
         /// Area in m² of the invading phase when it is full, in the element and in the menisci that then wait in its gates.
         target: f64,
     },
-    /// The first of the menisci that will wait ahead of an element reaches its event: number of the body.
+    /// An element is full, or, where that is quick, the first of the menisci that will wait ahead of it reaches its event: number of the body.
     Beyond(usize),
     /// A meniscus that will wait ahead of an element meets another one, both by the number of the body or the front, at a curvature in 1/m.
     ToMeet([Side; 2], f64),
@@ -51,6 +51,8 @@ pub(super) struct Body {
     pub area: f64,
     pub full: f64,
     pub first: Option<f64>,
+    /// Whether a step may go on when its element is full.
+    pub passes: bool,
 }
 
 impl Body {
@@ -71,6 +73,8 @@ pub(super) struct Areas<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64> {
 /// What may be missing until an event, and what may be beyond it, as a share of the way to it. What is beyond is not lost: the invading
 /// phase has it in the element ahead.
 pub(super) const REACHED: f64 = 1e-3;
+/// Tolerance of an area that fills an element with menisci ahead over that of one without.
+const LOOSE: f64 = 10.0;
 /// Places of the curvature of a body beyond the element that it fills.
 const PLACES: usize = 9;
 /// Least area that menisci ahead of an element are reckoned to take up until the first event, over that of the element.
@@ -127,7 +131,7 @@ impl Dynamic {
     pub(super) fn ends_of_step(&self, bodies: &[Body]) -> Vec<Goal> {
         let mut goals = self.goals();
         goals.retain(|goal| !matches!(goal, Goal::Full { .. }));
-        goals.extend((0..bodies.len()).filter(|&body| bodies[body].first.is_some()).map(Goal::Beyond));
+        goals.extend((0..bodies.len()).map(Goal::Beyond));
         let side = |front: FrontId| {
             let behind = self.behind(front);
             let body = bodies.iter().position(|body| body.element == behind).map(Side::Body);
@@ -148,6 +152,13 @@ impl Dynamic {
     pub(super) fn bodies_now(&self) -> Vec<Body> {
         let fillings = self.state.filling.iter().enumerate().filter(|(element, _)| !self.is_outlet[*element]);
         fillings.filter_map(|(element, filling)| Some(self.body(element, filling.as_ref()?))).collect()
+    }
+
+    /// The one element being filled that can let all of the defending phase go, where there is one only.
+    pub(super) fn only_open_filling(&self) -> Option<usize> {
+        let trapped = self.trapped();
+        let mut open = (0..trapped.len()).filter(|&e| self.state.filling[e].is_some() && !self.is_outlet[e] && !trapped[e]);
+        open.next().filter(|_| open.next().is_none())
     }
 
     fn body(&self, element: usize, filling: &super::Filling) -> Body {
@@ -171,9 +182,16 @@ impl Dynamic {
             element,
             area: self.filled_area(element, filling),
             full,
+            passes: false,
             first: first.map(|_| places[places.len() - 1].0),
             rise: Arc::new(Rise::of_body(&places, 1.0 / (CLOSED * own * own.sqrt()))),
         }
+    }
+
+    /// The area in m² that errors of what fills an element are compared with: more where menisci ahead take what is too much.
+    fn scale_of_filling(&self, element: usize) -> f64 {
+        let loose = if self.ahead[element].is_empty() { 1.0 } else { LOOSE };
+        loose * self.displacement.elements()[element].area
     }
 
     /// What is missing until a goal, below 0 beyond it.
@@ -202,12 +220,16 @@ impl Dynamic {
                 let filled = self.state.filling[*element].as_ref().map_or(0.0, |filling| filling.area);
                 // What a meniscus that recedes out of it takes along was in it before.
                 let waiting: f64 = self.entering(*element).map(|(front, _)| (at.front)(front).max(0.0)).sum();
-                (target - filled - waiting) / element_area(*element)
+                (target - filled - waiting) / self.scale_of_filling(*element)
             }
             Goal::Beyond(index) => {
-                let Body { element, full, first, .. } = &bodies[*index];
-                let Some(first) = first else { return f64::INFINITY };
-                (first - (at.body)(*index)) / (first - full).max(LEAST_BEYOND * element_area(*element))
+                let Body { element, full, first, passes, .. } = &bodies[*index];
+                match first.filter(|_| *passes) {
+                    Some(first) => {
+                        (first - (at.body)(*index)) / (first - full).max(LEAST_BEYOND * element_area(*element))
+                    }
+                    None => (full - (at.body)(*index)) / self.scale_of_filling(*element),
+                }
             }
             Goal::ToMeet(sides, event) => {
                 let mut missing = f64::NEG_INFINITY;

@@ -34,8 +34,12 @@ struct Path<'a> {
 impl Path<'_> {
     /// What passes a link in m² in a step of the length `dt` in s.
     fn passed(&self, link: usize, dt: f64) -> f64 {
-        let q = self.flow.through[link];
-        q * self.dt + (q + self.dt * self.rates.through[link]) * (dt - self.dt)
+        self.flow.through[link] * self.dt + self.rate(link) * (dt - self.dt)
+    }
+
+    /// Its change with the length in m²/s.
+    fn rate(&self, link: usize) -> f64 {
+        self.flow.through[link] + self.dt * self.rates.through[link]
     }
 
     /// Pressure in Pa of a node.
@@ -77,24 +81,22 @@ impl Dynamic {
             if std::env::var_os("DBG").is_some() {
                 let gs = self.gaps(graph, known, |law| linear(law, end));
                 let g = gs.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map(|(i, g)| (*g, &known.goals[i]));
-                let mm = known.laws.iter().map(|law| { let passed = path.passed(law.link, end);
-                    let taken = known.drops[law.link].0 * passed / end + self.terms.tension * law.rise.curvature(law.area + passed).0;
-                    ((taken - path.drop(law.link, end)).abs() / (self.terms.tension * law.scale), law.link)}).max_by(|a, b| a.0.total_cmp(&b.0));
-                eprintln!("  step {} dt {:e} end {:e} longest {:e} p {:.4} goal {:?} mismatch {:?} {:?}", self.state.steps, dt, end, longest, graph.inlet.map_or(0.0, |i| path.flow.pressure[i]), g, mm, mm.map(|m| graph.links[m.1].way));
-                if let Some((m, link)) = mm && m > 1e-3 && self.state.steps > 34 { let l = known.law_of[link].unwrap(); let law = &known.laws[l];
-                    eprintln!("     law area {:e} about {:e} passed {:e} drop {:e} q {:e} qt {:e} R {:e} rise {:?} k {:e}", law.area, about[l], path.passed(link, end), path.drop(link, end)/self.terms.tension, path.flow.through[link], path.rates.through[link], known.drops[link].0, law.rise, law.rise.curvature(law.area + path.passed(link, end)).0); }
+                eprintln!("  step {} dt {:e} end {:e} longest {:e} p {:.4} goal {:?} bodies {:?}", self.state.steps, dt, end, longest, graph.inlet.map_or(0.0, |i| path.flow.pressure[i]), g, known.bodies.iter().map(|b| (b.element, b.area, b.full, b.first, b.passes)).collect::<Vec<_>>());
             }
             if let Some(trial) = self.accepted(graph, known, &path, end, longest)? {
                 return Ok(Some(trial));
             }
-            let standing = |law: usize, dt: f64| self.standing(known, law, path.drop(known.laws[law].link, dt), dt);
+            let standing = |law: usize, dt: f64| {
+                let stands = self.standing(known, law, path.drop(known.laws[law].link, dt), dt);
+                self.filling(known, &path, law, [stands, about[law], dt])
+            };
             dt = self.first_along(graph, known, range, standing);
             let mut next = Pressures {
                 drops: (0..known.drops.len()).map(|link| path.drop(link, dt)).collect(),
                 inlet: graph.inlet.map_or(0.0, |inlet| path.pressure(inlet, dt)),
             };
             if let Some(before) = &before {
-                self.damp(known, before, &mut next, dt);
+                next = self.damp(known, [before, &next], dt).unwrap_or(next);
             }
             about = (0..known.laws.len())
                 .map(|law| self.standing(known, law, next.drops[known.laws[law].link], dt))
@@ -112,9 +114,24 @@ impl Dynamic {
         law.rise.standing(law.area, known.drops[law.link].0 / (tension * dt), drop / tension)
     }
 
+    /// The same of a body whose element is not full: what flows into it in a time d is a d/(1 + b d) where one relaxation rules.
+    fn filling(&self, known: &Known, path: &Path, law: usize, [stands, about, dt]: [f64; 3]) -> f64 {
+        let law = &known.laws[law];
+        let Some(full) = law.full.filter(|&full| about < full) else { return stands };
+        let (passed, rate) = (path.passed(law.link, path.dt), path.rate(law.link));
+        let share = rate * path.dt / passed;
+        if !(share > 0.0 && share < 1.0 && passed > 0.0) {
+            return stands;
+        }
+        // share = 1/(1 + b d)
+        let slowing = (1.0 / share - 1.0) / path.dt;
+        let found = law.area + passed / (share * path.dt) * dt / (1.0 + slowing * dt);
+        if found < full || law.rise.curvature(full * 1.1) == law.rise.curvature(full) { found } else { stands.max(full) }
+    }
+
     /// Goes no further from some pressures to others than to where they fit flows best: to the largest value of the concave function of
     /// pressures whose derivatives are what is left over in the nodes.
-    fn damp(&self, known: &Known, from: &Pressures, to: &mut Pressures, dt: f64) {
+    fn damp(&self, known: &Known, [from, to]: [&Pressures; 2], dt: f64) -> Option<Pressures> {
         let change = |link: usize| to.drops[link] - from.drops[link];
         // The change of the function along the way is linear but for the laws.
         let (mut level, mut rise) = (-(to.inlet - from.inlet) * known.sources.iter().sum::<f64>() * dt, 0.0);
@@ -130,20 +147,18 @@ impl Dynamic {
             level + share * rise + laws.sum::<f64>()
         };
         let (at_start, at_end) = (left(0.0), left(1.0));
-        if at_start < 0.0 && at_end > 0.0 {
-            let share = root(|share| -left(share), [(0.0, -at_start), (1.0, -at_end)], 1e-6);
-            to.drops.iter_mut().zip(&from.drops).for_each(|(to, from)| *to = from + share * (*to - from));
-            to.inlet = from.inlet + share * (to.inlet - from.inlet);
+        if !(at_start < 0.0 && at_end > 0.0) {
+            return None;
         }
+        let share = root(|share| -left(share), [(0.0, -at_start), (1.0, -at_end)], 1e-6);
+        Some(Pressures {
+            drops: (0..to.drops.len()).map(|link| from.drops[link] + share * change(link)).collect(),
+            inlet: from.inlet + share * (to.inlet - from.inlet),
+        })
     }
 
     fn path<'a>(&self, graph: &'a Graph, known: &Known, about: &[f64], dt: f64) -> Result<Path<'a>, FlowError> {
         let (conductances, jumps) = self.conductors(known, about, dt);
-        if std::env::var_os("DBG").is_some() {
-            for (i, (g, j)) in conductances.iter().zip(&jumps).enumerate() {
-                if !(g.is_finite() && *g > 0.0 && j.is_finite()) { eprintln!("bad link {i} {:?} g {g} j {j} drops {:?} law {:?}", graph.links[i], known.drops[i], known.law_of[i].map(|l| (&known.laws[l].rise, about[l]))); }
-            }
-        }
         let factored = graph.laplacian.factor(conductances)?;
         let flow = factored.solve(&jumps, &known.sources)?;
         let mut changes = vec![0.0; jumps.len()];
@@ -171,10 +186,8 @@ impl Dynamic {
         [least, most]: [f64; 2],
         area: impl Fn(usize, f64) -> f64,
     ) -> f64 {
-        let length = std::cell::Cell::new(most);
-        let at = self.areas(graph, known, |law| area(law, length.get()));
         let gap = |goal: usize, dt: f64| {
-            length.set(dt);
+            let at = self.areas(graph, known, |law| area(law, dt));
             self.gap(&known.bodies, &known.goals[goal], &at)
         };
         let mut first = most;
@@ -200,12 +213,13 @@ impl Dynamic {
         longest: f64,
     ) -> Result<Option<Trial>, FlowError> {
         let tension = self.terms.tension;
-        let matches = |law: &super::step::Law| {
-            let passed = path.passed(law.link, dt);
-            let taken = known.drops[law.link].0 * passed / dt + tension * law.rise.curvature(law.area + passed).0;
+        let area = |law: usize| known.laws[law].area + path.passed(known.laws[law].link, dt);
+        let matches = |(index, law): (usize, &super::step::Law)| {
+            let curvature = law.rise.curvature(area(index)).0;
+            let taken = known.drops[law.link].0 * path.passed(law.link, dt) / dt + tension * curvature;
             (taken - path.drop(law.link, dt)).abs() <= MATCHED * tension * law.scale
         };
-        if !known.laws.iter().all(matches) {
+        if !known.laws.iter().enumerate().all(matches) {
             return Ok(None);
         }
         let scale = tension * known.laws.iter().map(|law| law.scale).sum::<f64>() / known.laws.len().max(1) as f64;

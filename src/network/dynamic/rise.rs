@@ -123,6 +123,12 @@ impl Rise {
         Self { area, curvature, closed: 0.0 }
     }
 
+    /// That of a body of a constant curvature in 1/m.
+    #[must_use]
+    pub fn constant(curvature: f64) -> Self {
+        Self { area: vec![0.0], curvature: vec![curvature], closed: 0.0 }
+    }
+
     /// The area in m² that errors of areas are compared with.
     #[must_use]
     pub fn scale(&self) -> f64 {

@@ -26,6 +26,8 @@ pub(super) struct Known {
     pub laws: Vec<Law>,
     /// By link: its law.
     pub law_of: Vec<Option<usize>>,
+    /// By body: its law.
+    pub law_of_body: Vec<usize>,
     /// By link: resistance in Pa s/m², and the pressure drop in Pa without flow, but for a law.
     pub drops: Vec<(f64, f64)>,
     /// Of each node in m²/s.
@@ -42,8 +44,22 @@ pub(super) struct Law {
     pub start: f64,
     /// Curvature in 1/m that errors are compared with.
     pub scale: f64,
+    /// Of a body: area in m² at which its element is full.
+    pub full: Option<f64>,
+    /// Laws of the menisci that wait to enter the element of a body: what they sweep is in it too.
+    pub entering: Vec<usize>,
 }
 
+impl Known {
+    /// What menisci that wait to enter the element of a body have swept in the step, in m², with areas by law.
+    pub fn swept(&self, law: usize, area: &impl Fn(usize) -> f64) -> f64 {
+        let swept = |&entering: &usize| area(entering).max(0.0) - self.laws[entering].area.max(0.0);
+        self.laws[law].entering.iter().map(swept).sum()
+    }
+}
+
+/// Longest time to fill an element, over the length of the step before, where a step may go on when it is full.
+const QUICK: f64 = 0.2;
 /// Largest difference between the curvature of a meniscus at the end of a step and that which the step took, as a share of its range.
 pub(super) const MATCHED: f64 = 1e-3;
 /// Most rounds of Newton's method.
@@ -134,36 +150,52 @@ impl Dynamic {
     /// What a step begins with.
     fn known(&self, graph: &Graph, length: f64) -> Known {
         let drops: Vec<(f64, f64)> = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
-        let is_linked = |element: usize| graph.links.iter().any(|link| link.way == Way::Body(element));
-        let mut bodies = self.bodies_now();
-        bodies.retain(|body| is_linked(body.element));
+        let link_of = |element: usize| graph.links.iter().position(|link| link.way == Way::Body(element));
+        let only = self.only_open_filling().filter(|&element| self.entering(element).next().is_none());
+        let with_law = |body: Body| {
+            let rate = self.filling_rate(graph, &body, drops[link_of(body.element)?].0);
+            let is_quick = rate * length * QUICK > body.full - body.area;
+            let passes = is_quick && only == Some(body.element);
+            let constant = || Arc::new(Rise::constant(body.rise.curvature(body.area).0));
+            Some(Body { passes, rise: if passes { Arc::clone(&body.rise) } else { constant() }, ..body })
+        };
+        let bodies: Vec<Body> = self.bodies_now().into_iter().filter_map(with_law).collect();
         let law = |(link, of): (usize, &Link)| match of.way {
             Way::Meniscus((gate, end)) => {
                 let meniscus = self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
                 let rise = Arc::clone(self.rises[gate][end].as_ref()?);
                 let scale = (rise.end().1 - rise.start().1).max(1.0 / self.gates[gate].width);
-                Some(Law { link, rise, area: meniscus.area, start: meniscus.area, scale })
+                Some(Law { link, rise, area: meniscus.area, start: meniscus.area, scale, full: None, entering: Vec::new() })
             }
             Way::Body(element) => {
                 let body = bodies.iter().find(|body| body.element == element)?;
                 let scale = 1.0 / self.displacement.elements()[element].area.sqrt();
-                let start = if self.fills_within(graph, body, drops[link].0, length) { body.beyond() } else { body.area };
-                Some(Law { link, rise: Arc::clone(&body.rise), area: body.area, start, scale })
+                let start = if body.passes { body.beyond() } else { body.area };
+                let entering = Vec::new();
+                let full = Some(body.full);
+                Some(Law { link, rise: Arc::clone(&body.rise), area: body.area, start, scale, full, entering })
             }
             _ => None,
         };
-        let laws: Vec<Law> = graph.links.iter().enumerate().filter_map(law).collect();
+        let mut laws: Vec<Law> = graph.links.iter().enumerate().filter_map(law).collect();
         let mut law_of = vec![None; graph.links.len()];
         laws.iter().enumerate().for_each(|(index, law)| law_of[law.link] = Some(index));
+        for law in &mut laws {
+            if let Way::Body(element) = graph.links[law.link].way {
+                let fronts = self.entering(element).filter_map(|((gate, _), _)| graph.link_of[gate]);
+                law.entering = fronts.filter_map(|link| law_of[link]).collect();
+            }
+        }
         let mut sources = vec![0.0; graph.nodes];
         if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.terms.drive) {
             sources[inlet] = rate;
         }
-        Known { goals: self.ends_of_step(&bodies), bodies, laws, law_of, drops, sources }
+        let law_of_body = (0..laws.len()).filter(|&law| laws[law].full.is_some()).collect();
+        Known { goals: self.ends_of_step(&bodies), bodies, laws, law_of, law_of_body, drops, sources }
     }
 
-    /// Whether a body fills its element within a length of time in s where menisci that burst into it drive it.
-    fn fills_within(&self, graph: &Graph, body: &Body, resistance: f64, length: f64) -> bool {
+    /// Area per time in m²/s at which menisci that have burst into an element would fill it by their curvature at the event.
+    fn filling_rate(&self, graph: &Graph, body: &Body, resistance: f64) -> f64 {
         let now = body.rise.curvature(body.area).0;
         let rate = |&(gate, end): &FrontId| {
             self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst)?;
@@ -171,8 +203,7 @@ impl Dynamic {
             let event = self.rises[gate][end].as_ref()?.end().1;
             Some(self.terms.tension * (event - now).max(0.0) / (own + resistance))
         };
-        let rate: f64 = self.displacement.gates_of(body.element).iter().filter_map(rate).sum();
-        rate * length > body.full - body.area
+        self.displacement.gates_of(body.element).iter().filter_map(rate).sum()
     }
 
     /// The links in a step of the length `dt` in s: conductances and jumps, with curvatures linear about areas by law.
@@ -203,12 +234,10 @@ impl Dynamic {
     ) -> Areas<impl Fn(FrontId) -> f64 + 'a, impl Fn(usize) -> f64 + 'a> {
         let area = std::rc::Rc::new(area);
         let of_body = std::rc::Rc::clone(&area);
-        let bodies = known.laws.iter().enumerate().filter(|(_, law)| matches!(graph.links[law.link].way, Way::Body(_)));
-        let law_of_body: Vec<usize> = bodies.map(|(index, _)| index).collect();
         let law = |front: FrontId| graph.link_of[front.0].and_then(|link| known.law_of[link]);
         Areas {
             front: move |front: FrontId| law(front).map_or_else(|| self.area_now(front), |law| area(law)),
-            body: move |body: usize| of_body(law_of_body[body]),
+            body: move |body: usize| of_body(known.law_of_body[body]) + known.swept(known.law_of_body[body], &*of_body),
         }
     }
 
@@ -216,7 +245,7 @@ impl Dynamic {
     ///
     /// Its flows are those of least ½ Σ R q² dt + Σ σ ∫ k dv among all that balance in every node, a convex problem since curvatures rise.
     fn trial(&mut self, graph: &Graph, known: &Known, start: Option<&Trial>, dt: f64) -> Result<Trial, FlowError> {
-        let area = |law: &Law, through: &[f64]| law.area + through[law.link] * dt;
+        let area = |law: &Law, through: &[f64]| self::area(law, through, dt);
         let mut through: Option<Vec<f64>> = start.map(|trial| trial.flow.through.clone());
         let mut round = 0;
         let flow = loop {
@@ -357,6 +386,11 @@ impl Dynamic {
         self.state.time += dt;
         self.state.last_step = dt;
     }
+}
+
+/// Area in m² of a law at the end of a step of the length `dt` in s.
+fn area(law: &Law, through: &[f64], dt: f64) -> f64 {
+    law.area + through[law.link] * dt
 }
 
 /// The length in s of the step that reaches the first goal, by one or two trials. What a meniscus moves in a step of backward Euler is
