@@ -74,7 +74,7 @@ pub(super) struct Areas<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64> {
 /// phase has it in the element ahead.
 pub(super) const REACHED: f64 = 1e-3;
 /// Tolerance of an area that fills an element with menisci ahead over that of one without.
-const LOOSE: f64 = 10.0;
+static LOOSE: std::sync::LazyLock<f64> = std::sync::LazyLock::new(|| std::env::var("LOOSE").ok().and_then(|f| f.parse().ok()).unwrap_or(10.0));
 /// Places of the curvature of a body beyond the element that it fills.
 const PLACES: usize = 9;
 /// Least area that menisci ahead of an element are reckoned to take up until the first event, over that of the element.
@@ -154,11 +154,11 @@ impl Dynamic {
         fillings.filter_map(|(element, filling)| Some(self.body(element, filling.as_ref()?))).collect()
     }
 
-    /// The one element being filled that can let all of the defending phase go, where there is one only.
-    pub(super) fn only_open_filling(&self) -> Option<usize> {
+    /// The elements being filled from which the defending phase has a way to an outlet.
+    pub(super) fn open_fillings(&self) -> Vec<usize> {
         let trapped = self.trapped();
-        let mut open = (0..trapped.len()).filter(|&e| self.state.filling[e].is_some() && !self.is_outlet[e] && !trapped[e]);
-        open.next().filter(|_| open.next().is_none())
+        let fills = |&e: &usize| self.state.filling[e].is_some() && !self.is_outlet[e] && !trapped[e];
+        (0..trapped.len()).filter(fills).collect()
     }
 
     fn body(&self, element: usize, filling: &super::Filling) -> Body {
@@ -190,7 +190,7 @@ impl Dynamic {
 
     /// The area in m² that errors of what fills an element are compared with: more where menisci ahead take what is too much.
     fn scale_of_filling(&self, element: usize) -> f64 {
-        let loose = if self.ahead[element].is_empty() { 1.0 } else { LOOSE };
+        let loose = if self.ahead[element].is_empty() { 1.0 } else { *LOOSE };
         loose * self.displacement.elements()[element].area
     }
 

@@ -137,8 +137,8 @@ struct State {
     /// Pressure at the inlet less that at the outlet in Pa, and flow into the inlet in m²/s, in the last step.
     pressure: f64,
     inflow: f64,
-    /// Length in s of the last step.
-    last_step: f64,
+    /// Lengths in s of the last steps to an event of a meniscus and to an element that is full.
+    last_steps: [f64; 2],
     solves: u64,
 }
 

@@ -68,7 +68,7 @@ impl Dynamic {
         known: &Known,
         longest: f64,
     ) -> Result<Option<Trial>, FlowError> {
-        let mut dt = self.first_length(longest);
+        let mut dt = self.first_length(known, longest);
         let mut about: Vec<f64> = known.laws.iter().map(|law| law.start).collect();
         let mut before: Option<Pressures> = None;
         for round in 0..ROUNDS {
@@ -117,16 +117,17 @@ impl Dynamic {
     /// The same of a body whose element is not full: what flows into it in a time d is a d/(1 + b d) where one relaxation rules.
     fn filling(&self, known: &Known, path: &Path, law: usize, [stands, about, dt]: [f64; 3]) -> f64 {
         let law = &known.laws[law];
-        let Some(full) = law.full.filter(|&full| about < full) else { return stands };
+        let Some(full) = law.full.filter(|&full| !law.passes || about < full) else { return stands };
         let (passed, rate) = (path.passed(law.link, path.dt), path.rate(law.link));
         let share = rate * path.dt / passed;
-        if !(share > 0.0 && share < 1.0 && passed > 0.0) {
-            return stands;
-        }
-        // share = 1/(1 + b d)
-        let slowing = (1.0 / share - 1.0) / path.dt;
-        let found = law.area + passed / (share * path.dt) * dt / (1.0 + slowing * dt);
-        if found < full || law.rise.curvature(full * 1.1) == law.rise.curvature(full) { found } else { stands.max(full) }
+        let found = if share > 0.0 && share < 1.0 && passed > 0.0 {
+            // share = 1/(1 + b d)
+            let slowing = (1.0 / share - 1.0) / path.dt;
+            law.area + passed / (share * path.dt) * dt / (1.0 + slowing * dt)
+        } else {
+            law.area + path.passed(law.link, dt)
+        };
+        if law.passes && found >= full { stands.max(full) } else { found }
     }
 
     /// Goes no further from some pressures to others than to where they fit flows best: to the largest value of the concave function of
@@ -217,7 +218,7 @@ impl Dynamic {
         let matches = |(index, law): (usize, &super::step::Law)| {
             let curvature = law.rise.curvature(area(index)).0;
             let taken = known.drops[law.link].0 * path.passed(law.link, dt) / dt + tension * curvature;
-            (taken - path.drop(law.link, dt)).abs() <= MATCHED * tension * law.scale
+            (taken - path.drop(law.link, dt)).abs() <= *MATCHED * tension * law.scale
         };
         if !known.laws.iter().enumerate().all(matches) {
             return Ok(None);
@@ -226,7 +227,7 @@ impl Dynamic {
         let flows = |(link, &(resistance, drop)): (usize, &(f64, f64))| {
             let viscous = resistance * path.passed(link, dt) / dt;
             known.law_of[link].is_some()
-                || (viscous + drop - path.drop(link, dt)).abs() <= MATCHED * scale.max(viscous.abs())
+                || (viscous + drop - path.drop(link, dt)).abs() <= *MATCHED * scale.max(viscous.abs())
         };
         if !known.drops.iter().enumerate().all(flows) {
             return Ok(None);

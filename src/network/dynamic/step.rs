@@ -21,6 +21,8 @@ pub(super) struct Trial {
 /// What stays as it is while the length of a step is sought.
 pub(super) struct Known {
     pub goals: Vec<Goal>,
+    /// Whether an element may be full first.
+    pub fills: bool,
     pub bodies: Vec<Body>,
     /// What resists by its curvature.
     pub laws: Vec<Law>,
@@ -44,8 +46,9 @@ pub(super) struct Law {
     pub start: f64,
     /// Curvature in 1/m that errors are compared with.
     pub scale: f64,
-    /// Of a body: area in m² at which its element is full.
+    /// Of a body: area in m² at which its element is full, and whether the step may go on then.
     pub full: Option<f64>,
+    pub passes: bool,
     /// Laws of the menisci that wait to enter the element of a body: what they sweep is in it too.
     pub entering: Vec<usize>,
 }
@@ -59,9 +62,11 @@ impl Known {
 }
 
 /// Longest time to fill an element, over the length of the step before, where a step may go on when it is full.
-const QUICK: f64 = 0.2;
+static QUICK: std::sync::LazyLock<f64> = std::sync::LazyLock::new(|| std::env::var("QUICK").ok().and_then(|f| f.parse().ok()).unwrap_or(0.2));
+/// Least length that is taken for that of the next step, over that of the last one.
+const SHORTER: f64 = 0.1;
 /// Largest difference between the curvature of a meniscus at the end of a step and that which the step took, as a share of its range.
-pub(super) const MATCHED: f64 = 1e-3;
+pub(super) static MATCHED: std::sync::LazyLock<f64> = std::sync::LazyLock::new(|| std::env::var("MATCHED").ok().and_then(|f| f.parse().ok()).unwrap_or(1e-3));
 /// Most rounds of Newton's method.
 const ROUNDS: usize = 40;
 /// From this share on a step of Newton's method is done as a whole.
@@ -148,13 +153,14 @@ impl Dynamic {
     }
 
     /// What a step begins with.
-    fn known(&self, graph: &Graph, length: f64) -> Known {
+    fn known(&self, graph: &Graph) -> Known {
         let drops: Vec<(f64, f64)> = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
         let link_of = |element: usize| graph.links.iter().position(|link| link.way == Way::Body(element));
-        let only = self.only_open_filling().filter(|&element| self.entering(element).next().is_none());
+        let open = self.open_fillings();
+        let only = open.first().copied().filter(|&e| open.len() == 1 && self.entering(e).next().is_none());
         let with_law = |body: Body| {
             let rate = self.filling_rate(graph, &body, drops[link_of(body.element)?].0);
-            let is_quick = rate * length * QUICK > body.full - body.area;
+            let is_quick = rate * self.state.last_steps[0] * *QUICK > body.full - body.area;
             let passes = is_quick && only == Some(body.element);
             let constant = || Arc::new(Rise::constant(body.rise.curvature(body.area).0));
             Some(Body { passes, rise: if passes { Arc::clone(&body.rise) } else { constant() }, ..body })
@@ -165,15 +171,15 @@ impl Dynamic {
                 let meniscus = self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
                 let rise = Arc::clone(self.rises[gate][end].as_ref()?);
                 let scale = (rise.end().1 - rise.start().1).max(1.0 / self.gates[gate].width);
-                Some(Law { link, rise, area: meniscus.area, start: meniscus.area, scale, full: None, entering: Vec::new() })
+                Some(Law { link, rise, area: meniscus.area, start: meniscus.area, scale, full: None, passes: false, entering: Vec::new() })
             }
             Way::Body(element) => {
                 let body = bodies.iter().find(|body| body.element == element)?;
                 let scale = 1.0 / self.displacement.elements()[element].area.sqrt();
                 let start = if body.passes { body.beyond() } else { body.area };
                 let entering = Vec::new();
-                let full = Some(body.full);
-                Some(Law { link, rise: Arc::clone(&body.rise), area: body.area, start, scale, full, entering })
+                let (full, passes, rise) = (Some(body.full), body.passes, Arc::clone(&body.rise));
+                Some(Law { link, rise, area: body.area, start, scale, full, passes, entering })
             }
             _ => None,
         };
@@ -190,8 +196,9 @@ impl Dynamic {
         if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.terms.drive) {
             sources[inlet] = rate;
         }
+        let fills = bodies.iter().any(|body| !body.passes && open.contains(&body.element));
         let law_of_body = (0..laws.len()).filter(|&law| laws[law].full.is_some()).collect();
-        Known { goals: self.ends_of_step(&bodies), bodies, laws, law_of, law_of_body, drops, sources }
+        Known { goals: self.ends_of_step(&bodies), fills, bodies, laws, law_of, law_of_body, drops, sources }
     }
 
     /// Area per time in m²/s at which menisci that have burst into an element would fill it by their curvature at the event.
@@ -267,7 +274,7 @@ impl Dynamic {
                 let area = area(law, &flow.through);
                 let (curvature, slope) = law.rise.curvature(about);
                 let taken = curvature + slope * (area - about);
-                (law.rise.curvature(area).0 - taken).abs() <= MATCHED * law.scale
+                (law.rise.curvature(area).0 - taken).abs() <= *MATCHED * law.scale
             });
             if (share == 1.0 && matches) || round >= ROUNDS {
                 break flow;
@@ -313,16 +320,23 @@ impl Dynamic {
 
     /// The step to the first event, or of the length `longest` in s where there is none before.
     fn trial_to_event(&mut self, graph: &Graph, longest: f64) -> Result<Trial, FlowError> {
-        let known = self.known(graph, self.first_length(longest));
-        if let Some(trial) = self.trial_along(graph, &known, longest)? {
-            return Ok(trial);
-        }
-        let first = self.gaps(graph, &known, |law| known.laws[law].area);
+        let known = self.known(graph);
+        let trial = match self.trial_along(graph, &known, longest)? {
+            Some(trial) => trial,
+            None => self.trial_between(graph, &known, longest)?,
+        };
+        self.note_length(&known, trial.dt);
+        Ok(trial)
+    }
+
+    /// The same by a search with steps of given lengths.
+    fn trial_between(&mut self, graph: &Graph, known: &Known, longest: f64) -> Result<Trial, FlowError> {
+        let first = self.gaps(graph, known, |law| known.laws[law].area);
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut before: Option<Trial> = None;
-        let mut dt = self.first_length(longest);
+        let mut dt = self.first_length(known, longest);
         for _ in 0..MOST_TRIALS {
-            let trial = self.trial(graph, &known, before.as_ref(), dt)?;
+            let trial = self.trial(graph, known, before.as_ref(), dt)?;
             let least = trial.gaps.iter().copied().fold(f64::INFINITY, f64::min);
             if least >= -REACHED && (least <= REACHED || dt >= longest) {
                 return Ok(trial);
@@ -343,13 +357,19 @@ impl Dynamic {
         }
         // As far as no event is passed; what is beyond an event is carried on by the areas.
         let dt = if low > 0.0 { low } else { dt };
-        self.trial(graph, &known, before.as_ref(), dt)
+        self.trial(graph, known, before.as_ref(), dt)
     }
 
     /// Length in s to begin with.
-    pub(super) fn first_length(&self, longest: f64) -> f64 {
-        let guess = self.state.last_step;
+    pub(super) fn first_length(&self, known: &Known, longest: f64) -> f64 {
+        let guess = self.state.last_steps[usize::from(known.fills)];
         if guess > 0.0 { guess.min(longest) } else { longest }
+    }
+
+    /// Notes the length of a step in s. Events that follow at once say little about the next one.
+    fn note_length(&mut self, known: &Known, dt: f64) {
+        let last = &mut self.state.last_steps[usize::from(known.fills)];
+        *last = dt.max(SHORTER * *last);
     }
 
     fn commit(&mut self, graph: &Graph, trial: &Trial) {
@@ -384,7 +404,6 @@ impl Dynamic {
             (Drive::Rate(_), inlet) => inlet.map_or(f64::NAN, |inlet| trial.flow.pressure[inlet]),
         };
         self.state.time += dt;
-        self.state.last_step = dt;
     }
 }
 
