@@ -171,3 +171,84 @@ fn the_starter_case_can_be_checked_as_it_is() {
     assert_code(&meniscus(folder.path(), &["new"]), 0);
     assert_code(&meniscus(folder.path(), &["check", "case.toml"]), 0);
 }
+
+/// The small case with other text, and a shape.
+fn with_shape(shape: &str, changes: &[(&str, &str)]) -> String {
+    let domain = "max = [1.0e-3, 6.0e-4] # m\n";
+    let mut text = program::SMALL.replace(domain, &format!("{domain}shapes = [{{ {shape} }}]\n"));
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    text
+}
+
+#[test]
+fn what_keeps_a_solver_from_being_made_is_told_at_the_key_to_change() {
+    let open = [
+        ("spacing = 4.0e-5", "spacing = 3.0e-5"),
+        ("left = \"periodic\"", "left = \"inlet\""),
+        ("right = \"periodic\"", "right = \"outlet\"\n[sph.sides.open.left]\nvelocity = 0.01\nprofile = \"parabolic\""),
+    ];
+    let direct = |shape: &str| with_shape(shape, &open);
+    let network = |shape: &str, keys: &str| {
+        format!(
+            "format = 1\ntitle = \"A network\"\n[geometry]\nmin = [0.0, 0.0]\nmax = [1.0e-3, 6.0e-4]\nshapes = [{shape}]\n[network]\n{keys}\n\
+             [network.interface]\ntension = 0.02\n[network.wetting.young]\ncontact-angle-deg = 40.0\n"
+        )
+    };
+    let disc = "{ disc = { center = [5.0e-4, 3.0e-4], radius = 1.0e-4 } }";
+    let block = "{ rectangle = { center = [0.0, 3.0e-4], size = [2.0e-4, 2.0e-3] } }";
+    for (text, key, message) in [
+        (
+            direct("rectangle = { center = [0.0, 3.0e-4], size = [2.0e-4, 2.0e-3] }"),
+            "left =",
+            "block the open side `left`",
+        ),
+        (
+            direct("rectangle = { center = [1.0e-4, 3.0e-4], size = [2.0e-4, 2.0e-4] }"),
+            "left =",
+            "ends at the open side",
+        ),
+        (direct("rectangle = { center = [0.0, 3.0e-4], size = [2.0e-4, 2.0e-4] }"), "profile =", "2 openings"),
+        (
+            network(
+                "",
+                "sides = { left = \"periodic\", right = \"periodic\", bottom = \"periodic\", top = \"periodic\" }",
+            ),
+            "[geometry]",
+            "no wall lies",
+        ),
+        (network(&[disc, block].join(", "), "inlet = \"left\""), "inlet =", "no pore opens at the side `left`"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("case.toml"), &text).unwrap();
+        let line = 1 + text.lines().position(|line| line.contains(key)).unwrap();
+        for command in ["check", "run"] {
+            let output = meniscus(folder.path(), &[command, "case.toml"]);
+            assert_code(&output, 3);
+            // Lines of a long message begin with a bar.
+            let told = stderr(&output).replace("│ ", "");
+            assert!(told.contains(message) && told.contains(&format!("[case.toml:{line}:")), "line {line}: {told}");
+            assert!(told.contains("help:"), "{told}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is written");
+    }
+}
+
+#[test]
+fn a_grid_of_the_output_is_bounded_by_the_domain() {
+    let folder = folder_with_small_case();
+    // 25 by 15 spacings.
+    for (ratio, message) in [("15.5", "would be 15.5 spacings apart"), ("0.2", "from 0.25 to 100.0")] {
+        let output = meniscus(folder.path(), &["check", "drop.toml", &format!("--set=output.grid.ratio={ratio}")]);
+        assert_code(&output, 3);
+        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+    }
+    assert_code(&meniscus(folder.path(), &["check", "drop.toml", "--set=output.grid.ratio=15.0"]), 0);
+    // Two million particles, and sixteen times as many nodes.
+    let fine = ["check", "drop.toml", "--set=sph.spacing=5.4e-7", "--set=output.grid.ratio=0.25"];
+    let output = meniscus(folder.path(), &fine);
+    assert_code(&output, 3);
+    assert!(stderr(&output).contains("3.3e7 nodes") && stderr(&output).contains("0.33 or more"), "{}", stderr(&output));
+}

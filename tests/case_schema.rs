@@ -1,5 +1,5 @@
 //! The schema that editors use: it accepts all cases of the repository, refuses what the checks refuse, and its ranges are those of the
-//! checks and of the reference.
+//! checks. The tables of the reference come from it (`tests/docs/keys.rs`).
 
 #[path = "support/program.rs"]
 mod program;
@@ -167,37 +167,4 @@ fn the_checks_refuse_what_is_out_of_the_ranges_of_the_schema() {
     unchecked.retain(|path| !path.starts_with("sph.sides.open.") || path.starts_with("sph.sides.open.left."));
     assert!(checked > 90, "{checked}");
     assert_eq!(unchecked, ["thin-film.method.particles.tolerance"]);
-}
-
-#[test]
-fn the_ranges_of_the_schema_are_those_of_the_reference() {
-    let text = std::fs::read_to_string(root().join("docs/reference/case-file.md")).unwrap();
-    let mut told = BTreeMap::new();
-    for line in text.lines().filter(|line| line.starts_with("| `")) {
-        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let [key, _, _, range, ..] = cells[..] else { continue };
-        let number = |text: &str| text.parse::<f64>().ok();
-        let words: Vec<&str> = range.split(' ').collect();
-        let limits = match words[..] {
-            ["above", "0,", "below", "1"] => Some([Some((0.0, false)), Some((1.0, false))]),
-            ["above", low] => number(low).map(|low| [Some((low, false)), None]),
-            ["at", "least", low] => number(low).map(|low| [Some((low, true)), None]),
-            [low, "to", high] => {
-                number(low).zip(number(high)).map(|(low, high)| [Some((low, true)), Some((high, true))])
-            }
-            _ => None,
-        };
-        if let Some(limits) = limits {
-            told.insert(key.trim_matches('`').to_owned(), limits);
-        }
-    }
-    // One type serves both: without a tension there is direct simulation, but no menisci in a network.
-    assert_eq!(told.remove("network.interface.tension"), Some([Some((0.0, false)), None]));
-    // The reference tells the models of wetting once.
-    let mut there = all_ranges();
-    there.retain(|path, _| !path.starts_with("network.wetting."));
-    told.retain(|path, _| !path.starts_with("network.wetting."));
-    assert_eq!(there.remove("network.interface.tension"), Some([Some((0.0, true)), None]));
-    let text_of = |ranges: &BTreeMap<String, _>| ranges.iter().map(|range| format!("{range:?}")).collect::<Vec<_>>();
-    assert_eq!(text_of(&there), text_of(&told));
 }

@@ -98,3 +98,40 @@ fn what_cannot_be_coupled_is_refused() {
         assert!(stderr(&output).contains(message), "{event}: {}", stderr(&output));
     }
 }
+
+#[test]
+fn a_direct_case_that_does_not_fit_is_refused_before_anything_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let (network, good) = (repository("cases/network/compare.toml"), direct(folder.path()));
+    let text = std::fs::read_to_string(folder.path().join(&good)).unwrap();
+    let line = |needle: &str| 1 + text.lines().position(|line| line.contains(needle)).unwrap();
+    let pack = text.lines().find(|line| line.starts_with("file = ")).unwrap().to_owned();
+    let state = text.lines().find(|line| line.starts_with("network = ")).unwrap().to_owned();
+    let other = format!("file = {:?}", repository("geometries/four-discs.toml"));
+    let shape = "wetting = [{ rectangle = { center = [0.0, 5.0e-4], size = [2.0e-4, 3.0e-3] } }]";
+    for (from, to, place, message) in [
+        (
+            pack.as_str(),
+            other.as_str(),
+            line("network = "),
+            "what the network hands over is the state of another geometry",
+        ),
+        ("left = \"inlet\"", "left = \"outlet\"", line("left ="), "here that is no inlet with a pressure"),
+        ("spacing = 1.6e-5", "spacing = 4.0e-5", line("spacing ="), "the narrowest throat is"),
+        (state.as_str(), "", line("[sph.initial"), "no shape says where they are"),
+        (state.as_str(), shape, line("[sph.initial"), "does not begin with the state of a network"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        std::fs::write(folder.path().join("other.toml"), text.replace(from, to)).unwrap();
+        let output = meniscus(folder.path(), &["couple", &network, "other.toml", "--out", "none"]);
+        assert_code(&output, 3);
+        // Lines of a long message begin with a bar.
+        let told = stderr(&output).replace("│ ", "");
+        assert!(told.contains(message) && told.contains(&format!("other.toml:{place}:")), "{place}: {told}");
+        assert!(!folder.path().join("none").exists(), "{message}: something was run");
+    }
+    // The file that the direct case names need not be there: this command writes it.
+    std::fs::write(folder.path().join("other.toml"), text.replace(&state, "network = \"none.json\"")).unwrap();
+    let output = meniscus(folder.path(), &["couple", &network, "other.toml", "--event", "pore:99"]);
+    assert!(stderr(&output).contains("numbered from 0"), "{}", stderr(&output));
+}

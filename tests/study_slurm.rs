@@ -50,9 +50,13 @@ fn the_script_of_a_job_array_names_the_runs_that_are_left() {
     let script = std::fs::read_to_string(folder.path().join("out/slurm.sh")).unwrap();
     let lines: Vec<&str> = script.lines().collect();
     assert_eq!(lines[0], "#!/bin/bash");
-    for line in ["#SBATCH --array=1-2,4%2", "#SBATCH --cpus-per-task=1", "#SBATCH --mem=64M", "#SBATCH --time=5"] {
+    for line in ["#SBATCH --array=1-2,4%2", "#SBATCH --cpus-per-task=1", "#SBATCH --time=5"] {
         assert!(lines.contains(&line), "{line} is missing in\n{script}");
     }
+    // What the first steps of a run were measured to take, 64 MiB at least; these runs are small.
+    let memory =
+        lines.iter().find_map(|line| line.strip_prefix("#SBATCH --mem=")?.strip_suffix('M')?.parse::<u32>().ok());
+    assert!(memory.is_some_and(|memory| (64..=96).contains(&memory)), "{script}");
     let last = lines.last().unwrap();
     assert!(last.starts_with("exec /") && last.contains("--index \"$SLURM_ARRAY_TASK_ID\""), "{script}");
     assert!(Command::new("bash").arg("-n").arg(folder.path().join("out/slurm.sh")).status().unwrap().success());

@@ -3,6 +3,7 @@
 //! Colors are sharp here: above 0.5 is the wetting phase. Solid particles are left out by the caller.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::cells::Cells;
 use super::contour::Polyline;
@@ -13,7 +14,7 @@ use crate::math::Vec2;
 pub const WETTING_COLOR: f64 = 0.5;
 
 /// Areas of the phases per depth.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PhaseAreas {
     /// Area of the wetting phase in m².
     pub wetting: f64,

@@ -1,15 +1,18 @@
 //! Checks of a case: end, output, expectations; and the tools that all checks share.
 
 use super::checked::{Compression, Expectation, Model, Output};
-use super::measures::{Offer, offers};
+use super::measures::{Offer, offers, unmeasured};
 use super::raw::{RawCase, RawCompression, RawEvery, RawExpectation};
-use crate::input::{Problem, nearest};
+use crate::input::Problem;
 
 /// The format of case and shape files that this program reads.
 const FORMAT: u32 = 1;
 
 /// Most records of one kind: more files than a folder should hold.
 const MOST_RECORDS: f64 = 1.0e5;
+
+/// Most nodes of the grid of the output, which has some 25 numbers in each: as many as particles in the largest direct simulation.
+const MOST_NODES: f64 = 2.0e7;
 
 /// End times in s: beyond these the schedule would lose its digits.
 const END_RANGE: (f64, f64) = (1.0e-15, 1.0e9);
@@ -104,8 +107,8 @@ pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -
     checker.within("time.end", end, END_RANGE, "an end time in s")
 }
 
-/// What is written and when; `end` is missing where it was wrong.
-pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>) -> Output {
+/// What is written and when; `end` and `size`, width and height of the domain in spacings, are missing where they were wrong.
+pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>, size: Option<[f64; 2]>) -> Output {
     let output = raw.output.clone().unwrap_or_default();
     let by_volume = is_quasi_static(raw);
     let ratio = output.grid.as_ref().and_then(|grid| grid.ratio);
@@ -113,6 +116,9 @@ pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>) -> 
         checker.refuse("output.grid", "a network has no grid", "leave this out");
     }
     let ratio = checker.within("output.grid.ratio", ratio, (0.25, 100.0), "grid distance over particle spacing");
+    if let (Some(ratio), Some(size)) = (ratio, size) {
+        grid(checker, ratio, size);
+    }
     // Of a network, each half cycle has as many records as another run.
     let end = if by_volume { end.map(|end| (end, end.max(1.0))) } else { end.map(|end| (end, 1.0)) };
     let clock = if by_volume { &VOLUME } else { &TIME };
@@ -131,6 +137,31 @@ pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>) -> 
         series_every: every("output.series", output.series.as_ref(), SERIES_RECORDS),
         restart_every: every("output.restart", output.restart.as_ref(), RESTART_RECORDS),
         grid_ratio: ratio.unwrap_or(1.0),
+    }
+}
+
+/// Refuses a grid of too many nodes, and one that has no cell along a side of the domain.
+fn grid(checker: &mut Checker, ratio: f64, [width, height]: [f64; 2]) {
+    let nodes = width * height / (ratio * ratio);
+    if nodes > MOST_NODES {
+        checker.refuse(
+            "output.grid.ratio",
+            format!(
+                "a ratio of {ratio:?} gives a grid of {nodes:.1e} nodes in each record, more than {MOST_NODES:.0e}"
+            ),
+            format!("a ratio of {:.2} or more would do", (width * height / MOST_NODES).sqrt() + 0.005),
+        );
+    }
+    let largest = width.min(height);
+    // The domain is a whole number of spacings up to rounding.
+    if ratio > largest * (1.0 + 1e-9) {
+        checker.refuse(
+            "output.grid.ratio",
+            format!(
+                "the nodes of the grid would be {ratio:?} spacings apart, and the domain is {largest:.1} spacings wide"
+            ),
+            "leave the ratio out, or take a smaller one",
+        );
     }
 }
 
@@ -200,25 +231,6 @@ pub(super) fn expectations(checker: &mut Checker, raw: &RawCase, model: Option<&
     raw.filter_map(one).collect()
 }
 
-/// Refuses the name of a measure that the case does not have.
-fn refuse_unmeasured(checker: &mut Checker, path: String, name: &str, offers: &[Offer]) {
-    let with_name = || offers.iter().filter(|offer| offer.names.contains(&name));
-    if with_name().any(|offer| offer.is_given) {
-        return;
-    }
-    let given_by: Vec<&str> = with_name().map(|offer| offer.given_by.as_str()).collect();
-    if !given_by.is_empty() {
-        let help = format!("it comes with {}", given_by.join(" or "));
-        checker.refuse(path, format!("`{name}` is not measured in this case"), help);
-        return;
-    }
-    let known = || offers.iter().filter(|offer| offer.is_given).flat_map(|offer| offer.names.iter().copied());
-    let list = known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-    let meant = nearest(name, offers.iter().flat_map(|offer| offer.names.iter().copied()));
-    let meant = meant.map_or(String::new(), |meant| format!("did you mean `{meant}`? "));
-    checker.refuse(path, format!("unknown measure `{name}`"), format!("{meant}measured in this case: {list}"));
-}
-
 fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation, offers: Option<&[Offer]>) -> Option<Expectation> {
     let measure = checker.require(&format!("{at}.measure"), raw.measure.clone(), "measure = \"contact-angle-deg\"");
     let value = checker.require(&format!("{at}.value"), raw.value, "value = 40.0");
@@ -228,7 +240,11 @@ fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation, offers: Op
         (Some(name), _) if name.trim().is_empty() => {
             checker.refuse(format!("{at}.measure"), "expected the name of a measure, found nothing", "");
         }
-        (Some(name), Some(offers)) => refuse_unmeasured(checker, format!("{at}.measure"), name, offers),
+        (Some(name), Some(offers)) => {
+            if let Some((message, help)) = unmeasured(name, offers) {
+                checker.refuse(format!("{at}.measure"), message, help);
+            }
+        }
         _ => {}
     }
     Some(Expectation { measure: measure?, value: value?, tolerance: tolerance? })

@@ -1,4 +1,6 @@
-//! Which kind of TOML file one is: a case names a geometry and a model in tables, a shape file has its keys at the top.
+//! Which kind of TOML file one is: a case names a geometry and a model in tables, a shape file has its keys at the top, a study has axes.
+
+use crate::input::Problem;
 
 /// The tables of which a case file has at least one, and a shape file none.
 const TABLES: [&str; 4] = ["geometry", "sph", "thin-film", "network"];
@@ -18,9 +20,48 @@ pub fn is_case(text: &str) -> bool {
     }
 }
 
+/// Keys at the top of a study file, which no case has.
+const STUDY: [&str; 3] = ["axis", "case", "trend"];
+
+/// What to say of a text that is read as a case and is a shape file or a study; all its keys would be mistakes otherwise.
+pub(super) fn other_than_a_case(text: &str) -> Option<Problem> {
+    let table = text.trim_start_matches('\u{feff}').parse::<toml::Table>().ok()?;
+    let has = |names: &[&str]| names.iter().any(|name| table.contains_key(*name));
+    if has(&TABLES) {
+        return None;
+    }
+    if has(&["shapes"]) {
+        let help = "name it in the [geometry] of a case, file = \"...\"; `meniscus geometry` measures a shape file";
+        return Some(Problem::new("", "this is a shape file, and a case was expected", help));
+    }
+    let help = "`meniscus study plan` and `meniscus study run` take it";
+    has(&STUDY).then(|| Problem::new("", "this is a study, and a case was expected", help))
+}
+
+/// What to say of a text that is read as a study and is a case.
+pub(crate) fn other_than_a_study(text: &str) -> Option<Problem> {
+    let table = text.trim_start_matches('\u{feff}').parse::<toml::Table>().ok()?;
+    let has = |names: &[&str]| names.iter().any(|name| table.contains_key(*name));
+    let help = "name it in a study, case = \"...\", beside what varies; `meniscus run` runs a case";
+    (has(&TABLES) && !has(&STUDY)).then(|| Problem::new("", "this is a case, and a study was expected", help))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_of_another_kind_is_told_as_such() {
+        let told = |problem: Option<Problem>| problem.map(|problem| problem.message);
+        let (shapes, case) = ("min = [0, 0]\nshapes = []\n", "format = 1\n[sph]\nspacing = 1\n");
+        let study = "format = 1\ncase = 'a.toml'\n[[axis]]\nkey = 'sph.spacing'\n";
+        assert!(told(other_than_a_case(shapes)).unwrap().contains("a shape file"));
+        assert!(told(other_than_a_case(study)).unwrap().contains("a study"));
+        assert!(told(other_than_a_study(case)).unwrap().contains("a case"));
+        assert_eq!((told(other_than_a_case(case)), told(other_than_a_study(study))), (None, None));
+        // Mistakes of their own are told otherwise.
+        assert_eq!((told(other_than_a_case("titel = 1")), told(other_than_a_study("titel = 1"))), (None, None));
+    }
 
     #[test]
     fn a_case_is_told_from_a_shape_file_by_its_tables_even_with_mistakes_in_it() {

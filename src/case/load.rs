@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::check::{self, Checker};
 use super::checked::{Case, Model};
+use super::kind::other_than_a_case;
+use super::magnitude::magnitudes;
 use super::network::state::Start;
 use super::raw::{RawCase, RawGeometry, RawShapeFile};
 use super::{film, network, resolve, shapes, sph, start, steady};
@@ -23,7 +25,8 @@ pub struct Loaded {
     pub sources: Vec<PathBuf>,
     /// What the user should know of how the drawing was read, one sentence each.
     pub notes: Vec<String>,
-    document: Document,
+    /// The text of the file, in which mistakes found later have their places.
+    pub document: Document,
 }
 
 impl Loaded {
@@ -46,7 +49,19 @@ const DEFAULT_SHAPES_TEXT: &str = include_str!("../../geometries/four-discs.toml
 /// Where the files of a case come from.
 enum Origin<'p> {
     Disk(&'p Path),
+    /// The same, with the text of the state that the case begins with, whatever file it names.
+    Started(&'p Path, &'p str),
     BuiltIn,
+}
+
+impl<'p> Origin<'p> {
+    /// The case file, where there is one.
+    fn path(&self) -> Option<&'p Path> {
+        match *self {
+            Self::Disk(path) | Self::Started(path, _) => Some(path),
+            Self::BuiltIn => None,
+        }
+    }
 }
 
 /// Loads and checks a case file and the shape file it names.
@@ -56,6 +71,15 @@ enum Origin<'p> {
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
     let text = read(path, "check the path of the case file")?;
     load_text(&path.display().to_string(), &text, overrides, &Origin::Disk(path))
+}
+
+/// Loads and checks a case as if the file of the state that it begins with held `state`.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_started(path: &Path, overrides: &Overrides, state: &str) -> Result<Loaded, InputError> {
+    let text = read(path, "check the path of the case file")?;
+    load_text(&path.display().to_string(), &text, overrides, &Origin::Started(path, state))
 }
 
 /// Loads the built-in case: the wetting liquid between four discs.
@@ -68,15 +92,13 @@ pub fn load_default(overrides: &Overrides) -> Result<Loaded, InputError> {
 
 fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> Result<Loaded, InputError> {
     let document = Document::parse(name, text, overrides)?;
+    document.refuse(other_than_a_case(text).into_iter().collect())?;
     let reading = document.read::<RawCase>();
     let mut checker = Checker::default();
     let raw = &reading.value;
     checker.format(raw.format);
     let title = checker.require("title", raw.title.clone(), "title = \"what the case shows\"");
-    let mut sources: Vec<PathBuf> = match origin {
-        Origin::Disk(path) => vec![path.to_path_buf()],
-        Origin::BuiltIn => Vec::new(),
-    };
+    let mut sources: Vec<PathBuf> = origin.path().map(Path::to_path_buf).into_iter().collect();
     let mut elsewhere = Vec::new();
     let geometry = match &raw.geometry {
         None => checker.require::<Imported>("geometry", None, "[geometry] with file, or min, max and shapes"),
@@ -91,18 +113,19 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
         );
         if has_window { cut(&mut checker, spec, beyond, &mut notes) } else { Some(spec) }
     });
-    let folder = match origin {
-        Origin::Disk(case) => case.parent().unwrap_or(Path::new("")),
-        Origin::BuiltIn => Path::new(""),
-    };
-    let start = start::start(&mut checker, raw, folder, geometry.as_ref(), &mut sources);
+    let folder = origin.path().and_then(Path::parent).unwrap_or(Path::new(""));
+    let given = if let Origin::Started(_, state) = origin { Some(*state) } else { None };
+    let start = start::start(&mut checker, raw, (folder, given), geometry.as_ref(), &mut sources);
     let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
     let model = model(&mut checker, &RawCase { network, ..raw.clone() }, geometry.as_ref(), start);
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref());
     let end = check::end(&mut checker, raw, model.as_ref());
-    let output = check::output(&mut checker, raw, end);
+    let output = check::output(&mut checker, raw, end, in_spacings(geometry.as_ref(), model.as_ref()));
     let steady = steady::steady(&mut checker, raw, end, &output);
     let expect = check::expectations(&mut checker, raw, model.as_ref());
+    magnitudes(&mut checker, "sph", raw.sph.as_ref());
+    magnitudes(&mut checker, "thin-film", raw.thin_film.as_ref());
+    magnitudes(&mut checker, "network", raw.network.as_ref());
     let mut mistakes = reading.refuse(checker.problems);
     mistakes.append(&mut elsewhere);
     let (Some(title), Some(geometry), Some(model), Some(end), true) =
@@ -113,6 +136,12 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     let case = Case { title, geometry, model, end, steady, output, expect };
     let resolved = resolve::text(&case);
     Ok(Loaded { case, resolved, sources, notes, document })
+}
+
+/// Width and height of the domain of a direct simulation in spacings.
+fn in_spacings(geometry: Option<&GeometrySpec>, model: Option<&Model>) -> Option<[f64; 2]> {
+    let (geometry, Model::Sph(sph)) = (geometry?, model?) else { return None };
+    Some([0, 1].map(|axis| (geometry.max[axis] - geometry.min[axis]) / sph.spacing))
 }
 
 fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>, start: Option<Start>) -> Option<Model> {
@@ -179,8 +208,10 @@ fn read_geometry(
         Origin::BuiltIn if file == Path::new(DEFAULT_SHAPES) => {
             shape_text("geometries/four-discs.toml", DEFAULT_SHAPES_TEXT, &options)
         }
-        Origin::BuiltIn => shapes_at(file, &options, sources),
-        Origin::Disk(case) => shapes_at(&case.parent().unwrap_or(Path::new("")).join(file), &options, sources),
+        _ => {
+            let folder = origin.path().and_then(Path::parent).unwrap_or(Path::new(""));
+            shapes_at(&folder.join(file), &options, sources)
+        }
     };
     match loaded {
         Ok(read) => {
@@ -230,17 +261,18 @@ const BESIDE: &str = "the shape file is looked for beside the case file";
 
 fn shapes_at(path: &Path, options: &Options, sources: &mut Vec<PathBuf>) -> Result<Imported, NotRead> {
     sources.push(path.to_path_buf());
-    read_shapes(path, options)
+    read_shapes(path, options, BESIDE)
 }
 
-fn read_shapes(path: &Path, options: &Options) -> Result<Imported, NotRead> {
+/// The shapes of a file; `help` tells where the user should look when there is none.
+fn read_shapes(path: &Path, options: &Options, help: &str) -> Result<Imported, NotRead> {
     let name = path.display().to_string();
     if Format::of(path) == Some(Format::Toml) {
-        return shape_text(&name, &read(path, BESIDE)?, options);
+        return shape_text(&name, &read(path, help)?, options);
     }
     crate::geometry::load(path, options).map_err(|error| match error {
         ShapeFileError::Keys { problems, .. } => NotRead::Keys(problems),
-        ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, BESIDE)),
+        ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, help)),
         ShapeFileError::Parts { path, refusals } => NotRead::File(each_part(&name, &path, &refusals, |refusal| {
             (format!("{}: found {}", refusal.place, refusal.found), format!("expected {}", refusal.expected))
         })),
@@ -275,7 +307,7 @@ fn each_part<T>(name: &str, path: &Path, parts: &[T], told: impl Fn(&T) -> (Stri
 pub fn load_shapes(path: &Path, options: &Options) -> Result<Imported, InputError> {
     let name = path.display().to_string();
     let of_key = |problem: Problem| Mistake::of_file(&name, problem.message, &problem.help);
-    read_shapes(path, options).map_err(|error| match error {
+    read_shapes(path, options, "check the path of the shape file").map_err(|error| match error {
         NotRead::Keys(problems) => InputError { mistakes: problems.into_iter().map(of_key).collect() },
         NotRead::File(error) => error,
     })

@@ -2,6 +2,7 @@
 
 use super::checked::Model;
 use super::raw::{Empty, RawMeasures};
+use crate::input::nearest;
 
 /// Measures of every direct simulation.
 const EVERY_RUN: &[&str] =
@@ -134,6 +135,25 @@ pub fn offers(model: &Model, is_steady: bool) -> Vec<Offer> {
             Offer::new(NETWORK_IN_TIME, "[network.dynamic]", network.is_dynamic()),
         ],
     }
+}
+
+/// What is wrong with the name of a measure that the case does not have, and a way out; none where the case has it.
+#[must_use]
+pub fn unmeasured(name: &str, offers: &[Offer]) -> Option<(String, String)> {
+    let with_name = || offers.iter().filter(|offer| offer.names.contains(&name));
+    if with_name().any(|offer| offer.is_given) {
+        return None;
+    }
+    let given_by: Vec<&str> = with_name().map(|offer| offer.given_by.as_str()).collect();
+    if !given_by.is_empty() {
+        let help = format!("it comes with {}", given_by.join(" or "));
+        return Some((format!("`{name}` is not measured in this case"), help));
+    }
+    let known = || offers.iter().filter(|offer| offer.is_given).flat_map(|offer| offer.names.iter().copied());
+    let list = known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let meant = nearest(name, offers.iter().flat_map(|offer| offer.names.iter().copied()));
+    let meant = meant.map_or(String::new(), |meant| format!("did you mean `{meant}`? "));
+    Some((format!("unknown measure `{name}`"), format!("{meant}measured in this case: {list}")))
 }
 
 /// The set of groups, and its way from a case file and back into one.

@@ -17,13 +17,28 @@ const AT_MOST_ONE: [&str; 2] = ["RawFilmMethod", "RawFilmWetting"];
 /// The models of a case, exactly one of them.
 const MODELS: [&str; 3] = ["sph", "thin-film", "network"];
 
-/// Keys without which a table says nothing.
-const REQUIRED: [(&str, &[&str]); 5] = [
-    ("RawContactAngle", &["contact-angle-deg"]),
+/// Keys that their table requires.
+const REQUIRED: [(&str, &[&str]); 20] = [
     ("RawAngleWindow", &["advancing-angle-deg", "receding-angle-deg"]),
+    ("RawContactAngle", &["contact-angle-deg"]),
+    ("RawCoxVoinov", &["contact-angle-deg", "slip-length"]),
+    ("RawDroplet", &["half-width", "height"]),
     ("RawExpectation", &["measure", "value", "tolerance"]),
-    ("RawSph", &["spacing", "phases"]),
+    ("RawGeometric", &["smoothing-length"]),
+    ("RawLineFriction", &["contact-angle-deg", "friction"]),
+    ("RawMeasured", &["geometry-hash"]),
+    ("RawMeasuredThroat", &["index", "formula-curvature", "entry-curvature"]),
+    ("RawMolecularKinetic", &["contact-angle-deg", "frequency", "jump-length"]),
+    ("RawPartialWetting", &["contact-angle-deg"]),
     ("RawPhases", &["wetting"]),
+    ("RawPrecursor", &["film-height"]),
+    ("RawPressureSteps", &["rise", "every-time"]),
+    ("RawSlip", &["slip-length"]),
+    ("RawSph", &["spacing", "phases"]),
+    ("RawStripes", &["width"]),
+    ("RawTaylorGreen", &["speed"]),
+    ("RawThinFilm", &["spacing", "droplets", "equation"]),
+    ("RawTime", &["end"]),
 ];
 
 /// The JSON schema of a case file: every key with its unit in its description, the ranges of numbers, and of models that exclude each other a

@@ -21,19 +21,27 @@ fn named(raw: &RawCase) -> Option<(&'static str, &Path)> {
     of_sph.map(|file| ("sph.initial.network", file)).or(of_network.map(|file| ("network.initial", file)))
 }
 
-/// The state that the case begins with, looked for beside the case file in `folder`; none where none is named, or where it is refused.
+/// The state that the case begins with: `given` in place of the file that it names, which is looked for beside the case file in `folder`; none where
+/// none is named, or where it is refused.
 pub(super) fn start(
     checker: &mut Checker,
     raw: &RawCase,
-    folder: &Path,
+    (folder, given): (&Path, Option<&str>),
     geometry: Option<&GeometrySpec>,
     sources: &mut Vec<PathBuf>,
 ) -> Option<Start> {
     let (key, file) = named(raw)?;
     let path = folder.join(file);
     let path = std::path::absolute(&path).unwrap_or(path);
-    sources.push(path.clone());
-    let text = match file::read_text(&path) {
+    let read = match given {
+        Some(text) => Ok(text.to_owned()),
+        None => {
+            sources.push(path.clone());
+            file::read_text(&path)
+        }
+    };
+    let name = given.map_or_else(|| path.display().to_string(), |_| "what the network hands over".to_owned());
+    let text = match read {
         Ok(text) => text,
         Err(error) => {
             let what = match error.kind() {
@@ -52,8 +60,12 @@ pub(super) fn start(
         }
     };
     if let Some(misfit) = geometry.and_then(|geometry| state.misfit(geometry)) {
-        let message = format!("{} is the state of another geometry: {misfit}", path.display());
-        checker.refuse(key, message, "run the network of this geometry first, and take the state that it writes");
+        let message = format!("{name} is the state of another geometry: {misfit}");
+        let help = match given {
+            Some(_) => "let both cases name the same shape file",
+            None => "run the network of this geometry first, and take the state that it writes",
+        };
+        checker.refuse(key, message, help);
         return None;
     }
     // So that a saved run tells a changed file.

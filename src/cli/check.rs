@@ -8,6 +8,7 @@ use super::run::built;
 use super::source;
 use crate::case::checked::{Case, Model};
 use crate::run::advice::{self, Advice};
+use crate::run::execute::Mode;
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
 use crate::run::trial::{Trial, trial};
@@ -20,7 +21,7 @@ const BYTES_PER_MEBIBYTE: f64 = 1048576.0;
 pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let case = &source.case;
-    let mut solver = built(case)?;
+    let mut solver = built(&source, Mode::New)?;
     let found = tried(case, solver.as_mut())?;
     let advice = advice::advice(case, Some(&found));
     let warnings = setup::warnings(case, solver.as_ref());

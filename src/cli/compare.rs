@@ -14,6 +14,7 @@ use crate::io::{FileError, atomic};
 use crate::run::compare::{CompareError, Comparison, compare as run_both, page};
 use crate::run::execute::Mode;
 use crate::run::folder;
+use crate::run::setup::SetupError;
 
 /// `compare`.
 #[derive(Debug, Args)]
@@ -45,7 +46,25 @@ pub fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
         let found =
             run_both((&network.case, &direct.case), arguments.records.get(), &mut |share| display.compared(share));
         display.finish();
-        found.map_err(|error| failure(&error))
+        found.map_err(|error| match &error {
+            CompareError::Setup(misfit @ SetupError::Network(_)) => network.refused(misfit),
+            CompareError::Setup(misfit) => direct.refused(misfit),
+            CompareError::NoNetwork => network.refused_at(
+                "network",
+                "the first case has no displacement in a network",
+                "give [network] an inlet",
+            ),
+            CompareError::NoDirect => direct.refused_at(
+                "sph",
+                "the second case is no direct simulation of two fluids",
+                "give it [sph] with both phases",
+            ),
+            CompareError::OtherGeometry(_) => direct.refused_at("geometry", &error.to_string(), ""),
+            CompareError::OtherSides { side, .. } => {
+                direct.refused_at(&format!("sph.sides.{side}"), &error.to_string(), "")
+            }
+            other => failure(other),
+        })
     })?;
     let json = serde_json::to_string_pretty(&found).map_err(|error| Failure::new(BUG, &error))?;
     let unwritten = |error: FileError| Failure::new(USAGE, &error);

@@ -8,11 +8,11 @@ use serde::Serialize;
 use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED, USAGE};
 use super::output::{readable, say, tell};
 use super::run::{finish, new_folder};
-use super::source;
-use crate::case::checked::{Case, Drive, Model, SIDES, Side};
+use super::source::{self, Source};
+use crate::case::checked::{Drive, Model, SIDES, Side};
 use crate::case::network::state::NetworkState;
 use crate::io::{FileError, atomic};
-use crate::run::avalanche::{Avalanche, AvalancheError, Wanted, find};
+use crate::run::avalanche::{Avalanche, AvalancheError, Wanted, find, state_at_end};
 use crate::run::execute::Mode;
 use crate::run::folder;
 
@@ -70,15 +70,21 @@ struct Coupled {
 /// Runs the three parts, writes `couple.json`, and tells what came out.
 pub fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
-    let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&error))?;
+    let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&network, &error))?;
     let name = arguments.direct.file_stem().map_or_else(|| "direct".into(), |stem| stem.to_string_lossy().into_owned());
-    let out = new_folder(arguments.out.as_deref(), &format!("{name}-couple"), Mode::New);
-    let _claim = folder::create(&out).map_err(|error| Failure::new(USAGE, &error))?;
-    let [before, during, same, after] = ["1-network", "2-direct", "2-network", "3-network"].map(|part| out.join(part));
     let direction = if avalanche.invading == crate::case::raw::RawPhase::NonWetting { 1.0 } else { -1.0 };
     let beyond = |share: f64| avalanche.pressure_pa + direction * share * avalanche.pressure_pa.abs();
     let driving = beyond(arguments.excess);
     let stop = |pressure: f64| format!("network.stop.capillary-pressure={pressure:?}");
+    // Both cases are checked before anything runs.
+    let rest = source::load_case(Some(&arguments.network), &[stop(avalanche.rest_pressure_pa)])?;
+    let start = state_at_end(&rest.case).map_err(|error| failure(&rest, &error))?;
+    let direct = source::load_started(&arguments.direct, &[], &start)?;
+    let inlet = inlet_pressure(&direct, avalanche.inlet, direction * driving)?;
+    source::load_started(&arguments.direct, std::slice::from_ref(&inlet), &start)?;
+    let out = new_folder(arguments.out.as_deref(), &format!("{name}-couple"), Mode::New);
+    let _claim = folder::create(&out).map_err(|error| Failure::new(USAGE, &error))?;
+    let [before, during, same, after] = ["1-network", "2-direct", "2-network", "3-network"].map(|part| out.join(part));
     tell(format_args!(
         "the avalanche begins at {} Pa and has {} events",
         readable(avalanche.pressure_pa),
@@ -93,8 +99,6 @@ pub fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     if let Some(code) = run(&arguments.network, &[stop(avalanche.rest_pressure_pa)], before.clone())? {
         return Ok(code);
     }
-    let direct = source::load_case(Some(&arguments.direct), &[initial("sph.initial.network", &before)?])?;
-    let inlet = inlet_pressure(&direct.case, avalanche.inlet, direction * driving)?;
     let overrides = [initial("sph.initial.network", &before)?, inlet];
     if let Some(code) = run(&arguments.direct, &overrides, during.clone())? {
         return Ok(code);
@@ -127,22 +131,36 @@ fn initial(key: &str, folder: &Path) -> Result<String, Failure> {
 }
 
 /// The pressure at the inlet, `difference` in Pa above that at the outlet.
-fn inlet_pressure(case: &Case, inlet: usize, difference: f64) -> Result<String, Failure> {
-    let refused = || {
-        let expected =
-            format!("the direct case needs an outlet, and an inlet with a pressure on the side `{}`", SIDES[inlet]);
-        Failure::new(BAD_INPUT, &expected)
+fn inlet_pressure(direct: &Source, inlet: usize, difference: f64) -> Result<String, Failure> {
+    let Model::Sph(sph) = &direct.case.model else {
+        return Err(direct.refused_at("", "the second case is no direct simulation", "give it [sph] with both phases"));
     };
-    let Model::Sph(sph) = &case.model else { return Err(refused()) };
+    if sph.initial.network.is_none() {
+        let message = "the direct case does not begin with the state of a network";
+        let help = "add [sph.initial] network = \"at-end.json\"; `couple` sets the file";
+        return Err(direct.refused_at("sph.initial", message, help));
+    }
     let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
     let pressure = |side: usize| match sph.open[side].map(|open| open.drive) {
         Some(Drive::Pressure(pressure)) => Some(pressure),
         _ => None,
     };
     let outlet = sides.iter().position(|&side| side == Side::Outlet).and_then(pressure);
-    match (pressure(inlet), outlet) {
-        (Some(_), Some(outlet)) => Ok(format!("sph.sides.open.{}.pressure={:?}", SIDES[inlet], outlet + difference)),
-        _ => Err(refused()),
+    let name = SIDES[inlet];
+    match (pressure(inlet).filter(|_| sides[inlet] == Side::Inlet), outlet) {
+        (Some(_), Some(outlet)) => Ok(format!("sph.sides.open.{name}.pressure={:?}", outlet + difference)),
+        (None, _) => {
+            let message =
+                format!("the network is entered at the side `{name}`, and here that is no inlet with a pressure");
+            let help = format!(
+                "set {name} = \"inlet\", and pressure = 0.0 in [sph.sides.open.{name}]; `couple` sets the value"
+            );
+            Err(direct.refused_at(&format!("sph.sides.{name}"), &message, &help))
+        }
+        (_, None) => {
+            let help = "make the side of the network's outlet an outlet";
+            Err(direct.refused_at("sph.sides", "there is no outlet with a pressure", help))
+        }
     }
 }
 
@@ -160,7 +178,10 @@ fn same_elements(one: &NetworkState, other: &NetworkState) -> Option<f64> {
     (count > 0 && count == other.elements.len()).then(|| same as f64 / count as f64)
 }
 
-fn failure(error: &AvalancheError) -> Failure {
+fn failure(network: &Source, error: &AvalancheError) -> Failure {
+    if let AvalancheError::Setup(misfit) = error {
+        return network.refused(misfit);
+    }
     let code = if matches!(error, AvalancheError::Solver(_)) { SOLVER_FAILED } else { BAD_INPUT };
     Failure::new(code, error)
 }

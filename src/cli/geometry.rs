@@ -7,7 +7,7 @@ use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{readable, say};
 use super::source::{self, Shapes};
 use super::stages::Stages;
-use super::write_shapes::write_shapes;
+use super::write_shapes::{formats, write_shapes};
 use crate::io::picture::{PORE, picture};
 use crate::io::{atomic, vtk};
 use crate::math::Vec2;
@@ -19,6 +19,7 @@ const WRITING_STAGES: usize = 1;
 
 /// Measures a shape file and writes what can be seen of it.
 pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
+    let formats = formats(&arguments.drawings)?;
     let count = if arguments.out.is_some() { STAGES + WRITING_STAGES } else { STAGES };
     let stages = Stages::of(count);
     let periodic = arguments.periodic.map(PeriodicAxes::along);
@@ -37,7 +38,7 @@ pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
         drop(stages);
         say(format_args!("wrote solid.vtp, distance.vti and picture.png to {}", folder.display()));
     }
-    write_shapes(&arguments.drawings, &shapes.spec)?;
+    write_shapes(&arguments.drawings, formats, &shapes.spec)?;
     Ok(DONE)
 }
 

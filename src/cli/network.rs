@@ -63,7 +63,7 @@ fn quick(arguments: &NetworkArguments, geometry: GeometrySpec) -> Result<Source,
             .collect();
         Failure::new(BAD_INPUT, &lines.join("\n"))
     })?;
-    Ok(Source { case, resolved, name: format!("{name}-network") })
+    Ok(Source { case, resolved, name: format!("{name}-network"), notes: Vec::new(), document: None })
 }
 
 fn side(name: SideName) -> RawSideName {

@@ -92,7 +92,7 @@ pub fn finish(opened: &Opened) -> Result<u8, Failure> {
     say(written.table.markdown().trim_end());
     tell_judgments(&written);
     for convergence in &written.convergences {
-        let order = convergence.order().map_or("none".to_owned(), |order| format!("{order:.2}"));
+        let order = convergence.order_text();
         let (measure, along, of) = (&convergence.measure, &convergence.along, &convergence.of);
         say(format_args!("  order       {order} of {measure} along {along}, {of}"));
     }

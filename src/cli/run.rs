@@ -4,14 +4,13 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use super::arguments::RunArguments;
-use super::exit::{BAD_INPUT, BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
+use super::exit::{BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{say, tell};
 use super::progress::ProgressDisplay;
 use super::source::Source;
 use super::summary::summary;
 use super::threads::pool;
 use super::{interrupt, source};
-use crate::case::checked::Case;
 use crate::run::execute::{Finished, Job, Mode, RunError, execute};
 use crate::run::report::Status;
 use crate::run::{folder, setup};
@@ -45,7 +44,7 @@ pub(super) fn finish(
 ) -> Result<u8, Failure> {
     let job = Job { case: &source.case, resolved: &source.resolved, folder, mode };
     let finished = pool(threads)?.install(|| -> Result<Finished, Failure> {
-        let mut solver = built(job.case)?;
+        let mut solver = built(source, mode)?;
         tell(format_args!("{} -> {}", job.case.title, job.folder.display()));
         let flag = interrupt::flag();
         let mut display = ProgressDisplay::new();
@@ -60,12 +59,15 @@ pub(super) fn finish(
     ending(&finished)
 }
 
-/// The solver of a case; a long packing of particles is shown.
-pub(super) fn built(case: &Case) -> Result<Box<dyn Solver>, Failure> {
+/// The solver of a case; a long packing of particles is shown, and one that takes up a saved state is spared it.
+pub(super) fn built(source: &Source, mode: Mode) -> Result<Box<dyn Solver>, Failure> {
     let mut display = ProgressDisplay::new();
-    let solver = setup::build_watched(case, &mut |share| display.packed(share));
+    let solver = match mode {
+        Mode::New => setup::build_watched(&source.case, &mut |share| display.packed(share)),
+        Mode::Resume => setup::build_to_resume(&source.case),
+    };
     display.finish();
-    solver.map_err(|error| Failure::new(BAD_INPUT, &error))
+    solver.map_err(|error| source.refused(&error))
 }
 
 fn failure(error: &RunError) -> Failure {

@@ -10,8 +10,8 @@ use crate::geometry::import::{self, Beyond, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
 use crate::geometry::{Geometry, GeometryError};
-use crate::input::{InputError, Overrides, file};
-use crate::run::setup;
+use crate::input::{Document, InputError, Overrides, Problem, file};
+use crate::run::setup::{self, SetupError};
 use crate::snapshot::{Grid, Lines};
 use crate::solver::Measure;
 
@@ -36,6 +36,25 @@ pub struct Source {
     pub resolved: String,
     /// Name of the case: that of its file without the ending.
     pub name: String,
+    /// What the user should know of how its drawing was read.
+    pub notes: Vec<String>,
+    /// The text of the case file; none where the command line is the case.
+    pub document: Option<Document>,
+}
+
+impl Source {
+    /// A case that no solver can be made for, with the places in its file.
+    pub fn refused(&self, error: &SetupError) -> Failure {
+        let placed = self.document.as_ref().and_then(|document| document.refuse(error.problems()).err());
+        placed.map_or_else(|| Failure::new(BAD_INPUT, error), Failure::input)
+    }
+
+    /// A case that does not fit, with the place of the key that a user would change.
+    pub fn refused_at(&self, key: &str, message: &str, help: &str) -> Failure {
+        let problem = Problem::new(key, message, help);
+        let placed = self.document.as_ref().and_then(|document| document.refuse(vec![problem.clone()]).err());
+        placed.map_or_else(|| Failure::new(BAD_INPUT, &problem), Failure::input)
+    }
 }
 
 /// What can be told and drawn of a shape file.
@@ -55,12 +74,23 @@ pub struct Shapes {
 
 /// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
 pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Failure> {
+    let source = sound(load(path, overrides).map_err(Failure::input)?, path)?;
+    source.notes.iter().for_each(tell);
+    Ok(source)
+}
+
+/// The case where it is right on its geometry.
+fn sound(loaded: Loaded, path: Option<&Path>) -> Result<Source, Failure> {
+    loaded.refuse(setup::problems(&loaded.case)).map_err(Failure::input)?;
     let name = path.and_then(Path::file_stem).map_or_else(|| DEFAULT_NAME.into(), |stem| stem.to_string_lossy().into());
-    let loaded = load(path, overrides).map_err(Failure::input)?;
-    let problems = setup::problems(&loaded.case).map_err(|error| Failure::new(BAD_INPUT, &error))?;
-    loaded.refuse(problems).map_err(Failure::input)?;
-    loaded.notes.iter().for_each(tell);
-    Ok(Source { case: loaded.case, resolved: loaded.resolved, name })
+    let Loaded { case, resolved, notes, document, .. } = loaded;
+    Ok(Source { case, resolved, name, notes, document: Some(document) })
+}
+
+/// Loads a case file as if the file of the state that it begins with held `state`.
+pub fn load_started(path: &Path, overrides: &[String], state: &str) -> Result<Source, Failure> {
+    let overrides = Overrides::parse(overrides).map_err(Failure::input)?;
+    sound(case::load_started(path, &overrides, state).map_err(Failure::input)?, Some(path))
 }
 
 fn load(path: Option<&Path>, overrides: &[String]) -> Result<Loaded, InputError> {
@@ -117,7 +147,11 @@ pub fn load_shapes(
             let loaded = load(Some(path), &[]).map_err(Failure::input)?;
             loaded.notes.iter().for_each(tell);
             at("uniting the shapes");
-            (setup::geometry(&loaded.case).map_err(|error| Failure::new(BAD_INPUT, &error))?, loaded.case.geometry)
+            let geometry = setup::geometry(&loaded.case);
+            let refused = |error: SetupError| {
+                loaded.refuse(error.problems()).err().map_or_else(|| Failure::new(BAD_INPUT, &error), Failure::input)
+            };
+            (geometry.map_err(refused)?, loaded.case.geometry)
         }
         (false, periodic) => {
             let spec = geometry_of_file(path, options, periodic.unwrap_or_default())?;

@@ -158,7 +158,7 @@ fn one(arguments: &StudyRunArguments, study: &Path, index: usize) -> Result<u8, 
     let mut display = ProgressDisplay::new();
     let ending = pool.install(|| execute::run(&planned, &folder, &flag, &mut display));
     display.finish();
-    match ending.map_err(|error| failure(&error))? {
+    match ending.map_err(failure)? {
         Ending::WasComplete => {
             say(format_args!("run {index} was complete"));
             Ok(DONE)
@@ -172,9 +172,11 @@ fn one(arguments: &StudyRunArguments, study: &Path, index: usize) -> Result<u8, 
     }
 }
 
-fn failure(error: &ExecuteError) -> Failure {
-    let code = if matches!(error, ExecuteError::Setup(_)) { BAD_INPUT } else { USAGE };
-    Failure::new(code, error)
+fn failure(error: ExecuteError) -> Failure {
+    match error {
+        ExecuteError::Setup(mistakes) => Failure::input(mistakes),
+        other => Failure::new(USAGE, &other),
+    }
 }
 
 /// Sets the flag when the standard input closes: the process that started this one holds its other end.

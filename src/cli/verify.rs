@@ -18,14 +18,17 @@ use crate::verify::cut_out::Impossible;
 use crate::verify::plan::{self, Planned, RUNS};
 use crate::verify::report;
 use crate::verify::results::{Row, Status, row};
-use crate::verify::subject::Subject;
+use crate::verify::subject::{Subject, SubjectError};
 
 /// Chooses, writes, runs, and tells.
 pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
     let usage = |error: &dyn std::fmt::Display| Failure::new(USAGE, &error);
-    let subject = Subject::new(&source.case).map_err(|error| bad(&error))?;
+    let subject = Subject::new(&source.case).map_err(|error| match error {
+        SubjectError::Setup(misfit) => source.refused(&misfit.into()),
+        other => bad(&other),
+    })?;
     let choices: Vec<Choice> = arguments
         .throats
         .iter()

@@ -8,15 +8,19 @@ use crate::geometry::export::{self, Format};
 use crate::geometry::spec::GeometrySpec;
 use crate::io::{atomic, vtk};
 
-/// Writes each drawing that was asked for; names are checked before anything is written.
-pub fn write_shapes(arguments: &WriteArguments, spec: &GeometrySpec) -> Result<(), Failure> {
+/// The formats of the drawings that were asked for; none for the outline as VTK.
+pub fn formats(arguments: &WriteArguments) -> Result<Vec<Option<Format>>, Failure> {
     let is_vtk = |path: &std::path::Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtp"));
-    let formats: Vec<Option<Format>> = arguments
-        .write
-        .iter()
-        .map(|path| if is_vtk(path) { Ok(None) } else { Format::of(path).map(Some) })
-        .collect::<Result<_, _>>()
-        .map_err(|error| Failure::new(USAGE, &error))?;
+    let format = |path: &std::path::PathBuf| if is_vtk(path) { Ok(None) } else { Format::of(path).map(Some) };
+    arguments.write.iter().map(format).collect::<Result<_, _>>().map_err(|error| Failure::new(USAGE, &error))
+}
+
+/// Writes each drawing that was asked for, in its format.
+pub fn write_shapes(
+    arguments: &WriteArguments,
+    formats: Vec<Option<Format>>,
+    spec: &GeometrySpec,
+) -> Result<(), Failure> {
     for (path, format) in arguments.write.iter().zip(formats) {
         let bytes = match format {
             Some(format) => {

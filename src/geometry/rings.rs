@@ -5,7 +5,7 @@
 //! meet within rounding. Rings that meet are cut there, and each part is told in or out of the other ring by winding numbers. Left
 //! out: holes that touch so that they cut the polygon into several parts, which harm nothing here.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use geo::Intersects;
 
@@ -95,6 +95,36 @@ pub(crate) fn faults(rings: &[Vec<Curve>]) -> Vec<RingFault> {
         }
     }
     found
+}
+
+/// The first two rings that cross, and where: each has a part within the other one and a part outside of it. Rings that touch, and rings within
+/// others, do not.
+pub(crate) fn crossing(rings: &[Vec<Curve>]) -> Option<([usize; 2], Vec2)> {
+    let edges = Edges::of(rings);
+    let regions: Vec<Region> = rings.iter().map(|ring| Region::of(ring)).collect();
+    for (number, ring) in rings.iter().enumerate() {
+        // By other ring, whether a part of this one was seen within it and outside of it.
+        let mut seen: BTreeMap<usize, [bool; 2]> = BTreeMap::new();
+        for edge in ring {
+            let near: Vec<(usize, usize)> = edges.near(edge).filter(|&(other, _)| other > number).collect();
+            let others: BTreeSet<usize> = near.iter().map(|&(other, _)| other).collect();
+            for other in others {
+                let walls = near.iter().filter(|&&(one, _)| one == other).map(|&(_, j)| &edges.rings[other][j]);
+                for part in split(edge, walls, edges.tolerance) {
+                    let x = part.point(0.5);
+                    if regions[other].curves.distance(x) <= edges.tolerance {
+                        continue;
+                    }
+                    let both = seen.entry(other).or_default();
+                    both[usize::from(regions[other].winding.turns(x).abs() > 0.5)] = true;
+                    if *both == [true; 2] {
+                        return Some(([number, other], part.point(0.0)));
+                    }
+                }
+            }
+        }
+    }
+    None
 }
 
 /// What is enclosed by one ring.
@@ -289,6 +319,24 @@ mod tests {
         assert!(matches!(pair(square(1.0, 1.0, 2.0), square(1.5, 1.5, 0.5))[..], [RingFault::OnAnArea { .. }, ..]));
         assert!(matches!(pair(square(1.0, 1.0, 1.0), square(2.0, 1.0, 1.0))[..], [RingFault::OnALine { .. }, ..]));
         assert_eq!(pair(square(1.0, 1.0, 1.0), square(2.5, 1.0, 1.0)), []);
+    }
+
+    #[test]
+    fn rings_cross_where_each_has_a_part_in_the_other_and_not_where_they_touch_or_nest() {
+        let outer = square(0.0, 0.0, 4.0);
+        let with = |other: Vec<Curve>| crossing(&[outer.clone(), other]);
+        assert_eq!(with(square(9.0, 9.0, 1.0)), None);
+        assert_eq!(with(square(1.0, 1.0, 1.0)), None);
+        // On a side, at a corner, within and along a side.
+        assert_eq!(with(square(4.0, 1.0, 1.0)), None);
+        assert_eq!(with(square(4.0, 4.0, 1.0)), None);
+        assert_eq!(with(square(3.0, 1.0, 1.0)), None);
+        let (rings, at) = with(square(3.0, 3.0, 2.0)).unwrap();
+        assert!(rings == [0, 1] && (at - Vec2::new(4.0, 3.0)).norm() < 1e-12, "{rings:?} {at}");
+        assert!(with(hole(square(-1.0, 1.0, 2.0))).is_some());
+        // Through vertices alone.
+        let diamond = ring(&[[4.0, -4.0, 0.0], [8.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 0.0, 0.0]]);
+        assert!(with(diamond).is_some());
     }
 
     #[test]

@@ -37,6 +37,15 @@ pub enum GeometryError {
     Invalid(Vec<Problem>),
 }
 
+impl GeometryError {
+    /// The problems with their places in a case file, where the shapes are those of its `[geometry]`.
+    #[must_use]
+    pub fn problems_of_case(&self) -> Vec<Problem> {
+        let Self::Invalid(problems) = self;
+        problems.iter().map(|one| Problem { path: format!("geometry.{}", one.path), ..one.clone() }).collect()
+    }
+}
+
 fn list(problems: &[Problem]) -> String {
     problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }

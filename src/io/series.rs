@@ -1,6 +1,6 @@
 //! `series.csv`: one row per record, each added behind the ones before. What a kill leaves of a row is cut off by the run that goes on.
 //!
-//! Numbers are printed with as many digits as are needed to read back the same value; a value that does not exist (NaN) is
+//! Numbers are printed with as many digits as are needed to read back the same value; a value that does not exist (NaN, infinite) is
 //! an empty field, which pandas reads as NaN.
 
 use std::path::{Path, PathBuf};
@@ -68,7 +68,9 @@ impl SeriesFile {
             return Err(FileError::Format { path: self.journal.path().to_path_buf(), what });
         }
         let time = row.first().copied().unwrap_or(f64::NAN);
-        let row: Vec<f64> = row.into_iter().map(|value| value + 0.0).collect();
+        // As it reads back: an infinite value does not exist either.
+        let row: Vec<f64> =
+            row.into_iter().map(|value| if value.is_finite() { value + 0.0 } else { f64::NAN }).collect();
         let last = self.series.rows.last().and_then(|last| last.first());
         let is_next = last.is_some_and(|&last| last < time);
         if !is_next {
@@ -94,9 +96,9 @@ impl SeriesFile {
     }
 }
 
-/// The shortest text that reads back as `value`; empty for NaN.
+/// The shortest text that reads back as `value`; empty for what is no number.
 pub(super) fn number(value: f64) -> String {
-    if value.is_nan() {
+    if !value.is_finite() {
         String::new()
     } else if value.fract() == 0.0 && value.abs() < LARGEST_WHOLE {
         format!("{value}")
@@ -145,15 +147,15 @@ mod tests {
     #[test]
     fn a_resumed_series_is_the_unbroken_one() {
         let folder = tempfile::tempdir().unwrap();
-        let row = |time: f64| vec![time, (time * 10.0).round(), f64::NAN, 2.5e-10];
-        let columns = ["time_s", "step", "contact_angle_deg", "dt_s"];
+        let row = |time: f64| vec![time, (time * 10.0).round(), f64::NAN, 2.5e-10, f64::INFINITY];
+        let columns = ["time_s", "step", "contact_angle_deg", "dt_s", "apex_m"];
         let mut file = SeriesFile::new(folder.path());
         file.record(&columns, row(0.0)).unwrap();
         file.record(&columns, row(0.1)).unwrap();
         let mark = file.mark();
         file.record(&columns, row(0.2)).unwrap();
         let unbroken = std::fs::read_to_string(folder.path().join("series.csv")).unwrap();
-        assert_eq!(unbroken.lines().nth(1), Some("0,0,,2.5e-10"));
+        assert_eq!(unbroken.lines().nth(1), Some("0,0,,2.5e-10,"));
         let mut file = SeriesFile::resume(folder.path(), mark).unwrap();
         assert_eq!(file.series().rows.len(), 2);
         file.record(&columns, row(0.1)).unwrap();

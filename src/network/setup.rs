@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use std::time::Instant;
 
+use super::ExtractError;
 use super::cycles::{Cycles, End, Fluid, HalfCycle};
 use super::displacement::{Beginning, Conditions, Displacement, Element, Events, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
@@ -32,7 +33,7 @@ pub enum SetupError {
     Geometry(#[from] GeometryError),
     /// The pores cannot be told apart.
     #[error("{0}")]
-    Extract(#[from] super::ExtractError),
+    Extract(#[from] ExtractError),
     /// Entry pressures that were measured in another geometry.
     #[error(
         "the measured entry pressures (network.measured) are those of another geometry: its hash is {expected}, that of this one is {found}; measure \
@@ -73,6 +74,20 @@ pub enum SetupError {
         /// `inlet` or `outlet`.
         role: &'static str,
     },
+}
+
+impl SetupError {
+    /// The key of the case that a user would change.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Extract(ExtractError::NotOpen { .. }) => "network".to_owned(),
+            Self::Geometry(_) | Self::Extract(_) | Self::NoPore => "geometry".to_owned(),
+            Self::OtherGeometry { .. } => "network.measured".to_owned(),
+            Self::OtherState { .. } => "network.initial".to_owned(),
+            Self::NoOpening { role, .. } => format!("network.{role}"),
+        }
+    }
 }
 
 fn kinds(network: &PoreNetwork) -> [Side; 4] {

@@ -13,6 +13,9 @@ use crate::network::solver::NetworkSolver;
 use crate::network::state;
 use crate::solver::{Solver, SolverError};
 
+/// Name of the text that a network leaves at its end.
+const AT_END: &str = "at-end.json";
+
 /// Which avalanche is meant: the one with the first such event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wanted {
@@ -110,6 +113,19 @@ pub fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheError> {
         events,
         inlet: solver.setting().inlet.ok_or(AvalancheError::NoNetwork)?,
     })
+}
+
+/// The text of the state that a displacement leaves at its end.
+///
+/// # Errors
+/// [`AvalancheError`].
+pub fn state_at_end(case: &Case) -> Result<String, AvalancheError> {
+    let mut solver = super::setup::build(case)?;
+    while !solver.is_done() {
+        solver.step(f64::INFINITY)?;
+    }
+    let documents = solver.results().documents;
+    documents.into_iter().find(|one| one.name == AT_END).map(|one| one.text).ok_or(AvalancheError::NoNetwork)
 }
 
 /// Whether what is asked for has happened.

@@ -22,6 +22,21 @@ pub enum SetupError {
     Network(#[from] network::setup::SetupError),
 }
 
+impl SetupError {
+    /// The mistakes of the case, each at the key that a user would change.
+    #[must_use]
+    pub fn problems(&self) -> Vec<Problem> {
+        let key = match self {
+            Self::Sph(sph::setup::SetupError::Geometry(error))
+            | Self::Network(network::setup::SetupError::Geometry(error)) => return error.problems_of_case(),
+            Self::Sph(error) => error.key(),
+            Self::ThinFilm(error) => error.key(),
+            Self::Network(error) => error.key(),
+        };
+        vec![Problem::of_text(key, &self.to_string())]
+    }
+}
+
 /// The solver of a case, in its initial state.
 ///
 /// # Errors
@@ -42,13 +57,25 @@ pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn
     }
 }
 
-/// What is wrong with a case on its real geometry: throats that are not resolved, phases inside the solid.
+/// The solver of a case that takes up a saved state before anything else: particles stand where they are put first, unpacked.
 ///
 /// # Errors
-/// [`SetupError`] where the shapes themselves are not usable.
-pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
-    let Model::Sph(sph) = &case.model else { return Ok(Vec::new()) };
-    let geometry = sph::setup::geometry(case, sph)?;
+/// [`SetupError`].
+pub fn build_to_resume(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
+    match &case.model {
+        Model::Sph(sph) => Ok(Box::new(sph::setup::build_to_resume(case, sph)?)),
+        Model::ThinFilm(_) | Model::Network(_) => build(case),
+    }
+}
+
+/// What is wrong with a case on its real geometry: throats that are not resolved, phases inside the solid, open sides without an opening.
+#[must_use]
+pub fn problems(case: &Case) -> Vec<Problem> {
+    let Model::Sph(sph) = &case.model else { return Vec::new() };
+    let geometry = match sph::setup::checked_geometry(case, sph) {
+        Ok(geometry) => geometry,
+        Err(error) => return SetupError::from(error).problems(),
+    };
     let region = |shape| sph::setup::region(case, std::slice::from_ref(shape));
     let regions: Vec<_> = sph.initial.wetting.iter().map(region).collect();
     let facts = Facts {
@@ -56,7 +83,7 @@ pub fn problems(case: &Case) -> Result<Vec<Problem>, SetupError> {
         wall_distance: &|x| geometry.signed_distance(x),
         in_initial_shape: &|index, x| regions[index].signed_distance(x) < 0.0,
     };
-    Ok(check_against(case, &facts))
+    check_against(case, &facts)
 }
 
 /// The geometry of a case with its sides, as its solver sees it; a thin film has the shapes of its case alone.

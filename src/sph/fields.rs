@@ -43,6 +43,8 @@ pub struct Fields {
     pub viscosity: Vec<f64>,
     /// Smoothed color; carried into the walls.
     pub color: Vec<f64>,
+    /// Whether both fluids are within the support; also true of walls, which have no color of their own.
+    pub mixed: Vec<bool>,
     /// n_a in 1/m.
     pub normal: Vec<Vec2>,
     /// n̂_a, zero where not valid.
@@ -145,7 +147,13 @@ impl Fields {
         if method.tension == 0.0 {
             return;
         }
-        color::smoothed_color(pairs, &self.fluid_volume, &sharp, &mut self.color);
+        let (moving, phase) = (particles.moving(), &particles.phase);
+        self.mixed.resize(n, false);
+        each(&mut self.mixed, |a| {
+            let is_other = |b: usize| b < moving && phase[b] != phase[a];
+            a >= moving || pairs.of(a).any(|ab| is_other(images.source(ab.b)))
+        });
+        color::smoothed_color(pairs, &self.fluid_volume, &sharp, &self.mixed, &mut self.color);
         images.extend(&mut self.color);
         match method.surface_force {
             SurfaceForce::Csf(delta) => self.continuum_forces(neighborhood, (method, delta), place, (lines, dt)),
@@ -215,8 +223,13 @@ impl Fields {
         let (fluids, moving) = (particles.fluids, particles.moving());
         let (position, domain) = (&particles.position, place.domain);
         let r_ab = |a: usize, b: usize| domain.separation(position[a], images.position(b, position));
-        let normal = &mut self.normal[..moving];
-        color::consistent_gradient(pairs, &self.fluid_volume, &self.color, r_ab, normal);
+        let (normal, mixed) = (&mut self.normal[..moving], &self.mixed);
+        let mut near = vec![false; moving];
+        each(&mut near, |a| {
+            let is_mixed = |b: usize| b < moving && mixed[b];
+            mixed[a] || pairs.of(a).any(|ab| is_mixed(images.source(ab.b)))
+        });
+        color::consistent_gradient(pairs, (&self.fluid_volume, &near), &self.color, r_ab, normal);
         self.moment.resize(fluids, 0.0);
         pressure_gradient::moment(pairs, &self.volume, r_ab, &mut self.moment);
         images.extend_reflected(&mut self.normal);
@@ -229,6 +242,7 @@ impl Fields {
             velocity: &velocity,
             wall_distance: &self.wall_distance,
             wall_normal: &self.wall_normal,
+            near: &near,
         };
         let lengths = (method.spacing, method.kernel.h);
         let points = interface_points((pairs, images), domain, &fields, moving, lengths);

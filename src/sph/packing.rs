@@ -147,13 +147,13 @@ impl Packing<'_> {
         each(&mut moves, |a| {
             let mut found = Move { by: Vec2::zeros(), sees_fixed: false };
             let x = around.points[a];
-            around.cells.visit_near(x, |b, r_ab| {
-                if r_ab.norm_squared() < reach2 && b as usize != a {
-                    let r_ab = self.domain.separation(x, around.points[b as usize]);
-                    found.by += -diffusion * self.kernel.grad_w(r_ab);
-                    found.sees_fixed |= around.images.source(b as usize) >= fluids;
-                }
-            });
+            let mut neighbors = Vec::with_capacity(64);
+            around.cells.collect_within(x, reach2, a as u32, &mut neighbors);
+            for b in neighbors {
+                let r_ab = self.domain.separation(x, around.points[b as usize]);
+                found.by += -diffusion * self.kernel.grad_w(r_ab);
+                found.sees_fixed |= around.images.source(b as usize) >= fluids;
+            }
             found
         });
         moves

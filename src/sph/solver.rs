@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use crate::analysis::phases::{WallSample, density_error};
+use crate::analysis::phases::{PhaseAreas, WallSample, density_error};
 use crate::case::checked::MeasureSet;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot};
@@ -21,7 +21,8 @@ use crate::table::Document;
 pub struct SphSolver {
     /// The flow.
     pub flow: Flow,
-    start: Observation,
+    /// Areas of the phases at time zero.
+    start: PhaseAreas,
     /// What is seen of the present state, once someone has looked.
     seen: OnceLock<Observation>,
     surroundings: Surroundings,
@@ -54,9 +55,8 @@ impl SphSolver {
     /// A solver at time zero.
     #[must_use]
     pub fn new(flow: Flow, surroundings: Surroundings) -> Self {
-        let start = Observation::of(&flow, &surroundings.wall_samples);
-        let seen = OnceLock::from(start.clone());
-        Self { flow, start, seen, surroundings }
+        let seen = Observation::of(&flow, &surroundings.wall_samples);
+        Self { flow, start: seen.areas, seen: OnceLock::from(seen), surroundings }
     }
 
     /// What can be seen of the flow now. Found once between two steps: series, files and report all ask for it.
@@ -150,7 +150,7 @@ impl Solver for SphSolver {
         let subject = Subject {
             flow: &self.flow,
             seen,
-            start: &self.start,
+            start: self.start,
             series,
             discs: &around.discs,
             plates: &around.plates,
@@ -170,12 +170,18 @@ impl Solver for SphSolver {
     }
 
     fn state(&self) -> Vec<u8> {
-        state::save(&self.flow)
+        // Numbers into memory: postcard has no way to fail here.
+        let mut bytes = postcard::to_stdvec(&self.start).unwrap_or_default();
+        bytes.extend(state::save(&self.flow));
+        bytes
     }
 
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         self.seen.take();
-        state::load(&mut self.flow, state)
+        let (start, flow) = postcard::take_from_bytes(state).map_err(|error| StateError(error.to_string()))?;
+        state::load(&mut self.flow, flow)?;
+        self.start = start;
+        Ok(())
     }
 
     fn statistics(&self) -> Statistics {

@@ -19,6 +19,8 @@ pub struct Convergence {
     pub measure: String,
     /// Name of the parameter.
     pub along: String,
+    /// Error that counts as converged; 0 where none is stated.
+    pub floor: f64,
     /// Parameter and error of each complete run, from the largest parameter to the smallest.
     pub points: Vec<(f64, f64)>,
     /// Whether all runs of it are complete and measured.
@@ -28,17 +30,34 @@ pub struct Convergence {
 }
 
 impl Convergence {
-    /// The observed order; none for fewer than two points, or errors of 0.
+    /// The observed order of the errors above the floor; none for fewer than two of them.
     #[must_use]
     pub fn order(&self) -> Option<f64> {
-        let (parameters, errors): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
-        Some(observed_order(&parameters, &errors)).filter(|order| self.points.len() > 1 && order.is_finite())
+        let above = self.points.iter().copied().filter(|(_, error)| *error > self.floor);
+        let (parameters, errors): (Vec<f64>, Vec<f64>) = above.unzip();
+        Some(observed_order(&parameters, &errors)).filter(|order| errors.len() > 1 && order.is_finite())
     }
 
-    /// Whether the error falls from each point to the next.
+    /// Whether the error falls from each point to the next, as far as it lies above the floor.
     #[must_use]
     pub fn falls(&self) -> bool {
-        self.points.windows(2).all(|pair| pair[1].1 < pair[0].1)
+        self.points.windows(2).all(|pair| pair[1].1 < pair[0].1 || pair[1].1 <= self.floor)
+    }
+
+    /// Whether the error has fallen to the floor that is stated.
+    #[must_use]
+    pub fn is_at_floor(&self) -> bool {
+        self.floor > 0.0 && self.points.last().is_some_and(|(_, error)| *error <= self.floor)
+    }
+
+    /// The observed order as text: `at its floor` where too few errors lie above it, `none` where there is none.
+    #[must_use]
+    pub fn order_text(&self) -> String {
+        match self.order() {
+            Some(order) => format!("{order:.2}"),
+            None if self.is_at_floor() => "at its floor".to_owned(),
+            None => "none".to_owned(),
+        }
     }
 }
 
@@ -77,6 +96,7 @@ pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<
             of: if of.is_empty() { "all runs".to_owned() } else { of },
             measure: trend.measure.clone(),
             along: trend.along.clone(),
+            floor: trend.floor,
             complete: points.len() == results.len(),
             ended: results.iter().all(|result| result.standing.report().is_some()),
             points,
@@ -102,6 +122,7 @@ pub fn all(study: &Study, results: &[RunResult]) -> Vec<Convergence> {
                 reference: expected.value.clone(),
                 along: column.name.clone(),
                 order: None,
+                floor: 0.0,
                 only: Choice::default(),
             });
         }

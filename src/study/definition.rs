@@ -120,6 +120,8 @@ pub struct Trend {
     pub along: String,
     /// Least observed order.
     pub order: Option<f64>,
+    /// Error that counts as converged, in the measure's unit; 0 where none is stated.
+    pub floor: f64,
     /// In which runs.
     pub only: Choice,
 }

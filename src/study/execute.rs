@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use super::folder::{FolderError, StudyFolder};
 use super::results::{Standing, standing};
 use super::runs::PlannedRun;
+use crate::input::InputError;
 use crate::io::{FileError, restart};
 use crate::run::execute::{Job, Mode, RunError, execute};
 use crate::run::folder::FolderError as RunFolderError;
@@ -32,9 +33,9 @@ pub enum ExecuteError {
     /// The study folder.
     #[error(transparent)]
     Folder(#[from] FolderError),
-    /// No solver.
+    /// No solver, with the places in the case file.
     #[error(transparent)]
-    Setup(#[from] SetupError),
+    Setup(#[from] InputError),
     /// The run.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -79,10 +80,19 @@ fn attempt(
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
 ) -> Result<Ending, ExecuteError> {
-    let mut solver = setup::build(&planned.case)?;
+    let built = match mode {
+        Mode::New => setup::build(&planned.case),
+        Mode::Resume => setup::build_to_resume(&planned.case),
+    };
+    let mut solver = built.map_err(|error| refused(planned, &error))?;
     let job = Job { case: &planned.case, resolved: &planned.resolved, folder: path.to_path_buf(), mode };
     let finished = execute(&job, solver.as_mut(), interrupt, watcher)?;
     Ok(ending(&finished.report))
+}
+
+/// What is wrong with a case that no solver can be made for, with the places in its file.
+fn refused(planned: &PlannedRun, error: &SetupError) -> ExecuteError {
+    planned.document.refuse(error.problems()).err().unwrap_or(InputError { mistakes: Vec::new() }).into()
 }
 
 fn ending(report: &Report) -> Ending {

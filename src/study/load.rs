@@ -8,7 +8,7 @@ use super::definition::{Assignment, Axis, Expectation, Study, Target, Trend};
 use super::names::Names;
 use super::raw::RawStudy;
 use super::results::RUN_NUMBERS;
-use crate::case::{Checker, read};
+use crate::case::{Checker, other_than_a_study, read};
 use crate::input::{Document, InputError, Overrides};
 
 /// Most runs of a study.
@@ -30,6 +30,7 @@ pub fn schema() -> serde_json::Value {
 pub fn load(path: &Path) -> Result<Study, InputError> {
     let text = read(path, "check the path of the study file")?;
     let document = Document::parse(&path.display().to_string(), &text, &Overrides::default())?;
+    document.refuse(other_than_a_study(&text).into_iter().collect())?;
     let reading = document.read::<RawStudy>();
     let raw = &reading.value;
     let folder = path.parent().unwrap_or(Path::new(""));

@@ -15,6 +15,7 @@ pub mod estimate;
 pub mod execute;
 pub mod folder;
 pub mod load;
+mod measured;
 mod names;
 pub mod page;
 pub mod raw;

@@ -115,8 +115,16 @@ impl Names<'_> {
         let key = format!("{at}.along");
         let along = checker.require(&key, raw.along.as_ref(), "along = \"spacing\"");
         let along = along.and_then(|name| self.numeric(checker, &key, name));
+        let floor = checker.positive(&format!("{at}.floor"), raw.floor, "an error, in the unit of the measure,");
         let only = self.choice(checker, at, raw.only.as_ref());
-        Some(Trend { measure: measure?, reference: reference?, along: along?, order: raw.order, only: only? })
+        Some(Trend {
+            measure: measure?,
+            reference: reference?,
+            along: along?,
+            order: raw.order,
+            floor: floor.unwrap_or(0.0),
+            only: only?,
+        })
     }
 
     pub fn report(&self, checker: &mut Checker, raw: Option<&RawReport>) -> Option<ReportPlan> {

@@ -125,8 +125,7 @@ fn push_convergences(html: &mut String, convergences: &[Convergence]) {
             .iter()
             .map(|(parameter, error)| format!("{} ({})", digits(*error), shown(&(*parameter).into())))
             .collect();
-        let order = convergence.order().map_or("–".to_owned(), |order| format!("{order:.2}"));
-        vec![convergence.of.clone(), convergence.measure.clone(), points.join(", "), order]
+        vec![convergence.of.clone(), convergence.measure.clone(), points.join(", "), convergence.order_text()]
     };
     let along = convergences.first().map_or("", |convergence| convergence.along.as_str());
     let heads = ["runs", "measure", &format!("error ({along})"), "observed order"].map(str::to_owned).to_vec();

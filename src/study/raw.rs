@@ -11,82 +11,82 @@ use crate::case::raw::tables;
 tables! {
     /// A study file: one or more base cases, what varies, what must come out, what is shown.
     pub struct RawStudy {
-        /// Version of the format: 1.
+        /// Version of the format: 1 (required).
         pub format: u32,
-        /// One line that says what the study shows.
+        /// One line that describes the study (required).
         pub title: String,
-        /// The base case, relative to the study file.
+        /// Base case, relative to the study file (required without `cases`).
         pub case: PathBuf,
-        /// Values that are the same in all runs and differ from the base case: `KEY=VALUE` as in `--set`.
+        /// Values for all runs, `"KEY=VALUE"` as in `--set`.
         pub set: Vec<String>,
-        /// What varies; every value of an axis meets every value of the others.
+        /// What varies; every value of an axis is combined with every value of the others.
         pub axis: Vec<RawAxis>,
-        /// Measures that must come out as said.
+        /// Measures expected of every run.
         pub expect: Vec<RawExpectation>,
         /// Errors that must fall with a parameter.
         pub trend: Vec<RawTrend>,
-        /// What the report shows.
+        /// Contents of the report.
         pub report: RawReport,
     }
 
     /// What varies: one key with `values` or a `range`, several keys that vary together (`pair`), the rows of a CSV file
     /// (`table`), or several base cases (`cases`).
     pub struct RawAxis {
-        /// Name of the parameter in tables, curves and expectations (default the last part of the key).
+        /// Name of the parameter: letters, digits, `-` and `_` (default: last part of the key).
         pub name: String,
-        /// Key path in the case file, as in `--set`.
+        /// Key path in the case file, as in `--set`; with `values` or `range`.
         pub key: String,
-        /// The values of the key.
+        /// Values of the key.
         #[schemars(with = "Option<Vec<serde_json::Value>>")]
         pub values: Vec<toml::Value>,
-        /// The values of the key, as a range.
+        /// Values of the key as a range of numbers.
         pub range: RawRange,
-        /// Parameters that vary together, all with as many values.
+        /// Parameters that vary together, with equally many values.
         pub pair: Vec<RawColumn>,
-        /// CSV file with a head line, relative to the study file; a run per row.
+        /// CSV file with a header line: a run per row, a parameter per column; `#` begins a comment.
         pub table: PathBuf,
-        /// Key path in the case file by column of the CSV file; other columns are parameters without a key.
+        /// Key path of each CSV column; other columns are numbers to compare with.
         pub columns: BTreeMap<String, String>,
-        /// Base cases, relative to the study file.
+        /// Base cases in place of `case`; default parameter name `case`.
         pub cases: Vec<PathBuf>,
     }
 
     /// One of several parameters that vary together.
     pub struct RawColumn {
-        /// Name of the parameter (default the last part of the key).
+        /// Name of the parameter (default: last part of the key).
         pub name: String,
         /// Key path in the case file; a parameter without a key is a number to compare with.
         pub key: String,
-        /// The values.
+        /// Values of the key.
         #[schemars(with = "Option<Vec<serde_json::Value>>")]
         pub values: Vec<toml::Value>,
-        /// The values, as a range.
+        /// Values of the key as a range of numbers.
         pub range: RawRange,
     }
 
     /// Numbers from one to another, both included.
     pub struct RawRange {
-        /// The first number.
+        /// First number (required).
         pub from: f64,
-        /// The last number.
+        /// Last number, included (required).
         pub to: f64,
-        /// How many, at least 2.
+        /// Number of values, at least 2 (required).
         pub count: usize,
-        /// Equal steps (`linear`, the default) or equal ratios (`logarithmic`).
+        /// Equal steps or equal ratios (default `linear`).
         pub scale: RawScale,
     }
 
     /// A measure that must come out as said.
     pub struct RawExpectation {
-        /// Name of the measure.
+        /// Name of a measure (required).
         pub measure: String,
-        /// Expected value: a number, or the name of a parameter.
+        /// Expected value: number or name of a parameter (required).
         #[schemars(with = "Option<serde_json::Value>")]
         pub value: toml::Value,
-        /// Largest accepted deviation: a number, or the name of a parameter.
+        /// Largest accepted deviation: number above 0 or name of a parameter (required).
         #[schemars(with = "Option<serde_json::Value>")]
         pub tolerance: toml::Value,
-        /// Only for runs with these values of parameters (default all runs).
+        /// Parameter values of the runs that count, as in `{ spacing = 2.5e-5 }` (default: all runs).
         #[serde(rename = "where")]
         #[schemars(with = "Option<BTreeMap<String, serde_json::Value>>")]
         pub only: BTreeMap<String, toml::Value>,
@@ -94,16 +94,19 @@ tables! {
 
     /// An error that must fall as a parameter falls.
     pub struct RawTrend {
-        /// Name of the measure.
+        /// Name of a measure (required).
         pub measure: String,
-        /// What the measure should be, a number or the name of a parameter: the error is the deviation from it (default 0).
+        /// Ideal value, number or name of a parameter (default 0).
         #[schemars(with = "Option<serde_json::Value>")]
         pub reference: toml::Value,
-        /// The parameter, as a rule a spacing.
+        /// Parameter with which the error must fall, usually a spacing (required).
         pub along: String,
-        /// Least observed order: the slope of log error over log parameter (default none).
+        /// Smallest accepted order: least-squares slope of log error over log parameter.
         pub order: f64,
-        /// Only for runs with these values of parameters (default all runs).
+        /// Error that counts as converged, as other causes leave it: errors below it need not fall and do not count for the
+        /// order (default 0).
+        pub floor: f64,
+        /// Parameter values of the runs that count (default: all runs).
         #[serde(rename = "where")]
         #[schemars(with = "Option<BTreeMap<String, serde_json::Value>>")]
         pub only: BTreeMap<String, toml::Value>,
@@ -111,32 +114,33 @@ tables! {
 
     /// What the report shows.
     pub struct RawReport {
-        /// The measures in the table, and `steps`, `unknowns`, `wall-time-s`, `solver-time-s`, `cpu-s` (default all measures of the runs).
+        /// Measures in the table; also `steps`, `unknowns`, `wall-time-s`, `solver-time-s`, `cpu-s` (default: all
+        /// measures).
         pub measures: Vec<String>,
         /// The curves.
         pub curve: Vec<RawCurve>,
-        /// Whether the page shows the picture of each run (default yes).
+        /// Shows picture and diagrams of each run (default true).
         pub pictures: bool,
     }
 
     /// A curve.
     pub struct RawCurve {
-        /// Title (default the names of y and x).
+        /// Title (default: names of y and x).
         pub title: String,
-        /// Parameter or measure along x.
+        /// Parameter or measure along x (required).
         pub x: String,
-        /// Measure along y.
+        /// Measure along y (required).
         pub y: String,
-        /// Parameter that makes a line of its own per value (default one line).
+        /// Parameter with one line per value (default: one line).
         pub series: String,
-        /// What y should be, a number or the name of a parameter: drawn as a dashed line.
+        /// Ideal y, number or name of a parameter: a dashed line.
         #[schemars(with = "Option<serde_json::Value>")]
         pub reference: toml::Value,
-        /// Whether the deviation of y from `reference` is drawn in place of y (default no).
+        /// Draws the deviation of y from `reference` (default false).
         pub error: bool,
-        /// Scale of x (default linear).
+        /// Scale of x (default `linear`).
         pub x_scale: RawScale,
-        /// Scale of y (default linear).
+        /// Scale of y (default `linear`).
         pub y_scale: RawScale,
     }
 }

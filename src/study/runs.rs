@@ -8,9 +8,9 @@ use toml::Value;
 
 use super::definition::{Assignment, Choice, Quantity, Study, Target};
 use super::values::{number_of, same, shown};
-use crate::case;
 use crate::case::checked::Case;
-use crate::input::{InputError, Mistake, Overrides, Problem};
+use crate::case::{self, Loaded};
+use crate::input::{Document, InputError, Mistake, Overrides, Problem};
 use crate::io::checksum::fnv1a;
 use crate::run::setup;
 
@@ -58,6 +58,8 @@ pub struct PlannedRun {
     pub case: Case,
     /// The case file with all that was filled in.
     pub resolved: String,
+    /// The text of the case file.
+    pub document: Document,
 }
 
 impl PlannedRun {
@@ -109,10 +111,9 @@ impl Run {
     fn load(&self) -> Result<PlannedRun, InputError> {
         let overrides = Overrides::parse(&self.overrides())?;
         let loaded = case::load(&self.case, &overrides)?;
-        let name = format!("run {} ({})", self.index, self.name);
-        let problems = setup::problems(&loaded.case).map_err(|error| Mistake::of_file(&name, error.to_string(), ""))?;
-        loaded.refuse(problems)?;
-        Ok(PlannedRun { run: self.clone(), case: loaded.case, resolved: loaded.resolved })
+        loaded.refuse(setup::problems(&loaded.case))?;
+        let Loaded { case, resolved, document, .. } = loaded;
+        Ok(PlannedRun { run: self.clone(), case, resolved, document })
     }
 
     /// Moves the mistakes of values that the study sets to their places in the study file.
@@ -209,7 +210,7 @@ fn free_name(name: String, taken: &mut BTreeSet<String>) -> String {
 /// All runs with their cases checked.
 ///
 /// # Errors
-/// All mistakes of all cases, each told once.
+/// All mistakes of all cases, each told once; then measures that the runs do not have.
 pub fn plan(study: &Study) -> Result<Vec<PlannedRun>, InputError> {
     let (mut planned, mut mistakes) = (Vec::new(), Vec::<Mistake>::new());
     for run in runs(study) {
@@ -227,5 +228,9 @@ pub fn plan(study: &Study) -> Result<Vec<PlannedRun>, InputError> {
             }
         }
     }
-    if mistakes.is_empty() { Ok(planned) } else { Err(InputError { mistakes }) }
+    if !mistakes.is_empty() {
+        return Err(InputError { mistakes });
+    }
+    study.refuse(super::measured::problems(study, &planned))?;
+    Ok(planned)
 }

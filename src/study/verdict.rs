@@ -87,7 +87,7 @@ fn judge_trend(trend: &Trend, convergence: &Convergence) -> Judgment {
     let order = convergence.order();
     let met = convergence.points.len() > 1
         && convergence.falls()
-        && trend.order.is_none_or(|least| order.is_some_and(|order| order >= least));
+        && trend.order.is_none_or(|least| order.map_or(convergence.is_at_floor(), |order| order >= least));
     let verdict = match (convergence.ended, convergence.complete) {
         (false, _) => Verdict::Open,
         (true, false) => Verdict::Missed,
@@ -95,12 +95,17 @@ fn judge_trend(trend: &Trend, convergence: &Convergence) -> Judgment {
     };
     let errors: Vec<String> = convergence.points.iter().map(|(_, error)| digits(*error)).collect();
     let least = trend.order.map_or(String::new(), |least| format!(", order at least {least}"));
+    let floor = if trend.floor > 0.0 { format!(", down to {}", shown(&trend.floor.into())) } else { String::new() };
     let observed = order.map_or(String::new(), |order| format!(", order {order:.2}"));
+    let at_floor = if convergence.is_at_floor() { ", at its floor" } else { "" };
     Judgment {
         of: convergence.of.clone(),
         measure: trend.measure.clone(),
-        expected: format!("error falls with {}{least}", trend.along),
-        found: format!("errors {}{observed}", if errors.is_empty() { "none".to_owned() } else { errors.join(", ") }),
+        expected: format!("error falls with {}{floor}{least}", trend.along),
+        found: format!(
+            "errors {}{observed}{at_floor}",
+            if errors.is_empty() { "none".to_owned() } else { errors.join(", ") }
+        ),
         verdict,
     }
 }
@@ -144,6 +149,33 @@ mod tests {
         assert_eq!(verdicts(&results), [Verdict::Met, Verdict::Missed, Verdict::Met, Verdict::Missed]);
         results[0].standing = super::super::results::Standing::Partial;
         assert_eq!(verdicts(&results), [Verdict::Open, Verdict::Missed, Verdict::Met, Verdict::Open]);
+    }
+
+    #[test]
+    fn an_error_at_its_stated_floor_counts_as_converged_and_says_so() {
+        let axis = "[[axis]]\nkey = 'dx'\nvalues = [4, 2, 1]\n[[trend]]\nmeasure = 'm'\nalong = 'dx'\n";
+        let judged = |keys: &str, errors: [f64; 3]| {
+            let study = study(&format!("{axis}{keys}"));
+            let results = complete(&study, |run| errors[run.index - 1]);
+            judgments(&study, &results).remove(0)
+        };
+        // Steps of first order, and then what something else leaves.
+        let at_floor = judged("floor = 0.01\norder = 1.0\n", [0.05, 0.02, 0.005]);
+        assert_eq!(at_floor.verdict, Verdict::Met);
+        assert_eq!(at_floor.expected, "error falls with dx, down to 0.01, order at least 1");
+        assert_eq!(at_floor.found, "errors 0.05000, 0.02000, 0.005000, order 1.32, at its floor");
+        for (keys, errors, verdict) in [
+            ("", [0.003, 0.005, 0.002], Verdict::Missed),
+            ("floor = 0.01\n", [0.003, 0.005, 0.002], Verdict::Met),
+            ("floor = 0.01\norder = 2.0\n", [0.003, 0.005, 0.002], Verdict::Met),
+            // Above the floor the error must fall, and with the order that is asked for.
+            ("floor = 0.01\n", [0.003, 0.005, 0.02], Verdict::Missed),
+            ("floor = 0.01\n", [0.02, 0.03, 0.005], Verdict::Missed),
+            ("floor = 0.01\norder = 1.5\n", [0.05, 0.02, 0.005], Verdict::Missed),
+        ] {
+            let judged = judged(keys, errors);
+            assert_eq!(judged.verdict, verdict, "{keys} {errors:?}: {}", judged.found);
+        }
     }
 
     #[test]

@@ -40,6 +40,17 @@ pub enum SetupError {
     TooLarge(#[from] TooLarge),
 }
 
+impl SetupError {
+    /// The key of the case that a user would change.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::TooSmooth { .. } => "thin-film.equation.geometric.smoothing-length".to_owned(),
+            Self::TooLarge(_) => "thin-film.spacing".to_owned(),
+        }
+    }
+}
+
 /// The solver of a case at time zero.
 ///
 /// # Errors

@@ -15,9 +15,9 @@ use serde_json::Value;
 
 use crate::page::{Page, code, files, page, root, text};
 
-/// The first code of the first cell of each row that has one.
+/// The codes of the first cells, in their order.
 fn names(rows: &[Vec<String>]) -> Vec<String> {
-    rows.iter().filter_map(|row| code(&row[0]).into_iter().next()).collect()
+    rows.iter().flat_map(|row| code(&row[0])).collect()
 }
 
 fn set(names: impl IntoIterator<Item = impl Into<String>>) -> BTreeSet<String> {
@@ -45,45 +45,6 @@ fn followed<'s>(schema: &'s Value, whole: &'s Value) -> &'s Value {
         schema["anyOf"].as_array().and_then(|any| any.iter().find(|one| one["type"] != "null")).unwrap_or(schema);
     let name = inner["$ref"].as_str().and_then(|reference| reference.strip_prefix("#/$defs/"));
     name.map_or(inner, |name| &whole["$defs"][name])
-}
-
-/// The key paths of a schema down to values, empty tables, and shapes.
-fn keys(schema: &Value, whole: &Value, at: &str, found: &mut BTreeSet<String>) {
-    let schema = followed(schema, whole);
-    let items = followed(&schema["items"], whole);
-    let table = if items["properties"].is_object() { items } else { schema };
-    match table["properties"].as_object().filter(|properties| !properties.is_empty()) {
-        Some(properties) => {
-            for (key, value) in properties {
-                let path = if at.is_empty() { key.clone() } else { format!("{at}.{key}") };
-                keys(value, whole, &path, found);
-            }
-        }
-        None => {
-            found.insert(at.to_owned());
-        }
-    }
-}
-
-#[test]
-fn the_reference_names_every_key_of_the_schema_and_no_other() {
-    let schema = schema();
-    let mut there = BTreeSet::new();
-    keys(&schema, &schema, "", &mut there);
-    assert!(there.len() > 40, "{there:?}");
-    assert_eq!(set(names(&page("docs/reference/case-file.md").rows())), there);
-}
-
-#[test]
-fn the_reference_names_every_key_of_a_study_file_and_no_other() {
-    let schema = meniscus::study::schema();
-    let mut there = BTreeSet::new();
-    keys(&schema, &schema, "", &mut there);
-    let page = page("docs/reference/study-file.md");
-    let told = ["Top level", "`[[axis]]`", "`[[expect]]`", "`[[trend]]`", "`[report]`"];
-    let told = told.iter().flat_map(|title| names(&section(&page, title))).collect::<BTreeSet<_>>();
-    assert!(there.len() > 30 && told.contains("axis.pair"), "{there:?}");
-    assert_eq!(told.into_iter().filter(|name| name != "axis.pair").collect::<BTreeSet<_>>(), there);
 }
 
 #[test]
@@ -120,7 +81,7 @@ fn the_defaults_of_the_reference_are_those_of_the_program() {
         let given = text(case);
         let resolved = load(&root().join(case), &Overrides::default()).unwrap().resolved;
         let table: toml::Table = resolved.parse().unwrap();
-        for row in rows.iter().filter(|row| row.len() == 5) {
+        for row in rows.iter().filter(|row| row.len() == 4) {
             let path = code(&row[0]).remove(0);
             let (Some(last), false) = (
                 path.rsplit('.').next(),
@@ -210,8 +171,9 @@ fn every_array_is_described_with_its_unit() {
         let rows = section(&page("docs/reference/output.md"), title);
         let grid = snapshot.grid.as_ref().map(|grid| grid.fields.as_slice());
         let interface = snapshot.interface.as_ref().map(|lines| lines.fields.as_slice());
-        let groups = [Some(snapshot.particles.fields.as_slice()), grid, interface];
-        columns_tell(&rows, groups.into_iter().flatten());
+        let groups =
+            [("particles", Some(snapshot.particles.fields.as_slice())), ("grid", grid), ("interface", interface)];
+        tells(&rows, groups.into_iter().filter_map(|(name, fields)| Some((name, fields?))));
     }
 }
 
@@ -220,7 +182,7 @@ fn every_array_of_a_network_is_described_with_its_unit() {
     let solver = solver(NETWORK);
     let (regions, results) = (solver.layers(), solver.results());
     let rows = section(&page("docs/reference/output.md"), "Network arrays");
-    columns_tell(&rows, regions.iter().chain(&results.layers).map(|layer| layer.fields.as_slice()));
+    tells(&rows, regions.iter().chain(&results.layers).map(|layer| (layer.name, layer.fields.as_slice())));
     assert_eq!(regions.len() + results.layers.len(), 3);
 }
 
@@ -261,12 +223,13 @@ fn every_file_of_a_network_is_described() {
     }
 }
 
-/// Columns from the third on say "yes" where a group of fields has the array.
-fn columns_tell<'f>(rows: &[Vec<String>], groups: impl Iterator<Item = &'f [Field<'f>]>) {
-    for (fields, column) in groups.zip(2..) {
-        let told = rows.iter().filter(|row| row[column] == "yes").map(|row| (code(&row[0]).remove(0), row[1].clone()));
+/// The third column names the files that have the array.
+fn tells<'f>(rows: &[Vec<String>], files: impl Iterator<Item = (&'f str, &'f [Field<'f>])>) {
+    for (file, fields) in files {
+        let rows = rows.iter().filter(|row| row[2].split(", ").any(|name| name == file));
+        let told = rows.flat_map(|row| code(&row[0]).into_iter().map(|name| (name, row[1].clone())));
         let there = fields.iter().map(|field| (field.name.to_owned(), field.unit.to_owned()));
-        assert_eq!(told.collect::<BTreeSet<_>>(), there.collect::<BTreeSet<_>>());
+        assert_eq!(told.collect::<BTreeSet<_>>(), there.collect::<BTreeSet<_>>(), "{file}");
     }
 }
 

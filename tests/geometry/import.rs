@@ -130,6 +130,28 @@ fn holes_and_islands_of_a_shapefile_are_told_by_containment() {
 }
 
 #[test]
+fn rings_of_a_shapefile_that_cross_are_refused_with_their_record_and_those_that_touch_are_read() {
+    let square = |x: f64, y: f64| vec![[x, y], [x, y + 2.0], [x + 2.0, y + 2.0], [x + 2.0, y], [x, y]];
+    let apart = vec![square(9.0, 9.0)];
+    for (name, rings, place) in [
+        // Two outer rings, and a ring that reaches out of the one around it.
+        ("side by side", vec![square(0.0, 0.0), square(1.0, 1.0)], "rings 0 and 1 that cross at (1e-6, 2e-6)"),
+        ("third", vec![square(0.0, 0.0), square(5.0, 0.0), square(6.0, 1.0)], "rings 1 and 2 that cross"),
+    ] {
+        let message = refused("a.shp", shp(&[apart.clone(), rings]), &unit("um")).to_string();
+        assert!(message.contains("record 2") && message.contains(place), "{name}: {message}");
+        assert!(message.contains("a record of its own"), "{name}: {message}");
+    }
+    let bow = vec![[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 3.0], [0.0, 0.0]];
+    let message = refused("a.shp", shp(&[apart.clone(), vec![bow]]), &unit("um")).to_string();
+    assert!(message.contains("record 2") && message.contains("self-intersection"), "{message}");
+    // At a corner, in one record; overlapping ones in records of their own are united.
+    let corner = shp(&[vec![square(0.0, 0.0), square(2.0, 2.0)]]);
+    assert_eq!(read("a.shp", corner, &unit("um")).spec.shapes.len(), 2);
+    assert_eq!(read("a.shp", shp(&[vec![square(0.0, 0.0)], vec![square(1.0, 1.0)]]), &unit("um")).spec.shapes.len(), 2);
+}
+
+#[test]
 fn a_unit_is_asked_for_where_the_file_has_none_and_the_projection_gives_one() {
     let rings = [vec![[0.0, 0.0], [4.0, 0.0], [0.0, 3.0], [0.0, 0.0]]];
     for (name, content) in [("a.geojson", geojson(&rings).into_bytes()), ("a.shp", shp(&[rings.to_vec()]))] {

@@ -187,12 +187,9 @@ fn checked(loaded: &Loaded, path: &Path) -> Outcome {
         }
         Ok(_) => {}
     }
-    match setup::problems(&loaded.case) {
-        Err(_) => Outcome::Refused,
-        Ok(problems) => match loaded.refuse(problems) {
-            Err(error) => refused(error),
-            Ok(()) => Outcome::Accepted,
-        },
+    match loaded.refuse(setup::problems(&loaded.case)) {
+        Err(error) => refused(error),
+        Ok(()) => Outcome::Accepted,
     }
 }
 

@@ -13,6 +13,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
+use cpu_time::ProcessTime;
 use peak_alloc::PeakAlloc;
 
 use inputs::{Bench, Outcome};
@@ -23,7 +24,7 @@ static MEMORY: PeakAlloc = PeakAlloc;
 
 /// Most bytes beside what 100 times the file may take: shape generators, and networks of them.
 const MOST_BYTES: usize = 2 << 30;
-/// Most time of one input.
+/// Most processor time of one input: other programs do not count.
 const MOST_TIME: Duration = Duration::from_secs(10);
 
 /// What is told of inputs that break a rule.
@@ -68,7 +69,7 @@ fn no_damaged_or_extreme_input_makes_the_reader_panic_or_take_more_than_its_shar
         let input = bench.write(&mut random);
         let before = MEMORY.current_usage();
         MEMORY.reset_peak_usage();
-        let clock = Instant::now();
+        let clock = ProcessTime::now();
         let outcome = catch_unwind(AssertUnwindSafe(|| bench.read(&input)));
         let (time, bytes) = (clock.elapsed(), MEMORY.peak_usage().saturating_sub(before));
         let mut told = std::mem::take(&mut *FOUND.lock().unwrap_or_else(std::sync::PoisonError::into_inner));
@@ -95,7 +96,7 @@ fn no_damaged_or_extreme_input_makes_the_reader_panic_or_take_more_than_its_shar
     }
     let _ = std::panic::take_hook();
     println!(
-        "{count} inputs in {:.0?}: {accepted} accepted, {} bad; slowest {:.1?} (input {}), most memory {} MiB (input {})",
+        "{count} inputs in {:.0?}: {accepted} accepted, {} bad; most processor time {:.1?} (input {}), most memory {} MiB (input {})",
         begun.elapsed(),
         bad.len(),
         slowest.0,

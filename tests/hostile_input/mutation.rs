@@ -27,7 +27,7 @@ impl Random {
 }
 
 /// Numbers and what may stand in their place.
-const EXTREME: [&str; 34] = [
+pub const EXTREME: [&str; 34] = [
     "0",
     "-0.0",
     "-1",
@@ -153,7 +153,7 @@ fn number(bytes: &mut Vec<u8>, random: &mut Random) -> String {
 }
 
 /// Where numbers stand: digits that begin no part of a word.
-fn numbers(bytes: &[u8]) -> Vec<std::ops::Range<usize>> {
+pub fn numbers(bytes: &[u8]) -> Vec<std::ops::Range<usize>> {
     let mut found = Vec::new();
     let mut i = 0;
     while i < bytes.len() {

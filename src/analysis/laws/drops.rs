@@ -77,14 +77,18 @@ pub fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<DropOnDis
 /// Contact angle of equilibrium in rad from an advancing and a receding one (Tadmor 2004).
 ///
 /// cos theta = (G_A cos theta_A + G_R cos theta_R)/(G_A + G_R), G = (sin³/(2 - 3 cos + cos³))^(1/3).
+///
+/// Written with 1/G³ = (2 + cos) tan(theta/2)/(2 cos²(theta/2)), which keeps its digits down to 0: a receding angle of 0 is one of equilibrium of 0.
 #[must_use]
 pub fn tadmor(advancing: f64, receding: f64) -> f64 {
-    let weight = |angle: f64| {
-        let c = angle.cos();
-        (angle.sin().powi(3) / (2.0 - 3.0 * c + c.powi(3))).cbrt()
+    let inverse = |angle: f64| {
+        let half = 0.5 * angle;
+        (2.0 + angle.cos()) * half.tan() / (2.0 * half.cos().powi(2))
     };
-    let (a, r) = (weight(advancing), weight(receding));
-    ((a * advancing.cos() + r * receding.cos()) / (a + r)).acos()
+    let (a, r) = (inverse(advancing), inverse(receding));
+    // G_A/G_R; two angles of 0 weigh alike.
+    let ratio = if a > 0.0 { (r / a).cbrt() } else { 1.0 };
+    ((ratio * advancing.cos() + receding.cos()) / (ratio + 1.0)).clamp(-1.0, 1.0).acos()
 }
 
 #[cfg(test)]
@@ -149,5 +153,18 @@ mod tests {
             let found = tadmor(advancing.to_radians(), receding.to_radians()).to_degrees();
             assert!((found - expected).abs() < 0.006, "{advancing}/{receding}: {found}");
         }
+    }
+
+    #[test]
+    fn tadmor_goes_on_to_complete_wetting_and_drying() {
+        let degrees =
+            |advancing: f64, receding: f64| tadmor(advancing.to_radians(), receding.to_radians()).to_degrees();
+        for same in [0.0, 1.0e-9, 1.0e-3, 1.0, 90.0, 179.0, 180.0] {
+            // The arc cosine of 1 - 1e-16 is 1e-6 degrees.
+            assert!((degrees(same, same) - same).abs() < 1.0e-5, "{same}: {}", degrees(same, same));
+        }
+        // A receding angle of 0 outweighs any other, at the speed of its third root.
+        let falling = [10.0, 1.0, 1.0e-3, 1.0e-9, 1.0e-20, 0.0].map(|receding| degrees(60.0, receding));
+        assert!(falling.windows(2).all(|pair| pair[1] < pair[0]) && falling[5] == 0.0, "{falling:?}");
     }
 }

@@ -8,73 +8,75 @@ use crate::case::raw::{Empty, RawFluid, tables};
 tables! {
     /// Droplets that spread on the wall y = 0, by a thin-film equation (Pang and O Naraigh 2022).
     pub struct RawThinFilm {
-        /// The liquid; without it and `tension` the case is in scaled units: 3 mu = gamma = rho = 1.
+        /// The liquid; its density is needed with gravity only.
         pub fluid: RawFluid,
-        /// Surface tension in N/m (default that of the preset).
+        /// Surface tension in N/m (default: that of the preset).
         pub tension: f64,
-        /// Gravity towards the wall in m/s², below 0 for a wall that droplets hang from (default 0).
+        /// Gravity towards the wall in m/s², negative for hanging droplets; capillary length at least 2 spacings
+        /// (default 0).
         pub gravity: f64,
-        /// Initial distance of particles, or distance of grid nodes, in m.
+        /// Initial distance of particles or nodes in m: at least 10 per half width, at most 1e7 on the wall.
         pub spacing: f64,
-        /// The film across the plane of the picture (default `plane`).
+        /// Plane film, or axisymmetric about x = 0 (default `plane`).
         pub symmetry: RawFilmSymmetry,
-        /// The droplets at time zero.
+        /// Initial droplets: parabolas without overlap.
         pub droplets: Vec<RawDroplet>,
-        /// The equation, how it makes contact lines move: one table whose name is the model.
+        /// Exactly one equation.
         pub equation: RawFilmEquation,
-        /// How the film wets the wall: one table whose name is the model (default `complete`).
+        /// At most one wetting model (default `complete`).
         pub wetting: RawFilmWetting,
-        /// How the equation is solved: one table whose name is the method (default `particles` where they can be).
+        /// At most one method (default `particles` where possible).
         pub method: RawFilmMethod,
-        /// What a particle or node stands for at time zero (default `cell`).
+        /// Particles and nodes represent the film of their cell, or the height at their position (default `cell`).
         pub weights: RawFilmWeights,
     }
 
     /// A droplet with a parabolic profile.
     pub struct RawDroplet {
-        /// Its middle in m (default 0).
+        /// Center in m; 0 about an axis (default 0).
         pub center: f64,
-        /// Half of the base width in m.
+        /// Half of the initial base width in m.
         pub half_width: f64,
-        /// Height in the middle in m.
+        /// Initial central height in m: 1e-6 to 5 half widths, in scaled units to 1000.
         pub height: f64,
     }
 
     /// Thin-film equations.
     pub struct RawFilmEquation {
-        /// Geometric Thin-Film Equation: the film is smoothed.
+        /// Geometric thin-film equation with a smoothed film (Pang and Ó Náraigh 2022).
         pub geometric: RawGeometric,
-        /// Navier slip on the wall, for complete wetting.
+        /// Navier slip on the wall; complete wetting only.
         pub slip: RawSlip,
-        /// A film that covers the wall.
+        /// Precursor film on the wall.
         pub precursor: RawPrecursor,
     }
 
     /// The Geometric Thin-Film Equation.
     pub struct RawGeometric {
-        /// Filter length alpha in m: film and contact line are smoothed over it.
+        /// Filter length `α` in m: at least 1 spacing, at most 0.4 half widths; on a grid at most 1000 spacings.
         pub smoothing_length: f64,
     }
 
     /// The thin-film equation with slip.
     pub struct RawSlip {
-        /// Slip length in m.
+        /// Slip length `λ` in m, at most half of the droplet height.
         pub slip_length: f64,
-        /// Height in m of the film on the wall that counts as dry (default a tenth of the slip length).
+        /// Film height in m that counts as dry, 1e-6 to 0.2 of the droplet height (default: a tenth of the slip
+        /// length).
         pub film_height: f64,
     }
 
     /// The thin-film equation with a precursor film.
     pub struct RawPrecursor {
-        /// Height of the film in m.
+        /// Film height in m, 1e-6 to 0.2 of the droplet height.
         pub film_height: f64,
-        /// Slip length in m (default: the wall sticks).
+        /// Slip length `λ` in m, at most half of the droplet height (default: no slip).
         pub slip_length: f64,
     }
 
     /// Wetting models of thin films.
     pub struct RawFilmWetting {
-        /// The film spreads for ever.
+        /// The film spreads without end.
         pub complete: Empty,
         /// The film comes to rest at a contact angle.
         pub partial: RawPartialWetting,
@@ -82,27 +84,27 @@ tables! {
 
     /// Partial wetting of a thin film.
     pub struct RawPartialWetting {
-        /// Angle at which a droplet rests, in degrees, 0.1 to 45.
+        /// Static contact angle in degrees; the droplet at rest must fit the domain.
         pub contact_angle_deg: f64,
     }
 
     /// Methods for thin films.
     pub struct RawFilmMethod {
-        /// Particles that carry the film, on an infinite line; for the geometric equation in the plane.
+        /// Particles on an infinite line, for the geometric equation in the plane.
         pub particles: RawFilmParticles,
-        /// Implicit finite differences.
+        /// Implicit finite differences, for every equation.
         pub finite_differences: RawFilmGrid,
     }
 
     /// The particle method.
     pub struct RawFilmParticles {
-        /// Integration in time (default `stiff`).
+        /// Implicit of order 4; Dormand and Prince of order 5; ESDIRK34 or Tsit45 of diffsol (default `stiff`).
         pub integrator: RawFilmIntegrator,
         /// Largest error of a step over the initial width (default 1e-7).
         pub tolerance: f64,
-        /// The energy of the particle lattice: `kept` as in the paper (default), or `taken-off`.
+        /// Keeps or subtracts the energy of the particle lattice (default `kept`).
         pub lattice_energy: RawLatticeEnergy,
-        /// How the sums over particles are taken (default `recursive`).
+        /// Sums over particles in linear time, or over all pairs for comparison (default `recursive`).
         pub sums: RawFilmSums,
     }
 

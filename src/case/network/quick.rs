@@ -19,7 +19,7 @@ pub fn quick(title: &str, geometry: GeometrySpec, raw: &RawNetwork) -> Result<(C
     shapes::refuse_images(&mut checker, Some(&geometry), found.as_ref());
     let whole = RawCase { network: Some(raw.clone()), ..RawCase::default() };
     let end = check::end(&mut checker, &whole, found.as_ref());
-    let mut output = check::output(&mut checker, &whole, end);
+    let mut output = check::output(&mut checker, &whole, end, None);
     let (Some(model), Some(end), true) = (found, end, checker.problems.is_empty()) else {
         return Err(checker.problems);
     };

@@ -10,91 +10,91 @@ use crate::case::raw::{RawInterface, RawPhases, RawSideName, RawWetting, tables}
 tables! {
     /// A pore network: pores and throats of the geometry, and a displacement through them.
     pub struct RawNetwork {
-        /// Side that the invading phase enters through (default none: the network is extracted and nothing is displaced).
+        /// Side where the invading phase enters; without it nothing is displaced.
         pub inlet: RawSideName,
-        /// Side that the defending phase leaves through (default none: the defending phase has no way out, and none of it is trapped).
+        /// Opposite side where the defending phase leaves; without it none leaves and none is trapped.
         pub outlet: RawSideName,
-        /// What stands at the other sides (default walls).
+        /// The sides that are neither inlet nor outlet (default: walls).
         pub sides: RawNetworkSides,
-        /// The fluids; only their viscosities count (default 1 Pa s for conductances; `dynamic` needs both).
+        /// The fluids; only viscosities count, for conductances and `dynamic` (default: 1 Pa s).
         pub phases: RawPhases,
-        /// Interface between the fluids.
+        /// Interface between the fluids (required with an inlet).
         pub interface: RawInterface,
-        /// Static contact angles: `young`, `hysteresis` or `tadmor`, and patches by shape or side.
+        /// `young`, `tadmor` or `hysteresis`, and patches without stripes (required with an inlet).
         pub wetting: RawWetting,
-        /// Which phase invades (default `drainage`).
+        /// Invading phase: non-wetting, wetting, or both in turn; in a cycle the wetting phase returns through the
+        /// outlet (default `drainage`).
         pub process: RawProcess,
-        /// Number of cycles of drainage and imbibition, with `process = "cycle"` (default 1).
+        /// Number of cycles (default 1).
         pub cycles: u32,
-        /// Whether a defending region without a way to the outlet is trapped (default true); else films carry it away.
+        /// Traps defending regions without a path to the outlet; else films drain them (default true).
         pub trapping: bool,
-        /// Which events move menisci (default `all`).
+        /// Burst, touch and overlap, or burst alone (invasion percolation) (default `all`).
         pub events: RawEvents,
-        /// Persistence ratio above which two maxima of the wall distance are one pore: the half width of the throat over the
-        /// smaller inscribed radius, above 0 and at most 1 (default 0.95).
+        /// Half width of a throat over the smaller inscribed radius, above which its pores are one (default 0.95).
         pub persistence: f64,
-        /// File of measured entry pressures, `measured.json` of `meniscus network verify`, relative to the case file (default: all are those of
-        /// the formula).
+        /// Measured entry pressures: `measured.json` of `meniscus network verify` (default: those of the formula).
         pub measured: PathBuf,
-        /// The same values written here.
+        /// Contents of a file of measured entry pressures, in a resolved case.
         pub measured_throats: RawMeasured,
-        /// Where the displacement ends before it comes to rest; of a cycle, where each drainage ends.
+        /// Criteria that end the displacement or each drainage of a cycle; the first one met counts.
         pub stop: RawStop,
-        /// State that the displacement begins with, relative to the case file (default: the pore space is full of the defending phase).
+        /// File with the initial state, of a network or a direct simulation; not with `dynamic` (default: full of the
+        /// defending phase).
         pub initial: PathBuf,
-        /// Displacement in time, with viscous flow (default none: it is quasi-static, without time).
+        /// Displacement in time, with viscous flow (default: quasi-static).
         pub dynamic: RawDynamic,
     }
 
     /// What drives a displacement in time: a rate or a pressure drop.
     pub struct RawDynamic {
-        /// Area of the invading phase that is injected per time, in m2/s.
+        /// Injected area of the invading phase per time in m²/s (required without `pressure-drop`).
         pub rate: f64,
-        /// Pressure at the inlet less that at the outlet in Pa.
+        /// Pressure at the inlet minus that at the outlet in Pa (required without `rate`).
         pub pressure_drop: f64,
-        /// Most pore volumes that pass the inlet in one step (default 0.01).
+        /// Largest inflow in one step, in pore volumes (default 0.01).
         pub largest_step: f64,
     }
 
     /// Measured entry pressures.
     pub struct RawMeasured {
-        /// Tells the geometry that they were measured in, as in `network.json`.
+        /// Hash of the geometry, as in `network.json`.
         pub geometry_hash: String,
-        /// The throats.
+        /// The measured throats.
         pub throats: Vec<RawMeasuredThroat>,
     }
 
     /// A throat whose entry pressure was measured.
     pub struct RawMeasuredThroat {
-        /// Its index among all throats, those that the merge dissolves included.
+        /// Index of the throat before the merge.
         pub index: usize,
-        /// Curvature of the meniscus at entry by the formula in 1/m; where the formula gives another one, as for another angle, it stays.
+        /// Entry curvature in 1/m that the formula gives; the measured value replaces no other.
         pub formula_curvature: f64,
-        /// Measured curvature in 1/m.
+        /// Measured entry curvature in 1/m.
         pub entry_curvature: f64,
     }
 
     /// The sides that are neither inlet nor outlet.
     pub struct RawNetworkSides {
-        /// x = min (default `wall`).
+        /// Kind of the side (default `wall`).
         pub left: RawNetworkSide,
-        /// x = max (default `wall`).
+        /// Kind of the side (default `wall`).
         pub right: RawNetworkSide,
-        /// y = min (default `wall`).
+        /// Kind of the side (default `wall`).
         pub bottom: RawNetworkSide,
-        /// y = max (default `wall`).
+        /// Kind of the side (default `wall`).
         pub top: RawNetworkSide,
     }
 
     /// Where a displacement ends early; whatever comes first.
     pub struct RawStop {
-        /// Whether it ends when the invading phase reaches the outlet (default false).
+        /// Ends when the invading phase reaches the outlet (default false).
         pub breakthrough: bool,
-        /// Saturation of the wetting phase at which it ends, 0 to 1.
+        /// Final saturation of the wetting phase.
         pub saturation: f64,
-        /// Capillary pressure p_n - p_w in Pa at which it ends; without `dynamic` only.
+        /// Final capillary pressure `p_n - p_w` in Pa; not with `dynamic`.
         pub capillary_pressure: f64,
-        /// Pore volumes that have passed the inlet when it ends; with `dynamic` only.
+        /// Injected pore volumes; only with `dynamic`.
         pub injected: f64,
     }
 }

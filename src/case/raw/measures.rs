@@ -14,7 +14,7 @@ tables! {
         pub laplace_drop: Empty,
         /// Velocity error against plane Poiseuille flow.
         pub poiseuille: Empty,
-        /// Decay rate against the Taylor-Green vortex.
+        /// Decay rate of Taylor-Green vortices.
         pub taylor_green: Empty,
         /// Filling angle, neck and pressure of a bridge between two discs.
         pub capillary_bridge: Empty,
@@ -22,11 +22,11 @@ tables! {
         pub four_discs: Empty,
         /// Wetted part and height of a drop on a disc.
         pub drop_on_disc: Empty,
-        /// Period and decay of a free drop that oscillates between two ellipses.
+        /// Period and decay of a free drop that oscillates.
         pub oscillating_drop: Empty,
-        /// Amplitude of a standing wave on a flat interface.
+        /// Amplitude of a standing wave against the linear viscous solution.
         pub capillary_wave: Empty,
-        /// Height, speed and roundness of a bubble (the wetting phase) that rises.
+        /// Height, speed and roundness of a bubble, which is the wetting phase.
         pub rising_bubble: Empty,
         /// Deformation of a drop between two moving walls.
         pub shear_drop: Empty,
@@ -34,19 +34,19 @@ tables! {
         pub layered_poiseuille: Empty,
         /// Extreme velocities on the center lines of a lid-driven cavity.
         pub cavity: Empty,
-        /// Drag on the solids of a periodic cell that a body force drives fluid through.
+        /// Drag on the solids of a periodic cell.
         pub cylinder_array: Empty,
-        /// Capillary pressure of a meniscus in the throat between two bodies; between discs over the exact entry pressure.
+        /// Capillary pressure of a meniscus in the throat between two bodies.
         pub throat_entry: Empty,
         /// Difference of the mean levels on both sides of a plate.
         pub jurin: Empty,
         /// Angles, speeds and forces of a drop that moves or is held on a wall.
         pub moving_drop: Empty,
-        /// Exponent of the width of a drop that spreads.
+        /// Exponent of the base width of a spreading drop.
         pub spreading: Empty,
         /// Filled length of a slit between two open sides.
         pub slit_filling: Empty,
-        /// Height of the meniscus that rises from an open side.
+        /// Height of a meniscus that rises from an open side.
         pub capillary_rise: Empty,
     }
 
@@ -54,9 +54,9 @@ tables! {
     pub struct RawExpectation {
         /// Name of a measure, such as `contact-angle-deg`.
         pub measure: String,
-        /// Expected value in the measure's unit.
+        /// Expected value in the unit of the measure.
         pub value: f64,
-        /// Largest accepted deviation, same unit.
+        /// Largest accepted deviation in the same unit.
         pub tolerance: f64,
     }
 }

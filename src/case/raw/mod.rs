@@ -47,7 +47,7 @@ tables! {
     pub struct RawCase {
         /// Version of the format: 1.
         pub format: u32,
-        /// One line that says what the case shows.
+        /// One line that describes the case.
         pub title: String,
         /// Domain and solids: a shape file, or shapes written here.
         pub geometry: RawGeometry,
@@ -55,13 +55,13 @@ tables! {
         pub sph: RawSph,
         /// Droplets on a flat wall, by a thin-film equation.
         pub thin_film: RawThinFilm,
-        /// A pore network and a quasi-static displacement in it.
+        /// Pore network, and displacement of one fluid by another in it.
         pub network: RawNetwork,
-        /// How long the simulation runs; not with `[network]`.
+        /// Simulated time; not for a quasi-static `[network]`.
         pub time: RawTime,
-        /// What is written and when.
+        /// Files of the run, and how often they are written.
         pub output: RawOutput,
-        /// Measures that must come out as said; otherwise the run ends with exit code 5.
+        /// Expected measures; if one is missed, the run ends with exit code 5.
         pub expect: Vec<RawExpectation>,
     }
 
@@ -81,78 +81,79 @@ tables! {
 
     /// Domain and solids of a case.
     pub struct RawGeometry {
-        /// Shape file, relative to the case file.
+        /// Shape file or drawing.
         pub file: PathBuf,
-        /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px; needed where the file names none.
+        /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px (default: that of the file).
         pub unit: String,
-        /// Length of the drawing unit in m, in place of `unit`.
+        /// Drawing unit in m, in place of `unit`.
         pub scale: f64,
-        /// Part of the drawing that becomes the domain, lower left and upper right corner in m; shapes are cut at open and periodic sides.
+        /// Lower left and upper right corner in m of the part that becomes the domain (default: all).
         pub window: [[f64; 2]; 2],
-        /// Layers of the drawing that are read (default: all).
+        /// Layers of an SVG or DXF drawing (default: all).
         pub layers: Vec<String>,
-        /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white).
+        /// Gray value between solid (0, black) and pore (1, white) of a mask (default: that of the image).
         pub threshold: f64,
-        /// Side of a pixel of a mask in m.
+        /// Side of a mask pixel in m (required for a mask).
         pub pixel_size: f64,
-        /// Whether solid and pore of the file change places (default: no).
+        /// Exchanges solid and pore of the file (default false).
         pub invert: bool,
-        /// Whether polygons whose vertices lie on a circle are read as discs (default: yes).
+        /// Reads polygons with vertices on a circle as discs (default true).
         pub recognize_circles: bool,
-        /// Vertices of drawings that turn by less than this many degrees become arcs (default 20; 0: none).
+        /// Polygon corners that turn by less become arcs; 0: none (default 20.0).
         pub smooth_below_deg: f64,
-        /// Columns of x, y and radius in a list of discs, the first one being 0.
+        /// Columns of x, y and radius in a disc list, from 0 (default `[0, 1, 2]`).
         pub columns: [usize; 3],
-        /// The character between the columns of a list of discs.
+        /// Separator of a disc list (default: any usual one).
         pub separator: char,
-        /// Whether the third column of a list of discs holds diameters (default: no).
+        /// The third column of a disc list holds diameters; required if its header names them (default false).
         pub diameters: bool,
-        /// Lower left corner of the domain in m; with `file`, in place of the file's.
+        /// Lower left corner of the domain in m (default: that of the file).
         pub min: [f64; 2],
-        /// Upper right corner of the domain in m; with `file`, in place of the file's.
+        /// Upper right corner of the domain in m (default: that of the file).
         pub max: [f64; 2],
-        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`); not with `file`, see `invert`.
+        /// Whether the inside or the outside of the shapes is solid; with `file` use `invert` (default `inside`).
         pub solid: SolidSide,
-        /// The shapes; overlaps are united; not with `file`.
+        /// The shapes, united; not with `file`.
         pub shapes: Vec<ShapeSpec>,
     }
 
     /// How long the simulation runs.
     pub struct RawTime {
-        /// End of the simulation in s.
+        /// End of the simulation in s; with `steady` the latest end.
         pub end: f64,
-        /// Ends the simulation when it is steady, and at `end` at the latest; with `[sph]`.
+        /// Ends a run of `[sph]` when it is steady.
         pub steady: RawSteady,
     }
 
     /// When a simulation counts as steady: what is left to change of each quantity, and how far it moves within the last
     /// window, are both below its tolerance.
     pub struct RawSteady {
-        /// Length in s of each of the three windows that are compared (default: a fifth of the time so far).
+        /// Length in s of each of the three compared windows: at least five records, at most a third of the end
+        /// (default: a fifth of the elapsed time).
         pub window: f64,
         /// Tolerance of the mean contact angle in degrees (default 0.3).
         pub contact_angle_deg: f64,
-        /// Tolerance of the capillary pressure over its value (default 0.005).
+        /// Tolerance relative to the capillary pressure, or to tension over the longer side if larger (default 0.005).
         pub capillary_pressure: f64,
         /// Tolerance of the saturation (default 0.001).
         pub saturation: f64,
-        /// Largest viscosity x speed / tension at which all particles count as at rest (default 1e-4).
+        /// Viscosity times speed over tension below which particles rest (default 1e-4).
         pub capillary_number: f64,
-        /// Tolerance of the kinetic energy over its value, for flows that do not come to rest (default 0.005).
+        /// Relative tolerance of the kinetic energy of flows that do not rest (default 0.005).
         pub kinetic_energy: f64,
-        /// Whether the run ends when it is steady (default), or only says so.
+        /// Ends the run when steady, or only reports the time (default true).
         pub stop: bool,
     }
 
     /// What is written and when.
     pub struct RawOutput {
-        /// Particle, grid and interface files (default: 50 records; with `[network]`: 50 in each half cycle).
+        /// Particles, grid and interface; of a network, menisci and regions (default: 50 records).
         pub vtk: RawVtk,
-        /// Rows of series.csv (default: 200 records; with `[network]`: 200 in each half cycle).
+        /// Rows of `series.csv` (default: 200 records).
         pub series: RawEvery,
-        /// The regular grid.
+        /// Regular grid of the output.
         pub grid: RawGrid,
-        /// Files to resume from (default: 10 records).
+        /// Saved states; also written on an interrupt or a failure (default: 10 records).
         pub restart: RawEvery,
     }
 
@@ -160,9 +161,9 @@ tables! {
     pub struct RawVtk {
         /// Time between records in s.
         pub every_time: f64,
-        /// Displaced pore volumes between records, with `[network]`.
+        /// Displaced pore volumes between records.
         pub every_pore_volume: f64,
-        /// How the arrays in the files are compressed (default `zlib`).
+        /// Compression of arrays; meshio does not read `lz4` (default `zlib`).
         pub compression: RawCompression,
     }
 
@@ -170,13 +171,13 @@ tables! {
     pub struct RawEvery {
         /// Time between records in s.
         pub every_time: f64,
-        /// Displaced pore volumes between records, with `[network]`.
+        /// Displaced pore volumes between records.
         pub every_pore_volume: f64,
     }
 
     /// The regular grid of the output.
     pub struct RawGrid {
-        /// Distance of grid nodes over the particle spacing (default 1).
+        /// Distance of grid nodes over particle spacing; at most the shorter side of the domain, and 2e7 nodes (default 1).
         pub ratio: f64,
     }
 }

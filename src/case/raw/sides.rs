@@ -8,65 +8,65 @@ use super::RawPhase;
 tables! {
     /// The four sides of the domain.
     pub struct RawSides {
-        /// x = min (default `wall`).
+        /// Kind of the side (default `wall`).
         pub left: RawSide,
-        /// x = max (default `wall`).
+        /// Kind of the side (default `wall`).
         pub right: RawSide,
-        /// y = min (default `wall`).
+        /// Kind of the side (default `wall`).
         pub bottom: RawSide,
-        /// y = max (default `wall`).
+        /// Kind of the side (default `wall`).
         pub top: RawSide,
-        /// Speeds of walls along themselves (default at rest).
+        /// Speed of each wall side along itself (default: at rest).
         pub speed: RawWallSpeeds,
-        /// What drives the flow through open sides, and what comes in.
+        /// What drives the flow through open sides, and what enters.
         pub open: RawOpenSides,
     }
 
     /// Speeds of the walls at the sides, each along itself.
     pub struct RawWallSpeeds {
-        /// Along y in m/s (default 0).
+        /// Speed along the side, towards positive x or y, in m/s (default 0.0).
         pub left: f64,
-        /// Along y in m/s (default 0).
+        /// Speed along the side, towards positive x or y, in m/s (default 0.0).
         pub right: f64,
-        /// Along x in m/s (default 0).
+        /// Speed along the side, towards positive x or y, in m/s (default 0.0).
         pub bottom: f64,
-        /// Along x in m/s (default 0).
+        /// Speed along the side, towards positive x or y, in m/s (default 0.0).
         pub top: f64,
     }
 
     /// The open sides: a table for each side that fluid passes through.
     pub struct RawOpenSides {
-        /// Of the side at x = min.
+        /// Flow through the side.
         pub left: RawOpenSide,
-        /// Of the side at x = max.
+        /// Flow through the side.
         pub right: RawOpenSide,
-        /// Of the side at y = min.
+        /// Flow through the side.
         pub bottom: RawOpenSide,
-        /// Of the side at y = max.
+        /// Flow through the side.
         pub top: RawOpenSide,
     }
 
     /// An inlet, an outlet, or a periodic side with a given flow; one of pressure, velocity and flow rate.
     pub struct RawOpenSide {
-        /// Pressure at the side in Pa (inlet; outlet, default 0).
+        /// Dirichlet pressure in Pa, in the phase that enters (default 0 at an outlet).
         pub pressure: f64,
-        /// How a pressure rises in steps.
+        /// A pressure that rises in equal steps.
         pub pressure_steps: RawPressureSteps,
-        /// Mean velocity inwards in m/s (inlet, periodic).
+        /// Mean inward velocity over the opening in m/s.
         pub velocity: f64,
-        /// Area that comes in per time in m²/s: volume per time and depth (inlet, periodic).
+        /// Inward flow rate per depth in m²/s.
         pub flow_rate: f64,
-        /// How the velocity is spread over the side (default `plug`).
+        /// Velocity profile over the opening; at periodic sides the initial one (default `plug`).
         pub profile: RawProfile,
-        /// Phase that comes in (default: what stands at the side at the start).
+        /// Phase that enters (default: the phase there at time zero).
         pub phase: RawPhase,
     }
 
     /// A pressure that rises in equal steps, each held for the same time.
     pub struct RawPressureSteps {
-        /// Height of a step in Pa (required).
+        /// Pressure rise per step in Pa.
         pub rise: f64,
-        /// Time for which each pressure is held in s (required).
+        /// Time for which each pressure is held, in s.
         pub every_time: f64,
     }
 }

@@ -12,98 +12,102 @@ use crate::geometry::spec::ShapeSpec;
 tables! {
     /// Direct simulation by incompressible SPH.
     pub struct RawSph {
-        /// Initial particle spacing dx in m.
+        /// Initial particle spacing `dx` in m: at least 10 across the domain, 5 across the narrowest throat; at most
+        /// 2e7 particles.
         pub spacing: f64,
-        /// Smoothing length over spacing, 1 to 3 (default 1.5).
+        /// Smoothing length over spacing, `h/dx` (default 1.5).
         pub smoothing_ratio: f64,
-        /// The length L of the dimensionless numbers in m (default of the narrowest throat, of the drop, or of the gap).
+        /// Length of the dimensionless numbers in m (default: the shorter of narrowest throat and root of the drop
+        /// area; else the shorter side).
         pub reference_length: f64,
-        /// Body force per mass along x and y in m/s² (default none).
+        /// Body force per mass along x and y in m/s² (default `[0.0, 0.0]`).
         pub gravity: [f64; 2],
         /// The one or two fluids.
         pub phases: RawPhases,
         /// Interface between the fluids.
         pub interface: RawInterface,
-        /// Form of the surface force: one table whose name is the model (default `pressure-jump`).
+        /// Model of the surface force, one table (default `pressure-jump`).
         pub surface_force: RawSurfaceForce,
-        /// Wetting model: one table whose name is the model (default none).
+        /// Wetting model, one table (default: none).
         pub wetting: RawWetting,
-        /// What stands at the four sides of the domain (default walls).
+        /// The four sides of the domain (default: walls).
         pub sides: RawSides,
-        /// What all walls are like.
+        /// Slip of all walls, those of shapes and those at the sides.
         pub walls: RawWalls,
-        /// Which phase is where at the start, and how it moves.
+        /// Phases and velocity at time zero.
         pub initial: RawInitial,
-        /// Parameters of the method that rarely need a change.
+        /// Parameters of the method, which rarely need a change.
         pub numerics: RawNumerics,
-        /// Groups of measures for the report: one empty table each.
+        /// Groups of measures for the report, one empty table each.
         pub measure: RawMeasures,
     }
 
     /// The fluids.
     pub struct RawPhases {
-        /// The phase through which contact angles are measured.
+        /// Phase through which contact angles are measured.
         pub wetting: RawFluid,
-        /// The other phase; absent in single-phase flow.
+        /// The other phase.
         pub non_wetting: RawFluid,
     }
 
     /// A Newtonian fluid, by name or by its properties; a property given beside a name wins.
     pub struct RawFluid {
-        /// A fluid with known properties.
+        /// Fluid with known properties.
         pub preset: Preset,
-        /// Temperature of the preset in degrees Celsius, 20 to 25 (default 20).
+        /// Temperature of the preset in °C (default 20).
         pub temperature_c: f64,
-        /// Density in kg/m³.
+        /// Density in kg/m³; the density ratio is 1e-4 to 1e4 (default: that of the preset).
         pub density: f64,
-        /// Dynamic viscosity in Pa s.
+        /// Dynamic viscosity in Pa s (default: that of the preset).
         pub viscosity: f64,
     }
 
     /// The interface between the fluids.
     pub struct RawInterface {
-        /// Interfacial tension in N/m.
+        /// Interfacial tension in N/m; above 0 in a network (required with two fluids).
         pub tension: f64,
     }
 
     /// Forms of the surface force.
     pub struct RawSurfaceForce {
-        /// Continuum surface force, Huber et al. 2013, Eq. 20.
+        /// Continuum surface force with contact line force (Huber et al. 2013, Eqs. 20 and 23).
         pub csf: RawCsf,
-        /// Pressure jump across a sharp interface.
+        /// Pressure jump across a sharp interface with fitted curvature; the default model.
         pub pressure_jump: RawPressureJump,
     }
 
     /// The pressure jump.
     pub struct RawPressureJump {
-        /// Curvature in 1/m of all interfaces, positive where the wetting phase is convex, for tests of all but the fits (default fitted).
+        /// For tests: curvature of all interfaces in 1/m, positive where the wetting phase is convex; contact angles
+        /// are then ignored (default: fitted).
         pub curvature: f64,
     }
 
     /// The continuum surface force.
     pub struct RawCsf {
-        /// How the force of a contact line is spread over particles: so that each line has its whole force (`normalized`, the
-        /// default), or by a form of each particle alone (`local`).
+        /// Line force normalized along each contact line (Eqs. 21 and 22), or in closed form per particle (default
+        /// `normalized`).
         pub line_delta: RawLineDelta,
     }
 
     /// What all walls are like, those of shapes and those at the sides.
     pub struct RawWalls {
-        /// Navier's slip length in m: on the wall, the velocity along it is this length times its slope (default 0).
+        /// Navier slip length of all walls in m (default 0.0).
         pub slip_length: f64,
-        /// The same near contact lines, in m (default `slip-length`; where that is not given, one spacing).
+        /// Slip length near contact lines in m; needs a wetting model (default: `slip-length`, else one spacing).
         pub line_slip_length: f64,
     }
 
     /// The state at time zero.
     pub struct RawInitial {
-        /// The phase outside of the shapes below (default `non-wetting`).
+        /// Phase outside of the shapes (default `non-wetting`).
         pub background: RawPhase,
-        /// Shapes filled with the wetting phase (with the background `wetting`: with the other one).
+        /// Shapes filled with the phase that is not the background; each holds a particle of the pore (required with
+        /// two fluids).
         pub wetting: Vec<ShapeSpec>,
-        /// State of a network that says which phase is where, relative to the case file (in place of `background` and `wetting`).
+        /// File with the state of a network of the same geometry, in place of `background` and `wetting`.
         pub network: PathBuf,
-        /// Velocity: one key whose name is the field (default `rest`).
+        /// Initial velocity: at most one field (default `rest`).
         pub velocity: RawVelocity,
     }
 
@@ -111,7 +115,7 @@ tables! {
     pub struct RawVelocity {
         /// No motion.
         pub rest: Empty,
-        /// The same velocity everywhere, in m/s.
+        /// Uniform velocity in m/s.
         pub uniform: [f64; 2],
         /// Taylor-Green vortices, one period per domain.
         pub taylor_green: RawTaylorGreen,
@@ -127,31 +131,30 @@ tables! {
     pub struct RawNumerics {
         /// Form of the viscous term (default `stress`).
         pub viscous_term: RawViscousTerm,
-        /// How viscosity goes on in time (default `implicit`).
+        /// Viscous force from the velocity at the end or the beginning of the step (default `implicit`).
         pub viscous_step: RawViscousStep,
-        /// Largest share of the density error taken back per step by the velocities, 0 to 1 (default 0.2, with `csf` 0.02, without tension 0).
+        /// Density-error correction in the pressure equation: largest share of the error removed per step (default 0.2;
+        /// with `csf` 0.02; without tension 0).
         pub drift_source: f64,
-        /// Share of the density error taken back per step by moving particles without their velocities, 0 to 1 (default 0, without tension 0.2).
+        /// Density-error correction by particle shifting: share of the error removed per step (default 0; without
+        /// tension 0.2).
         pub drift_correction: f64,
-        /// Background pressure in units of tension over smoothing length, or of density times speed squared (default
-        /// 0, with `csf` 0.5).
+        /// Background pressure over `σ/h`, or over `ρ v²` without tension (default 0; with `csf` 0.5).
         pub background_pressure: f64,
-        /// Particle shifting against uneven density, over h times the largest speed times the step (default 2, with `csf` 0).
+        /// Strength of particle shifting (default 2; with `csf` 0).
         pub shifting: f64,
-        /// Strength of the push at short range in the shifting, from 0 (none) to 1 (default 0.2 with the pressure jump, else 0).
+        /// Strength of the anti-clustering force in particle shifting (default 0.2; with `csf` or without tension 0).
         pub short_range_push: f64,
-        /// Largest stretch of velocity differences at walls: 10 for no slip, less lets the fluid slip (default 10; 1.5 is a slip
-        /// length of a quarter of the spacing).
+        /// Largest stretch `β` of velocity differences at walls; sets the slip without a slip length (default 10.0).
         pub wall_stretch: f64,
-        /// Whether wall particles stand in layers along curved and oblique walls, and the fluid is packed to them (default true);
-        /// else they stand on the lattice.
+        /// Wall particles follow walls that the lattice does not fit (default true).
         pub fitted_walls: bool,
-        /// Whether the first particles on both sides of the initial interface stand in layers along it, and the fluid is packed to them
-        /// (default true with the pressure jump, else false).
+        /// Particles follow the initial interface where the lattice does not fit it (default true; with `csf` or
+        /// without tension false).
         pub fitted_interface: bool,
         /// Largest relative residual of the pressure solve (default 1e-6).
         pub pressure_tolerance: f64,
-        /// Factor on all limits of the time step, above 0 and at most 10 (default 1).
+        /// Factor on all limits of the time step (default 1).
         pub time_step_factor: f64,
     }
 }

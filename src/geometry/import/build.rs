@@ -9,7 +9,7 @@ use crate::geometry::import::notes::{Counts, Notes};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
 use crate::geometry::import::{recognize, smooth, units, window};
-use crate::geometry::rings::{RingFault, faults};
+use crate::geometry::rings::{RingFault, crossing, faults};
 use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
@@ -173,6 +173,11 @@ fn grouped(entities: Vec<Entity>, format: Format, refusals: &mut Vec<Refusal>) -
                 let expected = "holes within the first ring of their polygon, which is its outer one; rings beside it are polygons of their own";
                 refusals.push(Refusal::new(place, found, expected));
             }
+            Outline::Area { rings, .. } if format.nests_rings() && crossing_rings(&rings).is_some() => {
+                let found = crossing_rings(&rings).unwrap_or_default();
+                let expected = "rings beside or within each other: unite or subtract them, or give each a record of its own, where they are united";
+                refusals.push(Refusal::new(place, found, expected));
+            }
             Outline::Area { rings, .. } if !format.has_fill_rules() => {
                 found.extend(regions(&rings, FillRule::EvenOdd).into_iter().map(|region| (region, place.clone())));
             }
@@ -202,6 +207,13 @@ fn outside(rings: &[Ring]) -> Option<RingFault> {
     faults(&curves)
         .into_iter()
         .find(|fault| matches!(fault, RingFault::NotContained { .. } | RingFault::OnALine { .. }))
+}
+
+/// Two rings that cross, as text, with numbers from 0.
+fn crossing_rings(rings: &[Ring]) -> Option<String> {
+    let curves: Vec<Vec<Curve>> = rings.iter().map(|ring| bulged_ring(&ring.vertices).collect()).collect();
+    let ([one, other], at) = crossing(&curves)?;
+    Some(format!("rings {one} and {other} that cross at ({:e}, {:e}) m", at.x, at.y))
 }
 
 /// All rings of a drawing without fills: those within others are holes, those within holes islands.

@@ -76,6 +76,12 @@ impl Format {
         self == Self::Dxf
     }
 
+    /// Whether the rings of a shape are outer ones or holes by what contains what, so that they must not cross.
+    #[must_use]
+    pub fn nests_rings(self) -> bool {
+        self == Self::Shapefile
+    }
+
     /// Whether the first ring of a polygon is its outer one, and all others are its holes.
     #[must_use]
     pub fn begins_with_outer_ring(self) -> bool {

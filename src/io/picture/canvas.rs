@@ -124,10 +124,12 @@ impl Canvas {
 
     /// The longest beginning of `text` that fits into `width` pixels, with an ellipsis where it was cut.
     pub fn fitted(&self, text: &str, size: f32, width: f32) -> String {
-        if self.text_width(text, size) <= width {
-            return text.to_owned();
+        /// No picture holds more letters; a title can have any number.
+        const MOST_LETTERS: usize = 500;
+        let mut shorter: String = text.chars().take(MOST_LETTERS).collect();
+        if shorter.len() == text.len() && self.text_width(text, size) <= width {
+            return shorter;
         }
-        let mut shorter: String = text.to_owned();
         while shorter.pop().is_some() {
             let candidate = format!("{}…", shorter.trim_end());
             if self.text_width(&candidate, size) <= width {

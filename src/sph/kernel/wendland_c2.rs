@@ -9,6 +9,7 @@ use crate::math::{Vec2, wendland_c2};
 pub struct WendlandC2 {
     /// Smoothing length h in m.
     pub h: f64,
+    inverse_h: f64,
     norm: f64,
     gradient_norm: f64,
 }
@@ -18,7 +19,7 @@ impl WendlandC2 {
     #[must_use]
     pub fn new(h: f64) -> Self {
         let norm = 7.0 / (4.0 * PI * h * h);
-        Self { h, norm, gradient_norm: 5.0 * norm / (h * h) }
+        Self { h, inverse_h: 1.0 / h, norm, gradient_norm: 5.0 * norm / (h * h) }
     }
 
     /// The same kernel with its value divided by `unity` = Σ_b dx² W and its gradient by `moment` = −½ Σ_b dx² r_ab·∇W, sums over
@@ -58,12 +59,13 @@ impl WendlandC2 {
         (w, r_ab * slope)
     }
 
-    /// W(r) and (1/r) dW/dr.
+    /// W(r) in 1/m² and (1/r) dW/dr in 1/m⁴.
     ///
     /// dW/dr = −5 q (1 − q/2)³ · 7/(4πh³), so that the gradient is regular at r = 0.
     #[inline]
-    fn w_and_slope(&self, r: f64) -> (f64, f64) {
-        let q = r / self.h;
+    #[must_use]
+    pub fn w_and_slope(&self, r: f64) -> (f64, f64) {
+        let q = r * self.inverse_h;
         let t = (1.0 - 0.5 * q).max(0.0);
         (self.norm * wendland_c2(q), -self.gradient_norm * t * t * t)
     }

@@ -45,7 +45,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
     // What came in and left through open sides is no drift.
     let (passed, seen) = (super::open::net(s.flow), s.seen.areas);
     let kept = PhaseAreas { wetting: seen.wetting - passed[0], non_wetting: seen.non_wetting - passed[1] };
-    let drift = kept.drift_since(&s.start.areas);
+    let drift = kept.drift_since(&s.start);
     let drift = drift.iter().map(|d| d.abs()).filter(|d| d.is_finite()).fold(0.0, f64::max);
     let pressure = &s.seen.capillary_pressure;
     let mut found = vec![

@@ -25,6 +25,7 @@ mod wave;
 
 use std::f64::consts::TAU;
 
+use crate::analysis::phases::PhaseAreas;
 use crate::case::checked::MeasureSet;
 use crate::math::{Bounds, Vec2};
 use crate::solver::{Measure, Series};
@@ -47,8 +48,8 @@ pub struct Subject<'a> {
     pub flow: &'a Flow,
     /// What is seen of it.
     pub seen: &'a Observation,
-    /// What was seen at time zero.
-    pub start: &'a Observation,
+    /// Areas of the phases at time zero.
+    pub start: PhaseAreas,
     /// All records.
     pub series: &'a Series,
     /// The discs of the geometry.

@@ -73,7 +73,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     let error = [0, 1].map(missing).into_iter().fold(0.0, f64::max) / start as f64;
     let net: f64 = net(flow).iter().sum();
     let area = |of: &crate::analysis::phases::PhaseAreas| of.wetting + of.non_wetting;
-    let drift = (area(&s.seen.areas) - area(&s.start.areas) - net) / area(&s.start.areas);
+    let drift = (area(&s.seen.areas) - area(&s.start) - net) / area(&s.start);
     let mut found = vec![
         measure(
             "balance-error",

@@ -1,5 +1,7 @@
 //! Aggregates for the multigrid: particles of one kind that share a square cell.
 
+use rayon::prelude::*;
+
 use crate::math::Vec2;
 
 /// Width of an aggregate over the spacing of the points it is made of.
@@ -36,7 +38,7 @@ impl Aggregates {
             index << 3 | u64::from(kind[i] & 7)
         };
         let mut order: Vec<(u64, u32)> = (0..points.len()).map(|i| (key(i), i as u32)).collect();
-        order.sort_unstable();
+        order.par_sort_unstable();
         let mut aggregates = Self { of: vec![0; points.len()], position: vec![], kind: vec![] };
         for group in order.chunk_by(|a, b| a.0 == b.0) {
             let number = aggregates.position.len() as u32;

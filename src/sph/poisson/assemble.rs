@@ -33,13 +33,15 @@ pub fn assemble(
         let all = range.flat_map(|a| pairs.of(a).map(move |ab| (a, ab)));
         for (out, (a, ab)) in coupling.iter_mut().zip(all) {
             let b = ab.b;
-            *out = if joined(a, b) { coefficient(volume[a] * volume[b], density[a] + density[b], &ab) } else { 0.0 };
+            let value =
+                if joined(a, b) { coefficient(volume[a] * volume[b], density[a] + density[b], &ab) } else { 0.0 };
+            *out = value as f32;
         }
     });
     matrix.diagonal.resize(rows, 0.0);
     let (start, coupling) = (&matrix.start, &matrix.coupling);
     each(&mut matrix.diagonal, |a| {
-        let sum: f64 = coupling[start[a]..start[a + 1]].iter().sum();
+        let sum: f64 = coupling[start[a]..start[a + 1]].iter().copied().map(f64::from).sum();
         // A particle without neighbors has no equation: its pressure stays zero.
         if sum > 0.0 { sum } else { 1.0 }
     });

@@ -12,7 +12,7 @@ pub fn give(matrix: &mut Matrix, b: &mut [f64], given: impl Fn(usize) -> Option<
     for a in touched.into_iter().filter(|&a| given(a).is_none()) {
         for k in matrix.start[a]..matrix.start[a + 1] {
             if let Some(value) = given(matrix.column[k] as usize) {
-                b[a] += matrix.coupling[k] * value;
+                b[a] += f64::from(matrix.coupling[k]) * value;
                 matrix.coupling[k] = 0.0;
             }
         }

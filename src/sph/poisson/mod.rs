@@ -12,6 +12,6 @@ mod solve;
 
 pub use assemble::{assemble, parts};
 pub use given::give;
-pub use matrix::Matrix;
+pub use matrix::{Matrix, weighted_sum};
 pub use multigrid::Multigrid;
 pub use solve::{PressureSolve, System, Tolerance, Unknowns};

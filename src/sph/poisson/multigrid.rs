@@ -28,6 +28,12 @@ const GOOD_ENOUGH: f64 = 0.25;
 /// A share of the diagonal below which what the couplings leave of it is rounding: the part has no given value.
 const ROUNDING: f64 = 1e-10;
 
+/// Parts in which a coarse matrix is made, in parallel; its rows do not hang on them.
+const PARTS: usize = 16;
+
+/// No place.
+const NONE: usize = usize::MAX;
+
 struct Level {
     matrix: Matrix,
     /// Aggregate of each unknown of the level above.
@@ -141,7 +147,30 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Pᵀ M P for piecewise constant P: couplings between aggregates are summed, those within one cancel.
 fn galerkin(fine: &Matrix, aggregate: &[u32], count: usize) -> Matrix {
-    const NONE: usize = usize::MAX;
+    let (start, members) = members(aggregate, count);
+    let groups: Vec<usize> = (0..count).collect();
+    let parts: Vec<Rows> = groups
+        .par_chunks(count.div_ceil(PARTS).max(1))
+        .map(|groups| {
+            let mut rows = Rows { place: vec![NONE; count], ..Rows::default() };
+            groups.iter().for_each(|&g| rows.push(fine, aggregate, g, &members[start[g]..start[g + 1]]));
+            rows
+        })
+        .collect();
+    let mut starts = vec![0];
+    for length in parts.iter().flat_map(|part| &part.length) {
+        starts.push(starts[starts.len() - 1] + length);
+    }
+    Matrix {
+        start: Arc::new(starts),
+        column: Arc::new(parts.iter().flat_map(|part| &part.column).copied().collect()),
+        coupling: parts.iter().flat_map(|part| &part.coupling).map(|coupling| *coupling as f32).collect(),
+        diagonal: parts.iter().flat_map(|part| &part.diagonal).copied().collect(),
+    }
+}
+
+/// The members of each aggregate, one aggregate after the other, and where each begins.
+fn members(aggregate: &[u32], count: usize) -> (Vec<usize>, Vec<u32>) {
     let mut start = vec![0; count + 1];
     for &group in aggregate {
         start[group as usize + 1] += 1;
@@ -155,30 +184,50 @@ fn galerkin(fine: &Matrix, aggregate: &[u32], count: usize) -> Matrix {
         members[next[group as usize]] = a as u32;
         next[group as usize] += 1;
     }
-    let (mut starts, mut column, mut coupling, mut diagonal) = (vec![0], Vec::new(), Vec::new(), Vec::new());
-    let mut place = vec![NONE; count];
-    for group in 0..count {
-        let first = column.len();
-        let (mut own, mut within) = (0.0, 0.0);
-        for &a in &members[start[group]..start[group + 1]] {
-            own += fine.diagonal[a as usize];
+    (start, members)
+}
+
+/// Consecutive rows of a coarse matrix.
+#[derive(Default)]
+struct Rows {
+    length: Vec<usize>,
+    column: Vec<u32>,
+    coupling: Vec<f64>,
+    diagonal: Vec<f64>,
+    /// Where the coupling to an aggregate was written last.
+    place: Vec<usize>,
+}
+
+impl Rows {
+    /// Appends the row of the aggregate `group` of `members`.
+    fn push(&mut self, fine: &Matrix, aggregate: &[u32], group: usize, members: &[u32]) {
+        let first = self.column.len();
+        // What given values leave of the diagonal beyond the couplings.
+        let mut excess = 0.0;
+        for &a in members {
+            let mut coupled = 0.0;
             for (b, value) in fine.row(a as usize) {
+                coupled += value;
                 let other = aggregate[b] as usize;
+                let place = self.place[other];
                 if other == group {
-                    within += value;
-                } else if place[other] != NONE && place[other] >= first {
-                    coupling[place[other]] += value;
+                    continue;
+                }
+                if place != NONE && place >= first {
+                    self.coupling[place] += value;
                 } else {
-                    place[other] = column.len();
-                    column.push(other as u32);
-                    coupling.push(value);
+                    self.place[other] = self.column.len();
+                    self.column.push(other as u32);
+                    self.coupling.push(value);
                 }
             }
+            excess += fine.diagonal[a as usize] - coupled;
         }
-        diagonal.push(own - within);
-        starts.push(column.len());
+        // The couplings as they are stored: a row without given values sums to zero.
+        let stored: f64 = self.coupling[first..].iter().map(|coupling| f64::from(*coupling as f32)).sum();
+        self.diagonal.push(excess + stored);
+        self.length.push(self.column.len() - first);
     }
-    Matrix { start: Arc::new(starts), column: Arc::new(column), coupling, diagonal }
 }
 
 /// The dense factor, with the diagonal entry of the first unknown of each connected part doubled where no value is given in it.

@@ -88,9 +88,14 @@ impl AtRest<'_> {
         if self.jump.is_none() && self.potential.is_empty() && self.driven.is_none() {
             return;
         }
+        // The jump alone acts between particles on the two sides of the interface.
+        let is_level = self.potential.is_empty() && self.driven.is_none();
         right.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, right)| {
-            let coupling = &matrix.coupling[pairs.row(a)];
-            *right -= pairs.of(a).zip(coupling).map(|(ab, coupling)| coupling * self.rise(a, ab.b)).sum::<f64>();
+            if is_level && self.jump.is_some_and(|jump| !jump.is_across[a]) {
+                return;
+            }
+            let rises = pairs.of(a).zip(&matrix.coupling[pairs.row(a)]);
+            *right -= rises.map(|(ab, coupling)| f64::from(*coupling) * self.rise(a, ab.b)).sum::<f64>();
         });
     }
 }

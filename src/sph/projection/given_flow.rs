@@ -59,7 +59,11 @@ impl Flow {
         let mut right = vec![0.0; n];
         each(&mut right, |a| {
             let coupling = &matrix.coupling[self.pairs.row(a)];
-            self.pairs.of(a).zip(coupling).map(|(ab, coupling)| coupling * way.dot(&self.separation(a, ab.b))).sum()
+            self.pairs
+                .of(a)
+                .zip(coupling)
+                .map(|(ab, coupling)| f64::from(*coupling) * way.dot(&self.separation(a, ab.b)))
+                .sum()
         });
         right
     }

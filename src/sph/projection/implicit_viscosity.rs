@@ -15,6 +15,7 @@ use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, conjugate_gr
 use crate::sph::images::Images;
 use crate::sph::method::ViscousTerm;
 use crate::sph::pairs::{GRAIN, Pair, Pairs, each, largest, split_rows};
+use crate::sph::poisson::weighted_sum;
 use crate::sph::terms::viscosity::Viscous;
 
 /// Largest relative residual of the change of the velocity.
@@ -40,7 +41,7 @@ pub(super) struct ViscousMatrix<'a> {
     /// √m of each fluid particle, m in kg/m.
     root_mass: Vec<f64>,
     /// The negative of the off-diagonal entry of each pair, 0 where the neighbor is no fluid; of central pairs over |∇W|².
-    coupling: Vec<f64>,
+    coupling: Vec<f32>,
     /// Diagonal blocks.
     diagonal: Vec<Mat2>,
     /// What outweighs the transposed part of the stress, in 1/s.
@@ -56,6 +57,7 @@ impl Flow {
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let is_central = self.method.viscous_term == ViscousTerm::Szewc;
         let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
+        let inverse_root: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();
         let strength = |a: usize, ab: &Pair| {
             if !is_central {
                 return viscous.coupling(a, ab);
@@ -73,19 +75,32 @@ impl Flow {
             for_image * strength * along * along.transpose()
         };
         let starts = &pairs.starts()[..=fluids];
-        let (mut coupling, mut diagonal) = (vec![0.0; starts[fluids]], vec![Mat2::zeros(); fluids]);
+        let (mut coupling, mut diagonal) = (vec![0.0_f32; starts[fluids]], vec![Mat2::zeros(); fluids]);
         let parts: Vec<_> = split_rows(starts, &mut coupling).zip(diagonal.chunks_mut(GRAIN)).collect();
         parts.into_par_iter().for_each(|((rows, coupling), diagonal)| {
             let mut couplings = coupling.iter_mut();
             for (a, diagonal) in rows.zip(diagonal) {
+                // What acts alike along both axes: all fluid in Morris's form.
+                let mut between = 0.0;
                 for (ab, coupling) in pairs.of(a).zip(&mut couplings) {
                     let (b, strength) = (images.source(ab.b), strength(a, &ab));
-                    *diagonal += block(a, &ab, strength);
                     // The image of a central pair acts along another line, so that its blocks would not be symmetric: the diagonal stands
                     // for it.
                     let is_coupled = b < fluids && (ab.b == b || !is_central);
-                    *coupling = if is_coupled { strength / (root_mass[a] * root_mass[b]) } else { 0.0 };
+                    if is_coupled {
+                        *coupling = (strength * (inverse_root[a] * inverse_root[b])) as f32;
+                        // With the coupling as it is stored a common velocity feels nothing, to the last bit.
+                        let stored = f64::from(*coupling) * (root_mass[a] * root_mass[b]);
+                        if is_central {
+                            *diagonal += block(a, &ab, stored);
+                        } else {
+                            between += stored;
+                        }
+                    } else {
+                        *diagonal += block(a, &ab, strength);
+                    }
                 }
+                *diagonal += Mat2::from_diagonal_element(between);
                 *diagonal /= root_mass[a] * root_mass[a];
             }
         });
@@ -150,10 +165,9 @@ impl System<'_> {
         let coupling = &v.coupling[row.clone()];
         let coupled: Vec2 = if v.is_central {
             let pairs = v.pairs.of(a).zip(coupling);
-            pairs.map(|(ab, coupling)| coupling * x[ab.b].dot(&ab.grad_w) * ab.grad_w).sum()
+            pairs.map(|(ab, coupling)| f64::from(*coupling) * x[ab.b].dot(&ab.grad_w) * ab.grad_w).sum()
         } else {
-            let neighbors = v.pairs.neighbors()[row].iter().zip(coupling);
-            neighbors.map(|(&b, &coupling)| coupling * x[b as usize]).sum()
+            weighted_sum(&v.pairs.neighbors()[row], coupling, x)
         };
         self.diagonal[a] * x[a] - self.weight * coupled
     }

@@ -204,9 +204,8 @@ impl Flow {
         }
         let mut points = self.particles.position.clone();
         self.images = Images::append(&mut points, &self.domain, self.method.kernel.support());
-        // The old pairs go first: both at once would be the most memory of the whole step.
-        self.pairs = Pairs::default();
-        self.pairs = Pairs::find(&points, self.particles.len(), &self.domain, &self.method.kernel);
+        let cells = Cells::build(&points, &self.domain, self.method.kernel.support());
+        self.pairs.find_anew(&cells, &points, self.particles.len(), (&self.domain, &self.method.kernel));
         let after = Instant::now();
         let neighborhood = (&self.particles, &self.pairs, &self.images);
         self.fields.update_bulk(neighborhood, &self.method, &self.wall);

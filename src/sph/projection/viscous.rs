@@ -72,6 +72,9 @@ impl Flow {
     fn velocity_difference(&self, velocity: &[Vec2], a: usize, b: usize) -> Vec2 {
         let v_ab = velocity[a] - velocity[b];
         let f = &self.fields;
+        if f.wall_distance[a].is_infinite() {
+            return v_ab;
+        }
         let wall = (f.wall_distance[a], f.wall_normal[a]);
         self.wall_depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, wall, depth, f.slip_length[a]))
     }

@@ -52,3 +52,16 @@ pub enum SetupError {
     #[error("no fluid particle fits into the pore at a spacing of {0:.3e} m; use a smaller spacing")]
     NoFluid(f64),
 }
+
+impl SetupError {
+    /// The key of the case that a user would change.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Geometry(_) => "geometry".to_owned(),
+            Self::PeriodTooShort { .. } | Self::NoFluid(_) => "sph.spacing".to_owned(),
+            Self::Blocked(side) | Self::EndsAtSide { side, .. } => format!("sph.sides.{side}"),
+            Self::Openings { side, .. } => format!("sph.sides.open.{side}.profile"),
+        }
+    }
+}

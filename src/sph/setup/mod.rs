@@ -25,6 +25,7 @@ use crate::geometry::Geometry;
 use crate::math::Vec2;
 use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::fill::{self, Lattice, Region};
+use crate::sph::method::Method;
 use crate::sph::open::{self, Around, Ledger, Open};
 use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
@@ -41,6 +42,55 @@ pub fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
     Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
 }
 
+/// The solids of a case, after a look at what else can be told without its particles: the length of periods, and the openings of open sides.
+///
+/// # Errors
+/// See [`SetupError`].
+pub fn checked_geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
+    let geometry = geometry(case, sph)?;
+    let ground = Ground::new(&geometry, sph)?;
+    let region = start_region(case, sph);
+    open_sides(sph, (&geometry, &ground.lattice, ground.method.kernel.h), &|x| start_phase(sph, &region, x))?;
+    Ok(geometry)
+}
+
+/// Lattice, method and domain of a case.
+struct Ground {
+    lattice: Lattice,
+    method: Method,
+    domain: Domain,
+}
+
+impl Ground {
+    fn new(geometry: &Geometry, sph: &Sph) -> Result<Self, SetupError> {
+        let bounds = geometry.bounds();
+        let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+        let lattice = Lattice::fitting(bounds, sph.spacing);
+        let method = method(sph, &lattice);
+        let domain = Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides));
+        let support = method.kernel.support();
+        if !fill::fits(&domain, support) {
+            let (size, needed) = (bounds.size(), fill::PERIODIC_SUPPORTS * support);
+            return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
+        }
+        Ok(Self { lattice, method, domain })
+    }
+}
+
+/// The region of the shapes, or of the state of a network, that a case begins with.
+fn start_region(case: &Case, sph: &Sph) -> Region {
+    match &sph.initial.network {
+        Some(start) => handed_over::region(case, sph, start),
+        None => Region::of_shapes(region(case, &sph.initial.wetting)),
+    }
+}
+
+/// The phase at `x` at time zero.
+fn start_phase(sph: &Sph, region: &Region, x: Vec2) -> Phase {
+    let wetting = region.holds(x) != sph.initial.wetting_is_background;
+    if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
+}
+
 /// The solver of a case at time zero.
 ///
 /// # Errors
@@ -54,26 +104,26 @@ pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
 /// # Errors
 /// See [`SetupError`].
 pub fn build_watched(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Result<SphSolver, SetupError> {
+    placed(case, sph, Some(packed))
+}
+
+/// The solver of a case that takes up a saved state before anything else: as many particles as at time zero, which are not packed.
+///
+/// # Errors
+/// See [`SetupError`].
+pub fn build_to_resume(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
+    placed(case, sph, None)
+}
+
+/// The solver with particles that are packed where someone is there to be told of it.
+fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result<SphSolver, SetupError> {
     let geometry = Arc::new(geometry(case, sph)?);
     let bounds = geometry.bounds();
     let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
-    let lattice = Lattice::fitting(bounds, sph.spacing);
-    let method = method(sph, &lattice);
-    let domain = Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides));
+    let Ground { lattice, method, domain } = Ground::new(&geometry, sph)?;
     let support = method.kernel.support();
-    if !fill::fits(&domain, support) {
-        let size = bounds.size();
-        let needed = fill::PERIODIC_SUPPORTS * support;
-        return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
-    }
-    let region = match &sph.initial.network {
-        Some(start) => handed_over::region(case, sph, start),
-        None => Region::of_shapes(region(case, &sph.initial.wetting)),
-    };
-    let phase = |x: Vec2| {
-        let wetting = region.holds(x) != sph.initial.wetting_is_background;
-        if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
-    };
+    let region = start_region(case, sph);
+    let phase = |x: Vec2| start_phase(sph, &region, x);
     let walls = sides.map(|side| side == Side::Wall);
     let interface = (sph.non_wetting.is_some() && sph.numerics.fitted_interface).then_some(&region);
     let places = places((&geometry, &domain), interface, &lattice, (&method, sph.numerics.fitted_walls), sides, packed);

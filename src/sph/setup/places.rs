@@ -11,14 +11,14 @@ use crate::sph::method::Method;
 use crate::sph::packing::Packing;
 
 /// Where the particles stand: along walls and, with a `region` that one phase fills, along its interface, where the lattice does not fit these, and packed to
-/// them; `done` is told the share of the packing that is done.
+/// them; `done` is told the share of the packing that is done, and without it nothing is packed.
 pub(super) fn places(
     (geometry, domain): (&Geometry, &Domain),
     region: Option<&Region>,
     lattice: &Lattice,
     (method, fitted_walls): (&Method, bool),
     sides: [Side; 4],
-    done: &mut dyn FnMut(f64),
+    done: Option<&mut dyn FnMut(f64)>,
 ) -> Places {
     let support = method.kernel.support();
     let signed_distance = |x| geometry.signed_distance(x);
@@ -34,7 +34,7 @@ pub(super) fn places(
     let interface = region.map(|region| Interface::new(region, geometry, lattice));
     let layers =
         interface.as_ref().map(|interface| interface.make_room((lattice, domain), &mut places)).unwrap_or_default();
-    if follows_walls || !layers.is_empty() {
+    if let Some(done) = done.filter(|_| follows_walls || !layers.is_empty()) {
         let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
         let held = places_of_sides(domain.bounds).into_iter().zip(sides);
         let held = held.filter(|(_, side)| !matches!(side, Side::Wall | Side::Periodic)).map(|(place, _)| place);

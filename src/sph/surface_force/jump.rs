@@ -26,6 +26,8 @@ pub struct Jump {
     pub side: Vec<f64>,
     /// Curvature in 1/m of the interface near the particle, continued to it by what it varies by at rest; NaN where there is none.
     pub curvature: Vec<f64>,
+    /// Whether a particle has a neighbor on the other side.
+    pub is_across: Vec<bool>,
 }
 
 impl Jump {
@@ -43,11 +45,13 @@ impl Jump {
         self.side.extend(color[..n].iter().map(|&c| if c > 0.5 { 1.0 } else { 0.0 }));
         images.extend(&mut self.side);
         let side = &self.side;
-        let unlike = |a: usize| pairs.of(a).any(|ab| side[ab.b] != side[a]);
+        self.is_across.resize(n, false);
+        each(&mut self.is_across, |a| pairs.of(a).any(|ab| side[ab.b] != side[a]));
+        let is_across = &self.is_across;
         let on_fluid: Vec<f64> = (0..fluids)
             .into_par_iter()
             .with_min_len(GRAIN / 8)
-            .map(|a| if unlike(a) { curvature_at(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
+            .map(|a| if is_across[a] { curvature_at(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
             .collect();
         self.curvature.clear();
         let rest = |a: usize, b: usize| gradient.dot(&r_ab(a, images.source(b)));
@@ -69,6 +73,9 @@ impl Jump {
     #[inline]
     #[must_use]
     pub fn of(&self, a: usize, b: usize) -> f64 {
+        if !self.is_across[a] {
+            return 0.0;
+        }
         let step = self.side[b] - self.side[a];
         if step == 0.0 {
             return 0.0;

@@ -50,6 +50,8 @@ pub struct PointFields<'a> {
     pub wall_distance: &'a [f64],
     /// Wall normal at fluid particles.
     pub wall_normal: &'a [Vec2],
+    /// Whether the smoothed color of a particle or of one of its neighbors is neither 0 nor 1.
+    pub near: &'a [bool],
 }
 
 /// All interface points between the first `fluids` particles, with images near mirrors. `(spacing, h)` in m.
@@ -63,7 +65,7 @@ pub fn interface_points(
 ) -> Vec<InterfacePoint> {
     let mut points = Vec::new();
     let link2 = (LINK * spacing).powi(2);
-    for a in 0..fluids {
+    for a in (0..fluids).filter(|&a| fields.near[a]) {
         let c_a = fields.color[a] - LEVEL;
         for ab in pairs.of(a) {
             let source = images.source(ab.b);

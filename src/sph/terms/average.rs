@@ -11,12 +11,18 @@ pub fn over_fluid<T>(pairs: &Pairs, fluid_volume: &[f64], field: &[T], average: 
 where
     T: Copy + Send + Sync + Add<Output = T> + Mul<f64, Output = T> + Div<f64, Output = T>,
 {
-    each(average, |a| {
-        let own = fluid_volume[a] * pairs.w_self;
-        let (sum, norm) = pairs.of(a).fold((field[a] * own, own), |(sum, norm), ab| {
-            let weight = fluid_volume[ab.b] * ab.w;
-            (sum + field[ab.b] * weight, norm + weight)
-        });
-        if norm > 0.0 { sum / norm } else { field[a] }
+    each(average, |a| over_fluid_at(a, pairs, fluid_volume, field));
+}
+
+/// [`over_fluid`] of one particle.
+pub fn over_fluid_at<T>(a: usize, pairs: &Pairs, fluid_volume: &[f64], field: &[T]) -> T
+where
+    T: Copy + Add<Output = T> + Mul<f64, Output = T> + Div<f64, Output = T>,
+{
+    let own = fluid_volume[a] * pairs.w_self;
+    let (sum, norm) = pairs.of(a).fold((field[a] * own, own), |(sum, norm), ab| {
+        let weight = fluid_volume[ab.b] * ab.w;
+        (sum + field[ab.b] * weight, norm + weight)
     });
+    if norm > 0.0 { sum / norm } else { field[a] }
 }

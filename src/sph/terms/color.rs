@@ -1,7 +1,9 @@
 //! The color function and its gradient, the normal of the interface [Huber2013, Eq. 18].
 
+use rayon::prelude::*;
+
 use crate::math::{Mat2, Vec2};
-use crate::sph::pairs::{Pairs, each};
+use crate::sph::pairs::{GRAIN, Pairs, each};
 use crate::sph::terms::average;
 
 /// The moment matrix is 1 inside the fluid and about 1/4 in a right corner; below this its inverse is not to be trusted.
@@ -9,9 +11,12 @@ const SMALLEST_DETERMINANT: f64 = 0.05;
 
 /// ĉ_a = Σ_b V_b c_b W_ab / Σ_b V_b W_ab over fluid, the particle itself included (Shepard average).
 ///
-/// Smoothing once before the gradient brings the curvature's error down; the paper is silent on it.
-pub fn smoothed_color(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], smoothed: &mut [f64]) {
-    average::over_fluid(pairs, fluid_volume, color, smoothed);
+/// Smoothing once before the gradient brings the curvature's error down; the paper is silent on it. Particles that are not `mixed`, which see
+/// one color only, keep what they have in `smoothed`.
+pub fn smoothed_color(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], mixed: &[bool], smoothed: &mut [f64]) {
+    smoothed.par_iter_mut().enumerate().with_min_len(GRAIN).filter(|(a, _)| mixed[*a]).for_each(|(a, smoothed)| {
+        *smoothed = average::over_fluid_at(a, pairs, fluid_volume, color);
+    });
 }
 
 /// n_a = (1/\[c\]) Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m, \[c\] = 1, over fluid [Huber2013, Eq. 18]. Points into the wetting phase.
@@ -22,20 +27,19 @@ pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], normal
 /// The gradient of Eq. (18) made exact for linear fields: g_a = B_a Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m over fluid.
 ///
 /// B_a is the inverse of −Σ_b V_b r_ab ⊗ ∇_a W_ab (Bonet & Lok 1999); where that is near singular the plain gradient is kept.
-/// `r_ab(a, b)` in m.
+/// `r_ab(a, b)` in m. Zero where a particle is not `near` the interface.
 pub fn consistent_gradient(
     pairs: &Pairs,
-    fluid_volume: &[f64],
+    (fluid_volume, near): (&[f64], &[bool]),
     color: &[f64],
     r_ab: impl Fn(usize, usize) -> Vec2 + Sync,
     gradient: &mut [Vec2],
 ) {
     each(gradient, |a| {
-        let plain: Vec2 = pairs.of(a).map(|ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w).sum();
-        // Away from the interface, where most particles are.
-        if plain == Vec2::zeros() {
-            return plain;
+        if !near[a] {
+            return Vec2::zeros();
         }
+        let plain: Vec2 = pairs.of(a).map(|ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w).sum();
         let moment: Mat2 = pairs.of(a).map(|ab| -fluid_volume[ab.b] * ab.grad_w * r_ab(a, ab.b).transpose()).sum();
         let is_regular = moment.determinant() > SMALLEST_DETERMINANT;
         moment.try_inverse().filter(|_| is_regular).map_or(plain, |inverse| inverse * plain)

@@ -57,6 +57,10 @@ impl Viscous<'_> {
 
     /// s_a = Σ_b V_b 2 (μ_ab − μ_a) ∇_a W_ab in Pa s/m, nothing where the viscosity is even.
     fn step_of_viscosity(&self, pairs: &Pairs, a: usize) -> Vec2 {
+        let is_other = |b: usize| self.viscosity[b] > 0.0 && self.viscosity[b] != self.viscosity[a];
+        if !pairs.of(a).any(|ab| is_other(ab.b)) {
+            return Vec2::zeros();
+        }
         let step = |b: usize| 2.0 * self.volume[b] * (self.mean_viscosity(a, b) - self.viscosity[a]);
         pairs.of(a).map(|ab| step(ab.b) * ab.grad_w).sum()
     }
@@ -114,6 +118,7 @@ impl Viscous<'_> {
     #[inline]
     fn mean_viscosity(&self, a: usize, b: usize) -> f64 {
         let (mu_a, mu_b) = (self.viscosity[a], self.viscosity[b]);
-        if mu_b > 0.0 { 2.0 * mu_a * mu_b / (mu_a + mu_b) } else { mu_a }
+        // Most neighbors are of one fluid, and a division costs as much as all the rest.
+        if mu_b == mu_a || mu_b == 0.0 { mu_a } else { 2.0 * mu_a * mu_b / (mu_a + mu_b) }
     }
 }

@@ -1,0 +1,58 @@
+//! Whether the runs of a study measure what it names: expectations and trends, curves and the table.
+//!
+//! A measure that is expected of runs must be one of each of them; what the report shows must be one of some run.
+
+use super::definition::{Choice, Study};
+use super::results::RUN_NUMBERS;
+use super::runs::PlannedRun;
+use crate::case::measures::{offers, unmeasured};
+use crate::input::Problem;
+
+/// Names of measures that the runs do not have, each at its place in the study file.
+pub(super) fn problems(study: &Study, planned: &[PlannedRun]) -> Vec<Problem> {
+    let names = Names { study, planned };
+    let expected = study.expectations.iter().enumerate();
+    let expected = expected.map(|(k, one)| names.of_each(format!("expect[{k}].measure"), &one.measure, &one.only));
+    let trends = study.trends.iter().enumerate();
+    let trends = trends.map(|(k, one)| names.of_each(format!("trend[{k}].measure"), &one.measure, &one.only));
+    let curves = study.report.curves.iter().enumerate().flat_map(|(k, curve)| {
+        [("x", &curve.x), ("y", &curve.y)].map(|(key, name)| names.of_some(format!("report.curve[{k}].{key}"), name))
+    });
+    let table = study.report.measures.iter().flatten().enumerate();
+    let table = table.map(|(k, name)| names.of_some(format!("report.measures[{k}]"), name));
+    expected.chain(trends).chain(curves).chain(table).flatten().collect()
+}
+
+struct Names<'a> {
+    study: &'a Study,
+    planned: &'a [PlannedRun],
+}
+
+impl Names<'_> {
+    /// What is wrong with the name in one run; parameters and numbers of the run are no measures of its case.
+    fn wrong(&self, name: &str, planned: &PlannedRun) -> Option<(String, String)> {
+        let is_known = RUN_NUMBERS.contains(&name) || self.study.parameters().any(|column| column.name == name);
+        let case = &planned.case;
+        if is_known { None } else { unmeasured(name, &offers(&case.model, case.steady.is_some())) }
+    }
+
+    /// The problem of a measure that one of the chosen runs does not have.
+    fn of_each(&self, path: String, name: &str, only: &Choice) -> Option<Problem> {
+        let chosen: Vec<&PlannedRun> = self.planned.iter().filter(|planned| planned.run.is_in(only)).collect();
+        let (run, (message, help)) = chosen.iter().find_map(|planned| Some((planned, self.wrong(name, planned)?)))?;
+        if chosen.iter().all(|planned| self.wrong(name, planned).is_some()) {
+            return Some(Problem::new(path, message, help));
+        }
+        let message = format!("{message}, that of run {} ({})", run.run.index, run.run.name);
+        Some(Problem::new(path, message, format!("{help}; or choose runs with `where`")))
+    }
+
+    /// The problem of a measure that no run has.
+    fn of_some(&self, path: String, name: &str) -> Option<Problem> {
+        let mut wrong = None;
+        for planned in self.planned {
+            wrong = Some(self.wrong(name, planned)?);
+        }
+        wrong.map(|(message, help)| Problem::new(path, message, help))
+    }
+}
