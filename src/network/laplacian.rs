@@ -240,7 +240,8 @@ impl Factored<'_> {
         for (pressure, rows) in flow.pressure.iter_mut().zip(&graph.rows_of) {
             *pressure += rows.iter().flatten().map(|&row| left[(row, 0)]).sum::<f64>();
         }
-        for ((incidence, conductance), through) in graph.incidences.iter().zip(&self.conductances).zip(&mut flow.through)
+        for ((incidence, conductance), through) in
+            graph.incidences.iter().zip(&self.conductances).zip(&mut flow.through)
         {
             let drop: f64 = incidence.iter().flatten().map(|&(row, sign)| sign * left[(row, 0)]).sum();
             *through += conductance * drop;

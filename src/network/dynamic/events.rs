@@ -44,13 +44,12 @@ impl Dynamic {
 
     /// Area in m² of the invading phase in an element when it is full, with that of the menisci that then wait in its gates.
     pub(super) fn target(&self, element: usize, filling: &Filling) -> f64 {
-        let menisci: f64 = self.to_come(element, filling).iter().map(|it| it.area(filling.curvature)).sum();
+        let menisci: f64 = self.to_come(element).iter().map(|it| it.area(filling.curvature)).sum();
         self.displacement.elements()[element].area + menisci
     }
 
     /// The menisci that will wait ahead of an element that is being filled.
-    pub(super) fn to_come<'a>(&'a self, element: usize, filling: &'a Filling) -> Vec<ToCome<'a>> {
-        debug_assert!(filling.area.is_finite());
+    pub(super) fn to_come(&self, element: usize) -> Vec<ToCome<'_>> {
         let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
         ahead
             .map(|(front, rise)| {
@@ -73,7 +72,7 @@ impl Dynamic {
             if beyond <= 0.0 {
                 return None;
             }
-            let to_come = self.to_come(neighbor, filling);
+            let to_come = self.to_come(neighbor);
             let all: f64 = to_come.iter().map(|it| it.area(filling.curvature)).sum();
             let area = to_come.iter().find(|it| it.front == front)?.area(filling.curvature);
             (all > 0.0).then(|| (front, beyond.min(all) * area / all))
@@ -173,6 +172,7 @@ impl Dynamic {
         // Beyond the outlet no wall bends it.
         let curvature = if self.is_outlet[element] { 0.0 } else { self.body_curvature(element).min(event) };
         self.state.filling[element] = Some(Filling { area: 0.0, curvature, is_joined });
+        self.graph = None;
     }
 
     /// The menisci that may wait in the gates of an element once it is full.

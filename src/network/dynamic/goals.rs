@@ -74,7 +74,7 @@ pub(super) struct Areas<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64> {
 /// phase has it in the element ahead.
 pub(super) const REACHED: f64 = 1e-3;
 /// Tolerance of an area that fills an element with menisci ahead over that of one without.
-static LOOSE: std::sync::LazyLock<f64> = std::sync::LazyLock::new(|| std::env::var("LOOSE").ok().and_then(|f| f.parse().ok()).unwrap_or(10.0));
+const LOOSE: f64 = 10.0;
 /// Places of the curvature of a body beyond the element that it fills.
 const PLACES: usize = 9;
 /// Least area that menisci ahead of an element are reckoned to take up until the first event, over that of the element.
@@ -130,7 +130,8 @@ impl Dynamic {
     /// What ends a step: elements become full on the way.
     pub(super) fn ends_of_step(&self, bodies: &[Body]) -> Vec<Goal> {
         let mut goals = self.goals();
-        goals.retain(|goal| !matches!(goal, Goal::Full { .. }));
+        let has_body = |element: usize| bodies.iter().any(|body| body.element == element);
+        goals.retain(|goal| !matches!(goal, Goal::Full { element, .. } if has_body(*element)));
         goals.extend((0..bodies.len()).map(Goal::Beyond));
         let side = |front: FrontId| {
             let behind = self.behind(front);
@@ -164,7 +165,7 @@ impl Dynamic {
     fn body(&self, element: usize, filling: &super::Filling) -> Body {
         let own = self.displacement.elements()[element].area;
         let bulges: f64 = self.bulges(element).iter().map(|(_, area)| area).sum();
-        let ahead = self.to_come(element, filling);
+        let ahead = self.to_come(element);
         let first = ahead.iter().map(|to_come| to_come.rise.end().1).reduce(f64::min);
         let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + own - bulges;
         let full = held(filling.curvature);
@@ -190,7 +191,7 @@ impl Dynamic {
 
     /// The area in m² that errors of what fills an element are compared with: more where menisci ahead take what is too much.
     fn scale_of_filling(&self, element: usize) -> f64 {
-        let loose = if self.ahead[element].is_empty() { 1.0 } else { *LOOSE };
+        let loose = if self.ahead[element].is_empty() { 1.0 } else { LOOSE };
         loose * self.displacement.elements()[element].area
     }
 

@@ -136,13 +136,7 @@ impl Dynamic {
             let to = if way == Way::Inlet { inlet } else { None };
             edges.push(Edge { ends: (node_of[element], to), is_good: to.is_some() });
         }
-        Ok(Graph {
-            laplacian: Laplacian::new(nodes, edges)?,
-            links,
-            nodes,
-            inlet,
-            link_of,
-        })
+        Ok(Graph { laplacian: Laplacian::new(nodes, edges)?, links, nodes, inlet, link_of })
     }
 
     /// The bodies of invading phase in elements that are being filled, with nodes of their own.

@@ -23,6 +23,7 @@ mod events;
 mod fingers;
 mod goals;
 mod graph;
+mod known;
 mod measures;
 mod path;
 mod rise;

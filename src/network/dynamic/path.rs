@@ -7,14 +7,14 @@
 use super::Dynamic;
 use super::goals::REACHED;
 use super::graph::Graph;
-use super::step::{Known, MATCHED, Trial};
+use super::known::{Known, Law};
+use super::step::{MATCHED, Trial};
 use crate::network::laplacian::{Factored, Flow, FlowError};
 
-pub static FALLBACKS: std::sync::atomic::AtomicU64 = std::sync::atomic::AtomicU64::new(0);
 /// Most rounds.
-const ROUNDS: usize = 16;
+const ROUNDS: i32 = 16;
 /// Longest and shortest next length over the present one: far at first, then nearer from round to round, so that rounds do not cycle.
-const FAR: f64 = 1e3;
+const FAR: f64 = 30.0;
 const NEAR: f64 = 1.5;
 /// Rounds that may go far.
 const FREE: i32 = 3;
@@ -74,15 +74,10 @@ impl Dynamic {
         for round in 0..ROUNDS {
             self.state.solves += 1;
             let path = self.path(graph, known, &about, dt)?;
-            let far = NEAR.max(FAR * 0.25_f64.powi((round as i32 - FREE).max(0)));
+            let far = NEAR.max(FAR * 0.25_f64.powi((round - FREE).max(0)));
             let range = [dt / far, longest.min(dt * far)];
             let linear = |law: usize, dt: f64| known.laws[law].area + path.passed(known.laws[law].link, dt);
             let end = self.first_along(graph, known, range, linear);
-            if std::env::var_os("DBG").is_some() {
-                let gs = self.gaps(graph, known, |law| linear(law, end));
-                let g = gs.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map(|(i, g)| (*g, &known.goals[i]));
-                eprintln!("  step {} dt {:e} end {:e} longest {:e} p {:.4} goal {:?} bodies {:?}", self.state.steps, dt, end, longest, graph.inlet.map_or(0.0, |i| path.flow.pressure[i]), g, known.bodies.iter().map(|b| (b.element, b.area, b.full, b.first, b.passes)).collect::<Vec<_>>());
-            }
             if let Some(trial) = self.accepted(graph, known, &path, end, longest)? {
                 return Ok(Some(trial));
             }
@@ -103,8 +98,6 @@ impl Dynamic {
                 .collect();
             before = Some(next);
         }
-        FALLBACKS.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        if std::env::var_os("DBG").is_some() { eprintln!("FALLBACK"); }
         Ok(None)
     }
 
@@ -136,7 +129,9 @@ impl Dynamic {
         let change = |link: usize| to.drops[link] - from.drops[link];
         // The change of the function along the way is linear but for the laws.
         let (mut level, mut rise) = (-(to.inlet - from.inlet) * known.sources.iter().sum::<f64>() * dt, 0.0);
-        for (link, (resistance, drop)) in known.drops.iter().enumerate().filter(|(link, _)| known.law_of[*link].is_none()) {
+        for (link, (resistance, drop)) in
+            known.drops.iter().enumerate().filter(|(link, _)| known.law_of[*link].is_none())
+        {
             level += change(link) * (from.drops[link] - drop) / resistance * dt;
             rise += change(link) * change(link) / resistance * dt;
         }
@@ -198,7 +193,8 @@ impl Dynamic {
                 continue;
             }
             let before = gap(goal, least);
-            first = if before <= 0.0 { least } else { root(|dt| gap(goal, dt), [(least, before), (first, beyond)], EXACT) };
+            first =
+                if before <= 0.0 { least } else { root(|dt| gap(goal, dt), [(least, before), (first, beyond)], EXACT) };
         }
         first
     }
@@ -215,10 +211,10 @@ impl Dynamic {
     ) -> Result<Option<Trial>, FlowError> {
         let tension = self.terms.tension;
         let area = |law: usize| known.laws[law].area + path.passed(known.laws[law].link, dt);
-        let matches = |(index, law): (usize, &super::step::Law)| {
+        let matches = |(index, law): (usize, &Law)| {
             let curvature = law.rise.curvature(area(index)).0;
             let taken = known.drops[law.link].0 * path.passed(law.link, dt) / dt + tension * curvature;
-            (taken - path.drop(law.link, dt)).abs() <= *MATCHED * tension * law.scale
+            (taken - path.drop(law.link, dt)).abs() <= MATCHED * tension * law.scale
         };
         if !known.laws.iter().enumerate().all(matches) {
             return Ok(None);
@@ -227,7 +223,7 @@ impl Dynamic {
         let flows = |(link, &(resistance, drop)): (usize, &(f64, f64))| {
             let viscous = resistance * path.passed(link, dt) / dt;
             known.law_of[link].is_some()
-                || (viscous + drop - path.drop(link, dt)).abs() <= *MATCHED * scale.max(viscous.abs())
+                || (viscous + drop - path.drop(link, dt)).abs() <= MATCHED * scale.max(viscous.abs())
         };
         if !known.drops.iter().enumerate().all(flows) {
             return Ok(None);

@@ -1,10 +1,8 @@
 //! A step: to the next event, or as far as it may go, by backward Euler.
 
-use std::sync::Arc;
-
-use super::goals::{Areas, Body, Goal, REACHED};
+use super::goals::{Areas, REACHED};
 use super::graph::{Graph, Link, Way};
-use super::rise::Rise;
+use super::known::{Known, Law};
 use super::{Drive, Dynamic};
 use crate::network::displacement::FrontId;
 use crate::network::laplacian::{Flow, FlowError};
@@ -18,55 +16,10 @@ pub(super) struct Trial {
     pub gaps: Vec<f64>,
 }
 
-/// What stays as it is while the length of a step is sought.
-pub(super) struct Known {
-    pub goals: Vec<Goal>,
-    /// Whether an element may be full first.
-    pub fills: bool,
-    pub bodies: Vec<Body>,
-    /// What resists by its curvature.
-    pub laws: Vec<Law>,
-    /// By link: its law.
-    pub law_of: Vec<Option<usize>>,
-    /// By body: its law.
-    pub law_of_body: Vec<usize>,
-    /// By link: resistance in Pa s/m², and the pressure drop in Pa without flow, but for a law.
-    pub drops: Vec<(f64, f64)>,
-    /// Of each node in m²/s.
-    pub sources: Vec<f64>,
-}
-
-/// A link that resists by a curvature: a meniscus that waits, or the body in an element.
-pub(super) struct Law {
-    pub link: usize,
-    pub rise: Arc<Rise>,
-    /// Area in m² before the step.
-    pub area: f64,
-    /// Area in m² to begin with.
-    pub start: f64,
-    /// Curvature in 1/m that errors are compared with.
-    pub scale: f64,
-    /// Of a body: area in m² at which its element is full, and whether the step may go on then.
-    pub full: Option<f64>,
-    pub passes: bool,
-    /// Laws of the menisci that wait to enter the element of a body: what they sweep is in it too.
-    pub entering: Vec<usize>,
-}
-
-impl Known {
-    /// What menisci that wait to enter the element of a body have swept in the step, in m², with areas by law.
-    pub fn swept(&self, law: usize, area: &impl Fn(usize) -> f64) -> f64 {
-        let swept = |&entering: &usize| area(entering).max(0.0) - self.laws[entering].area.max(0.0);
-        self.laws[law].entering.iter().map(swept).sum()
-    }
-}
-
-/// Longest time to fill an element, over the length of the step before, where a step may go on when it is full.
-static QUICK: std::sync::LazyLock<f64> = std::sync::LazyLock::new(|| std::env::var("QUICK").ok().and_then(|f| f.parse().ok()).unwrap_or(0.2));
 /// Least length that is taken for that of the next step, over that of the last one.
 const SHORTER: f64 = 0.1;
 /// Largest difference between the curvature of a meniscus at the end of a step and that which the step took, as a share of its range.
-pub(super) static MATCHED: std::sync::LazyLock<f64> = std::sync::LazyLock::new(|| std::env::var("MATCHED").ok().and_then(|f| f.parse().ok()).unwrap_or(1e-3));
+pub(super) const MATCHED: f64 = 5e-3;
 /// Most rounds of Newton's method.
 const ROUNDS: usize = 40;
 /// From this share on a step of Newton's method is done as a whole.
@@ -136,7 +89,7 @@ impl Dynamic {
     }
 
     /// Resistance in Pa s/m² of a link, and the pressure drop along it in Pa without flow, but for a meniscus that waits.
-    fn drop_without_rise(&self, link: &Link) -> (f64, f64) {
+    pub(super) fn drop_without_rise(&self, link: &Link) -> (f64, f64) {
         let [a, b] = link.elements;
         let resistance = self.viscosity(a) * link.halves[0] + self.viscosity(b) * link.halves[1];
         let drop = match (link.way, self.terms.drive) {
@@ -150,67 +103,6 @@ impl Dynamic {
             _ => 0.0,
         };
         (resistance, drop)
-    }
-
-    /// What a step begins with.
-    fn known(&self, graph: &Graph) -> Known {
-        let drops: Vec<(f64, f64)> = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
-        let link_of = |element: usize| graph.links.iter().position(|link| link.way == Way::Body(element));
-        let open = self.open_fillings();
-        let only = open.first().copied().filter(|&e| open.len() == 1 && self.entering(e).next().is_none());
-        let with_law = |body: Body| {
-            let rate = self.filling_rate(graph, &body, drops[link_of(body.element)?].0);
-            let is_quick = rate * self.state.last_steps[0] * *QUICK > body.full - body.area;
-            let passes = is_quick && only == Some(body.element);
-            let constant = || Arc::new(Rise::constant(body.rise.curvature(body.area).0));
-            Some(Body { passes, rise: if passes { Arc::clone(&body.rise) } else { constant() }, ..body })
-        };
-        let bodies: Vec<Body> = self.bodies_now().into_iter().filter_map(with_law).collect();
-        let law = |(link, of): (usize, &Link)| match of.way {
-            Way::Meniscus((gate, end)) => {
-                let meniscus = self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
-                let rise = Arc::clone(self.rises[gate][end].as_ref()?);
-                let scale = (rise.end().1 - rise.start().1).max(1.0 / self.gates[gate].width);
-                Some(Law { link, rise, area: meniscus.area, start: meniscus.area, scale, full: None, passes: false, entering: Vec::new() })
-            }
-            Way::Body(element) => {
-                let body = bodies.iter().find(|body| body.element == element)?;
-                let scale = 1.0 / self.displacement.elements()[element].area.sqrt();
-                let start = if body.passes { body.beyond() } else { body.area };
-                let entering = Vec::new();
-                let (full, passes, rise) = (Some(body.full), body.passes, Arc::clone(&body.rise));
-                Some(Law { link, rise, area: body.area, start, scale, full, passes, entering })
-            }
-            _ => None,
-        };
-        let mut laws: Vec<Law> = graph.links.iter().enumerate().filter_map(law).collect();
-        let mut law_of = vec![None; graph.links.len()];
-        laws.iter().enumerate().for_each(|(index, law)| law_of[law.link] = Some(index));
-        for law in &mut laws {
-            if let Way::Body(element) = graph.links[law.link].way {
-                let fronts = self.entering(element).filter_map(|((gate, _), _)| graph.link_of[gate]);
-                law.entering = fronts.filter_map(|link| law_of[link]).collect();
-            }
-        }
-        let mut sources = vec![0.0; graph.nodes];
-        if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.terms.drive) {
-            sources[inlet] = rate;
-        }
-        let fills = bodies.iter().any(|body| !body.passes && open.contains(&body.element));
-        let law_of_body = (0..laws.len()).filter(|&law| laws[law].full.is_some()).collect();
-        Known { goals: self.ends_of_step(&bodies), fills, bodies, laws, law_of, law_of_body, drops, sources }
-    }
-
-    /// Area per time in m²/s at which menisci that have burst into an element would fill it by their curvature at the event.
-    fn filling_rate(&self, graph: &Graph, body: &Body, resistance: f64) -> f64 {
-        let now = body.rise.curvature(body.area).0;
-        let rate = |&(gate, end): &FrontId| {
-            self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst)?;
-            let own = self.drop_without_rise(&graph.links[graph.link_of[gate]?]).0;
-            let event = self.rises[gate][end].as_ref()?.end().1;
-            Some(self.terms.tension * (event - now).max(0.0) / (own + resistance))
-        };
-        self.displacement.gates_of(body.element).iter().filter_map(rate).sum()
     }
 
     /// The links in a step of the length `dt` in s: conductances and jumps, with curvatures linear about areas by law.
@@ -274,7 +166,7 @@ impl Dynamic {
                 let area = area(law, &flow.through);
                 let (curvature, slope) = law.rise.curvature(about);
                 let taken = curvature + slope * (area - about);
-                (law.rise.curvature(area).0 - taken).abs() <= *MATCHED * law.scale
+                (law.rise.curvature(area).0 - taken).abs() <= MATCHED * law.scale
             });
             if (share == 1.0 && matches) || round >= ROUNDS {
                 break flow;
