@@ -60,6 +60,8 @@ pub struct Edge {
 pub struct Laplacian {
     nodes: usize,
     edges: Vec<Edge>,
+    /// By edge.
+    incidences: Vec<Incidence>,
     /// Of each node the unknowns whose sum is its pressure: that of its cluster and its own.
     rows_of: Vec<[Option<usize>; 2]>,
     /// None where there is nothing to solve.
@@ -78,6 +80,8 @@ struct Pattern {
 const REFINEMENTS: usize = 12;
 /// What may be left over in a node, over the largest flow.
 const LEFT: f64 = 1e-15;
+/// Where more is left over after a correction than this share of what was before, it is rounding.
+const IMPROVED: f64 = 0.5;
 
 /// The unknowns that an edge joins, with their signs in the difference of pressures.
 type Incidence = [Option<(usize, f64)>; 4];
@@ -90,7 +94,8 @@ impl Laplacian {
     pub fn new(nodes: usize, edges: Vec<Edge>) -> Result<Self, FlowError> {
         factor_in_one_thread();
         let (rows_of, size) = unknowns(nodes, &edges);
-        let mut laplacian = Self { nodes, edges, rows_of, pattern: None };
+        let incidences = edges.iter().map(|edge| incidence(edge, &rows_of)).collect();
+        let mut laplacian = Self { nodes, edges, incidences, rows_of, pattern: None };
         let mut pairs = Vec::with_capacity(3 * laplacian.edges.len());
         laplacian.each_entry(|_, row, col, _| pairs.push(Pair { row, col }));
         if size > 0 {
@@ -110,31 +115,39 @@ impl Laplacian {
         self.edges.iter().any(|edge| edge.ends.1.is_none() && root(&mut parent, edge.ends.0) == part)
     }
 
-    fn incidence(&self, edge: &Edge) -> Incidence {
-        let (from, to) = edge.ends;
-        let from = self.rows_of[from];
-        let Some(to) = to.map(|to| self.rows_of[to]) else { return [plus(from[0]), plus(from[1]), None, None] };
-        let minus = |row: Option<usize>| row.map(|row| (row, -1.0));
-        let mut all = [plus(from[0]), plus(from[1]), minus(to[0]), minus(to[1])];
-        for k in 0..2 {
-            // The pressure of a cluster drives nothing within it, nor that of a node from it to itself around the period.
-            if from[k] == to[k] {
-                (all[k], all[k + 2]) = (None, None);
-            }
-        }
-        all
-    }
-
     /// Calls `f` with conductor, row, column and sign of each entry of the lower triangle.
     fn each_entry(&self, mut f: impl FnMut(usize, usize, usize, f64)) {
-        for (index, edge) in self.edges.iter().enumerate() {
-            let incidence = self.incidence(edge);
-            for (row, sign) in incidence.into_iter().flatten() {
-                for (col, other) in incidence.into_iter().flatten().filter(|&(col, _)| col <= row) {
+        for (index, incidence) in self.incidences.iter().enumerate() {
+            for &(row, sign) in incidence.iter().flatten() {
+                for &(col, other) in incidence.iter().flatten().filter(|&&(col, _)| col <= row) {
                     f(index, row, col, sign * other);
                 }
             }
         }
+    }
+
+    /// The pressure drop along an edge.
+    #[must_use]
+    pub fn drop(&self, edge: usize, pressure: &[f64]) -> f64 {
+        let (from, to) = self.edges[edge].ends;
+        pressure[from] - to.map_or(0.0, |to| pressure[to])
+    }
+
+    /// The conductances, ready to be solved with.
+    ///
+    /// # Errors
+    /// [`FlowError`] where a conductance is not a number above 0.
+    pub fn factor(&self, conductances: Vec<f64>) -> Result<Factored<'_>, FlowError> {
+        let error = FlowError { nodes: self.nodes };
+        let Some(Pattern { matrix, order, elimination, .. }) = &self.pattern else {
+            return Ok(Factored { laplacian: self, conductances, factors: None });
+        };
+        let mut values = Vec::with_capacity(3 * conductances.len());
+        self.each_entry(|index, _, _, sign| values.push(sign * conductances[index]));
+        let matrix = SparseColMat::new_from_argsort(matrix.clone(), order, &values).map_err(|_| error)?;
+        let factors =
+            Llt::try_new_with_symbolic(elimination.clone(), matrix.as_ref(), Side::Lower).map_err(|_| error)?;
+        Ok(Factored { laplacian: self, conductances, factors: Some(factors) })
     }
 
     /// Pressures and flows, with the sources of all nodes.
@@ -142,43 +155,114 @@ impl Laplacian {
     /// # Errors
     /// [`FlowError`] where a conductance is not a number above 0.
     pub fn solve(&self, conductors: &[Conductor], sources: &[f64]) -> Result<Flow, FlowError> {
-        let error = FlowError { nodes: self.nodes };
+        let jumps: Vec<f64> = conductors.iter().map(|conductor| conductor.jump).collect();
+        let factored = self.factor(conductors.iter().map(|conductor| conductor.conductance).collect())?;
+        let mut flow = factored.solve(&jumps, sources)?;
+        factored.balance(&mut flow, sources)?;
+        Ok(flow)
+    }
+}
+
+/// A graph with its conductances.
+pub struct Factored<'a> {
+    laplacian: &'a Laplacian,
+    conductances: Vec<f64>,
+    /// None where there is nothing to solve.
+    factors: Option<Llt<usize, f64>>,
+}
+
+impl Factored<'_> {
+    /// By conductor.
+    #[must_use]
+    pub fn conductances(&self) -> &[f64] {
+        &self.conductances
+    }
+
+    /// Pressures and flows with the jumps of all conductors and the sources of all nodes, as far as one solution goes: what is left over
+    /// in a node is rounding of pressures.
+    ///
+    /// # Errors
+    /// [`FlowError`] where they are no numbers.
+    pub fn solve(&self, jumps: &[f64], sources: &[f64]) -> Result<Flow, FlowError> {
         let mut flow = Flow {
-            pressure: vec![0.0; self.nodes],
-            through: conductors.iter().map(|conductor| conductor.conductance * conductor.jump).collect(),
+            pressure: vec![0.0; self.laplacian.nodes],
+            through: self.conductances.iter().zip(jumps).map(|(conductance, jump)| conductance * jump).collect(),
         };
-        let Some(Pattern { matrix, order, elimination, size }) = &self.pattern else { return Ok(flow) };
-        let mut values = Vec::with_capacity(3 * conductors.len());
-        self.each_entry(|index, _, _, sign| values.push(sign * conductors[index].conductance));
-        let matrix = SparseColMat::new_from_argsort(matrix.clone(), order, &values).map_err(|_| error)?;
-        let factors =
-            Llt::try_new_with_symbolic(elimination.clone(), matrix.as_ref(), Side::Lower).map_err(|_| error)?;
-        let mut left = faer::Mat::<f64>::zeros(*size, 1);
-        for round in 0..=REFINEMENTS {
-            left.fill(0.0);
-            for (&source, rows) in sources.iter().zip(&self.rows_of) {
-                rows.iter().flatten().for_each(|&row| left[(row, 0)] += source);
-            }
-            let mut largest: f64 = 0.0;
-            for (edge, &through) in self.edges.iter().zip(&flow.through) {
-                largest = largest.max(through.abs());
-                self.incidence(edge).into_iter().flatten().for_each(|(row, sign)| left[(row, 0)] -= sign * through);
-            }
-            if round > 1 && (0..*size).all(|row| left[(row, 0)].abs() <= LEFT * largest) {
+        let (left, _) = self.left_over(&flow, sources);
+        self.correct(&mut flow, left);
+        self.finite(flow)
+    }
+
+    /// Corrects flows by what is left over in each node until that is rounding of flows.
+    ///
+    /// # Errors
+    /// [`FlowError`] where they are no numbers.
+    pub fn balance(&self, flow: &mut Flow, sources: &[f64]) -> Result<(), FlowError> {
+        let mut before = f64::INFINITY;
+        for _ in 0..REFINEMENTS {
+            let (left, largest) = self.left_over(flow, sources);
+            let most = left.col_as_slice(0).iter().fold(0.0_f64, |most, left| most.max(left.abs()));
+            if most <= LEFT * largest || most > IMPROVED * before {
                 break;
             }
-            let change = factors.solve(&left);
-            for (pressure, rows) in flow.pressure.iter_mut().zip(&self.rows_of) {
-                *pressure += rows.iter().flatten().map(|&row| change[(row, 0)]).sum::<f64>();
-            }
-            for ((edge, conductor), through) in self.edges.iter().zip(conductors).zip(&mut flow.through) {
-                let drop: f64 =
-                    self.incidence(edge).into_iter().flatten().map(|(row, sign)| sign * change[(row, 0)]).sum();
-                *through += conductor.conductance * drop;
-            }
+            before = most;
+            self.correct(flow, left);
         }
-        if flow.pressure.iter().all(|p| p.is_finite()) { Ok(flow) } else { Err(error) }
+        *flow = self.finite(std::mem::take(flow))?;
+        Ok(())
     }
+
+    fn finite(&self, flow: Flow) -> Result<Flow, FlowError> {
+        let is_finite = flow.pressure.iter().all(|p| p.is_finite());
+        if is_finite { Ok(flow) } else { Err(FlowError { nodes: self.laplacian.nodes }) }
+    }
+
+    /// What is left over by unknown, and the largest flow.
+    fn left_over(&self, flow: &Flow, sources: &[f64]) -> (faer::Mat<f64>, f64) {
+        let graph = self.laplacian;
+        let size = graph.pattern.as_ref().map_or(0, |pattern| pattern.size);
+        let mut left = faer::Mat::<f64>::zeros(size, 1);
+        for (&source, rows) in sources.iter().zip(&graph.rows_of) {
+            rows.iter().flatten().for_each(|&row| left[(row, 0)] += source);
+        }
+        let mut largest: f64 = 0.0;
+        for (incidence, &through) in graph.incidences.iter().zip(&flow.through) {
+            largest = largest.max(through.abs());
+            incidence.iter().flatten().for_each(|&(row, sign)| left[(row, 0)] -= sign * through);
+        }
+        (left, largest)
+    }
+
+    fn correct(&self, flow: &mut Flow, mut left: faer::Mat<f64>) {
+        let Some(factors) = &self.factors else { return };
+        let graph = self.laplacian;
+        factors.solve_in_place(left.as_mut());
+        for (pressure, rows) in flow.pressure.iter_mut().zip(&graph.rows_of) {
+            *pressure += rows.iter().flatten().map(|&row| left[(row, 0)]).sum::<f64>();
+        }
+        for ((incidence, conductance), through) in
+            graph.incidences.iter().zip(&self.conductances).zip(&mut flow.through)
+        {
+            let drop: f64 = incidence.iter().flatten().map(|&(row, sign)| sign * left[(row, 0)]).sum();
+            *through += conductance * drop;
+        }
+    }
+}
+
+/// The unknowns that an edge joins.
+fn incidence(edge: &Edge, rows_of: &[[Option<usize>; 2]]) -> Incidence {
+    let (from, to) = edge.ends;
+    let from = rows_of[from];
+    let Some(to) = to.map(|to| rows_of[to]) else { return [plus(from[0]), plus(from[1]), None, None] };
+    let minus = |row: Option<usize>| row.map(|row| (row, -1.0));
+    let mut all = [plus(from[0]), plus(from[1]), minus(to[0]), minus(to[1])];
+    for k in 0..2 {
+        // The pressure of a cluster drives nothing within it, nor that of a node from it to itself around the period.
+        if from[k] == to[k] {
+            (all[k], all[k + 2]) = (None, None);
+        }
+    }
+    all
 }
 
 fn plus(row: Option<usize>) -> Option<(usize, f64)> {

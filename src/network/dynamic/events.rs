@@ -1,134 +1,117 @@
 //! What happens when a meniscus reaches its event, and when an element is full.
 
-use super::graph::{Graph, Way};
+use std::sync::Arc;
+
+use super::goals::{Areas, Goal, REACHED};
 use super::rise::Rise;
-use super::step::{Goal, REACHED};
 use super::{Breakthrough, Dynamic, Filling, Meniscus, Occurrence};
 use crate::network::cycles::Invasion;
-use crate::network::displacement::{EventKind, FrontId, Phase};
-use crate::network::laplacian::FlowError;
+use crate::network::displacement::{Advance, EventKind, FrontId, Phase};
+
+/// A meniscus that will wait ahead of an element.
+pub(super) struct ToCome<'a> {
+    pub front: FrontId,
+    pub rise: &'a Rise,
+    /// Area in m² that is free ahead of it.
+    free: f64,
+}
+
+impl ToCome<'_> {
+    /// Swept area in m² at a curvature in 1/m.
+    pub fn area(&self, curvature: f64) -> f64 {
+        self.rise.area(curvature.min(self.rise.end().1)).min(self.free)
+    }
+}
 
 impl Dynamic {
-    /// What the next step may come to.
-    pub(super) fn goals(&self, graph: &Graph) -> Vec<Goal> {
-        let mut link_of = vec![None; self.gates.len()];
-        for (index, link) in graph.links.iter().enumerate() {
-            if let Way::Meniscus((gate, _)) = link.way {
-                link_of[gate] = Some(index);
-            }
+    /// Swept area in m² of a meniscus.
+    pub(super) fn area_now(&self, (gate, end): FrontId) -> f64 {
+        self.state.menisci[gate][end].map_or(0.0, |meniscus| meniscus.area)
+    }
+
+    /// Overlaps of the menisci that will wait ahead of elements that are being filled, with one another and with those that wait.
+    pub(super) fn find_meetings_to_come(&self) -> Vec<Advance> {
+        let filling: Vec<usize> = (0..self.state.filling.len())
+            .filter(|&element| self.state.filling[element].is_some() && !self.is_outlet[element])
+            .collect();
+        if filling.is_empty() {
+            return Vec::new();
         }
-        let waits = |front: FrontId| self.state.menisci[front.0][front.1].is_some_and(|meniscus| !meniscus.has_burst);
-        let mut goals = Vec::new();
-        for (index, advance) in self.advances.iter().enumerate() {
-            let (front, partner) = advance.fronts;
-            if !waits(front) {
-                continue;
-            }
-            match (link_of[front.0], partner) {
-                (Some(link), None) => goals.push(Goal::Own(index, link)),
-                (Some(link), Some(partner)) if waits(partner) => {
-                    let is_new = advance.fills.iter().any(|&element| self.state.filling[element].is_none());
-                    if let Some(other) = link_of[partner.0].filter(|_| is_new) {
-                        goals.push(Goal::Meeting(index, [link, other]));
-                    }
-                }
-                _ => {}
-            }
-        }
-        for element in (0..self.state.filling.len()).filter(|&element| !self.is_invaded(element)) {
-            let links: Vec<usize> = self.entering(element).filter_map(|((gate, _), _)| link_of[gate]).collect();
-            // An element at the outlet is never full: what covers it leaves.
-            let is_leaving = self.is_outlet[element] && !links.is_empty();
-            if self.state.filling[element].is_some() && !is_leaving {
-                continue;
-            }
-            let bulges = self.bulges(element);
-            if links.len() + bulges.len() > 1 || self.state.filling[element].is_some() {
-                let held = bulges.iter().map(|(_, area)| area).sum();
-                goals.push(Goal::Covered { element, links, held });
-            }
-        }
-        for (element, filling) in self.state.filling.iter().enumerate() {
-            let Some(filling) = filling.as_ref().filter(|_| !self.is_outlet[element]) else { continue };
-            let (mut burst, mut entering) = (Vec::new(), Vec::new());
-            for &(gate, end) in self.displacement.gates_of(element) {
-                match (link_of[gate], &self.state.menisci[gate][end]) {
-                    (Some(link), Some(meniscus)) if meniscus.has_burst => burst.push(link),
-                    (Some(link), Some(_)) => entering.push(link),
-                    _ => {}
-                }
-            }
-            let bulges: f64 = self.bulges(element).iter().map(|(_, area)| area).sum();
-            let target = self.target(element, filling) - bulges;
-            goals.push(Goal::Full { element, burst, entering, target });
-        }
-        goals
+        let mut full = self.displacement.clone();
+        filling.into_iter().for_each(|element| full.complete(element));
+        full.new_advances().into_iter().filter(|advance| advance.fronts.1.is_some()).collect()
     }
 
     /// Area in m² of the invading phase in an element when it is full, with that of the menisci that then wait in its gates.
-    fn target(&self, element: usize, filling: &Filling) -> f64 {
-        let menisci: f64 = self.to_come(element, filling).map(|(_, area)| area).sum();
+    pub(super) fn target(&self, element: usize, filling: &Filling) -> f64 {
+        let menisci: f64 = self.to_come(element).iter().map(|it| it.area(filling.curvature)).sum();
         self.displacement.elements()[element].area + menisci
     }
 
-    /// The menisci that will wait ahead of an element that is being filled, with their areas in m²: at most what is free there.
-    fn to_come<'a>(&'a self, element: usize, filling: &'a Filling) -> impl Iterator<Item = (FrontId, f64)> + 'a {
+    /// The menisci that will wait ahead of an element that is being filled.
+    pub(super) fn to_come(&self, element: usize) -> Vec<ToCome<'_>> {
         let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
-        ahead.map(|(front, rise)| {
-            let into = self.ahead_of(*front);
-            let held = self.state.filling[into].as_ref().map_or(0.0, |filling| filling.area)
-                + self.entering(into).map(|(_, meniscus)| meniscus.area.max(0.0)).sum::<f64>();
-            let free = (self.displacement.elements()[into].area - held).max(0.0);
-            (*front, rise.area(filling.curvature.min(rise.end().1)).min(free))
-        })
+        ahead
+            .map(|(front, rise)| {
+                let into = self.ahead_of(*front);
+                let held = self.state.filling[into].as_ref().map_or(0.0, |filling| filling.area)
+                    + self.entering(into).map(|(_, meniscus)| meniscus.area.max(0.0)).sum::<f64>();
+                let free = (self.displacement.elements()[into].area - held).max(0.0);
+                ToCome { front: *front, rise, free }
+            })
+            .collect()
     }
 
     /// What neighbors that are being filled hold beyond their own areas stands in menisci that are to come: those that will enter an element,
     /// with their areas in m².
-    fn bulges(&self, into: usize) -> Vec<(FrontId, f64)> {
+    pub(super) fn bulges(&self, into: usize) -> Vec<(FrontId, f64)> {
         let bulge = |&front: &FrontId| {
             let neighbor = self.behind(front);
             let filling = self.state.filling[neighbor].as_ref()?;
             let beyond = self.filled_area(neighbor, filling) - self.displacement.elements()[neighbor].area;
-            let all: f64 = self.to_come(neighbor, filling).map(|(_, area)| area).sum();
-            let (_, area) = self.to_come(neighbor, filling).find(|(other, _)| *other == front)?;
-            (beyond > 0.0 && all > 0.0).then(|| (front, beyond.min(all) * area / all))
+            if beyond <= 0.0 {
+                return None;
+            }
+            let to_come = self.to_come(neighbor);
+            let all: f64 = to_come.iter().map(|it| it.area(filling.curvature)).sum();
+            let area = to_come.iter().find(|it| it.front == front)?.area(filling.curvature);
+            (all > 0.0).then(|| (front, beyond.min(all) * area / all))
         };
         self.displacement.gates_of(into).iter().filter_map(bulge).collect()
     }
 
     /// The element that a meniscus enters.
-    fn ahead_of(&self, (gate, end): FrontId) -> usize {
+    pub(super) fn ahead_of(&self, (gate, end): FrontId) -> usize {
         self.gates[gate].elements[end]
     }
 
     /// The element that a meniscus comes from.
-    fn behind(&self, (gate, end): FrontId) -> usize {
+    pub(super) fn behind(&self, (gate, end): FrontId) -> usize {
         self.gates[gate].elements[1 - end]
     }
 
     /// Does all events that are due, one after the other; whether there was one.
-    pub(super) fn fire(&mut self) -> Result<bool, FlowError> {
+    pub(super) fn fire(&mut self) -> bool {
         let mut has_fired = false;
         loop {
-            let graph = self.current_graph()?;
-            let goals = self.goals(&graph);
-            let gaps = self.gaps(&graph, &goals);
+            let goals = self.goals();
+            let now = Areas { front: |front| self.area_now(front), body: |_| 0.0 };
             // What is full comes first, then the event of the lowest curvature.
-            let curvature = |goal: usize| match goals[goal] {
-                Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.advances[advance].curvature,
-                Goal::Covered { .. } | Goal::Full { .. } => f64::NEG_INFINITY,
+            let curvature = |goal: &Goal| match goal {
+                Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.advances[*advance].curvature,
+                _ => f64::NEG_INFINITY,
             };
-            let due = (0..goals.len()).filter(|&goal| gaps[goal] <= REACHED);
-            let Some(first) = due.min_by(|&a, &b| curvature(a).total_cmp(&curvature(b))) else {
-                self.graph = Some(graph);
-                return Ok(has_fired);
+            let due = goals.iter().filter(|goal| self.gap(&[], goal, &now) <= REACHED);
+            let Some(first) = due.min_by(|a, b| curvature(a).total_cmp(&curvature(b))).cloned() else {
+                return has_fired;
             };
             has_fired = true;
-            match goals[first] {
+            match first {
                 Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.pass(advance),
                 Goal::Covered { element, .. } => self.cover(element),
                 Goal::Full { element, .. } => self.complete(element),
+                // These end a step and are events of what waits then.
+                Goal::Beyond(_) | Goal::ToMeet(..) => return has_fired,
             }
         }
     }
@@ -189,6 +172,7 @@ impl Dynamic {
         // Beyond the outlet no wall bends it.
         let curvature = if self.is_outlet[element] { 0.0 } else { self.body_curvature(element).min(event) };
         self.state.filling[element] = Some(Filling { area: 0.0, curvature, is_joined });
+        self.graph = None;
     }
 
     /// The menisci that may wait in the gates of an element once it is full.
@@ -271,7 +255,7 @@ impl Dynamic {
                 area += std::mem::take(&mut left);
             }
             self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false });
-            self.rises[front.0][front.1] = Some(rise);
+            self.rises[front.0][front.1] = Some(Arc::new(rise));
             if self.state.filling[self.ahead_of(front)].as_ref().is_some_and(|filling| filling.is_joined) {
                 self.burst(front);
             }

@@ -108,7 +108,7 @@ pub fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
             "solves-per-event",
             dynamic.state.solves as f64 / dynamic.history().len().max(1) as f64,
             "",
-            "linear systems solved over the number of events",
+            "matrices factored and solved with, over the number of events",
         ),
     ]);
     found

@@ -21,8 +21,11 @@
 
 mod events;
 mod fingers;
+mod goals;
 mod graph;
+mod known;
 mod measures;
+mod path;
 mod rise;
 pub mod solver;
 mod step;
@@ -135,7 +138,7 @@ struct State {
     /// Pressure at the inlet less that at the outlet in Pa, and flow into the inlet in m²/s, in the last step.
     pressure: f64,
     inflow: f64,
-    /// Length in s of the last step in which no element was filled, and of the shortest one in which one was.
+    /// Lengths in s of the last steps to an event of a meniscus and to an element that is full.
     last_steps: [f64; 2],
     solves: u64,
 }
@@ -155,10 +158,12 @@ pub struct Dynamic {
     pore_area: f64,
     /// Area of the invading phase at the beginning.
     first_area: f64,
-    rises: Vec<[Option<Rise>; 2]>,
+    rises: Vec<[Option<Arc<Rise>>; 2]>,
     /// Of elements that are being filled: menisci that may wait in their gates once they are full.
     ahead: Vec<Vec<(FrontId, Rise)>>,
     advances: Vec<Advance>,
+    /// Overlaps of menisci that will wait ahead of elements that are being filled.
+    meetings_to_come: Vec<Advance>,
     /// By element: whether it is open at the outlet and not at the inlet.
     is_outlet: Vec<bool>,
     state: State,
@@ -181,6 +186,7 @@ impl Dynamic {
             rises: vec![const { [None, None] }; gates.len()],
             ahead: vec![Vec::new(); elements],
             advances: Vec::new(),
+            meetings_to_come: Vec::new(),
             is_outlet: Vec::new(),
             state: State {
                 menisci: vec![[None; 2]; gates.len()],
@@ -209,7 +215,7 @@ impl Dynamic {
             if let Some(rise) = self.rise_of(front) {
                 let area = rise.area(0.0_f64.max(rise.start().1));
                 self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false });
-                self.rises[front.0][front.1] = Some(rise);
+                self.rises[front.0][front.1] = Some(Arc::new(rise));
             }
         }
         let invaded = (0..self.state.filling.len()).filter(|&e| self.is_invaded(e)).collect::<Vec<_>>();
@@ -237,7 +243,7 @@ impl Dynamic {
         state.completed.iter().for_each(|&element| self.finish(element));
         self.state = state;
         for (gate, end) in self.displacement.waiting().collect::<Vec<_>>() {
-            self.rises[gate][end] = self.rise_of((gate, end));
+            self.rises[gate][end] = self.rise_of((gate, end)).map(Arc::new);
         }
         for element in (0..elements).filter(|&element| self.state.filling[element].is_some()).collect::<Vec<_>>() {
             self.ahead[element] = self.menisci_ahead(element);

@@ -60,6 +60,27 @@ impl Rise {
         (self.curvature[end] + slope * (area - self.area[end]), slope)
     }
 
+    /// The swept area v in m² at which c (v − `from`) + k(v) = `drive`, with c in 1/m³ and the drive in 1/m.
+    #[must_use]
+    pub fn standing(&self, from: f64, c: f64, drive: f64) -> f64 {
+        let need = |point: usize| c * (self.area[point] - from) + self.curvature[point];
+        let (mut low, mut high) = (0, self.area.len());
+        while low < high {
+            let middle = (low + high) / 2;
+            if need(middle) <= drive {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        let (point, slope) = match low {
+            0 => (0, self.closed),
+            _ if self.area.len() < 2 => (0, self.closed),
+            _ => (low.min(self.area.len() - 1), self.slope(low.min(self.area.len() - 1))),
+        };
+        self.area[point] + (drive - need(point)) / (c + slope)
+    }
+
     fn slope(&self, end: usize) -> f64 {
         (self.curvature[end] - self.curvature[end - 1]) / (self.area[end] - self.area[end - 1])
     }
@@ -88,6 +109,24 @@ impl Rise {
     #[must_use]
     pub fn start(&self) -> (f64, f64) {
         (self.area[0], self.curvature[0])
+    }
+
+    /// That of a body in an element, from places of rising area in m² and curvature in 1/m; the curvature of the first is that of the body
+    /// before, and the last one is passed with a change of curvature of `last` in 1/m³.
+    #[must_use]
+    pub fn of_body(places: &[(f64, f64)], last: f64) -> Self {
+        let (mut area, mut curvature): (Vec<f64>, Vec<f64>) = places.iter().copied().unzip();
+        if let (Some(&a), Some(&k)) = (area.last(), curvature.last()) {
+            area.push(a + 1.0 / last);
+            curvature.push(k + 1.0);
+        }
+        Self { area, curvature, closed: 0.0 }
+    }
+
+    /// That of a body of a constant curvature in 1/m.
+    #[must_use]
+    pub fn constant(curvature: f64) -> Self {
+        Self { area: vec![0.0], curvature: vec![curvature], closed: 0.0 }
     }
 
     /// The area in m² that errors of areas are compared with.

@@ -1,69 +1,29 @@
 //! A step: to the next event, or as far as it may go, by backward Euler.
 
+use super::goals::{Areas, REACHED};
 use super::graph::{Graph, Link, Way};
-use super::rise::Rise;
+use super::known::{Known, Law};
 use super::{Drive, Dynamic};
-use crate::network::laplacian::{Conductor, Flow, FlowError};
-
-/// What a step may come to.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Goal {
-    /// A meniscus reaches its own event: index of the advance, link of the meniscus.
-    Own(usize, usize),
-    /// Two menisci meet: index of the advance, links of both.
-    Meeting(usize, [usize; 2]),
-    /// Menisci that wait to enter an element cover all of it.
-    Covered {
-        element: usize,
-        /// Links of the menisci.
-        links: Vec<usize>,
-        /// Area in m² of those to come, from elements that are being filled.
-        held: f64,
-    },
-    /// An element is full.
-    Full {
-        element: usize,
-        /// Links of menisci that have burst into it, and of those that wait to enter it.
-        burst: Vec<usize>,
-        entering: Vec<usize>,
-        /// Area in m² of the invading phase when it is full, in the element and in the menisci that then wait in its gates.
-        target: f64,
-    },
-}
+use crate::network::displacement::FrontId;
+use crate::network::laplacian::{Flow, FlowError};
 
 /// The end of a step of the length `dt` in s.
 #[derive(Debug, Clone)]
-struct Trial {
-    dt: f64,
-    flow: Flow,
-    /// Swept area in m² of the menisci that wait, by link.
-    area: Vec<f64>,
+pub(super) struct Trial {
+    pub dt: f64,
+    pub flow: Flow,
     /// What is missing until each goal, as a share of the whole way.
-    gaps: Vec<f64>,
+    pub gaps: Vec<f64>,
 }
 
-/// What stays as it is while the length of a step is sought.
-struct Known {
-    goals: Vec<Goal>,
-    /// Swept area in m² of the menisci before the step, by link.
-    areas: Vec<f64>,
-    /// By link: resistance in Pa s/m², and the pressure drop in Pa without flow, but for a meniscus that waits.
-    drops: Vec<(f64, f64)>,
-    /// Of each node in m²/s.
-    sources: Vec<f64>,
-}
-
-/// What may be missing until an event, and what may be beyond it, as a share of the way to it. What is beyond is not lost: the invading
-/// phase has it in the element ahead.
-pub(super) const REACHED: f64 = 1e-3;
+/// Least length that is taken for that of the next step, over that of the last one.
+const SHORTER: f64 = 0.1;
 /// Largest difference between the curvature of a meniscus at the end of a step and that which the step took, as a share of its range.
-const MATCHED: f64 = 1e-3;
+pub(super) const MATCHED: f64 = 5e-3;
 /// Most rounds of Newton's method.
 const ROUNDS: usize = 40;
 /// From this share on a step of Newton's method is done as a whole.
 const WHOLE: f64 = 1.0 - 1e-6;
-/// First trial where an element is filled, over the shortest such step so far: there flows are what they are at the beginning.
-const FIRST: f64 = 0.1;
 /// Trials of one step.
 const MOST_TRIALS: usize = 60;
 
@@ -84,7 +44,7 @@ impl Dynamic {
     /// # Errors
     /// [`FlowError`].
     pub fn advance(&mut self, until: f64) -> Result<StepEnd, FlowError> {
-        self.fire()?;
+        self.fire();
         let graph = self.current_graph()?;
         if graph.inlet.is_some_and(|inlet| !graph.laplacian.hangs_on_a_pressure(inlet)) {
             self.graph = Some(graph);
@@ -100,7 +60,7 @@ impl Dynamic {
             self.state.time = until;
         }
         self.state.steps += 1;
-        Ok(if self.fire()? { StepEnd::Event } else { StepEnd::Time })
+        Ok(if self.fire() { StepEnd::Event } else { StepEnd::Time })
     }
 
     /// The pressure at the inlet less that at the outlet in Pa, and the flow into the inlet in m²/s, in the last step.
@@ -111,10 +71,11 @@ impl Dynamic {
 
     /// The conductors of the present state, found anew after an event.
     pub(super) fn current_graph(&mut self) -> Result<Graph, FlowError> {
-        match self.graph.take() {
-            Some(graph) => Ok(graph),
-            None => self.graph(),
+        if let Some(graph) = self.graph.take() {
+            return Ok(graph);
         }
+        self.meetings_to_come = self.find_meetings_to_come();
+        self.graph()
     }
 
     /// In s.
@@ -128,102 +89,98 @@ impl Dynamic {
     }
 
     /// Resistance in Pa s/m² of a link, and the pressure drop along it in Pa without flow, but for a meniscus that waits.
-    fn drop_without_rise(&self, link: &Link) -> (f64, f64) {
+    pub(super) fn drop_without_rise(&self, link: &Link) -> (f64, f64) {
         let [a, b] = link.elements;
         let resistance = self.viscosity(a) * link.halves[0] + self.viscosity(b) * link.halves[1];
         let drop = match (link.way, self.terms.drive) {
             (Way::Inlet, Drive::Pressure(pressure)) => pressure,
             (Way::Meniscus((gate, end)), _) if self.state.menisci[gate][end].is_some_and(|it| it.has_burst) => {
-                self.terms.tension * self.state.filling[b].as_ref().map_or(0.0, |filling| filling.curvature)
+                // A body in an element that fills has a link of its own.
+                let bends = self.is_outlet[b];
+                let filling = self.state.filling[b].as_ref().filter(|_| bends);
+                self.terms.tension * filling.map_or(0.0, |filling| filling.curvature)
             }
             _ => 0.0,
         };
         (resistance, drop)
     }
 
-    /// A link in a step of the length `dt` in s, with the curvature at its end linear about the area `from`.
-    fn conductor(&self, link: &Link, (resistance, drop): (f64, f64), from: f64, dt: f64) -> Conductor {
-        if let Way::Meniscus((gate, end)) = link.way
-            && let (Some(meniscus), Some(rise)) = (&self.state.menisci[gate][end], &self.rises[gate][end])
-            && !meniscus.has_burst
-        {
-            let (curvature, slope) = rise.curvature(from);
-            let tension = self.terms.tension;
-            return Conductor {
-                conductance: 1.0 / (resistance + tension * slope * dt),
-                jump: -tension * (curvature + slope * (meniscus.area - from)),
-            };
+    /// The links in a step of the length `dt` in s: conductances and jumps, with curvatures linear about areas by law.
+    pub(super) fn conductors(&self, known: &Known, about: &[f64], dt: f64) -> (Vec<f64>, Vec<f64>) {
+        let tension = self.terms.tension;
+        let mut conductances: Vec<f64> = known.drops.iter().map(|(resistance, _)| 1.0 / resistance).collect();
+        let mut jumps: Vec<f64> = known.drops.iter().map(|(_, drop)| -drop).collect();
+        for (law, &from) in known.laws.iter().zip(about) {
+            let (curvature, slope) = law.rise.curvature(from);
+            conductances[law.link] = 1.0 / (known.drops[law.link].0 + tension * slope * dt);
+            jumps[law.link] = -tension * (curvature + slope * (law.area - from));
         }
-        Conductor { conductance: 1.0 / resistance, jump: -drop }
+        (conductances, jumps)
     }
 
-    fn areas(&self, graph: &Graph) -> Vec<f64> {
-        let area = |link: &Link| match link.way {
-            Way::Meniscus((gate, end)) => self.state.menisci[gate][end].map_or(0.0, |meniscus| meniscus.area),
-            _ => 0.0,
-        };
-        graph.links.iter().map(area).collect()
+    /// What is missing until each goal where links hold areas, by law.
+    pub(super) fn gaps(&self, graph: &Graph, known: &Known, area: impl Fn(usize) -> f64) -> Vec<f64> {
+        let at = self.areas(graph, known, area);
+        known.goals.iter().map(|goal| self.gap(&known.bodies, goal, &at)).collect()
+    }
+
+    /// Areas by law as those of menisci and bodies.
+    pub(super) fn areas<'a, A: Fn(usize) -> f64 + 'a>(
+        &'a self,
+        graph: &'a Graph,
+        known: &'a Known,
+        area: A,
+    ) -> Areas<impl Fn(FrontId) -> f64 + 'a, impl Fn(usize) -> f64 + 'a> {
+        let area = std::rc::Rc::new(area);
+        let of_body = std::rc::Rc::clone(&area);
+        let law = |front: FrontId| graph.link_of[front.0].and_then(|link| known.law_of[link]);
+        Areas {
+            front: move |front: FrontId| law(front).map_or_else(|| self.area_now(front), |law| area(law)),
+            body: move |body: usize| of_body(known.law_of_body[body]) + known.swept(known.law_of_body[body], &*of_body),
+        }
     }
 
     /// The step of the length `dt` in s: by Newton's method with an exact line search, beginning with the flows of another length.
     ///
     /// Its flows are those of least ½ Σ R q² dt + Σ σ ∫ k dv among all that balance in every node, a convex problem since curvatures rise.
     fn trial(&mut self, graph: &Graph, known: &Known, start: Option<&Trial>, dt: f64) -> Result<Trial, FlowError> {
-        let areas = &known.areas;
+        let area = |law: &Law, through: &[f64]| self::area(law, through, dt);
         let mut through: Option<Vec<f64>> = start.map(|trial| trial.flow.through.clone());
         let mut round = 0;
         let flow = loop {
             self.state.solves += 1;
             round += 1;
             let about: Vec<f64> = match &through {
-                Some(through) => areas.iter().zip(through).map(|(area, q)| area + q * dt).collect(),
-                None => areas.clone(),
+                Some(through) => known.laws.iter().map(|law| area(law, through)).collect(),
+                None => known.laws.iter().map(|law| law.area).collect(),
             };
-            let links = graph.links.iter().zip(&known.drops).zip(&about);
-            let conductors: Vec<Conductor> =
-                links.map(|((link, &drop), &from)| self.conductor(link, drop, from, dt)).collect();
-            let mut flow = graph.laplacian.solve(&conductors, &known.sources)?;
-            let share =
-                through.as_ref().map_or(1.0, |before| self.least_work(graph, known, [before, &flow.through], dt));
+            let (conductances, jumps) = self.conductors(known, &about, dt);
+            let factored = graph.laplacian.factor(conductances)?;
+            let mut flow = factored.solve(&jumps, &known.sources)?;
+            factored.balance(&mut flow, &known.sources)?;
+            let share = through.as_ref().map_or(1.0, |before| self.least_work(known, [before, &flow.through], dt));
             if let Some(before) = through.filter(|_| share < 1.0) {
                 flow.through.iter_mut().zip(before).for_each(|(new, old)| *new = old + share * (*new - old));
             }
-            let matches = share == 1.0 && self.mismatch(graph, areas, &about, &flow.through, dt) <= MATCHED;
-            if matches || round >= ROUNDS {
+            let matches = known.laws.iter().zip(&about).all(|(law, &about)| {
+                let area = area(law, &flow.through);
+                let (curvature, slope) = law.rise.curvature(about);
+                let taken = curvature + slope * (area - about);
+                (law.rise.curvature(area).0 - taken).abs() <= MATCHED * law.scale
+            });
+            if (share == 1.0 && matches) || round >= ROUNDS {
                 break flow;
             }
             through = Some(flow.through);
         };
-        let area: Vec<f64> = areas.iter().zip(&flow.through).map(|(area, q)| area + q * dt).collect();
-        let gaps = known.goals.iter().map(|goal| self.gap(graph, goal, &area, Some((&flow, dt)))).collect();
-        Ok(Trial { dt, flow, area, gaps })
-    }
-
-    /// The menisci that wait, with their links and the widths of their gates in m.
-    fn waiting<'a>(&'a self, graph: &'a Graph) -> impl Iterator<Item = (usize, &'a Rise, f64)> + 'a {
-        graph.links.iter().enumerate().filter_map(|(index, link)| {
-            let Way::Meniscus((gate, end)) = link.way else { return None };
-            self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
-            Some((index, self.rises[gate][end].as_ref()?, self.gates[gate].width))
-        })
-    }
-
-    /// Largest difference between the curvature of a meniscus and that which a step took, as a share of its range.
-    fn mismatch(&self, graph: &Graph, areas: &[f64], about: &[f64], through: &[f64], dt: f64) -> f64 {
-        let of = |(index, rise, width): (usize, &Rise, f64)| {
-            let area = areas[index] + through[index] * dt;
-            let (curvature, slope) = rise.curvature(about[index]);
-            let taken = curvature + slope * (area - about[index]);
-            (rise.curvature(area).0 - taken).abs() / (rise.end().1 - rise.start().1).max(1.0 / width)
-        };
-        self.waiting(graph).map(of).fold(0.0, f64::max)
+        let gaps = self.gaps(graph, known, |law| area(&known.laws[law], &flow.through));
+        Ok(Trial { dt, flow, gaps })
     }
 
     /// The share of the way from some flows to others at which the work is least.
-    fn least_work(&self, graph: &Graph, known: &Known, [from, to]: [&[f64]; 2], dt: f64) -> f64 {
+    fn least_work(&self, known: &Known, [from, to]: [&[f64]; 2], dt: f64) -> f64 {
         const HALVINGS: usize = 40;
         let tension = self.terms.tension;
-        let menisci: Vec<(usize, &Rise, f64)> = self.waiting(graph).collect();
         // The pressure drops along the links times the change of flows.
         let change = |share: f64| {
             let flow = |index: usize| from[index] + share * (to[index] - from[index]);
@@ -232,8 +189,9 @@ impl Dynamic {
                 .iter()
                 .enumerate()
                 .map(|(index, (resistance, drop))| (resistance * flow(index) + drop) * (to[index] - from[index]));
-            let rising = menisci.iter().map(|&(index, rise, _)| {
-                tension * rise.curvature(known.areas[index] + flow(index) * dt).0 * (to[index] - from[index])
+            let rising = known.laws.iter().map(|law| {
+                let curvature = law.rise.curvature(law.area + flow(law.link) * dt).0;
+                tension * curvature * (to[law.link] - from[law.link])
             });
             fixed.sum::<f64>() + rising.sum::<f64>()
         };
@@ -252,59 +210,25 @@ impl Dynamic {
         if high > WHOLE { 1.0 } else { low }
     }
 
-    /// What is missing until a goal, with the areas of menisci by link and the flow of a step; below 0 beyond it.
-    fn gap(&self, graph: &Graph, goal: &Goal, area: &[f64], step: Option<(&Flow, f64)>) -> f64 {
-        let rise = |link: usize| match graph.links[link].way {
-            Way::Meniscus((gate, end)) => self.rises[gate][end].as_ref().map(|rise| (rise, self.gates[gate].width)),
-            _ => None,
-        };
-        match goal {
-            Goal::Own(_, link) => {
-                rise(*link).map_or(f64::INFINITY, |(rise, _)| (rise.end().0 - area[*link]) / rise.scale())
-            }
-            Goal::Meeting(advance, links) => {
-                let curvature =
-                    |link: usize| rise(link).map_or(f64::NEG_INFINITY, |(rise, _)| rise.curvature(area[link]).0);
-                let mean = 0.5 * (curvature(links[0]) + curvature(links[1]));
-                let width = rise(links[0]).map_or(1.0, |(_, width)| width);
-                (self.advances[*advance].curvature - mean) * width
-            }
-            Goal::Covered { element, links, held } => {
-                let covered: f64 = held + links.iter().map(|&link| area[link]).sum::<f64>();
-                1.0 - covered / self.displacement.elements()[*element].area
-            }
-            Goal::Full { element, burst, entering, target } => {
-                let came: f64 = step.map_or(0.0, |(flow, dt)| burst.iter().map(|&link| flow.through[link] * dt).sum());
-                let filled = self.state.filling[*element].as_ref().map_or(0.0, |filling| filling.area);
-                // What a meniscus that recedes out of it takes along was in it before.
-                let waiting: f64 = entering.iter().map(|&link| area[link].max(0.0)).sum();
-                (target - filled - came - waiting) / self.displacement.elements()[*element].area
-            }
-        }
-    }
-
-    /// What is missing now until all goals.
-    pub(super) fn gaps(&self, graph: &Graph, goals: &[Goal]) -> Vec<f64> {
-        let area = self.areas(graph);
-        goals.iter().map(|goal| self.gap(graph, goal, &area, None)).collect()
-    }
-
     /// The step to the first event, or of the length `longest` in s where there is none before.
     fn trial_to_event(&mut self, graph: &Graph, longest: f64) -> Result<Trial, FlowError> {
-        let mut sources = vec![0.0; graph.nodes];
-        if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.terms.drive) {
-            sources[inlet] = rate;
-        }
-        let drops = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
-        let known = Known { goals: self.goals(graph), areas: self.areas(graph), drops, sources };
-        let first = self.gaps(graph, &known.goals);
+        let known = self.known(graph);
+        let trial = match self.trial_along(graph, &known, longest)? {
+            Some(trial) => trial,
+            None => self.trial_between(graph, &known, longest)?,
+        };
+        self.note_length(&known, trial.dt);
+        Ok(trial)
+    }
+
+    /// The same by a search with steps of given lengths.
+    fn trial_between(&mut self, graph: &Graph, known: &Known, longest: f64) -> Result<Trial, FlowError> {
+        let first = self.gaps(graph, known, |law| known.laws[law].area);
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut before: Option<Trial> = None;
-        let [loading, filling] = self.state.last_steps;
-        let guess = if graph.is_filling { FIRST * filling } else { loading };
-        let mut dt = if guess > 0.0 { guess.min(longest) } else { longest };
+        let mut dt = self.first_length(known, longest);
         for _ in 0..MOST_TRIALS {
-            let trial = self.trial(graph, &known, before.as_ref(), dt)?;
+            let trial = self.trial(graph, known, before.as_ref(), dt)?;
             let least = trial.gaps.iter().copied().fold(f64::INFINITY, f64::min);
             if least >= -REACHED && (least <= REACHED || dt >= longest) {
                 return Ok(trial);
@@ -325,15 +249,27 @@ impl Dynamic {
         }
         // As far as no event is passed; what is beyond an event is carried on by the areas.
         let dt = if low > 0.0 { low } else { dt };
-        self.trial(graph, &known, before.as_ref(), dt)
+        self.trial(graph, known, before.as_ref(), dt)
+    }
+
+    /// Length in s to begin with.
+    pub(super) fn first_length(&self, known: &Known, longest: f64) -> f64 {
+        let guess = self.state.last_steps[usize::from(known.fills)];
+        if guess > 0.0 { guess.min(longest) } else { longest }
+    }
+
+    /// Notes the length of a step in s. Events that follow at once say little about the next one.
+    fn note_length(&mut self, known: &Known, dt: f64) {
+        let last = &mut self.state.last_steps[usize::from(known.fills)];
+        *last = dt.max(SHORTER * *last);
     }
 
     fn commit(&mut self, graph: &Graph, trial: &Trial) {
         let dt = trial.dt;
         let mut inflow = 0.0;
-        for ((link, &through), &area) in graph.links.iter().zip(&trial.flow.through).zip(&trial.area) {
+        for (link, &through) in graph.links.iter().zip(&trial.flow.through) {
             match link.way {
-                Way::Open => {}
+                Way::Open | Way::Body(_) => {}
                 Way::Inlet => inflow -= through,
                 Way::Outlet => {
                     let phase = if self.is_invaded(link.elements[0]) { 1 } else { 2 };
@@ -343,7 +279,7 @@ impl Dynamic {
                     let Some(meniscus) = &mut self.state.menisci[gate][end] else { continue };
                     let ahead = link.elements[1];
                     if !meniscus.has_burst {
-                        meniscus.area = area;
+                        meniscus.area += through * dt;
                     } else if self.is_outlet[ahead] {
                         self.state.passed[1] += through * dt;
                         self.state.passed[2] -= through * dt;
@@ -360,13 +296,12 @@ impl Dynamic {
             (Drive::Rate(_), inlet) => inlet.map_or(f64::NAN, |inlet| trial.flow.pressure[inlet]),
         };
         self.state.time += dt;
-        let [loading, filling] = &mut self.state.last_steps;
-        if !graph.is_filling {
-            *loading = dt;
-        } else if *filling == 0.0 || dt < *filling {
-            *filling = dt;
-        }
     }
+}
+
+/// Area in m² of a law at the end of a step of the length `dt` in s.
+fn area(law: &Law, through: &[f64], dt: f64) -> f64 {
+    law.area + through[law.link] * dt
 }
 
 /// The length in s of the step that reaches the first goal, by one or two trials. What a meniscus moves in a step of backward Euler is

@@ -1,0 +1,251 @@
+//! What a step may come to, and how far it is.
+
+use std::sync::Arc;
+
+use super::Dynamic;
+use super::rise::Rise;
+use crate::network::displacement::{Advance, FrontId};
+
+/// What a step may come to.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Goal {
+    /// A meniscus reaches its own event: index of the advance.
+    Own(usize, FrontId),
+    /// Two menisci meet: index of the advance.
+    Meeting(usize, [FrontId; 2]),
+    /// Menisci that wait to enter an element cover all of it.
+    Covered {
+        element: usize,
+        fronts: Vec<FrontId>,
+        /// Area in m² of those to come, from elements that are being filled.
+        held: f64,
+    },
+    /// An element is full.
+    Full {
+        element: usize,
+        /// Area in m² of the invading phase when it is full, in the element and in the menisci that then wait in its gates.
+        target: f64,
+    },
+    /// An element is full, or, where that is quick, the first of the menisci that will wait ahead of it reaches its event: number of the body.
+    Beyond(usize),
+    /// A meniscus that will wait ahead of an element meets another one, both by the number of the body or the front, at a curvature in 1/m.
+    ToMeet([Side; 2], f64),
+}
+
+/// One of two menisci that meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Side {
+    /// It waits.
+    Front(FrontId),
+    /// It is to come: the number of the body.
+    Body(usize),
+}
+
+/// The body of invading phase in an element that is being filled.
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    pub element: usize,
+    /// Its curvature over its area: constant until the element is full, then the common one of the menisci that will wait in its gates.
+    pub rise: Arc<Rise>,
+    /// Its area in m² now, when the element is full, and when the first of the menisci ahead reaches its event.
+    pub area: f64,
+    pub full: f64,
+    pub first: Option<f64>,
+    /// Whether a step may go on when its element is full.
+    pub passes: bool,
+}
+
+impl Body {
+    /// Area in m² just beyond that of the element that is full.
+    pub fn beyond(&self) -> f64 {
+        self.full * (1.0 + 1e-9)
+    }
+}
+
+/// The areas in m² that goals are compared with.
+pub(super) struct Areas<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64> {
+    /// Swept by a meniscus that waits.
+    pub front: F,
+    /// Of a body, by its number.
+    pub body: B,
+}
+
+/// What may be missing until an event, and what may be beyond it, as a share of the way to it. What is beyond is not lost: the invading
+/// phase has it in the element ahead.
+pub(super) const REACHED: f64 = 1e-3;
+/// Tolerance of an area that fills an element with menisci ahead over that of one without.
+const LOOSE: f64 = 10.0;
+/// Places of the curvature of a body beyond the element that it fills.
+const PLACES: usize = 9;
+/// Least area that menisci ahead of an element are reckoned to take up until the first event, over that of the element.
+const LEAST_BEYOND: f64 = 1e-2;
+/// Capacity of a body that fills all there is, over the area of its element to the power 3/2.
+const CLOSED: f64 = 1e-3;
+
+impl Dynamic {
+    fn waits(&self, (gate, end): FrontId) -> bool {
+        self.state.menisci[gate][end].is_some_and(|meniscus| !meniscus.has_burst)
+    }
+
+    /// What fires an event.
+    pub(super) fn goals(&self) -> Vec<Goal> {
+        let mut goals = Vec::new();
+        for (index, advance) in self.advances.iter().enumerate() {
+            match advance.fronts {
+                (front, _) if !self.waits(front) => {}
+                (front, None) => goals.push(Goal::Own(index, front)),
+                (front, Some(partner)) if self.waits(partner) && self.is_new(advance) => {
+                    goals.push(Goal::Meeting(index, [front, partner]));
+                }
+                _ => {}
+            }
+        }
+        for element in (0..self.state.filling.len()).filter(|&element| !self.is_invaded(element)) {
+            let fronts: Vec<FrontId> = self.entering(element).map(|(front, _)| front).collect();
+            // An element at the outlet is never full: what covers it leaves.
+            let is_leaving = self.is_outlet[element] && !fronts.is_empty();
+            if self.state.filling[element].is_some() && !is_leaving {
+                continue;
+            }
+            let bulges = self.bulges(element);
+            if fronts.len() + bulges.len() > 1 || self.state.filling[element].is_some() {
+                let held = bulges.iter().map(|(_, area)| area).sum();
+                goals.push(Goal::Covered { element, fronts, held });
+            }
+        }
+        for (element, filling) in self.state.filling.iter().enumerate() {
+            let Some(filling) = filling.as_ref().filter(|_| !self.is_outlet[element]) else { continue };
+            let bulges: f64 = self.bulges(element).iter().map(|(_, area)| area).sum();
+            let target = self.target(element, filling) - bulges;
+            goals.push(Goal::Full { element, target });
+        }
+        goals
+    }
+
+    /// Whether an advance lets the invading phase into an element.
+    fn is_new(&self, advance: &Advance) -> bool {
+        advance.fills.iter().any(|&element| self.state.filling[element].is_none())
+    }
+
+    /// What ends a step: elements become full on the way.
+    pub(super) fn ends_of_step(&self, bodies: &[Body]) -> Vec<Goal> {
+        let mut goals = self.goals();
+        let has_body = |element: usize| bodies.iter().any(|body| body.element == element);
+        goals.retain(|goal| !matches!(goal, Goal::Full { element, .. } if has_body(*element)));
+        goals.extend((0..bodies.len()).map(Goal::Beyond));
+        let side = |front: FrontId| {
+            let behind = self.behind(front);
+            let body = bodies.iter().position(|body| body.element == behind).map(Side::Body);
+            body.or_else(|| self.waits(front).then_some(Side::Front(front)))
+        };
+        for advance in &self.meetings_to_come {
+            if let (front, Some(partner)) = advance.fronts
+                && let (Some(one), Some(other)) = (side(front), side(partner))
+                && self.is_new(advance)
+            {
+                goals.push(Goal::ToMeet([one, other], advance.curvature));
+            }
+        }
+        goals
+    }
+
+    /// The bodies in elements that are being filled.
+    pub(super) fn bodies_now(&self) -> Vec<Body> {
+        let fillings = self.state.filling.iter().enumerate().filter(|(element, _)| !self.is_outlet[*element]);
+        fillings.filter_map(|(element, filling)| Some(self.body(element, filling.as_ref()?))).collect()
+    }
+
+    /// The elements being filled from which the defending phase has a way to an outlet.
+    pub(super) fn open_fillings(&self) -> Vec<usize> {
+        let trapped = self.trapped();
+        let fills = |&e: &usize| self.state.filling[e].is_some() && !self.is_outlet[e] && !trapped[e];
+        (0..trapped.len()).filter(fills).collect()
+    }
+
+    fn body(&self, element: usize, filling: &super::Filling) -> Body {
+        let own = self.displacement.elements()[element].area;
+        let bulges: f64 = self.bulges(element).iter().map(|(_, area)| area).sum();
+        let ahead = self.to_come(element);
+        let first = ahead.iter().map(|to_come| to_come.rise.end().1).reduce(f64::min);
+        let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + own - bulges;
+        let full = held(filling.curvature);
+        let mut places = vec![(full, filling.curvature)];
+        let last = first.map_or(filling.curvature, |first| first.max(filling.curvature));
+        for place in 1..PLACES {
+            let left = 1.0 - place as f64 / (PLACES - 1) as f64;
+            let k = last - (last - filling.curvature) * left * left;
+            let (area, before) = (held(k), places[places.len() - 1]);
+            if area > before.0 + 1e-6 * own && k > before.1 {
+                places.push((area, k));
+            }
+        }
+        Body {
+            element,
+            area: self.filled_area(element, filling),
+            full,
+            passes: false,
+            first: first.map(|_| places[places.len() - 1].0),
+            rise: Arc::new(Rise::of_body(&places, 1.0 / (CLOSED * own * own.sqrt()))),
+        }
+    }
+
+    /// The area in m² that errors of what fills an element are compared with: more where menisci ahead take what is too much.
+    fn scale_of_filling(&self, element: usize) -> f64 {
+        let loose = if self.ahead[element].is_empty() { 1.0 } else { LOOSE };
+        loose * self.displacement.elements()[element].area
+    }
+
+    /// What is missing until a goal, below 0 beyond it.
+    pub(super) fn gap<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64>(
+        &self,
+        bodies: &[Body],
+        goal: &Goal,
+        at: &Areas<F, B>,
+    ) -> f64 {
+        let rise = |front: FrontId| self.rises[front.0][front.1].as_ref();
+        let curvature = |front: FrontId| rise(front).map_or(f64::NEG_INFINITY, |it| it.curvature((at.front)(front)).0);
+        let element_area = |element: usize| self.displacement.elements()[element].area;
+        match goal {
+            Goal::Own(_, front) => {
+                rise(*front).map_or(f64::INFINITY, |rise| (rise.end().0 - (at.front)(*front)) / rise.scale())
+            }
+            Goal::Meeting(advance, fronts) => {
+                let mean = 0.5 * (curvature(fronts[0]) + curvature(fronts[1]));
+                (self.advances[*advance].curvature - mean) * self.gates[fronts[0].0].width
+            }
+            Goal::Covered { element, fronts, held } => {
+                let covered: f64 = held + fronts.iter().map(|&front| (at.front)(front)).sum::<f64>();
+                1.0 - covered / element_area(*element)
+            }
+            Goal::Full { element, target } => {
+                let filled = self.state.filling[*element].as_ref().map_or(0.0, |filling| filling.area);
+                // What a meniscus that recedes out of it takes along was in it before.
+                let waiting: f64 = self.entering(*element).map(|(front, _)| (at.front)(front).max(0.0)).sum();
+                (target - filled - waiting) / self.scale_of_filling(*element)
+            }
+            Goal::Beyond(index) => {
+                let Body { element, full, first, passes, .. } = &bodies[*index];
+                match first.filter(|_| *passes) {
+                    Some(first) => {
+                        (first - (at.body)(*index)) / (first - full).max(LEAST_BEYOND * element_area(*element))
+                    }
+                    None => (full - (at.body)(*index)) / self.scale_of_filling(*element),
+                }
+            }
+            Goal::ToMeet(sides, event) => {
+                let mut missing = f64::NEG_INFINITY;
+                let mut side = |side: &Side| match *side {
+                    Side::Front(front) => (curvature(front), self.gates[front.0].width),
+                    Side::Body(index) => {
+                        let (body, area) = (&bodies[index], (at.body)(index));
+                        let own = element_area(body.element);
+                        missing = missing.max((body.full - area) / own);
+                        (body.rise.curvature(area).0, own.sqrt())
+                    }
+                };
+                let [(one, width), (other, _)] = [side(&sides[0]), side(&sides[1])];
+                ((event - 0.5 * (one + other)) * width).max(missing)
+            }
+        }
+    }
+}

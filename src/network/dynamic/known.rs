@@ -1,0 +1,141 @@
+//! What a step begins with: what resists by its curvature, and what the step may come to.
+
+use std::sync::Arc;
+
+use super::goals::{Body, Goal};
+use super::graph::{Graph, Link, Way};
+use super::rise::Rise;
+use super::{Drive, Dynamic};
+use crate::network::displacement::FrontId;
+
+/// What stays as it is while the length of a step is sought.
+pub(super) struct Known {
+    pub goals: Vec<Goal>,
+    /// Whether an element may be full first.
+    pub fills: bool,
+    pub bodies: Vec<Body>,
+    /// What resists by its curvature.
+    pub laws: Vec<Law>,
+    /// By link: its law.
+    pub law_of: Vec<Option<usize>>,
+    /// By body: its law.
+    pub law_of_body: Vec<usize>,
+    /// By link: resistance in Pa s/m², and the pressure drop in Pa without flow, but for a law.
+    pub drops: Vec<(f64, f64)>,
+    /// Of each node in m²/s.
+    pub sources: Vec<f64>,
+}
+
+/// A link that resists by a curvature: a meniscus that waits, or the body in an element.
+pub(super) struct Law {
+    pub link: usize,
+    pub rise: Arc<Rise>,
+    /// Area in m² before the step.
+    pub area: f64,
+    /// Area in m² to begin with.
+    pub start: f64,
+    /// Curvature in 1/m that errors are compared with.
+    pub scale: f64,
+    /// Of a body: area in m² at which its element is full, and whether the step may go on then.
+    pub full: Option<f64>,
+    pub passes: bool,
+    /// Laws of the menisci that wait to enter the element of a body: what they sweep is in it too.
+    pub entering: Vec<usize>,
+}
+
+impl Known {
+    /// What menisci that wait to enter the element of a body have swept in the step, in m², with areas by law.
+    pub fn swept(&self, law: usize, area: &impl Fn(usize) -> f64) -> f64 {
+        let swept = |&entering: &usize| area(entering).max(0.0) - self.laws[entering].area.max(0.0);
+        self.laws[law].entering.iter().map(swept).sum()
+    }
+}
+
+/// Longest time to fill an element, over the length of the step before, where a step may go on when it is full.
+const QUICK: f64 = 0.2;
+
+impl Dynamic {
+    /// What a step begins with.
+    pub(super) fn known(&self, graph: &Graph) -> Known {
+        let drops: Vec<(f64, f64)> = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
+        let open = self.open_fillings();
+        let bodies = self.bodies_with_links(graph, &drops, &open);
+        let mut laws: Vec<Law> =
+            graph.links.iter().enumerate().filter_map(|(index, link)| self.law(&bodies, index, link)).collect();
+        let mut law_of = vec![None; graph.links.len()];
+        laws.iter().enumerate().for_each(|(index, law)| law_of[law.link] = Some(index));
+        for law in &mut laws {
+            if let Way::Body(element) = graph.links[law.link].way {
+                let fronts = self.entering(element).filter_map(|((gate, _), _)| graph.link_of[gate]);
+                law.entering = fronts.filter_map(|link| law_of[link]).collect();
+            }
+        }
+        let mut sources = vec![0.0; graph.nodes];
+        if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.terms.drive) {
+            sources[inlet] = rate;
+        }
+        let fills = bodies.iter().any(|body| !body.passes && open.contains(&body.element));
+        let law_of_body = (0..laws.len()).filter(|&law| laws[law].full.is_some()).collect();
+        Known { goals: self.ends_of_step(&bodies), fills, bodies, laws, law_of, law_of_body, drops, sources }
+    }
+
+    /// The bodies that menisci flow into. A step may go on beyond a full element where that one alone is being filled, and quickly.
+    fn bodies_with_links(&self, graph: &Graph, drops: &[(f64, f64)], open: &[usize]) -> Vec<Body> {
+        let link_of = |element: usize| graph.links.iter().position(|link| link.way == Way::Body(element));
+        let only = open.first().copied().filter(|&e| open.len() == 1 && self.entering(e).next().is_none());
+        let complete = |body: Body| {
+            let rate = self.filling_rate(graph, &body, drops[link_of(body.element)?].0);
+            let is_quick = rate * self.state.last_steps[0] * QUICK > body.full - body.area;
+            let passes = is_quick && only == Some(body.element);
+            let constant = || Arc::new(Rise::constant(body.rise.curvature(body.area).0));
+            Some(Body { passes, rise: if passes { Arc::clone(&body.rise) } else { constant() }, ..body })
+        };
+        self.bodies_now().into_iter().filter_map(complete).collect()
+    }
+
+    /// The law of a link that resists by a curvature.
+    fn law(&self, bodies: &[Body], index: usize, link: &Link) -> Option<Law> {
+        match link.way {
+            Way::Meniscus((gate, end)) => {
+                let meniscus = self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
+                let rise = Arc::clone(self.rises[gate][end].as_ref()?);
+                Some(Law {
+                    link: index,
+                    area: meniscus.area,
+                    start: meniscus.area,
+                    scale: (rise.end().1 - rise.start().1).max(1.0 / self.gates[gate].width),
+                    rise,
+                    full: None,
+                    passes: false,
+                    entering: Vec::new(),
+                })
+            }
+            Way::Body(element) => {
+                let body = bodies.iter().find(|body| body.element == element)?;
+                Some(Law {
+                    link: index,
+                    rise: Arc::clone(&body.rise),
+                    area: body.area,
+                    start: if body.passes { body.beyond() } else { body.area },
+                    scale: 1.0 / self.displacement.elements()[element].area.sqrt(),
+                    full: Some(body.full),
+                    passes: body.passes,
+                    entering: Vec::new(),
+                })
+            }
+            _ => None,
+        }
+    }
+
+    /// Area per time in m²/s at which menisci that have burst into an element would fill it by their curvature at the event.
+    fn filling_rate(&self, graph: &Graph, body: &Body, resistance: f64) -> f64 {
+        let now = body.rise.curvature(body.area).0;
+        let rate = |&(gate, end): &FrontId| {
+            self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst)?;
+            let own = self.drop_without_rise(&graph.links[graph.link_of[gate]?]).0;
+            let event = self.rises[gate][end].as_ref()?.end().1;
+            Some(self.terms.tension * (event - now).max(0.0) / (own + resistance))
+        };
+        self.displacement.gates_of(body.element).iter().filter_map(rate).sum()
+    }
+}

@@ -1,0 +1,269 @@
+//! A step straight to its event: Newton's method with the length of the step as one more unknown.
+//!
+//! About areas by law, flows and pressures are linear, and so is their change with the length of the step. At a low rate the pressures
+//! of a cluster are those of its menisci, whatever the length, so that the first event follows from how pressures change, and the length
+//! from the areas at these pressures. Each round linearizes about the areas that menisci have in equilibrium with the pressures at the event.
+
+use super::Dynamic;
+use super::goals::REACHED;
+use super::graph::Graph;
+use super::known::{Known, Law};
+use super::step::{MATCHED, Trial};
+use crate::network::laplacian::{Factored, Flow, FlowError};
+
+/// Most rounds.
+const ROUNDS: i32 = 16;
+/// Longest and shortest next length over the present one: far at first, then nearer from round to round, so that rounds do not cycle.
+const FAR: f64 = 30.0;
+const NEAR: f64 = 1.5;
+/// Rounds that may go far.
+const FREE: i32 = 3;
+/// Relative error of the length at which an event is sought along a path.
+const EXACT: f64 = 1e-9;
+
+/// Flows and pressure drops about one length of a step, linear in the length.
+struct Path<'a> {
+    dt: f64,
+    flow: Flow,
+    rates: Flow,
+    /// By link: pressure drop in Pa, and its change with the length in Pa/s.
+    drops: Vec<(f64, f64)>,
+    factored: Factored<'a>,
+}
+
+impl Path<'_> {
+    /// What passes a link in m² in a step of the length `dt` in s.
+    fn passed(&self, link: usize, dt: f64) -> f64 {
+        self.flow.through[link] * self.dt + self.rate(link) * (dt - self.dt)
+    }
+
+    /// Its change with the length in m²/s.
+    fn rate(&self, link: usize) -> f64 {
+        self.flow.through[link] + self.dt * self.rates.through[link]
+    }
+
+    /// Pressure in Pa of a node.
+    fn pressure(&self, node: usize, dt: f64) -> f64 {
+        self.flow.pressure[node] + self.rates.pressure[node] * (dt - self.dt)
+    }
+
+    /// Pressure drop in Pa.
+    fn drop(&self, link: usize, dt: f64) -> f64 {
+        let (drop, rate) = self.drops[link];
+        drop + rate * (dt - self.dt)
+    }
+}
+
+/// Pressures in Pa: drops by link, and that of the inlet where a rate is given.
+struct Pressures {
+    drops: Vec<f64>,
+    inlet: f64,
+}
+
+impl Dynamic {
+    /// The step to the first event, or of the length `longest` in s where there is none before; none where it is not found soon.
+    pub(super) fn trial_along(
+        &mut self,
+        graph: &Graph,
+        known: &Known,
+        longest: f64,
+    ) -> Result<Option<Trial>, FlowError> {
+        let mut dt = self.first_length(known, longest);
+        let mut about: Vec<f64> = known.laws.iter().map(|law| law.start).collect();
+        let mut before: Option<Pressures> = None;
+        for round in 0..ROUNDS {
+            self.state.solves += 1;
+            let path = self.path(graph, known, &about, dt)?;
+            let far = NEAR.max(FAR * 0.25_f64.powi((round - FREE).max(0)));
+            let range = [dt / far, longest.min(dt * far)];
+            let linear = |law: usize, dt: f64| known.laws[law].area + path.passed(known.laws[law].link, dt);
+            let end = self.first_along(graph, known, range, linear);
+            if let Some(trial) = self.accepted(graph, known, &path, end, longest)? {
+                return Ok(Some(trial));
+            }
+            let standing = |law: usize, dt: f64| {
+                let stands = self.standing(known, law, path.drop(known.laws[law].link, dt), dt);
+                self.filling(known, &path, law, [stands, about[law], dt])
+            };
+            dt = self.first_along(graph, known, range, standing);
+            let mut next = Pressures {
+                drops: (0..known.drops.len()).map(|link| path.drop(link, dt)).collect(),
+                inlet: graph.inlet.map_or(0.0, |inlet| path.pressure(inlet, dt)),
+            };
+            if let Some(before) = &before {
+                next = self.damp(known, [before, &next], dt).unwrap_or(next);
+            }
+            about = (0..known.laws.len())
+                .map(|law| self.standing(known, law, next.drops[known.laws[law].link], dt))
+                .collect();
+            before = Some(next);
+        }
+        Ok(None)
+    }
+
+    /// The area in m² at which a law stands at the end of a step of the length `dt` in s under a pressure drop in Pa.
+    fn standing(&self, known: &Known, law: usize, drop: f64, dt: f64) -> f64 {
+        let (law, tension) = (&known.laws[law], self.terms.tension);
+        law.rise.standing(law.area, known.drops[law.link].0 / (tension * dt), drop / tension)
+    }
+
+    /// The same of a body whose element is not full: what flows into it in a time d is a d/(1 + b d) where one relaxation rules.
+    fn filling(&self, known: &Known, path: &Path, law: usize, [stands, about, dt]: [f64; 3]) -> f64 {
+        let law = &known.laws[law];
+        let Some(full) = law.full.filter(|&full| !law.passes || about < full) else { return stands };
+        let (passed, rate) = (path.passed(law.link, path.dt), path.rate(law.link));
+        let share = rate * path.dt / passed;
+        let found = if share > 0.0 && share < 1.0 && passed > 0.0 {
+            // share = 1/(1 + b d)
+            let slowing = (1.0 / share - 1.0) / path.dt;
+            law.area + passed / (share * path.dt) * dt / (1.0 + slowing * dt)
+        } else {
+            law.area + path.passed(law.link, dt)
+        };
+        if law.passes && found >= full { stands.max(full) } else { found }
+    }
+
+    /// Goes no further from some pressures to others than to where they fit flows best: to the largest value of the concave function of
+    /// pressures whose derivatives are what is left over in the nodes.
+    fn damp(&self, known: &Known, [from, to]: [&Pressures; 2], dt: f64) -> Option<Pressures> {
+        let change = |link: usize| to.drops[link] - from.drops[link];
+        // The change of the function along the way is linear but for the laws.
+        let (mut level, mut rise) = (-(to.inlet - from.inlet) * known.sources.iter().sum::<f64>() * dt, 0.0);
+        for (link, (resistance, drop)) in
+            known.drops.iter().enumerate().filter(|(link, _)| known.law_of[*link].is_none())
+        {
+            level += change(link) * (from.drops[link] - drop) / resistance * dt;
+            rise += change(link) * change(link) / resistance * dt;
+        }
+        let left = |share: f64| {
+            let laws = known.laws.iter().enumerate().map(|(index, law)| {
+                let drop = from.drops[law.link] + share * change(law.link);
+                change(law.link) * (self.standing(known, index, drop, dt) - law.area)
+            });
+            level + share * rise + laws.sum::<f64>()
+        };
+        let (at_start, at_end) = (left(0.0), left(1.0));
+        if !(at_start < 0.0 && at_end > 0.0) {
+            return None;
+        }
+        let share = root(|share| -left(share), [(0.0, -at_start), (1.0, -at_end)], 1e-6);
+        Some(Pressures {
+            drops: (0..to.drops.len()).map(|link| from.drops[link] + share * change(link)).collect(),
+            inlet: from.inlet + share * (to.inlet - from.inlet),
+        })
+    }
+
+    fn path<'a>(&self, graph: &'a Graph, known: &Known, about: &[f64], dt: f64) -> Result<Path<'a>, FlowError> {
+        let (conductances, jumps) = self.conductors(known, about, dt);
+        let factored = graph.laplacian.factor(conductances)?;
+        let flow = factored.solve(&jumps, &known.sources)?;
+        let mut changes = vec![0.0; jumps.len()];
+        for (law, &about) in known.laws.iter().zip(about) {
+            changes[law.link] = -self.terms.tension * law.rise.curvature(about).1 * flow.through[law.link];
+        }
+        let rates = factored.solve(&changes, &vec![0.0; graph.nodes])?;
+        // Where a curvature resists much, flows say little about it, and where a throat resists little, pressures say little about the flow.
+        let drop = |link: usize| {
+            let conductance = factored.conductances()[link];
+            match known.law_of[link] {
+                Some(_) => [&flow, &rates].map(|of| graph.laplacian.drop(link, &of.pressure)).into(),
+                None => (flow.through[link] / conductance - jumps[link], rates.through[link] / conductance),
+            }
+        };
+        let drops = (0..jumps.len()).map(drop).collect();
+        Ok(Path { dt, flow, rates, drops, factored })
+    }
+
+    /// The length in s at which the first goal is reached, within a range, with areas by law and length.
+    fn first_along(
+        &self,
+        graph: &Graph,
+        known: &Known,
+        [least, most]: [f64; 2],
+        area: impl Fn(usize, f64) -> f64,
+    ) -> f64 {
+        let gap = |goal: usize, dt: f64| {
+            let at = self.areas(graph, known, |law| area(law, dt));
+            self.gap(&known.bodies, &known.goals[goal], &at)
+        };
+        let mut first = most;
+        for goal in 0..known.goals.len() {
+            let beyond = gap(goal, first);
+            if beyond >= 0.0 || first <= least {
+                continue;
+            }
+            let before = gap(goal, least);
+            first =
+                if before <= 0.0 { least } else { root(|dt| gap(goal, dt), [(least, before), (first, beyond)], EXACT) };
+        }
+        first
+    }
+
+    /// The step of the length `dt` in s along a path, where it is one to an event or of the length `longest`, and curvatures and pressures
+    /// agree.
+    fn accepted(
+        &self,
+        graph: &Graph,
+        known: &Known,
+        path: &Path,
+        dt: f64,
+        longest: f64,
+    ) -> Result<Option<Trial>, FlowError> {
+        let tension = self.terms.tension;
+        let area = |law: usize| known.laws[law].area + path.passed(known.laws[law].link, dt);
+        let matches = |(index, law): (usize, &Law)| {
+            let curvature = law.rise.curvature(area(index)).0;
+            let taken = known.drops[law.link].0 * path.passed(law.link, dt) / dt + tension * curvature;
+            (taken - path.drop(law.link, dt)).abs() <= MATCHED * tension * law.scale
+        };
+        if !known.laws.iter().enumerate().all(matches) {
+            return Ok(None);
+        }
+        let scale = tension * known.laws.iter().map(|law| law.scale).sum::<f64>() / known.laws.len().max(1) as f64;
+        let flows = |(link, &(resistance, drop)): (usize, &(f64, f64))| {
+            let viscous = resistance * path.passed(link, dt) / dt;
+            known.law_of[link].is_some()
+                || (viscous + drop - path.drop(link, dt)).abs() <= MATCHED * scale.max(viscous.abs())
+        };
+        if !known.drops.iter().enumerate().all(flows) {
+            return Ok(None);
+        }
+        let mut flow = Flow {
+            pressure: (0..graph.nodes).map(|node| path.pressure(node, dt)).collect(),
+            through: (0..graph.links.len()).map(|link| path.passed(link, dt) / dt).collect(),
+        };
+        path.factored.balance(&mut flow, &known.sources)?;
+        let gaps = self.gaps(graph, known, |law| known.laws[law].area + flow.through[known.laws[law].link] * dt);
+        let least = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        let ends = least >= -REACHED && (least <= REACHED || dt >= longest);
+        Ok(ends.then_some(Trial { dt, flow, gaps }))
+    }
+}
+
+/// A root between two places with values above and below 0, by false position with the value of a place that stays halved (Illinois).
+fn root(value: impl Fn(f64) -> f64, [(mut low, mut above), (mut high, mut below)]: [(f64, f64); 2], exact: f64) -> f64 {
+    const ROUNDS: usize = 60;
+    let mut side = 0;
+    for _ in 0..ROUNDS {
+        let middle = (low * below - high * above) / (below - above);
+        let middle = if middle > low && middle < high { middle } else { 0.5 * (low + high) };
+        let found = value(middle);
+        if found == 0.0 || high - low <= exact * high {
+            return middle;
+        }
+        if found > 0.0 {
+            (low, above) = (middle, found);
+            if side == 1 {
+                below *= 0.5;
+            }
+            side = 1;
+        } else {
+            (high, below) = (middle, found);
+            if side == -1 {
+                above *= 0.5;
+            }
+            side = -1;
+        }
+    }
+    low
+}
