@@ -13,7 +13,7 @@ use meniscus::math::Vec2;
 use meniscus::solver::Solver;
 use meniscus::sph::particles::Phase;
 use meniscus::sph::projection::Flow;
-use meniscus::sph::terms::shifting::{carried_velocity, keep_along, short_range, take_out_mean};
+use meniscus::sph::terms::shifting::{anti_clustering, carried_velocity, keep_along, take_out_mean};
 
 const PERIODIC: &str =
     "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
@@ -43,7 +43,7 @@ fn a_uniform_flow_of_one_fluid_stays_uniform() {
 }
 
 #[test]
-fn the_drift_correction_evens_the_density_of_a_fluid_at_rest_and_leaves_it_at_rest() {
+fn the_density_error_shifting_evens_the_density_of_a_fluid_at_rest_and_leaves_it_at_rest() {
     let text = case(&format!("[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n{PERIODIC}"));
     let mut flow = flow(&text);
     shake(&mut flow);
@@ -161,13 +161,13 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
 }
 
 #[test]
-fn pushes_at_short_range_part_a_pair_and_move_no_crowds() {
+fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
     let mut flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
     let (dx, fluids) = (flow.method.spacing, flow.particles.fluids);
     let push = |flow: &Flow| {
         let mut push = vec![Vec2::zeros(); fluids];
         let strength = (0.2, flow.method.kernel.w(dx));
-        short_range(&flow.pairs, &flow.fields.fluid_volume, strength, &mut push);
+        anti_clustering(&flow.pairs, &flow.fields.fluid_volume, strength, &mut push);
         push
     };
     let largest = |push: &[Vec2]| push.iter().map(|s| s.norm()).fold(0.0, f64::max);
@@ -211,7 +211,7 @@ fn pushes_part_a_crowded_row_across_the_interface() {
     let [upper, lower] = [Vec2::new(-0.5e-4, 1.5e-4), Vec2::new(0.1e-4, 1.4e-4)];
     let moved = |strength: f64| {
         let text =
-            format!("{}[sph.numerics]\nshort-range-push = {strength:?}\n", drop(1000.0, [0.0, 0.0], "pressure-jump"));
+            format!("{}[sph.numerics]\nanti-clustering = {strength:?}\n", drop(1000.0, [0.0, 0.0], "pressure-jump"));
         let mut flow = flow(&text);
         let id = |flow: &Flow, x: Vec2| flow.particles.id[nearest(flow, x)];
         let pair = [id(&flow, upper), id(&flow, Vec2::new(0.5e-4, 1.5e-4))];
@@ -311,16 +311,19 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
 }
 
 #[test]
-fn the_drift_source_rests_where_the_fluid_does() {
+fn the_density_error_correction_rests_where_the_fluid_does() {
     let mut method = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump")).method;
     // Share of the density error taken back in its time, where the fastest particle goes so many spacings in one that it does not shorten.
     let share = |ways: f64| {
         let speed = ways * method.spacing / method.drift_time(0.0);
         method.density_correction_rate(speed) * method.drift_time(speed)
     };
-    assert_eq!((share(0.0), share(0.02), share(1.0)), (0.0, method.drift_source, method.drift_source));
+    assert_eq!(
+        (share(0.0), share(0.02), share(1.0)),
+        (0.0, method.density_error_correction, method.density_error_correction)
+    );
     for (ways, of_all) in [(0.0025, 0.5), (0.005, 1.0)] {
-        assert!((share(ways) - of_all * method.drift_source).abs() < 1e-15, "{ways}: {}", share(ways));
+        assert!((share(ways) - of_all * method.density_error_correction).abs() < 1e-15, "{ways}: {}", share(ways));
     }
     // Errors come in time, not in steps.
     let rate = method.density_correction_rate(0.01);

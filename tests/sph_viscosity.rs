@@ -29,7 +29,7 @@ fn stirred(form: &str, sides: &str) -> Flow {
     let mut flow = flow(&case(&format!(
         "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0\n[sph.phases.non-wetting]\ndensity = 100.0\nviscosity = 0.01\n\
          [sph.interface]\ntension = 0.0\n[[sph.initial.wetting]]\ndisc = {{ center = [0.0, 0.0], radius = 3.0e-4 }}\n\
-         [sph.numerics]\nviscous-term = \"{form}\"\ndrift-correction = 0.0\nshifting = 0.0\n{sides}"
+         [sph.numerics]\nviscous-term = \"{form}\"\ndensity-error-shifting = 0.0\nshifting = 0.0\n{sides}"
     )));
     flow.method.viscous_step = ViscousStep::Implicit;
     let mut dice = Dice::new(1);

@@ -309,16 +309,16 @@ pub struct Numerics {
     pub viscous_term: ViscousTerm,
     /// How viscosity goes on in time.
     pub viscous_step: ViscousStep,
-    /// Largest share of the density error taken back per step: gamma of the drift source, 0 to 1.
-    pub drift_source: f64,
+    /// Largest share of the density error removed per step by the pressure equation, gamma, 0 to 1.
+    pub density_error_correction: f64,
     /// Share of the density error taken back per step by moving particles, their velocities left as they are.
-    pub drift_correction: f64,
+    pub density_error_shifting: f64,
     /// Background pressure in units of sigma/h (or of rho v² without tension), at least 0.
     pub background_pressure: f64,
     /// Particle shifting: A in δr = −A h v_max Δt ∇C, at least 0.
     pub shifting: f64,
-    /// Strength R of the push at short range in the shifting, 0 to 1.
-    pub short_range_push: f64,
+    /// Strength R of the anti-clustering force in particle shifting, 0 to 1.
+    pub anti_clustering: f64,
     /// Largest stretch β of velocity differences at walls, at least 1: 10 is no slip, 1.5 slips by a quarter of dx everywhere.
     pub wall_stretch: f64,
     /// Whether wall particles follow walls that the lattice does not fit.

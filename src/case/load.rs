@@ -12,7 +12,7 @@ use super::{film, network, permeability, resolve, shapes, sph, start, steady};
 use crate::geometry::ShapeFileError;
 use crate::geometry::import::{self, Beyond, Format, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
-use crate::input::{Document, InputError, Mistake, Overrides, Problem, file};
+use crate::input::{Document, InputError, Mistake, Overrides, Problem, Renamed, file};
 
 /// A checked case and where it came from.
 #[derive(Debug, Clone)]
@@ -38,6 +38,14 @@ impl Loaded {
         self.document.refuse(problems)
     }
 }
+
+/// Keys with new names.
+static RENAMED: [Renamed; 3] = [
+    Renamed { table: &NUMERICS, before: "drift-source", now: "density-error-correction" },
+    Renamed { table: &NUMERICS, before: "drift-correction", now: "density-error-shifting" },
+    Renamed { table: &NUMERICS, before: "short-range-push", now: "anti-clustering" },
+];
+const NUMERICS: [&str; 2] = ["sph", "numerics"];
 
 /// How the built-in case is called in messages.
 const DEFAULT_CASE: &str = "cases/four-discs.toml";
@@ -91,7 +99,7 @@ pub fn load_default(overrides: &Overrides) -> Result<Loaded, InputError> {
 }
 
 fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> Result<Loaded, InputError> {
-    let document = Document::parse(name, text, overrides)?;
+    let document = Document::parse(name, text, overrides)?.with_renamed(&RENAMED);
     document.refuse(other_than_a_case(text).into_iter().collect())?;
     let reading = document.read::<RawCase>();
     let mut checker = Checker::default();
@@ -105,6 +113,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
         Some(geometry) => read_geometry(&mut checker, geometry, origin, &mut sources, &mut elsewhere),
     };
     let (geometry, mut notes) = geometry.map_or((None, Vec::new()), |read| (Some(read.spec), read.notes));
+    notes.extend(document.notes_on_renamed());
     let geometry = geometry.and_then(|spec| {
         let has_window = raw.geometry.as_ref().is_some_and(|geometry| geometry.window.is_some());
         let beyond = raw.network.as_ref().map_or_else(

@@ -4,22 +4,23 @@ use super::check::Checker;
 use super::checked::{Numerics, SurfaceForce, ViscousStep, ViscousTerm};
 use super::raw::{RawNumerics, RawViscousStep, RawViscousTerm};
 
-/// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and drift source,
-/// the others by shifting and either drift source or drift correction (docs/numerics).
+/// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and the density-error correction in the pressure equation,
+/// the others by shifting and either that correction or the one by shifting (docs/numerics).
 pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
-    let (drift_source, drift_correction, background_pressure, shifting, short_range_push) = match surface_force {
-        Some(SurfaceForce::Csf { .. }) => (0.02, 0.0, 0.5, 0.0, 0.0),
-        Some(SurfaceForce::PressureJump { .. }) => (0.2, 0.0, 0.0, 2.0, 0.2),
-        None => (0.0, 0.2, 0.0, 2.0, 0.0),
-    };
+    let (density_error_correction, density_error_shifting, background_pressure, shifting, anti_clustering) =
+        match surface_force {
+            Some(SurfaceForce::Csf { .. }) => (0.02, 0.0, 0.5, 0.0, 0.0),
+            Some(SurfaceForce::PressureJump { .. }) => (0.2, 0.0, 0.0, 2.0, 0.2),
+            None => (0.0, 0.2, 0.0, 2.0, 0.0),
+        };
     Numerics {
         viscous_term: ViscousTerm::Stress,
         viscous_step: ViscousStep::Implicit,
-        drift_source,
-        drift_correction,
+        density_error_correction,
+        density_error_shifting,
         background_pressure,
         shifting,
-        short_range_push,
+        anti_clustering,
         wall_stretch: 10.0,
         fitted_walls: true,
         fitted_interface: matches!(surface_force, Some(SurfaceForce::PressureJump { .. })),
@@ -44,13 +45,19 @@ pub(super) fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numeri
             Some(RawViscousStep::Implicit) => ViscousStep::Implicit,
             Some(RawViscousStep::Explicit) => ViscousStep::Explicit,
         },
-        drift_source: within("drift-source", raw.drift_source, (0.0, 1.0), "a share", default.drift_source),
-        drift_correction: within(
-            "drift-correction",
-            raw.drift_correction,
+        density_error_correction: within(
+            "density-error-correction",
+            raw.density_error_correction,
             (0.0, 1.0),
             "a share",
-            default.drift_correction,
+            default.density_error_correction,
+        ),
+        density_error_shifting: within(
+            "density-error-shifting",
+            raw.density_error_shifting,
+            (0.0, 1.0),
+            "a share",
+            default.density_error_shifting,
         ),
         background_pressure: within(
             "background-pressure",
@@ -60,12 +67,12 @@ pub(super) fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numeri
             default.background_pressure,
         ),
         shifting: within("shifting", raw.shifting, (0.0, 100.0), "a factor", default.shifting),
-        short_range_push: within(
-            "short-range-push",
-            raw.short_range_push,
+        anti_clustering: within(
+            "anti-clustering",
+            raw.anti_clustering,
             (0.0, 1.0),
             "a factor",
-            default.short_range_push,
+            default.anti_clustering,
         ),
         wall_stretch: within("wall-stretch", raw.wall_stretch, (1.0, 1.0e3), "a factor", default.wall_stretch),
         fitted_walls: raw.fitted_walls.unwrap_or(default.fitted_walls),

@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use toml::Spanned;
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 
 use super::error::{InputError, Mistake};
 use super::overrides::{Override, Overrides};
@@ -21,6 +21,18 @@ pub struct Document {
     name: String,
     text: Arc<str>,
     overrides: Overrides,
+    renamed: &'static [Renamed],
+}
+
+/// A key of the version before that is still read.
+#[derive(Debug)]
+pub struct Renamed {
+    /// The table around it, from the root.
+    pub table: &'static [&'static str],
+    /// Its name in the version before.
+    pub before: &'static str,
+    /// Its present name.
+    pub now: &'static str,
 }
 
 impl Document {
@@ -29,14 +41,33 @@ impl Document {
     /// # Errors
     /// All syntax mistakes of the text, and the overrides that cannot be put in.
     pub fn parse(name: &str, text: &str, overrides: &Overrides) -> Result<Self, InputError> {
-        let document = Self { name: name.to_owned(), text: Arc::from(text), overrides: overrides.clone() };
+        let document =
+            Self { name: name.to_owned(), text: Arc::from(text), overrides: overrides.clone(), renamed: &[] };
         let (_, mistakes) = document.parse_tree();
         if mistakes.is_empty() { Ok(document) } else { Err(InputError { mistakes }) }
     }
 
     /// The tree, with the overrides put in.
     pub(super) fn tree(&self) -> Spanned<DeTable<'_>> {
-        self.parse_tree().0
+        let mut root = self.parse_tree().0;
+        self.renamed.iter().for_each(|renamed| {
+            renamed.apply(root.get_mut());
+        });
+        root
+    }
+
+    /// The same document with keys of the version before, read under their present names.
+    #[must_use]
+    pub fn with_renamed(self, renamed: &'static [Renamed]) -> Self {
+        Self { renamed, ..self }
+    }
+
+    /// A sentence for each key that has its name of the version before.
+    #[must_use]
+    pub fn notes_on_renamed(&self) -> Vec<String> {
+        let mut root = self.parse_tree().0;
+        let is_old = |renamed: &&Renamed| renamed.apply(root.get_mut());
+        self.renamed.iter().filter(is_old).map(Renamed::note).collect()
     }
 
     fn parse_tree(&self) -> (Spanned<DeTable<'_>>, Vec<Mistake>) {
@@ -113,6 +144,30 @@ impl Document {
     }
 }
 
+impl Renamed {
+    /// Gives the key its present name, where it has the one before and no other key has the present one.
+    fn apply(&self, root: &mut DeTable) -> bool {
+        let mut table = root;
+        for key in self.table {
+            let Some(DeValue::Table(inner)) = table.get_mut(*key).map(Spanned::get_mut) else { return false };
+            table = inner;
+        }
+        let place = table.get_key_value(self.before).map(|(key, _)| key.span());
+        let Some(place) = place.filter(|_| !table.contains_key(self.now)) else { return false };
+        let Some(value) = table.remove(self.before) else { return false };
+        table.insert(Spanned::new(place, self.now.into()), value);
+        true
+    }
+
+    fn note(&self) -> String {
+        let table = self.table.join(".");
+        format!(
+            "`{table}.{}` is now called `{table}.{}`; the next version will not read the old name",
+            self.before, self.now
+        )
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::{path, tree::place};
@@ -138,5 +193,21 @@ mod tests {
         assert_eq!(place_of(text, "d[0].e.zzz"), "{f = 2.0}");
         assert_eq!(place_of(text, "d[1].zzz"), "[[d]]");
         assert_eq!(place_of(text, "zzz"), "");
+    }
+
+    const RENAMED: [Renamed; 1] = [Renamed { table: &["a", "b"], before: "old", now: "new" }];
+
+    #[test]
+    fn a_key_of_the_version_before_is_read_under_its_present_name_and_told() {
+        let parsed = |text| Document::parse("f", text, &Overrides::default()).unwrap().with_renamed(&RENAMED);
+        let text = "[a.b]\nold = 1\n";
+        let document = parsed(text);
+        assert_eq!(&text[place(document.tree().get_ref(), &path::parse("a.b.new").unwrap())], "1");
+        let notes = document.notes_on_renamed();
+        assert!(notes.len() == 1 && notes[0].contains("`a.b.old` is now called `a.b.new`"), "{notes:?}");
+        // With both names the old one is a mistake, as any unknown key is.
+        for text in ["[a.b]\nnew = 1\n", "[a.b]\nold = 1\nnew = 2\n", "[a]\nb = 1\n", ""] {
+            assert_eq!(parsed(text).notes_on_renamed(), Vec::<String>::new(), "{text}");
+        }
     }
 }

@@ -16,7 +16,7 @@ mod read;
 mod suggest;
 mod tree;
 
-pub use document::Document;
+pub use document::{Document, Renamed};
 pub use error::{InputError, Mistake};
 pub use overrides::Overrides;
 pub use problem::Problem;

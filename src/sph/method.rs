@@ -14,7 +14,7 @@ const LARGEST_SYMMETRIC_RATIO: f64 = 5.0;
 /// Above this ratio the light particles of the unweighted continuum force are too fast.
 const LARGEST_WEIGHTED_RATIO: f64 = 20.0;
 
-/// The drift source has its full rate where the fastest particle goes this far, over dx, in its time.
+/// The density-error correction has its full rate where the fastest particle goes this far, over dx, in its time.
 const FULL_CORRECTION_WAY: f64 = 0.005;
 
 /// Forms of the pressure gradient, see `terms::pressure_gradient`.
@@ -86,16 +86,16 @@ pub struct Method {
     pub viscous_term: ViscousTerm,
     /// How it goes on in time.
     pub viscous_step: ViscousStep,
-    /// Largest share γ of the density error that the pressure takes back in the time of the drift source.
-    pub drift_source: f64,
+    /// Largest share γ of the density error that the pressure takes back in the time τ.
+    pub density_error_correction: f64,
     /// Share of the density error taken back per step by moving particles, their velocities left as they are.
-    pub drift_correction: f64,
+    pub density_error_shifting: f64,
     /// Background pressure in units of σ/h, or of ρ v² without tension.
     pub background_pressure: f64,
     /// Particle shifting A in δr = −A h v Δt ∇C, v the largest speed; 0: none.
     pub shifting: f64,
-    /// Strength R of the push at short range in the shifting; 0: none.
-    pub short_range_push: f64,
+    /// Strength R of the anti-clustering force in particle shifting; 0: none.
+    pub anti_clustering: f64,
     /// Pressure solve.
     pub tolerance: Tolerance,
     /// Factor on the limits of the time step.
@@ -154,7 +154,7 @@ impl Method {
         if self.pressure_gradient() == PressureGradient::Difference { rho / self.mean_density() } else { 1.0 }
     }
 
-    /// The rate in 1/s at which the pressure takes back the density error: γ/τ min(1, v τ/(.005 dx)) with the time τ of the drift source
+    /// The rate in 1/s at which the pressure takes back the density error: γ/τ min(1, v τ/(.005 dx)) with the time τ of the correction
     /// ([`Method::drift_time`]). `fastest` is the largest velocity in m/s relative to the mean of all.
     ///
     /// Density errors come with motion. Where hardly anything moves, to push for errors that are there would be what moves the particles.
@@ -162,7 +162,7 @@ impl Method {
     #[must_use]
     pub fn density_correction_rate(&self, fastest: f64) -> f64 {
         let tau = self.drift_time(fastest);
-        self.drift_source / tau * (fastest * tau / (FULL_CORRECTION_WAY * self.spacing)).min(1.0)
+        self.density_error_correction / tau * (fastest * tau / (FULL_CORRECTION_WAY * self.spacing)).min(1.0)
     }
 
     /// ∇κ = (ρ_w − ρ_n) g/σ in 1/m² of an interface at rest, κ positive where the wetting phase is convex (Young and Laplace).

@@ -100,7 +100,7 @@ impl Flow {
         }
     }
 
-    /// ∇C of the fluid particles, near the interface its part along that, and the pushes at short range, less their mean, in 1/m: what
+    /// ∇C of the fluid particles, near the interface its part along that, and the anti-clustering force, less their mean, in 1/m: what
     /// shifting goes down.
     fn uneven(&self) -> Vec<Vec2> {
         let (m, f) = (&self.method, &self.fields);
@@ -109,9 +109,9 @@ impl Flow {
         if f.jump.is_some() {
             shifting::keep_along(&f.normal, m.kernel.h, &mut uneven);
         }
-        if m.short_range_push > 0.0 {
+        if m.anti_clustering > 0.0 {
             let mut push = vec![Vec2::zeros(); self.particles.fluids];
-            shifting::short_range(&self.pairs, &f.volume, (m.short_range_push, m.kernel.w(m.spacing)), &mut push);
+            shifting::anti_clustering(&self.pairs, &f.volume, (m.anti_clustering, m.kernel.w(m.spacing)), &mut push);
             shifting::take_out_mean((&self.pairs, &self.images), &f.fluid_volume, &mut push);
             uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
         }

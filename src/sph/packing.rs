@@ -2,8 +2,8 @@
 //!
 //! Beside walls and interfaces that no lattice fits, a lattice has gaps and crowds. Two displacements take turns. One goes down the gradient of the
 //! concentration (Lind et al. 2012) and orders neighbors; walls hold still, and straight walls on the lattice have no gradient and
-//! leave it as it is. The other is the gradient of a potential whose Laplacian is the density error, as the drift
-//! source of the pressure equation: it evens out what is too much in one part of the pore and too little in another, which
+//! leave it as it is. The other is the gradient of a potential whose Laplacian is the density error, as the density-error
+//! correction of the pressure equation: it evens out what is too much in one part of the pore and too little in another, which
 //! the first, a diffusion, would take long for. What is far from such walls and interfaces is a lattice already and holds still.
 
 mod band;

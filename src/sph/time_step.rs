@@ -12,7 +12,7 @@ const COURANT: f64 = 0.125;
 const OVERSHOOT: f64 = 1.5;
 
 /// Factor on sqrt(ρ̄ h³/(2πσ)): the limit of Brackbill et al. 1992 for waves of two spacings is .54 at h = 1.5 dx. Explicit steps keep to
-/// it, and so does the time of the drift source: measured, less often is less even.
+/// it, and so does the time of the density-error correction: measured, less often is less even.
 const CAPILLARY: f64 = 0.5;
 
 /// The same where viscosity is implicit. The curvature sees no waves shorter than four spacings, so that steps are stable up to 4.5.
@@ -71,7 +71,7 @@ impl Method {
         self.bounded(speed, f * COURANT, f * capillary)
     }
 
-    /// The time in s in which the drift source takes its share of the density error back, whatever the step.
+    /// The time in s in which the pressure takes its share of the density error back, whatever the step.
     #[must_use]
     pub fn drift_time(&self, speed: f64) -> f64 {
         self.bounded(speed, COURANT, CAPILLARY).dt

@@ -135,16 +135,16 @@ tables! {
         pub viscous_step: RawViscousStep,
         /// Density-error correction in the pressure equation: largest share of the error removed per step (default 0.2;
         /// with `csf` 0.02; without tension 0).
-        pub drift_source: f64,
+        pub density_error_correction: f64,
         /// Density-error correction by particle shifting: share of the error removed per step (default 0; without
         /// tension 0.2).
-        pub drift_correction: f64,
+        pub density_error_shifting: f64,
         /// Background pressure over `σ/h`, or over `ρ v²` without tension (default 0; with `csf` 0.5).
         pub background_pressure: f64,
         /// Strength of particle shifting (default 2; with `csf` 0).
         pub shifting: f64,
         /// Strength of the anti-clustering force in particle shifting (default 0.2; with `csf` or without tension 0).
-        pub short_range_push: f64,
+        pub anti_clustering: f64,
         /// Largest stretch `β` of velocity differences at walls; sets the slip without a slip length (default 10.0).
         pub wall_stretch: f64,
         /// Wall particles follow walls that the lattice does not fit (default true).

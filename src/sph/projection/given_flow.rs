@@ -142,7 +142,7 @@ impl Flow {
     }
 
     /// Sets the places `new` (m) of the fluid particles anew, so that what went through the sides in a step of length `dt` (s) from the places at
-    /// its beginning is what is asked for: shifting and drift correction carry some along.
+    /// its beginning is what is asked for: shifting and the density-error correction carry some along.
     pub(in crate::sph) fn keep_flow_rates(&self, responses: &[Response], dt: f64, new: &mut [Vec2]) {
         if responses.is_empty() {
             return;

@@ -127,7 +127,7 @@ pub(super) struct Corrected {
     velocity: Vec<Vec2>,
     /// Pressure in Pa, without the mean gradients that drive given flows.
     pressure: Vec<f64>,
-    /// The way in m that each fluid particle goes for the drift correction, empty where there is none.
+    /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
     drift: Vec<Vec2>,
     /// By how much the mean gradients that drive given flows change, in Pa/m.
     gradient_changes: Vec<f64>,

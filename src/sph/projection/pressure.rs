@@ -21,14 +21,14 @@ const OPPOSITE: f64 = -0.5;
 /// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
 const DIRICHLET: u8 = 2;
 
-/// Largest relative residual of the drift correction: what one step leaves, the next ones take.
+/// Largest relative residual of the density-error correction by shifting: what one step leaves, the next ones take.
 const CORRECTION_RESIDUAL: f64 = 0.01;
 
 /// What one pressure solve finds.
 pub(super) struct Projected {
     /// Pressure in Pa.
     pub(super) pressure: Vec<f64>,
-    /// The way in m that each fluid particle goes for the drift correction, empty where there is none.
+    /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
     pub(super) drift: Vec<Vec2>,
     /// What unit gradients along the periodic sides with a given flow do.
     pub(super) responses: Vec<Response>,
@@ -44,7 +44,7 @@ impl Flow {
     /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
     /// no open side gives it.
     ///
-    /// The right side gives a share of the density error back (the drift source, which the paper lacks).
+    /// The right side gives a share of the density error back (the density-error correction, which the paper lacks).
     pub(super) fn project(&mut self, predicted: &Predicted) -> Result<Projected, SolverError> {
         let (n, dt) = (self.particles.len(), predicted.dt);
         let (method, f) = (&self.method, &self.fields);
@@ -63,11 +63,11 @@ impl Flow {
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
         let mut others = Vec::new();
-        if method.drift_correction > 0.0 {
+        if method.density_error_shifting > 0.0 {
             let mut error = vec![0.0; n];
             each(&mut error, |a| {
                 let seen = if self.sees_the_fluid(a) { self.density_error(a) } else { 0.0 };
-                method.drift_correction * f.volume[a] * seen
+                method.density_error_shifting * f.volume[a] * seen
             });
             others.push((error, Tolerance { residual: CORRECTION_RESIDUAL, ..method.tolerance }));
         }
@@ -78,7 +78,7 @@ impl Flow {
         let (pressure, mut found) = self.solve((matrix, b), (&prescribed, guess), others)?;
         let potentials = found.split_off(found.len() - ways.len());
         let responses = ways.iter().zip(potentials).map(|(&way, potential)| self.response(way, potential)).collect();
-        Ok(Projected { pressure, drift: self.drift_correction(found.pop().unwrap_or_default()), responses })
+        Ok(Projected { pressure, drift: self.density_error_shifting(found.pop().unwrap_or_default()), responses })
     }
 
     /// The change of the velocity of the fluid particles in m/s that makes `velocity` (m/s) over particles and images free of divergence, and
@@ -208,8 +208,8 @@ impl Flow {
         if a < self.particles.fluids { self.method.volume / self.fields.volume[a] - 1.0 } else { 0.0 }
     }
 
-    /// The way −(∇ψ/ρ)_a in m down the gradient of the `potential` ψ (kg/m) of the drift correction, the same on both sides of an interface.
-    fn drift_correction(&self, potential: Vec<f64>) -> Vec<Vec2> {
+    /// The way −(∇ψ/ρ)_a in m down the gradient of the `potential` ψ (kg/m) of the density-error correction by shifting, the same on both sides of an interface.
+    fn density_error_shifting(&self, potential: Vec<f64>) -> Vec<Vec2> {
         if potential.is_empty() { Vec::new() } else { self.down(potential) }
     }
 

@@ -31,7 +31,7 @@ pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
 /// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m: grows steeply where two are nearer than dx (after Monaghan 2000, Lind et al. 2012).
 ///
 /// Sums of ∇C can be even over particles that touch in pairs or rows; this one is not. `w_of_spacing` = W(dx) in 1/m².
-pub fn short_range(pairs: &Pairs, volume: &[f64], (strength, w_of_spacing): (f64, f64), push: &mut [Vec2]) {
+pub fn anti_clustering(pairs: &Pairs, volume: &[f64], (strength, w_of_spacing): (f64, f64), push: &mut [Vec2]) {
     pairs.sum_into(push, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w);
 }
 
@@ -48,7 +48,7 @@ pub fn take_out_mean((pairs, images): (&Pairs, &Images), fluid_volume: &[f64], p
     push.iter_mut().zip(mean).for_each(|(push, mean)| *push -= mean);
 }
 
-/// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `uneven` is ∇C with the pushes at short range, in 1/m, `diffusion` in m², `h` and the result in m.
+/// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `uneven` is ∇C with the anti-clustering force, in 1/m, `diffusion` in m², `h` and the result in m.
 pub fn shift(uneven: &[Vec2], diffusion: f64, h: f64, shift: &mut [Vec2]) {
     each(shift, |a| {
         let by = -diffusion * uneven[a];
