@@ -1,13 +1,11 @@
 //! The scripts in `postprocess`: on a small folder that they make themselves, and on fresh output of the binary.
 
-#[path = "support/program.rs"]
-mod program;
 mod support;
 
 use std::path::Path;
 use std::process::Command;
 
-use program::{folder_with_small_case, meniscus};
+use support::program::{folder_with_small_case, meniscus};
 use support::python::{interpreter, network_interpreter, root, run};
 
 fn script(name: &str) -> Command {
@@ -33,7 +31,7 @@ fn openpnm_and_porespy_find_the_network_of_the_reference_pack() {
 #[test]
 fn fresh_output_keeps_the_contract_and_is_drawn() {
     let directory = folder_with_small_case();
-    program::assert_code(&meniscus(directory.path(), &["run", "drop.toml", "--out", "out"]), 0);
+    support::program::assert_code(&meniscus(directory.path(), &["run", "drop.toml", "--out", "out"]), 0);
     let out = directory.path().join("out");
     run(script("check_output.py").arg(&out), "the output must keep the contract");
     for (name, option, file) in [
@@ -54,10 +52,10 @@ fn meshio_pyvista_and_vtk_read_the_same_arrays_of_a_frame() {
         let choice = format!("--set=output.vtk.compression=\"{compression}\"");
         // Arrays of several blocks.
         let arguments = ["run", "drop.toml", "--set=sph.spacing=8e-6", "--set=time.end=1e-6", &choice, "--out"];
-        program::assert_code(&meniscus(directory.path(), &[&arguments[..], &[compression]].concat()), 0);
+        support::program::assert_code(&meniscus(directory.path(), &[&arguments[..], &[compression]].concat()), 0);
     }
     let usual = ["run", "drop.toml", "--set=sph.spacing=8e-6", "--set=time.end=1e-6", "--out", "usual"];
-    program::assert_code(&meniscus(directory.path(), &usual), 0);
+    support::program::assert_code(&meniscus(directory.path(), &usual), 0);
     let mut compare = Command::new(interpreter());
     compare.arg(root().join("postprocess/tests/same_arrays.py"));
     let folders = ["usual", "none", "zlib", "lz4"].map(|name| directory.path().join(name));

@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn the_summary_shows_both_angles_measures_and_files() {
         let mut case = case();
-        let Model::Sph(sph) = &mut case.model else { panic!("the toy case is one of SPH") };
+        let Model::Sph(sph) = &mut case.model else { panic!("the mock case is one of SPH") };
         sph.wetting_model = Some(WettingModel::Young { contact_angle: 40.0_f64.to_radians() });
         let folder = tempfile::tempdir().unwrap();
         let job = Job { case: &case, resolved: "", folder: folder.path().to_path_buf(), mode: Mode::New };

@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn a_trial_counts_the_steps_that_are_left() {
         let found = trial(&case(), &mut MockSolver::new(), &mut |_| {}).unwrap();
-        // The toy takes steps of 0.0234 s through 1 s.
+        // The mock takes steps of 0.0234 s through 1 s.
         assert_eq!((found.unknowns, found.steps), (36, 43.0));
         assert!(found.duration_s > 0.0);
     }

@@ -15,7 +15,7 @@ const OVERSHOOT: f64 = 1.5;
 /// it, and so does the time of the density-error correction: measured, less often is less even.
 const CAPILLARY: f64 = 0.5;
 
-/// The same where viscosity is implicit. The curvature sees no waves shorter than four spacings, so that steps are stable up to 4.5.
+/// The same where viscosity is implicit. The fitted curvature damps short waves: the stiffest have 5 spacings, and steps are stable up to 4.5.
 const LONG_CAPILLARY: f64 = 2.0;
 
 /// The same for a flow near rest, of which a longer step loses nothing.

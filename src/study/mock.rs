@@ -9,8 +9,8 @@ use crate::run::report::{Reading, Status};
 /// A study of these axes, expectations and curves.
 pub fn study(text: &str) -> Study {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("toy.toml");
-    std::fs::write(&path, format!("format = 1\ntitle = \"Toy\"\ncase = \"none.toml\"\n{text}")).unwrap();
+    let path = folder.path().join("mock.toml");
+    std::fs::write(&path, format!("format = 1\ntitle = \"Mock\"\ncase = \"none.toml\"\n{text}")).unwrap();
     load(&path).unwrap_or_else(|error| panic!("{}", error.render()))
 }
 

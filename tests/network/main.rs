@@ -1,9 +1,16 @@
 //! The pore network of shapes whose network is known, and of random packs.
 
+#[path = "../support/mod.rs"]
+mod support;
+
 mod arrays;
+mod cases;
 mod channels;
+mod displacement;
+mod dynamic;
 mod invariants;
 mod packs;
 mod permeability;
 mod pores;
 mod scenes;
+mod tutorial;

@@ -1,8 +1,5 @@
 //! Random packs of every kind of grain and side.
 
-#[path = "../support/packs.rs"]
-mod grown;
-
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::{Disc, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide};
 use meniscus::network::{ExtractError, extract};
@@ -11,6 +8,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::invariants::{assert_distances, violations};
 use crate::scenes::*;
+use crate::support::packs as grown;
 use grown::{Grains, Pack};
 
 #[test]

@@ -1,4 +1,4 @@
-//! Runs of a toy solver: files, resuming, failures and folders.
+//! Runs of a mock solver: files, resuming, failures and folders.
 
 use super::super::mock::{Interrupter, MockSolver, case};
 use super::files::files;

@@ -1,0 +1,256 @@
+//! Throats by direct simulation: cut-outs are the throats of the network, their cases and study load, and a small verification comes out right.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use crate::support::program::{assert_code, meniscus, stderr, stdout};
+use meniscus::case::load;
+use meniscus::input::Overrides;
+use meniscus::math::Vec2;
+use meniscus::network::conductance::conductances;
+use meniscus::network::displacement::{Conditions, Displacement, Events};
+use meniscus::network::extract;
+use meniscus::network::graph::Pores;
+use meniscus::study;
+use meniscus::verify::case_text::Fluids;
+use meniscus::verify::choose::{Choice, ChoiceError, choose};
+use meniscus::verify::cut_out::CutOut;
+use meniscus::verify::plan::{Planned, write};
+use meniscus::verify::subject::Subject;
+
+/// A random pack between walls.
+const PACK: &str = "{ random-pack = { seed = 3, porosity = 0.6, radius = 1.0e-4, radius-deviation = 0.2, gap = 2.0e-5, \
+                    region = [[0.0, 0.0], [1.6e-3, 1.6e-3]] } }";
+/// Posts, turned and not, a hexagon, and a disc near a wall.
+const EDGES: &str = "{ rectangle = { center = [4.0e-4, 4.0e-4], size = [3.0e-4, 2.0e-4] } }, \
+                     { rectangle = { center = [4.2e-4, 8.0e-4], size = [3.0e-4, 3.0e-4], rotation-deg = 27.0 } }, \
+                     { polygon = { outer = [[9.0e-4, 5.0e-4], [1.2e-3, 4.5e-4], [1.3e-3, 7.0e-4], [1.1e-3, 8.0e-4], [8.6e-4, 7.4e-4]] } }, \
+                     { disc = { center = [9.0e-4, 1.2e-3], radius = 2.5e-4 } }, \
+                     { capsule = { ends = [[1.3e-3, 1.0e-3], [1.35e-3, 1.3e-3]], radius = 1.0e-4 } }";
+
+fn case(shapes: &str, angle: f64, more: &str) -> String {
+    format!(
+        "format = 1\ntitle = \"Grains\"\n[geometry]\nmin = [0.0, 0.0]\nmax = [1.6e-3, 1.6e-3]\nshapes = [{shapes}]\n\
+         [network]\ninlet = \"left\"\noutlet = \"right\"\n{more}\n[network.interface]\ntension = 0.03\n\
+         [network.wetting.young]\ncontact-angle-deg = {angle:.1}\n"
+    )
+}
+
+fn subject(folder: &Path, shapes: &str, angle: f64, set: &[&str]) -> Subject {
+    let path = folder.join("grains.toml");
+    std::fs::write(&path, case(shapes, angle, "")).unwrap();
+    let loaded = load(&path, &Overrides::parse(set).unwrap()).unwrap_or_else(|error| panic!("{}", error.render()));
+    Subject::new(&loaded.case).unwrap()
+}
+
+/// All throats, each into the region that it is entered into at the larger pressure.
+fn planned(subject: &Subject) -> Vec<Planned> {
+    let all = Choice::Numbers((0..subject.kept().len()).collect());
+    choose(subject, &[all], 1).unwrap().into_iter().map(|chosen| Planned::new(subject, chosen)).collect()
+}
+
+/// The throat of the cut-out's own network that stands in the middle: its width, its largest entry curvature.
+fn own_throat(cut_out: &CutOut) -> (f64, f64) {
+    let network = extract(&cut_out.solids(false).unwrap(), [false; 4]).unwrap();
+    let distance = |throat: usize| {
+        let contacts = network.throats[throat].contacts;
+        (0.5 * (contacts[0] + contacts[1])).norm()
+    };
+    let middle = (0..network.throats.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap();
+    let pores = Pores::merged(&network, 1.0);
+    let conditions = Conditions {
+        angle: vec![cut_out.angle; cut_out.geometry.shapes.len() + 4],
+        inlet: [false; 4],
+        outlet: [false; 4],
+        trapping: false,
+        events: Events::All,
+        largest_curvature: f64::INFINITY,
+        measured: Vec::new(),
+    };
+    let displacement = Displacement::new(&network, &pores, conditions);
+    let burst = |to| displacement.passage_through(middle, to).unwrap().0.burst().unwrap().curvature;
+    assert!(conductances(&network)[middle] > 0.0);
+    (network.throats[middle].width, f64::max(burst(0), burst(1)))
+}
+
+#[test]
+fn a_cut_out_has_the_throat_and_the_menisci_of_the_network() {
+    let folder = tempfile::tempdir().unwrap();
+    for (shapes, angle, set, least) in [
+        (PACK, 0.0, &[][..], 1.0),
+        (PACK, 40.0, &[], 1.0),
+        (PACK, 90.0, &[], 1.0),
+        (PACK, 140.0, &[], 1.0),
+        (PACK, 60.0, &["network.process=\"imbibition\""], 1.0),
+        (EDGES, 30.0, &[], 1.0),
+        (EDGES, 120.0, &[], 0.5),
+    ] {
+        let subject = subject(folder.path(), shapes, angle, set);
+        let all = planned(&subject);
+        let mut cut = 0;
+        for one in &all {
+            let Ok(cut_out) = &one.cut_out else {
+                // Shown where the test fails.
+                println!("{angle} degrees, throat {}: {}", one.chosen.number, one.cut_out.as_ref().unwrap_err());
+                continue;
+            };
+            cut += 1;
+            let throat = subject.throat(one.chosen.throat);
+            let number = one.chosen.number;
+            assert!((cut_out.width - throat.width).abs() < 1e-12 * throat.width, "{number}");
+            let contacts = throat.contacts.map(|x| cut_out.frame.point(x));
+            assert!((contacts[0] + contacts[1]).norm() < 1e-9 * throat.width, "{number}: {contacts:?}");
+            assert!(contacts[0].x.abs() < 1e-9 * throat.width, "{number}: {contacts:?}");
+            let (width, curvature) = own_throat(cut_out);
+            assert!((width - throat.width).abs() < 1e-9 * throat.width, "{number}: {width} {}", throat.width);
+            if shapes == EDGES {
+                // Where walls go on straight there are edges that the network has not.
+                continue;
+            }
+            let exact = subject.entry(one.chosen.throat).unwrap().1;
+            assert!((curvature - exact).abs() < 1e-7 * exact.abs(), "{angle} {number}: {curvature} {exact}");
+        }
+        // Above 90 degrees contacts go far around edged bodies, to where their walls are no longer known.
+        let share = cut as f64 / all.len() as f64;
+        assert!(share >= least, "{angle}: {cut} of {}", all.len());
+    }
+}
+
+#[test]
+fn the_invading_phase_ends_at_the_meniscus() {
+    let folder = tempfile::tempdir().unwrap();
+    let subject = subject(folder.path(), PACK, 40.0, &[]);
+    for one in planned(&subject).iter().take(10) {
+        let cut_out = one.cut_out.as_ref().unwrap();
+        let (passage, _) = subject.passage(one.chosen.throat, one.chosen.to).unwrap();
+        let burst = passage.burst().unwrap();
+        // The polygon begins along the arc, from the contact on the right to that on the left.
+        let outer = &cut_out.behind.outer;
+        let [right, left] = [outer[0], outer[1]].map(|[x, y, _]| Vec2::new(x, y));
+        assert!((right - cut_out.frame.point(burst.right.point)).norm() < 1e-9 * cut_out.width);
+        assert!((left - cut_out.frame.point(burst.left.point)).norm() < 1e-9 * cut_out.width);
+        assert!((outer[0][2].atan() * 2.0 - burst.bend.abs()).abs() < 1e-9, "{outer:?} {}", burst.bend);
+    }
+}
+
+#[test]
+fn cases_and_study_load_and_a_case_changed_by_hand_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let subject = subject(folder.path(), EDGES, 60.0, &[]);
+    let fluids = Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading };
+    let all = planned(&subject);
+    let out = folder.path().join("out");
+    let written = write(&out, &all, &fluids, &[6, 8], "grains.toml").unwrap();
+    let study = study::load::load(&written.study.unwrap()).unwrap_or_else(|error| panic!("{}", error.render()));
+    let runs = study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
+    assert!(runs.len() >= 4 && written.kept.is_empty());
+    let changed = &runs[0].run.case;
+    let text = std::fs::read_to_string(changed).unwrap();
+    std::fs::write(changed, text.replace("3.0e-4", "2.0e-4")).unwrap();
+    assert_eq!(write(&out, &all, &fluids, &[6, 8], "grains.toml").unwrap().kept.len(), 1);
+    let other = Fluids { tension: 0.05, ..fluids };
+    let message = write(&out, &all, &other, &[6, 8], "grains.toml").unwrap_err().to_string();
+    assert!(message.contains("was changed by hand"), "{message}");
+}
+
+#[test]
+fn throats_are_chosen_by_what_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let subject = subject(folder.path(), PACK, 40.0, &[]);
+    let critical = choose(&subject, &[Choice::Critical], 1).unwrap();
+    assert!(critical[0].reason.contains("sets the pressure"), "{critical:?}");
+    let applied = subject.to_breakthrough.as_ref().unwrap().1;
+    for one in &critical {
+        let entry = subject.entry(one.throat).unwrap().1;
+        assert!((entry / applied - 1.0).abs() <= 0.05, "{one:?}: {entry} {applied}");
+    }
+    let random = |seed| choose(&subject, &["random:5".parse().unwrap()], seed).unwrap();
+    assert_eq!(random(1), random(1));
+    assert_ne!(random(1), random(2));
+    let both = choose(&subject, &[Choice::Numbers(vec![3, 3, 1]), Choice::Numbers(vec![1, 2])], 1).unwrap();
+    assert_eq!(both.iter().map(|one| one.number).collect::<Vec<_>>(), [3, 1, 2]);
+    assert!(matches!(choose(&subject, &[Choice::Numbers(vec![9999])], 1), Err(ChoiceError::NoThroat { .. })));
+    assert!("random".parse::<Choice>().is_err() && "critical".parse() == Ok(Choice::Critical));
+}
+
+/// The first row of a table by its heads.
+fn first_row(path: &Path) -> BTreeMap<String, String> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let heads = reader.headers().unwrap().clone();
+    let row = reader.records().next().unwrap().unwrap();
+    heads.iter().map(str::to_owned).zip(row.iter().map(str::to_owned)).collect()
+}
+
+#[test]
+fn one_throat_is_verified_and_its_value_taken_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let discs = "{ disc = { center = [8.0e-4, 2.0e-4], radius = 3.0e-4 } }, { disc = { center = [8.0e-4, 9.0e-4], radius = 2.5e-4 } }, \
+                 { rectangle = { center = [8.0e-4, 1.4e-3], size = [6.0e-4, 5.0e-4] } }";
+    std::fs::write(at.join("two.toml"), case(discs, 50.0, "")).unwrap();
+    let arguments = [
+        "network",
+        "verify",
+        "two.toml",
+        "--throats",
+        "critical",
+        "--spacings",
+        "6,8",
+        "--threads",
+        "1",
+        "--out",
+        "out",
+    ];
+    let output = meniscus(at, &arguments);
+    assert_code(&output, 0);
+    assert!(stdout(&output).contains("| throat "), "{}", stdout(&output));
+    let row = first_row(&at.join("out/verify.csv"));
+    let number = |name: &str| row[name].parse::<f64>().unwrap();
+    assert_eq!((row["status"].as_str(), row["flow_status"].as_str()), ("ok", "ok"), "{row:?}");
+    assert!((number("w_m") - 1.5e-4).abs() < 1e-12, "{row:?}");
+    assert!(number("pc_difference_percent").abs() < 2.0 && number("g_difference_percent").abs() < 15.0, "{row:?}");
+    let page = std::fs::read_to_string(at.join("out/verify.html")).unwrap();
+    assert!(page.contains("picture.png") && !page.contains("http"));
+    // Nothing is left to do the second time.
+    let again = meniscus(at, &arguments);
+    assert_code(&again, 0);
+    assert!(stderr(&again).contains("was complete") || !stderr(&again).contains("begun"), "{}", stderr(&again));
+    assert_eq!(first_row(&at.join("out/verify.csv")), row);
+    taken_up(at, discs, number("pc_formula_Pa"));
+}
+
+/// A measured value that is a tenth higher moves the breakthrough; one of another geometry is refused.
+fn taken_up(at: &Path, discs: &str, formula: f64) {
+    let text = std::fs::read_to_string(at.join("out/measured.json")).unwrap();
+    let mut measured: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let throat = serde_json::json!({
+        "index": first_index(at), "formula-curvature": formula / 0.03, "entry-curvature": 1.1 * formula / 0.03
+    });
+    measured["throats"] = serde_json::json!([throat]);
+    std::fs::write(at.join("higher.json"), measured.to_string()).unwrap();
+    std::fs::write(at.join("higher.toml"), case(discs, 50.0, "measured = \"higher.json\"")).unwrap();
+    let pressure = |case: &str| {
+        let out = format!("run-{case}");
+        assert_code(&meniscus(at, &["run", &format!("{case}.toml"), "--out", &out]), 0);
+        let report: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(at.join(out).join("report.json")).unwrap()).unwrap();
+        let value = |name: &str| report["measures"][name]["value"].as_f64();
+        (value("breakthrough-pressure-Pa").unwrap(), value("measured-entry-pressures"))
+    };
+    let ((before, none), (after, count)) = (pressure("two"), pressure("higher"));
+    assert_eq!((none, count), (None, Some(1.0)));
+    assert!((after / before - 1.1).abs() < 1e-9, "{before} {after}");
+    measured["geometry-hash"] = "0000000000000000".into();
+    std::fs::write(at.join("higher.json"), measured.to_string()).unwrap();
+    let refused = meniscus(at, &["run", "higher.toml", "--out", "run-refused"]);
+    assert_code(&refused, 3);
+    // Lines of a long message begin with a bar.
+    assert!(stderr(&refused).replace("│ ", "").contains("those of another geometry"), "{}", stderr(&refused));
+}
+
+/// The index of the verified throat among all of the network.
+fn first_index(at: &Path) -> usize {
+    let loaded = load(&at.join("two.toml"), &Overrides::default()).unwrap();
+    let subject = Subject::new(&loaded.case).unwrap();
+    choose(&subject, &[Choice::Critical], 1).unwrap()[0].throat
+}

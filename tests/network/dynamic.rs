@@ -1,0 +1,199 @@
+//! Dynamic displacement in networks: limits that are known exactly, what is conserved, and that no step fails.
+
+use std::sync::Arc;
+
+use meniscus::geometry::Geometry;
+use meniscus::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
+use meniscus::network::conductance::conductances;
+use meniscus::network::displacement::{Conditions, Displacement, Events};
+use meniscus::network::dynamic::{Drive, Dynamic, StepEnd, Terms};
+use meniscus::network::extract;
+use meniscus::network::graph::{Network, Pores};
+use meniscus::network::permeability::{self, Paths, permeability};
+
+use crate::support::dice::scattered_discs;
+
+/// Lengths in m.
+const UNIT: f64 = 1e-4;
+const SIZE: [f64; 2] = [12.0 * UNIT, 9.0 * UNIT];
+const TENSION: f64 = 0.03;
+const LEFT: [bool; 4] = [true, false, false, false];
+const RIGHT: [bool; 4] = [false, true, false, false];
+
+/// Discs at random places between walls at the bottom and at the top.
+struct Pack {
+    geometry: Geometry,
+    network: Arc<Network>,
+    pores: Arc<Pores>,
+    walls: usize,
+}
+
+impl Pack {
+    fn new(seed: u64) -> Self {
+        let radii = [0.35 * UNIT, 0.6 * UNIT];
+        let shapes = scattered_discs(seed, 4000, SIZE, radii, [0.12 * UNIT, 0.1 * UNIT]);
+        let walls = shapes.len() + 4;
+        let shapes = shapes.into_iter().map(ShapeSpec::Disc).collect();
+        let spec = GeometrySpec { min: [0.0; 2], max: SIZE, solid: SolidSide::Inside, shapes };
+        let geometry = Geometry::new(&spec).unwrap().with_wall_sides([false, false, true, true]);
+        let network = extract(&geometry, [true, true, false, false]).unwrap();
+        let pores = Pores::merged(&network, 0.95);
+        Self { geometry, network: Arc::new(network), pores: Arc::new(pores), walls }
+    }
+
+    fn displacement(&self, angle_deg: f64, inlet: [bool; 4], trapping: bool) -> Displacement {
+        let conditions = Conditions {
+            angle: vec![angle_deg.to_radians(); self.walls],
+            inlet,
+            outlet: RIGHT,
+            trapping,
+            events: Events::All,
+            largest_curvature: f64::INFINITY,
+            measured: Vec::new(),
+        };
+        Displacement::new(&self.network, &self.pores, conditions)
+    }
+
+    fn dynamic(&self, angle_deg: f64, viscosity: [f64; 2], drive: Drive, largest_step: f64) -> Dynamic {
+        let terms = Terms { viscosity, tension: TENSION, drive, largest_step, inlet: LEFT, outlet: RIGHT };
+        Dynamic::new(Arc::clone(&self.network), self.displacement(angle_deg, LEFT, false), terms)
+    }
+
+    /// The rate in m²/s at which μ U/σ of the first viscosity is `number`.
+    fn rate(number: f64, viscosity: f64) -> f64 {
+        number * TENSION / viscosity * SIZE[1]
+    }
+}
+
+/// What an event may be late by, as a share of an element's area.
+const LATE: f64 = 1.001;
+
+fn until_breakthrough(dynamic: &mut Dynamic) {
+    while dynamic.breakthrough().is_none() {
+        assert_ne!(dynamic.advance(f64::INFINITY).unwrap(), StepEnd::Closed);
+    }
+}
+
+#[test]
+fn one_fluid_flows_as_the_permeability_of_the_network_says() {
+    for seed in 0..5 {
+        let pack = Pack::new(seed);
+        let (viscosity, pressure) = (2e-3, 50.0);
+        let terms = Terms {
+            viscosity: [viscosity; 2],
+            tension: TENSION,
+            drive: Drive::Pressure(pressure),
+            largest_step: 1.0,
+            inlet: LEFT,
+            outlet: RIGHT,
+        };
+        // Nothing comes in where the displacement knows no inlet: all is one phase.
+        let displacement = pack.displacement(40.0, [false; 4], false);
+        let mut dynamic = Dynamic::new(Arc::clone(&pack.network), displacement, terms);
+        dynamic.advance(1e-6).unwrap();
+        let inflow = dynamic.drive_now().1;
+        let paths = Paths { conductance: &conductances(&pack.network), holds: &vec![true; pack.network.regions.len()] };
+        let drive = permeability::Drive::Sides(0);
+        let exact = permeability(&pack.network, paths, pack.geometry.bounds(), drive).unwrap();
+        let found = viscosity * inflow / SIZE[1] * SIZE[0] / pressure;
+        assert!((found / exact - 1.0).abs() < 1e-8, "{seed}: {found:.6e} {exact:.6e}");
+    }
+}
+
+#[test]
+fn at_vanishing_rate_the_same_pores_are_invaded_as_without_time() {
+    for seed in 0..4 {
+        let pack = Pack::new(seed);
+        for angle in [20.0, 40.0, 60.0, 90.0, 120.0] {
+            let mut still = pack.displacement(angle, LEFT, true);
+            let mut applied = f64::NEG_INFINITY;
+            while let Some(event) = still.next() {
+                applied = event.applied;
+                if still.reached_outlet() {
+                    break;
+                }
+            }
+            let viscosity = [1e-3, 1e-3];
+            let mut dynamic = pack.dynamic(angle, viscosity, Drive::Rate(Pack::rate(1e-9, viscosity[0])), 0.01);
+            until_breakthrough(&mut dynamic);
+            let pressures = dynamic.history().iter().map(|event| event.pressure).filter(|p| p.is_finite());
+            let largest = pressures.fold(f64::NEG_INFINITY, f64::max);
+            let elements = 0..still.elements().len();
+            let both = elements.filter(|&e| still.phase(e) != dynamic.displacement().phase(e)).collect::<Vec<_>>();
+            // Without time the pores at the outlet are filled too.
+            assert!(both.len() <= 4, "seed {seed}, {angle} degrees: elements {both:?} differ");
+            assert!(
+                (largest - TENSION * applied).abs() < 2e-3 * TENSION * applied.abs(),
+                "seed {seed}, {angle} degrees: {largest} Pa, without time {} Pa",
+                TENSION * applied
+            );
+        }
+    }
+}
+
+#[test]
+fn areas_are_conserved_and_no_step_fails_over_ten_decades_of_rate() {
+    for seed in 0..12 {
+        let pack = Pack::new(seed);
+        for (k, angle) in [0.0, 30.0, 60.0, 90.0, 120.0, 150.0, 180.0].into_iter().enumerate() {
+            let viscosity = [[1e-5, 1e-3], [1e-3, 1e-3], [1e-1, 1e-3]][(seed as usize + k) % 3];
+            let number = 10.0_f64.powi(-10 + (3 * k as i32 + 2 * seed as i32) % 11);
+            let mut dynamic = pack.dynamic(angle, viscosity, Drive::Rate(Pack::rate(number, viscosity[0])), 0.01);
+            let end = 1.5 * dynamic.pore_area() / Pack::rate(number, viscosity[0]);
+            let mut before = dynamic.invading_area();
+            while dynamic.time() < end {
+                if dynamic.advance(end).unwrap() == StepEnd::Closed {
+                    break;
+                }
+                let area = dynamic.invading_area();
+                assert!(
+                    area.is_finite() && area <= dynamic.pore_area() * LATE,
+                    "seed {seed}, {angle} degrees, {number:e}: {}",
+                    area / dynamic.pore_area()
+                );
+                let is_lost = dynamic.breakthrough().is_none() && area < before * (1.0 - 1e-12);
+                assert!(!is_lost, "seed {seed}, {angle} degrees: area falls from {before} to {area}");
+                before = area;
+            }
+            let error = dynamic.balance_error();
+            assert!(error.abs() < 1e-10, "seed {seed}, {angle} degrees, Ca {number:e}: balance {error:e}");
+            assert!(dynamic.breakthrough().is_some(), "seed {seed}, {angle} degrees, Ca {number:e}: no breakthrough");
+        }
+    }
+}
+
+#[test]
+fn half_the_step_changes_the_saturation_over_time_by_less_than_a_hundredth() {
+    let pack = Pack::new(11);
+    for (angle, pressure) in [(40.0, 6000.0), (120.0, 2000.0)] {
+        let end = 0.01;
+        let saturations = |largest_step: f64| {
+            let mut dynamic = pack.dynamic(angle, [1e-3, 1e-3], Drive::Pressure(pressure), largest_step);
+            (1..=20)
+                .map(|record| {
+                    let until = end * f64::from(record) / 20.0;
+                    while dynamic.time() < until {
+                        dynamic.advance(until).unwrap();
+                    }
+                    dynamic.invading_area() / dynamic.pore_area()
+                })
+                .collect::<Vec<f64>>()
+        };
+        let (whole, half) = (saturations(0.01), saturations(0.005));
+        assert!(half[19] > half[0] + 0.1, "{angle} degrees: nothing moves, {half:?}");
+        for (whole, half) in whole.iter().zip(&half) {
+            assert!((whole - half).abs() < 0.01, "{angle} degrees: {whole} {half}");
+        }
+    }
+}
+
+#[test]
+fn a_pressure_below_all_entry_pressures_comes_to_rest() {
+    let pack = Pack::new(3);
+    let mut dynamic = pack.dynamic(40.0, [1e-3, 1e-3], Drive::Pressure(100.0), 0.01);
+    for _ in 0..200 {
+        dynamic.advance(dynamic.time() + 1.0).unwrap();
+    }
+    assert!(dynamic.history().is_empty());
+    assert!(dynamic.drive_now().1.abs() < 1e-18, "{:e} m2/s", dynamic.drive_now().1);
+}

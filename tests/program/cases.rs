@@ -1,0 +1,236 @@
+//! Runs of the program on small cases: files, threads, interrupts, failures and messages.
+
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::support::program::{
+    assert_code, assert_same_files, command, folder_with_small_case, meniscus, report, shipped, stderr, stdout,
+};
+use crate::support::python::{interpreter, root, run};
+
+/// The part of each case that is run: some steps.
+const PART: f64 = 300.0;
+
+/// Records of the series in a part beside the first: two under each of two body forces that act one after the other.
+const RECORDS: f64 = 4.0;
+
+#[test]
+fn every_case_of_the_folder_runs_and_keeps_the_output_contract() {
+    for case in shipped("cases", &["toml"]) {
+        let folder = tempfile::tempdir().unwrap();
+        let text = std::fs::read_to_string(&case).unwrap();
+        let end = text.parse::<toml::Table>().unwrap()["time"]["end"].as_float().unwrap() / PART;
+        let few_records = format!("--set=output.series.every-time={:e}", end / RECORDS);
+        let end = format!("--set=time.end={end:e}");
+        let output = meniscus(folder.path(), &["run", case.to_str().unwrap(), "--out", "out", &end, &few_records]);
+        // A case that is stopped this early may miss what it expects of its end, but nothing else.
+        let code = output.status.code();
+        assert!(code == Some(0) || code == Some(5), "{}: {code:?}\n{}", case.display(), stderr(&output));
+        let mut check = Command::new(interpreter());
+        check.arg(root().join("postprocess/check_output.py")).arg(folder.path().join("out"));
+        run(&mut check, &format!("the output of {} must keep the contract", case.display()));
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let folder = folder_with_small_case();
+    // Some thousand particles, so that there is more than one task per loop.
+    let common = ["run", "drop.toml", "--set=sph.spacing=1.2e-5", "--set=time.end=2e-5", "--out"];
+    for threads in ["1", "2", "3"] {
+        let arguments = [&common[..], &[threads, "--threads", threads]].concat();
+        assert_code(&meniscus(folder.path(), &arguments), 0);
+    }
+    assert_same_files(&folder.path().join("2"), &folder.path().join("1"));
+    assert_same_files(&folder.path().join("3"), &folder.path().join("1"));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_and_resumed_run_leaves_the_same_bytes_as_an_unbroken_one() {
+    let folder = folder_with_small_case();
+    let run = ["run", "drop.toml", "--set=sph.spacing=2e-5", "--set=time.end=1e-3", "--out"];
+    let unbroken = [&run[..], &["unbroken"]].concat();
+    let clock = Instant::now();
+    assert_code(&meniscus(folder.path(), &unbroken), 0);
+    let pause = clock.elapsed() / 3;
+    let mut child = command(folder.path(), &[&run[..], &["broken"]].concat())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let state = folder.path().join("broken/restart/state.bin");
+    while !state.exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(pause);
+    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupt.success() && child.try_wait().unwrap().is_none(), "the run ended before it was interrupted");
+    let output = child.wait_with_output().unwrap();
+    assert_code(&output, 130);
+    assert!(stderr(&output).contains("interrupted: finishing the step and saving the state"), "{}", stderr(&output));
+    assert!(stdout(&output).contains("go on with --resume"), "{}", stdout(&output));
+    let broken = folder.path().join("broken");
+    let report_of_broken = report(&broken);
+    assert_eq!(report_of_broken["status"], "interrupted");
+    let time = report_of_broken["time-s"].as_f64().unwrap();
+    assert!(time > 0.0 && time < 1.0e-3, "{time}");
+
+    assert_code(&meniscus(folder.path(), &[&run[..], &["broken", "--resume"]].concat()), 0);
+    assert_same_files(&broken, &folder.path().join("unbroken"));
+    assert_eq!(report(&broken)["measures"], report(&folder.path().join("unbroken"))["measures"]);
+
+    // Once more: there is nothing left to do, and nothing is changed.
+    let output = meniscus(folder.path(), &[&run[..], &["broken", "--resume"]].concat());
+    assert_code(&output, 0);
+    assert!(stderr(&output).contains("already at its end"), "{}", stderr(&output));
+    assert_same_files(&broken, &folder.path().join("unbroken"));
+}
+
+#[test]
+fn a_run_that_is_steady_ends_and_says_so_and_one_that_is_not_says_what_changes() {
+    let folder = folder_with_small_case();
+    // A row every 0.1 ms and hundred times the time of the case, which a drop at rest does not need.
+    let until_steady = ["run", "drop.toml", "--set=time.steady={}", "--set=time.end=3e-2", "--out"];
+    let output = meniscus(folder.path(), &[&until_steady[..], &["rest"]].concat());
+    assert_code(&output, 0);
+    let rest = report(&folder.path().join("rest"));
+    let time = rest["measures"]["steady-at-s"]["value"].as_f64().unwrap();
+    assert!(time < 2.0e-2 && rest["time-s"].as_f64() == Some(time), "{time}");
+    assert!(stdout(&output).contains("steady at t = "), "{}", stdout(&output));
+    // What was left to change by then is within the tolerance: 0.3 degrees.
+    let to_the_end = ["--set=time.steady.stop=false", "--set=time.end=3e-2"];
+    let output = meniscus(folder.path(), &[&["run", "drop.toml", "--out", "end"], &to_the_end[..]].concat());
+    assert_code(&output, 0);
+    let end = report(&folder.path().join("end"));
+    assert_eq!(end["measures"]["steady-at-s"], rest["measures"]["steady-at-s"]);
+    assert!(stdout(&output).contains(", steady since "), "{}", stdout(&output));
+    let angle = |report: &serde_json::Value| report["measures"]["contact-angle-deg"]["value"].as_f64().unwrap();
+    assert!((angle(&rest) - angle(&end)).abs() < 0.3, "{} {}", angle(&rest), angle(&end));
+
+    let early = ["--set=time.steady={}", "--set=output.series.every-time=1e-5", "--out", "early"];
+    let output = meniscus(folder.path(), &[&["run", "drop.toml"], &early[..]].concat());
+    assert_code(&output, 0);
+    assert!(stdout(&output).contains("not steady: "), "{}", stdout(&output));
+    assert!(stdout(&output).contains("kinetic_energy_J_per_m, "), "{}", stdout(&output));
+}
+
+#[test]
+fn a_run_that_blows_up_says_when_and_where_and_keeps_its_last_good_state() {
+    let folder = folder_with_small_case();
+    // Blown along the floor at nearly the largest speed that is accepted, some particles get past it within 400 steps.
+    let arguments = [
+        "run",
+        "drop.toml",
+        "--out",
+        "out",
+        "--set=sph.initial.velocity.uniform=[48.0, -10.0]",
+        "--set=sph.surface-force.csf={}",
+    ];
+    let output = meniscus(folder.path(), &arguments);
+    assert_code(&output, 4);
+    let message = stderr(&output);
+    assert!(message.contains("error: ") && message.contains(" at time ") && message.contains("(step "), "{message}");
+    assert!(message.contains("at (") && message.contains(") m"), "{message}");
+    assert!(stdout(&output).contains("the last good state is in the output folder"), "{}", stdout(&output));
+    let out = folder.path().join("out");
+    let report = report(&out);
+    assert_eq!(report["status"], "failed");
+    let error = report["error"].as_str().unwrap().split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(message.contains(&error), "{error}");
+    assert!(out.join("restart/state.bin").is_file() && out.join("picture.png").is_file());
+    let last = std::fs::read_to_string(out.join("particles.pvd")).unwrap();
+    let time = report["time-s"].as_f64().unwrap();
+    assert!(time > 0.0, "it must fail on its way, not at its start");
+    // The reader of JSON rounds the last digit as it likes.
+    let of_last = last.split("timestep=\"").filter_map(|rest| rest.split('"').next()?.parse::<f64>().ok()).last();
+    assert!(
+        of_last.is_some_and(|t| (t / time - 1.0).abs() < 1e-12),
+        "no particles of the last good time {time:?} in\n{last}"
+    );
+    let mut check = Command::new(interpreter());
+    check.arg(root().join("postprocess/check_output.py")).arg(&out);
+    run(&mut check, "the output of a failed run must keep the contract");
+}
+
+#[test]
+fn a_missed_expectation_has_an_exit_code_of_its_own() {
+    let folder = folder_with_small_case();
+    let case = folder.path().join("drop.toml");
+    let text = std::fs::read_to_string(&case).unwrap()
+        + "\n[[expect]]\nmeasure = \"saturation\"\nvalue = 0.9\ntolerance = 0.01\n";
+    std::fs::write(&case, text).unwrap();
+    let output = meniscus(folder.path(), &["run", "drop.toml", "--set=time.end=1e-5"]);
+    assert_code(&output, 5);
+    assert!(
+        stdout(&output).contains("MISSED  saturation: expected 0.9000 +- 0.01000, measured 0.2"),
+        "{}",
+        stdout(&output)
+    );
+    assert_eq!(report(&folder.path().join("out/drop"))["status"], "expectation-failed");
+}
+
+#[test]
+fn a_folder_that_was_named_and_is_in_use_is_refused_with_ways_out() {
+    let folder = folder_with_small_case();
+    let arguments = ["run", "drop.toml", "--set=time.end=1e-5", "--out", "mine"];
+    assert_code(&meniscus(folder.path(), &arguments), 0);
+    let before = crate::support::program::files(&folder.path().join("mine"));
+    let output = meniscus(folder.path(), &arguments);
+    assert_code(&output, 2);
+    for way in ["is not empty", "--out", "--resume", "delete"] {
+        assert!(stderr(&output).contains(way), "`{way}` is missing: {}", stderr(&output));
+    }
+    assert!(crate::support::program::files(&folder.path().join("mine")) == before);
+}
+
+#[test]
+fn without_a_named_folder_each_run_has_a_new_one_and_resume_takes_the_last() {
+    let folder = folder_with_small_case();
+    let arguments = ["run", "drop.toml", "--set=time.end=1e-5"];
+    for name in ["out/drop", "out/drop-2", "out/drop-3"] {
+        let output = meniscus(folder.path(), &arguments);
+        assert_code(&output, 0);
+        assert!(stdout(&output).contains(&format!("{name}/particles.pvd")), "{}", stdout(&output));
+        assert!(folder.path().join(name).join("report.json").is_file());
+    }
+    let output = meniscus(folder.path(), &[&arguments[..], &["--resume"]].concat());
+    assert_code(&output, 0);
+    assert!(stderr(&output).contains("out/drop-3"), "{}", stderr(&output));
+    assert!(stdout(&meniscus(folder.path(), &["run", "--help"])).contains("NAME-2"));
+}
+
+#[test]
+fn resuming_another_case_or_nothing_is_refused() {
+    let folder = folder_with_small_case();
+    let output = meniscus(folder.path(), &["run", "drop.toml", "--resume"]);
+    assert_code(&output, 2);
+    assert!(stderr(&output).contains("no run to resume"), "{}", stderr(&output));
+    assert_code(&meniscus(folder.path(), &["run", "drop.toml", "--out", "a", "--set=time.end=1e-5"]), 0);
+    let output = meniscus(folder.path(), &["run", "drop.toml", "--out", "a", "--set=time.end=2e-5", "--resume"]);
+    assert_code(&output, 2);
+    assert!(stderr(&output).contains("another case"), "{}", stderr(&output));
+}
+
+#[test]
+fn wrong_files_and_keys_are_told_with_their_place_and_a_way_out() {
+    let folder = folder_with_small_case();
+    let wrong_key = ["check", "drop.toml", "--set", "sph.interface.tenson=0.02"];
+    std::fs::write(folder.path().join("broken.toml"), "format = 1\n[sph\n").unwrap();
+    std::fs::write(folder.path().join("picture.png"), [0x89, 0x50, 0x4e, 0x47, 0xff, 0x00]).unwrap();
+    for (arguments, words) in [
+        (&wrong_key[..], &["unknown key `tenson`", "did you mean `tension`?"][..]),
+        (&["run", "drop.tml"], &["there is no file", "drop.tml"]),
+        (&["run", "broken.toml"], &["broken.toml:2"]),
+        (&["run", "picture.png"], &["picture.png"]),
+        (&["geometry", "broken.toml"], &["broken.toml:2"]),
+        (&["network", "picture.png"], &["picture.png"]),
+    ] {
+        let output = meniscus(folder.path(), arguments);
+        assert_code(&output, 3);
+        for word in words {
+            assert!(stderr(&output).contains(word), "`{word}` is missing: {}", stderr(&output));
+        }
+        assert!(!folder.path().join("out").exists());
+    }
+}

@@ -1,0 +1,18 @@
+//! Direct simulation: equations, steps, walls, open sides, and whole runs against exact solutions.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod analysis;
+mod contact_angles;
+mod counted_work;
+mod fitted_interface;
+mod fitted_walls;
+mod open_sides;
+mod poisson;
+mod step;
+mod stream;
+mod terms;
+mod validation;
+mod viscosity;
+mod walls;

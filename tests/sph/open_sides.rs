@@ -1,0 +1,214 @@
+//! Open sides: flows that must pass them unchanged, the balance of what passes, and resuming with buffers.
+
+use crate::support::flow::flow;
+use meniscus::sph::open::Ledger;
+use meniscus::sph::particles::Phase;
+use meniscus::sph::projection::Flow;
+
+/// A channel of 2 mm by 1 mm with free slip at the bottom and the top, and 20 particles along it.
+fn channel(rest: &str) -> String {
+    format!(
+        "format = 1\ntitle = \"A channel\"\n[geometry]\nmin = [0.0, 0.0]\nmax = [2.0e-3, 1.0e-3]\n[time]\nend = 1.0\n\
+         [sph]\nspacing = 1.0e-4\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n{rest}"
+    )
+}
+
+const PLUG: &str = "[sph.sides]\nleft = \"inlet\"\nright = \"outlet\"\nbottom = \"symmetry\"\ntop = \"symmetry\"\n\
+                    [sph.sides.open.left]\nvelocity = 0.01\n[sph.initial.velocity]\nuniform = [0.01, 0.0]\n";
+
+const OTHER_FLUID: &str = "[sph.phases.non-wetting]\ndensity = 1000.0\nviscosity = 2.0e-3\n[sph.interface]\ntension = 0.001\n\
+                           [[sph.initial.wetting]]\nrectangle = { center = [1.0e-3, 0.0], size = [4.0e-3, 1.0e-3] }\n";
+
+fn run(flow: &mut Flow, until: f64) {
+    while flow.time < until {
+        flow.step(until).unwrap();
+    }
+}
+
+/// What is missing in the balance of each phase, in particles.
+fn missing(flow: &Flow) -> [i64; 2] {
+    let (came, left) = flow.open.ledger.totals();
+    let inside = Ledger::count(&flow.particles.phase[..flow.particles.fluids]);
+    [0, 1].map(|i| flow.open.ledger.at_start[i] as i64 + came[i] as i64 - left[i] as i64 - inside[i] as i64)
+}
+
+#[test]
+fn a_uniform_flow_passes_open_sides_and_stays_uniform() {
+    let mut flow = flow(&channel(PLUG));
+    let start = flow.particles.fluids;
+    // The fluid is replaced once and a half.
+    run(&mut flow, 0.3);
+    let worst =
+        flow.particles.velocity[..flow.particles.fluids].iter().map(|v| (v.x - 0.01).hypot(v.y)).fold(0.0, f64::max);
+    // The files move as one lattice: all that is left is the residual of the pressure solve.
+    assert!(worst < 1e-8, "{worst:.1e} m/s");
+    assert_eq!(missing(&flow), [0, 0]);
+    assert_eq!(flow.particles.fluids, start);
+    let (came, _) = flow.open.ledger.totals();
+    assert_eq!(came[0], 300, "10 files, 3 mm long");
+}
+
+#[test]
+fn a_column_between_two_pressures_that_carry_its_weight_rests() {
+    let sides = "[sph.sides]\nleft = \"symmetry\"\nright = \"symmetry\"\nbottom = \"inlet\"\ntop = \"outlet\"\n\
+                 [sph.sides.open.bottom]\npressure = 10.0\n[sph.sides.open.top]\npressure = 0.19\n";
+    let text = channel(sides).replace("[sph]\n", "[sph]\ngravity = [0.0, -9.81]\n");
+    let mut flow = flow(&text);
+    run(&mut flow, 0.05);
+    let fastest = flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
+    // Falling freely it would have reached 0.5 m/s.
+    assert!(fastest < 1e-4, "{fastest:.1e} m/s");
+    for a in 0..flow.particles.fluids {
+        let exact = 10.0 - 9810.0 * flow.particles.position[a].y;
+        assert!((flow.particles.pressure[a] - exact).abs() < 0.02, "{} for {exact}", flow.particles.pressure[a]);
+    }
+}
+
+#[test]
+fn a_large_common_pressure_changes_nothing() {
+    let sides = |more: f64| {
+        let [a, b] = [1.0 + more, more];
+        format!(
+            "[sph.sides]\nleft = \"inlet\"\nright = \"outlet\"\n[sph.sides.open.left]\npressure = {a:?}\n[sph.sides.open.right]\npressure = {b:?}\n"
+        )
+    };
+    let speeds = [0.0, 1.0e5].map(|more| {
+        let mut flow = flow(&channel(&sides(more)));
+        run(&mut flow, 0.01);
+        flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.x).sum::<f64>()
+    });
+    // 1e5 Pa have digits of 1e-11 Pa, and the solve leaves 1e-6 of the right side.
+    assert!((speeds[0] / speeds[1] - 1.0).abs() < 1e-6, "{speeds:?}");
+    assert!(speeds[0] > 0.0);
+}
+
+#[test]
+fn layers_come_in_and_leave_as_layers() {
+    let mut flow = flow(&channel(&format!("{PLUG}{OTHER_FLUID}")));
+    run(&mut flow, 0.3);
+    assert_eq!(missing(&flow), [0, 0]);
+    for a in 0..flow.particles.moving() {
+        let below = flow.particles.position[a].y < 5.0e-4;
+        assert_eq!(flow.particles.phase[a] == Phase::Wetting, below, "at {:?}", flow.particles.position[a]);
+    }
+    let (came, left) = flow.open.ledger.totals();
+    assert_eq!((came, left), ([150; 2], [150; 2]));
+}
+
+#[test]
+fn the_phase_of_an_inlet_drives_the_other_one_out() {
+    let sides = PLUG.replace("velocity = 0.01\n[", "velocity = 0.01\nphase = \"non-wetting\"\n[");
+    let filled = OTHER_FLUID.replace("size = [4.0e-3, 1.0e-3]", "size = [4.0e-3, 4.0e-3]");
+    let mut flow = flow(&channel(&format!("{sides}{filled}")));
+    run(&mut flow, 0.3);
+    // The flat front has left.
+    let inside = Ledger::count(&flow.particles.phase[..flow.particles.fluids]);
+    assert_eq!(inside, [0, 200]);
+    assert_eq!(missing(&flow), [0, 0]);
+}
+
+#[test]
+fn a_resumed_flow_with_open_sides_takes_the_same_steps() {
+    let given_rate = "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.sides.open.left]\nvelocity = 0.01\n";
+    for sides in [PLUG, given_rate] {
+        let text = channel(&format!("{sides}{OTHER_FLUID}"));
+        let (mut whole, mut first) = (flow(&text), flow(&text));
+        run(&mut first, 0.03);
+        run(&mut whole, 0.03);
+        let mut second = flow(&text);
+        meniscus::sph::state::load(&mut second, &meniscus::sph::state::save(&first)).unwrap();
+        for flow in [&mut whole, &mut second] {
+            run(flow, 0.06);
+        }
+        assert_eq!(whole.particles, second.particles);
+        assert_eq!(whole.open.ledger, second.open.ledger);
+        assert_eq!(whole.open.through, second.open.through);
+    }
+}
+
+#[test]
+fn a_given_flow_through_periodic_sides_brings_back_one_phase() {
+    let sides = "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"symmetry\"\ntop = \"symmetry\"\n\
+                 [sph.sides.open.left]\nvelocity = 0.01\nphase = \"non-wetting\"\n[sph.initial.velocity]\nuniform = [0.01, 0.0]\n";
+    let drop = OTHER_FLUID.replace(
+        "center = [1.0e-3, 0.0], size = [4.0e-3, 1.0e-3]",
+        "center = [1.5e-3, 5.0e-4], size = [4.0e-4, 2.0e-3]",
+    );
+    let mut flow = flow(&channel(&format!("{sides}{drop}")));
+    assert_eq!(Ledger::count(&flow.particles.phase[..flow.particles.fluids])[0], 40);
+    run(&mut flow, 0.15);
+    assert_eq!(Ledger::count(&flow.particles.phase[..flow.particles.fluids]), [0, 200]);
+    assert_eq!(missing(&flow), [0, 0]);
+    let mean = flow.particles.velocity[..200].iter().map(|v| v.x).sum::<f64>() / 200.0;
+    assert!((mean / 0.01 - 1.0).abs() < 1e-6, "{mean}");
+}
+
+/// The larger relative error of the flow rates over `count` steps of `dt` (s), by the ways of all particles.
+fn rate_error(flow: &mut Flow, count: usize, dt: f64) -> f64 {
+    flow.open.through.iter_mut().for_each(|through| through.state.largest_error = 0.0);
+    for _ in 0..count {
+        let (before, passed): (f64, Vec<f64>) =
+            (flow.time, flow.open.through.iter().map(|through| through.state.passed).collect());
+        flow.step(before + dt).unwrap();
+        for (through, passed) in flow.open.through.iter_mut().zip(passed) {
+            let rate = (through.state.passed - passed) / (flow.time - before);
+            let error = (rate / through.flow_rate() - 1.0).abs();
+            through.state.largest_error = through.state.largest_error.max(error);
+        }
+    }
+    flow.open.through.iter().map(|through| through.state.largest_error).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_given_flow_rate_holds_in_every_step_and_takes_the_pressure_of_a_parabola() {
+    // The step is twice as long as viscosity allows explicitly, and 16 times that.
+    for (dt, profile) in [(1.5e-3, "plug"), (1.2e-2, "parabolic")] {
+        let sides = format!(
+            "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.sides.open.left]\nvelocity = 1.0e-3\nprofile = \"{profile}\"\n"
+        );
+        let mut flow = flow(&channel(&sides).replace("spacing = 1.0e-4", "spacing = 5.0e-5"));
+        let error = rate_error(&mut flow, 4, dt);
+        assert!(error < 1e-9, "{error:.1e} at {dt} s from the start");
+        // Three times density H²/viscosity/π²: what is left of the start is exp(-12) of it.
+        run(&mut flow, 1.2);
+        let error = rate_error(&mut flow, 4, dt);
+        assert!(error < 1e-9, "{error:.1e} at {dt} s at the end");
+        let exact = 12.0 * 1.0e-3 * 1.0e-3 / 1.0e-6;
+        let gradient = flow.driving_gradient().x;
+        println!("{profile}: gradient over exact {:.5}", gradient / exact);
+        assert!((gradient / exact - 1.0).abs() < 0.01, "{gradient:.4} Pa/m, exact {exact:.4}");
+    }
+}
+
+#[test]
+fn given_flows_along_both_axes_pass_an_obstacle_and_a_second_phase() {
+    let text = channel(&format!(
+        "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n\
+         [sph.sides.open.left]\nvelocity = 1.0e-3\n[sph.sides.open.top]\nflow-rate = 3.0e-6\n{}",
+        OTHER_FLUID.replace("density = 1000.0", "density = 10.0").replace(
+            "rectangle = { center = [1.0e-3, 0.0], size = [4.0e-3, 1.0e-3] }",
+            "disc = { center = [4.0e-4, 5.0e-4], radius = 2.5e-4 }"
+        )
+    ));
+    let solid = "max = [2.0e-3, 1.0e-3]\nshapes = [{ disc = { center = [1.3e-3, 4.0e-4], radius = 2.5e-4 } }]\n";
+    let wetting = "[sph.wetting.young]\ncontact-angle-deg = 60.0\n";
+    let mut flow = flow(&(text.replace("max = [2.0e-3, 1.0e-3]\n", solid) + wetting));
+    let error = rate_error(&mut flow, 40, 1.0e-3);
+    println!("error {error:.1e}, particles set back {}", flow.work.set_back);
+    assert!(error < 1e-6, "{error:.1e}");
+    let (left, top) = (&flow.open.through[0].state, &flow.open.through[1].state);
+    assert!(left.gradient > 0.0 && top.gradient > 0.0, "{left:?}, {top:?}");
+}
+
+#[test]
+fn a_given_flow_that_solids_block_is_refused() {
+    let text = channel(
+        "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.sides.open.left]\nvelocity = 1.0e-3\n",
+    )
+    .replace(
+        "max = [2.0e-3, 1.0e-3]\n",
+        "max = [2.0e-3, 1.0e-3]\nshapes = [{ rectangle = { center = [1.0e-3, 5.0e-4], size = [8.0e-4, 2.0e-3] } }]\n",
+    );
+    let error = flow(&text).step(1.0).unwrap_err().to_string();
+    assert!(error.contains("through the side `left`"), "{error}");
+}

@@ -1,0 +1,253 @@
+//! The physics at coarse resolution: whole runs of shipped cases against exact solutions. The studies hold the fine ones.
+//!
+//! Tolerances are those that the method is meant to keep at 20 spacings per length, a little wider where a case is coarser.
+
+use std::path::Path;
+
+use crate::support::program::{assert_code, meniscus, report};
+
+/// Runs a shipped case with overrides and returns its measures by name.
+fn measures(name: &str, overrides: &[String]) -> impl Fn(&str) -> f64 + use<> {
+    let folder = tempfile::tempdir().unwrap();
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
+    let mut arguments = vec!["run", case.to_str().unwrap(), "--out", "out", "--threads", "1"];
+    arguments.extend(overrides.iter().flat_map(|setting| ["--set", setting]));
+    run(folder.path(), &arguments)
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> impl Fn(&str) -> f64 + use<> {
+    let output = meniscus(folder, arguments);
+    assert_code(&output, 0);
+    let report = report(&folder.join("out"));
+    move |measure| report["measures"][measure]["value"].as_f64().unwrap_or_else(|| panic!("no {measure} in {report:#}"))
+}
+
+/// A sessile drop at 12.5 spacings per square root of its area; `expect` in degrees.
+fn sessile(angle: f64, tolerance: f64, more: &[&str]) -> impl Fn(&str) -> f64 + use<> {
+    let set = [
+        "sph.spacing=8.0e-5".to_owned(),
+        format!("sph.wetting.young.contact-angle-deg={angle:?}"),
+        format!("expect[0].value={angle:?}"),
+        format!("expect[0].tolerance={tolerance:?}"),
+    ];
+    measures("sessile-drop.toml", &set.into_iter().chain(more.iter().map(|s| (*s).to_owned())).collect::<Vec<_>>())
+}
+
+#[test]
+fn a_sessile_drop_spreads_to_its_angle() {
+    let found = sessile(60.0, 1.5, &[]);
+    assert!((found("base-ratio") - 1.0).abs() < 0.015, "{}", found("base-ratio"));
+    assert!((found("height-ratio") - 1.0).abs() < 0.015, "{}", found("height-ratio"));
+    assert!(found("area-drift").abs() < 2e-3);
+}
+
+#[test]
+fn a_sessile_drop_draws_together_to_its_angle() {
+    // It swings once more than the drop that spreads.
+    let found = sessile(120.0, 1.5, &["time.end=0.1"]);
+    assert!((found("base-ratio") - 1.0).abs() < 0.02, "{}", found("base-ratio"));
+}
+
+/// Only the operators are left to move it: the wall asks for 60 degrees and is not heard.
+#[test]
+fn a_cap_of_any_angle_rests_with_its_exact_curvature() {
+    for (angle, center, radius) in [(50.0, -1.045145e-3, 1.625957e-3), (130.0, 3.878449e-4, 6.033796e-4)] {
+        let found = sessile(
+            angle,
+            0.2,
+            &[
+                "sph.wetting.young.contact-angle-deg=60.0",
+                &format!("sph.surface-force.pressure-jump.curvature={}", 1.0 / radius),
+                &format!("sph.initial.wetting=[{{disc={{center=[0.0,{center}],radius={radius}}}}}]"),
+            ],
+        );
+        assert!(found("area-drift").abs() < 1e-5, "{}", found("area-drift"));
+    }
+}
+
+#[test]
+fn the_angle_is_as_good_at_a_density_ratio_of_a_hundred() {
+    let gas = ["sph.phases.non-wetting.density=10.0", "sph.phases.non-wetting.viscosity=5.0e-4"];
+    let found = sessile(60.0, 1.5, &gas);
+    assert!((found("contact-angle-deg") - 60.0).abs() < 1.5, "{}", found("contact-angle-deg"));
+}
+
+#[test]
+fn a_free_drop_has_the_pressure_of_laplace_and_rests() {
+    let found = measures("laplace-drop.toml", &["sph.spacing=4.0e-5".to_owned()]);
+    assert!((found("laplace-jump-ratio") - 1.0).abs() < 1e-3, "{}", found("laplace-jump-ratio"));
+    assert!(found("parasitic-capillary-number") < 1e-5, "{}", found("parasitic-capillary-number"));
+    assert!(found("largest-density-error") < 0.01);
+}
+
+/// Moved with the mean of old and new velocity it would swing ever more: to a capillary number of 7e-4 by then.
+#[test]
+fn a_drop_of_a_thin_liquid_gains_no_energy() {
+    let thin = [
+        "sph.spacing=4.0e-5",
+        "sph.phases.wetting.viscosity=4.47e-4",
+        "sph.phases.non-wetting.viscosity=4.47e-4",
+        "time.end=0.06",
+        "time.steady.stop=false",
+    ];
+    let found = measures("laplace-drop.toml", &thin.map(str::to_owned));
+    assert!(found("parasitic-capillary-number") < 1e-5, "{}", found("parasitic-capillary-number"));
+    assert!(found("smallest-particle-distance-ratio") > 0.5, "{}", found("smallest-particle-distance-ratio"));
+}
+
+#[test]
+fn a_drop_of_a_thin_liquid_springs_back_to_140_degrees_in_one_piece() {
+    let found = sessile(140.0, 5.0, &["time.end=0.06"]);
+    // It still swings by two degrees about its angle then.
+    assert!((found("contact-angle-deg") - 140.0).abs() < 5.0, "{}", found("contact-angle-deg"));
+    assert_eq!(found("wetting-blobs"), 1.0);
+    assert!(found("largest-density-error") < 0.03, "{}", found("largest-density-error"));
+}
+
+#[test]
+fn a_drop_on_a_base_of_five_spacings_rests() {
+    // It starts as the cap of 150 degrees. Windows of fits that reach from one line to the other made it move and swing by itself.
+    let cap = "sph.initial.wetting=[{ disc = { center = [0.0, 5.0e-4], radius = 5.7e-4 } }]";
+    let found = sessile(160.0, 1.5, &[cap, "time.end=0.06"]);
+    assert!((found("base-ratio") - 1.0).abs() < 0.05, "{}", found("base-ratio"));
+}
+
+#[test]
+fn a_drop_in_a_light_gas_comes_to_rest_in_one_piece() {
+    let gas = ["sph.phases.non-wetting.density=1", "sph.phases.non-wetting.viscosity=1.58e-4", "time.end=0.085"];
+    let found = sessile(120.0, 5.0, &gas);
+    // The gas damps little: it swings by three degrees still. A density error taken back in every step threw out three particles by then.
+    assert!((found("contact-angle-deg") - 120.0).abs() < 5.0, "{}", found("contact-angle-deg"));
+    assert_eq!(found("wetting-blobs"), 1.0);
+    assert!(found("area-drift").abs() < 1e-3, "{}", found("area-drift"));
+    assert!(found("largest-density-error") < 0.02, "{}", found("largest-density-error"));
+}
+
+#[test]
+fn a_drop_of_the_other_phase_has_the_supplementary_angle() {
+    let found = sessile(120.0, 1.5, &["sph.initial.background=wetting"]);
+    // The drop is the other phase, and stands at 60 degrees through itself: its base is that of a drop at 60.
+    assert!((found("contact-angle-deg") - 120.0).abs() < 1.5, "{}", found("contact-angle-deg"));
+}
+
+#[test]
+fn a_capillary_wave_swings_and_decays_as_it_should() {
+    let found = measures("capillary-wave.toml", &[]);
+    assert!(found("wave-rms-error") < 0.03, "{}", found("wave-rms-error"));
+}
+
+#[test]
+fn two_drops_that_touch_become_one_round_drop() {
+    let drops =
+        "sph.initial.wetting=[{disc={center=[-1.7e-4,0.0],radius=1.8e-4}},{disc={center=[1.7e-4,0.0],radius=1.8e-4}}]";
+    let set = ["sph.spacing=3.0e-5", drops, "time.end=0.02", "expect=[]"];
+    let found = measures("laplace-drop.toml", &set.map(str::to_owned));
+    assert_eq!(found("wetting-blobs"), 1.0);
+    assert!(found("area-drift").abs() < 2e-3, "{}", found("area-drift"));
+    // The box is 1.6 mm wide and high.
+    let round = 2.0 * (std::f64::consts::PI * found("saturation")).sqrt() * 1.6e-3;
+    assert!((found("interface-length-m") / round - 1.0).abs() < 0.02, "{} of {round}", found("interface-length-m"));
+}
+
+#[test]
+fn a_drop_under_gravity_has_the_shape_of_young_and_laplace() {
+    let found = measures("sessile-gravity.toml", &["sph.spacing=8.0e-5".to_owned()]);
+    // The case expects base, height and angle; the lattice fills the area to half a percent.
+    assert!(found("area-drift").abs() < 2e-3, "{}", found("area-drift"));
+}
+
+#[test]
+fn a_drop_within_its_hysteresis_window_does_not_creep() {
+    let pulled = |gravity: &str, end: &str| {
+        let set = ["sph.spacing=8.0e-5", gravity, end, "expect=[]"];
+        measures("incline.toml", &set.map(str::to_owned))
+    };
+    // Seven tenths of what the lines can bear, then eleven and a half.
+    let found = pulled("sph.gravity=[13.2, 0.0]", "time.end=0.06");
+    let ways = [found("advancing-way-m-per-s"), found("receding-way-m-per-s")];
+    // A spacing in a second: the drop takes 5 ms for a swing.
+    assert!(ways.iter().all(|way| way.abs() < 8.0e-5), "{ways:?}");
+    // Ended before the drop comes near the end of the box.
+    let found = pulled("sph.gravity=[21.7, 0.0]", "time.end=0.03");
+    assert!(found("receding-way-m-per-s") > 2.0e-3, "{}", found("receding-way-m-per-s"));
+}
+
+#[test]
+fn a_drop_on_a_coarse_disc_comes_to_rest_at_its_angle() {
+    let set = ["sph.spacing=8.0e-5", "sph.wetting.young.contact-angle-deg=90.0", "time.end=0.04", "expect=[]"];
+    let found = measures("drop-on-disc.toml", &set.map(str::to_owned));
+    assert!((found("contact-angle-deg") - 90.0).abs() < 1.5, "{}", found("contact-angle-deg"));
+    assert!((found("half-angle-ratio") - 1.0).abs() < 0.015, "{}", found("half-angle-ratio"));
+    assert!(found("area-drift") < 2e-3, "{}", found("area-drift"));
+}
+
+#[test]
+fn a_wall_slips_by_the_length_that_the_case_gives() {
+    let found = measures("poiseuille.toml", &["sph.walls.slip-length=1.0e-4".to_owned()]);
+    // Two spacings; what the method slips by itself is .02 of one.
+    assert!((found("slip-length-m") / 1.0e-4 - 1.0).abs() < 0.02, "{}", found("slip-length-m"));
+    assert!(found("velocity-l2-error") < 0.01, "{}", found("velocity-l2-error"));
+}
+
+#[test]
+fn the_angle_on_a_wall_turned_by_27_degrees_is_that_on_a_level_one() {
+    let found = measures("sessile-drop-turned.toml", &["sph.spacing=8.0e-5".to_owned()]);
+    assert!((found("base-ratio") - 1.0).abs() < 0.02, "{}", found("base-ratio"));
+}
+
+/// The wall asks for 60 degrees: at an edge that is anything from 60 to 150 degrees to the top.
+#[test]
+fn a_drop_stops_at_the_edges_of_a_pillar() {
+    let found = measures("pillar.toml", &["sph.spacing=1.0e-4".to_owned(), "time.end=0.05".to_owned()]);
+    assert!((found("contact-angle-deg") - 112.22).abs() < 1.0, "{}", found("contact-angle-deg"));
+    assert!((found("capillary-pressure-Pa") / -46.29 - 1.0).abs() < 0.01, "{}", found("capillary-pressure-Pa"));
+    assert!(found("wetting-blobs") == 1.0);
+}
+
+#[test]
+fn the_drag_on_an_array_of_cylinders_is_low_by_what_25_spacings_per_cell_leave_out() {
+    let found = measures("cylinder-array.toml", &["sph.spacing=4.0e-5".to_owned(), "expect=[]".to_owned()]);
+    assert!(found("unsteady-share").abs() < 1e-3, "{}", found("unsteady-share"));
+    // Of the second order in the spacing: 1 % at 50 spacings.
+    assert!((found("drag-over-mu-u") / 51.527 + 0.043 - 1.0).abs() < 0.01, "{}", found("drag-over-mu-u"));
+}
+
+/// Exact are the principal permeabilities of the array by postprocess/stokes_permeability.py at `--across 14`, turned.
+#[test]
+fn a_turned_array_has_the_permeability_tensor_of_the_array_and_leaves_it_symmetric() {
+    let found = measures("permeability-tensor.toml", &["sph.spacing=1.25e-5".to_owned(), "expect=[]".to_owned()]);
+    let xy = found("permeability-xy-m2");
+    // Gaps of 6.7 spacings let too much through, as they do with the axes of the array along x and y: 6, 2.5 and 0.5 %.
+    for (name, exact, tolerance) in [
+        ("permeability-xx-m2", 2.0567e-9, 0.08),
+        ("permeability-yy-m2", 5.5946e-9, 0.04),
+        ("permeability-xy-m2", -2.3586e-9, 0.01),
+    ] {
+        assert!((found(name) / exact - 1.0).abs() < tolerance, "{name}: {}", found(name));
+    }
+    // Exact in a slow flow; the particles are no symmetric scheme.
+    assert!((found("permeability-yx-m2") / xy - 1.0).abs() < 2e-3, "{}, {xy}", found("permeability-yx-m2"));
+    for share in ["unsteady-share-x", "unsteady-share-y"] {
+        assert!(found(share) < 1e-3, "{share}: {}", found(share));
+    }
+}
+
+/// A slit has h²/12 along its walls, and its other column does not exist.
+#[test]
+fn a_slit_has_one_column_of_the_tensor() {
+    let found = measures("permeability-tensor.toml", &SLIT.map(str::to_owned));
+    assert!((found("permeability-xx-m2") / 8.333e-10 - 1.0).abs() < 0.02, "{}", found("permeability-xx-m2"));
+    assert!(found("permeability-yx-m2").abs() < 1e-13, "{}", found("permeability-yx-m2"));
+}
+
+/// Walls 0.1 mm apart.
+const SLIT: [&str; 8] = [
+    "geometry.shapes=[]",
+    "geometry.max=[1.0e-4, 1.0e-4]",
+    "sph.spacing=4.0e-6",
+    "sph.gravity=[0.1, 0.0]",
+    "sph.sides.bottom=\"wall\"",
+    "sph.sides.top=\"wall\"",
+    "time.end=2.0e-3",
+    "expect=[]",
+];

@@ -1,0 +1,191 @@
+//! Viscosity by the velocity at the end of the step: what it shares with the explicit form, and what long steps must not do.
+
+use crate::support::boxes::{case, fastest, steps};
+use crate::support::cloud::Dice;
+use crate::support::flow::flow;
+use meniscus::math::Vec2;
+use meniscus::sph::method::ViscousStep;
+use meniscus::sph::projection::Flow;
+
+/// The forms of the viscous term.
+const FORMS: [&str; 3] = ["stress", "morris", "szewc"];
+
+/// Sides of all kinds but open ones, with slip: a mirror of each kind and two walls.
+const SIDES: &str = "[sph.sides]\nleft = \"image\"\nright = \"symmetry\"\n[sph.walls]\nslip-length = 5.0e-5\n";
+
+const PERIODIC: &str =
+    "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
+
+/// Two fluids of densities 1000 and 100 kg/m³ and viscosities 1 and 0.01 Pa s without tension, and a random velocity of each particle.
+fn stirred(form: &str, sides: &str) -> Flow {
+    let mut flow = flow(&case(&format!(
+        "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0\n[sph.phases.non-wetting]\ndensity = 100.0\nviscosity = 0.01\n\
+         [sph.interface]\ntension = 0.0\n[[sph.initial.wetting]]\ndisc = {{ center = [0.0, 0.0], radius = 3.0e-4 }}\n\
+         [sph.numerics]\nviscous-term = \"{form}\"\ndensity-error-shifting = 0.0\nshifting = 0.0\n{sides}"
+    )));
+    flow.method.viscous_step = ViscousStep::Implicit;
+    let mut dice = Dice::new(1);
+    for a in 0..flow.particles.fluids {
+        flow.particles.velocity[a] = 1.0e-3 * dice.vector();
+    }
+    flow
+}
+
+/// Twice the kinetic energy of the fluid in J/m.
+fn energy(flow: &Flow) -> f64 {
+    let of = |a: usize| flow.method.fluid(flow.particles.phase[a]).density * flow.particles.velocity[a].norm_squared();
+    (0..flow.particles.fluids).map(of).sum::<f64>() * flow.method.volume
+}
+
+/// The explicit limit of the step in s.
+fn explicit_limit(flow: &Flow) -> f64 {
+    1.0 / flow.viscous_rate()
+}
+
+#[test]
+fn a_channel_starts_as_with_the_explicit_form() {
+    // Two layers of a fluid at rest, pushed along the walls, on which they slip, for a third of the time that they take to become steady.
+    let text = |form: &str| {
+        case(&format!(
+            "gravity = [0.01, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n\
+             [sph.phases.non-wetting]\ndensity = 1000.0\nviscosity = 0.02\n[sph.interface]\ntension = 0.0\n\
+             [[sph.initial.wetting]]\nrectangle = {{ center = [0.0, -5.0e-4], size = [2.0e-3, 1.0e-3] }}\n\
+             [sph.numerics]\nviscous-term = \"{form}\"\n\
+             [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.walls]\nslip-length = 5.0e-5\n"
+        ))
+    };
+    for form in FORMS {
+        let after = |step: ViscousStep, count: usize| {
+            let mut flow = flow(&text(form));
+            flow.method.viscous_step = step;
+            steps(&mut flow, count, 5.0e-3 / count as f64);
+            flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.x).sum::<f64>()
+        };
+        let oracle = after(ViscousStep::Explicit, 2000);
+        // Steps of 4 and 2 times the explicit limit, whose errors are between the first and the second order.
+        let [long, short] = [50, 100].map(|count| (after(ViscousStep::Implicit, count) / oracle - 1.0).abs());
+        assert!(long < 0.01 && short < 0.6 * long, "{form}: off by {long:.1e}, with half the step {short:.1e}");
+    }
+}
+
+#[test]
+fn a_shear_wave_decays_by_the_factor_of_the_method() {
+    let shear = |step: ViscousStep, dt: f64| {
+        let mut flow = flow(&case(&format!("[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n{PERIODIC}")));
+        flow.method.viscous_step = step;
+        let wave = |x: Vec2| (std::f64::consts::TAU * x.y / 1.0e-3).cos();
+        for a in 0..flow.particles.fluids {
+            flow.particles.velocity[a] = Vec2::new(1.0e-4 * wave(flow.particles.position[a]), 0.0);
+        }
+        let limit = explicit_limit(&flow);
+        steps(&mut flow, 1, dt);
+        let left = |a: usize| flow.particles.velocity[a].x * wave(flow.particles.position[a]);
+        let fluids = flow.particles.fluids;
+        (2.0e4 * (0..fluids).map(left).sum::<f64>() / fluids as f64, limit)
+    };
+    let short = 1.0e-6;
+    let (left, limit) = shear(ViscousStep::Explicit, short);
+    let rate = (1.0 - left) / short;
+    for dt in [2.0 * limit, 20.0 * limit] {
+        // The largest rate is twice the inverse of the limit.
+        let z = 2.0 * dt / limit;
+        let theta = 1.0 / (1.0 - (-z).exp()) - 1.0 / z;
+        let factor = 1.0 - rate * dt / (1.0 + theta * rate * dt);
+        let (left, _) = shear(ViscousStep::Implicit, dt);
+        assert!((left - factor).abs() < 1e-5, "{left} is left of {factor} after {:.1} limits", dt / limit);
+    }
+}
+
+#[test]
+fn steps_far_beyond_the_explicit_limit_bring_every_motion_to_rest() {
+    for (form, sides) in FORMS.into_iter().flat_map(|form| [(form, SIDES), (form, PERIODIC)]) {
+        for times in [3.0, 30.0] {
+            let mut flow = stirred(form, sides);
+            let dt = times * explicit_limit(&flow);
+            let before = energy(&flow);
+            for _ in 0..20 {
+                let until = flow.time + dt;
+                while flow.time < until {
+                    flow.step(until).unwrap();
+                }
+            }
+            // Momentum stays where no wall takes it.
+            let last = energy(&flow);
+            assert!(last < 0.2 * before, "{form}, {times} times the limit: {before:.3e} to {last:.3e} J/m");
+        }
+    }
+}
+
+#[test]
+fn viscosity_at_the_end_of_the_step_keeps_momentum() {
+    let mut flow = stirred("morris", PERIODIC);
+    let momentum = |flow: &Flow| -> Vec2 {
+        let of = |a: usize| flow.method.fluid(flow.particles.phase[a]).density * flow.particles.velocity[a];
+        (0..flow.particles.fluids).map(of).sum()
+    };
+    let size: f64 = (0..flow.particles.fluids)
+        .map(|a| flow.method.fluid(flow.particles.phase[a]).density * flow.particles.velocity[a].norm())
+        .sum();
+    let (before, dt) = (momentum(&flow), 30.0 * explicit_limit(&flow));
+    steps(&mut flow, 1, dt);
+    // The pressure gradient by differences keeps momentum on the lattice only, where the particles are; the rest is the residual.
+    assert!((momentum(&flow) - before).norm() < 1e-5 * size, "{:.1e}", (momentum(&flow) - before).norm() / size);
+}
+
+#[test]
+fn a_steady_flow_does_not_hang_on_the_step() {
+    let steady = |dt: f64| {
+        let mut flow = flow(&case(
+            "gravity = [0.01, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n\
+             [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n",
+        ));
+        flow.method.viscous_step = ViscousStep::Implicit;
+        // Three viscous times density H²/viscosity.
+        steps(&mut flow, (0.03 / dt).round() as usize, dt);
+        fastest(&flow)
+    };
+    let (short, long) = (steady(2.0e-5), steady(1.0e-3));
+    assert!((long / short - 1.0).abs() < 1e-5, "{short} and, with steps 50 times as long, {long} m/s");
+}
+
+#[test]
+fn a_flow_around_a_cylinder_hardly_hangs_on_the_step() {
+    let mean = |dt: f64| {
+        let mut flow = flow(
+            "format = 1\ntitle = \"A cylinder\"\n[geometry]\nmin = [-5.0e-4, -5.0e-4]\nmax = [5.0e-4, 5.0e-4]\n\
+             shapes = [{ disc = { center = [0.0, 0.0], radius = 2.5e-4 } }]\n[time]\nend = 1.0\n\
+             [sph]\nspacing = 4.0e-5\ngravity = [0.01, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.01\n\
+             [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n",
+        );
+        flow.method.viscous_step = ViscousStep::Implicit;
+        // Six times of its slowest mode.
+        steps(&mut flow, (0.024 / dt).round() as usize, dt);
+        flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.x).sum::<f64>()
+    };
+    let (short, long) = (mean(4.0e-5), mean(8.0e-4));
+    // Without the leak of the pressure taken out, the flow of long steps is a tenth faster.
+    assert!((long / short - 1.0).abs() < 0.01, "{long} and {short}");
+}
+
+#[test]
+fn no_particle_goes_farther_in_a_step_than_its_limit_allows() {
+    // The corners of a square drop, and a lid that moves at once; the largest way of a step over h, from the page on forces.
+    let drop = "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n[sph.phases.non-wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n\
+                [sph.interface]\ntension = 0.02\n[[sph.initial.wetting]]\nrectangle = { center = [0.0, 0.0], size = [6.0e-4, 6.0e-4] }\n\
+                [sph.numerics]\ntime-step-factor = 2.0\n";
+    let lid = "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n[sph.sides]\nspeed = { top = 0.1 }\n";
+    for (name, text, factor) in [("drop", drop, 2.0), ("lid", lid, 1.0)] {
+        let mut flow = flow(&case(text));
+        flow.method.viscous_step = ViscousStep::Implicit;
+        for _ in 0..20 {
+            flow.step(1.0).unwrap();
+            let way = fastest_of_fluid(&flow) * flow.last.dt / flow.method.kernel.h;
+            // What shifted particles take along of the velocity around them comes on top.
+            assert!(way < 1.1 * 1.5 * 0.125 * factor, "{name}: {way} h in step {}", flow.steps);
+        }
+    }
+}
+
+fn fastest_of_fluid(flow: &Flow) -> f64 {
+    flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max)
+}

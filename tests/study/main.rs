@@ -1,0 +1,8 @@
+//! Parameter studies: plans, runs, files, clusters.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod files;
+mod runs;
+mod slurm;
