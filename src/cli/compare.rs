@@ -11,7 +11,7 @@ use super::run::new_folder;
 use super::source;
 use super::threads::pool;
 use crate::io::{FileError, atomic};
-use crate::run::compare::{CompareError, Comparison, compare as run_both, page};
+use crate::run::compare::{CompareError, Comparison, Side, compare as run_both, page};
 use crate::run::execute::Mode;
 use crate::run::folder;
 use crate::run::setup::SetupError;
@@ -91,7 +91,12 @@ fn summary(found: &Comparison) {
     both("breakthrough pressure", sides.map(|side| told(side.breakthrough_pressure_pa, "Pa")));
     both("saturation then", sides.map(|side| told(side.saturation_at_breakthrough, "")));
     both("wall time", sides.map(|side| duration(side.wall_time_s)));
+    let processor = |side: &Side| side.processor_time_s.map_or("not measured".to_owned(), duration);
+    both("processor time", sides.map(processor));
     let rank = told(found.rank_correlation, "");
     say(format_args!("  order of invasion        rank correlation {rank}, {} elements", found.elements_in_both));
     say(format_args!("  overlap of invaded areas {}, mean over all records", told(found.mean_overlap, "")));
+    for warning in sides.into_iter().flat_map(|side| &side.warnings) {
+        say(format_args!("  WARNING     {warning}"));
+    }
 }

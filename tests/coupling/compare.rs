@@ -32,6 +32,8 @@ fn two_cases_of_one_geometry_become_a_page_and_numbers() {
         assert!(!page.contains(resource), "{resource}");
     }
     assert!(page.contains("capillary pressure") && page.matches("<svg").count() >= 2);
+    // It is coarser than menisci in throats need.
+    assert!(page.contains("<li>direct simulation: ") && page.contains("across the narrowest throat"), "{page}");
     let text = std::fs::read_to_string(folder.path().join("both/compare.json")).unwrap();
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert_eq!(found["direct"]["saturation"].as_array().unwrap().len(), 6);

@@ -7,6 +7,7 @@ use crate::case::checked::Case;
 use crate::case::network::state::NetworkState;
 use crate::case::raw::RawPhase;
 use crate::math::Vec2;
+use crate::run::processor_time::ProcessorTime;
 use crate::run::setup;
 use crate::snapshot::{Snapshot, Values};
 use crate::solver::{Series, Solver};
@@ -24,15 +25,17 @@ pub fn track(
     records: usize,
     done: &mut dyn FnMut(f64),
 ) -> Result<Track, CompareError> {
-    let clock = Instant::now();
+    let (clock, processor_time) = (Instant::now(), ProcessorTime::start());
     let mut solver = setup::build(case)?;
     let mut track = Track {
         records: Vec::new(),
         filled: vec![None; state.elements.len()],
-        seconds: 0.0,
+        wall_time_s: 0.0,
+        processor_time_s: None,
         unknowns: solver.statistics().unknowns,
         steps: 0,
         permeability: None,
+        warnings: Vec::new(),
     };
     for record in 0..=records {
         let until = case.end * record as f64 / records as f64;
@@ -42,11 +45,13 @@ pub fn track(
         track.add(&as_record(solver.as_ref(), grid, state.invading), grid);
         done(record as f64 / records as f64);
     }
-    track.seconds = clock.elapsed().as_secs_f64();
+    track.wall_time_s = clock.elapsed().as_secs_f64();
+    track.processor_time_s = processor_time.seconds();
     track.steps = solver.steps();
     let measures = solver.measures(&Series::default());
     let permeability = measures.iter().find(|it| it.name == "permeability-m2").map(|it| it.value);
     track.permeability = permeability.filter(|value| value.is_finite());
+    track.warnings = setup::warnings(case, solver.as_ref(), &Series::default());
     Ok(track)
 }
 

@@ -73,10 +73,12 @@ struct Track {
     records: Vec<Record>,
     /// For each element the record at which the invading phase came to hold more than half of it.
     filled: Vec<Option<usize>>,
-    seconds: f64,
+    wall_time_s: f64,
+    processor_time_s: Option<f64>,
     unknowns: usize,
     steps: u64,
     permeability: Option<f64>,
+    warnings: Vec<String>,
 }
 
 /// The cells on which both are compared.
@@ -123,10 +125,14 @@ pub struct Side {
     pub permeability_m2: Option<f64>,
     /// Wall time in s.
     pub wall_time_s: f64,
+    /// Processor time in s over all threads; none where the system does not tell.
+    pub processor_time_s: Option<f64>,
     /// Pores, or particles.
     pub unknowns: usize,
     /// Events, or time steps.
     pub steps: u64,
+    /// What a reader must know before trusting it.
+    pub warnings: Vec<String>,
 }
 
 /// Both at one saturation.
@@ -207,9 +213,11 @@ fn side(track: &Track, outlet: &[usize]) -> Side {
         breakthrough_pressure_pa: largest,
         saturation_at_breakthrough: through.map(|record| track.records[record].saturation),
         permeability_m2: track.permeability,
-        wall_time_s: track.seconds,
+        wall_time_s: track.wall_time_s,
+        processor_time_s: track.processor_time_s,
         unknowns: track.unknowns,
         steps: track.steps,
+        warnings: track.warnings.clone(),
     }
 }
 
@@ -261,8 +269,10 @@ fn compared(network: &Track, direct: &Track, grid: &Grid) -> Comparison {
         saturation_at_breakthrough: None,
         permeability_m2: None,
         wall_time_s: 0.0,
+        processor_time_s: None,
         unknowns: 0,
         steps: 0,
+        warnings: Vec::new(),
     };
     Comparison {
         titles: Default::default(),

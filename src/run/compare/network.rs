@@ -31,11 +31,21 @@ pub fn track(solver: &mut NetworkSolver, grid: &Grid) -> Result<Track, CompareEr
         }
     }
     let statistics = solver.statistics();
-    let seconds = statistics.parts.iter().map(|part| part.seconds).sum();
+    let wall_time_s = statistics.parts.iter().map(|part| part.seconds).sum();
     let measures = solver.measures(&Series::default());
     let permeability = measures.iter().find(|it| it.name == "permeability-x-m2").map(|it| it.value);
     let permeability = permeability.filter(|value| value.is_finite());
-    Ok(Track { records, filled, seconds, unknowns: statistics.unknowns, steps: statistics.steps, permeability })
+    Ok(Track {
+        records,
+        filled,
+        wall_time_s,
+        // One thread does it all.
+        processor_time_s: Some(wall_time_s),
+        unknowns: statistics.unknowns,
+        steps: statistics.steps,
+        permeability,
+        warnings: solver.warnings(&Series::default()),
+    })
 }
 
 fn record(solver: &NetworkSolver, grid: &Grid) -> Record {

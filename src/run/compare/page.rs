@@ -21,6 +21,7 @@ pub fn page(comparison: &Comparison) -> String {
          <p>Network: {network}.<br>Direct simulation: {direct}.</p>\n"
     );
     html += &table(comparison);
+    html += &warnings(comparison);
     html += "<h2>Capillary pressure over saturation</h2>\n";
     html += &curve(comparison);
     html += "\n<h2>At equal saturation</h2>\n<p>Network on the left, direct simulation on the right; the invading phase is light.</p>\n";
@@ -39,6 +40,7 @@ pub fn page(comparison: &Comparison) -> String {
 fn table(comparison: &Comparison) -> String {
     let number = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.4e}"));
     let share = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.3}"));
+    let seconds = |value: Option<f64>| value.map_or("not measured".to_owned(), |value| format!("{value:.2}"));
     let both = [&comparison.network, &comparison.direct];
     let row = |name: &str, cells: [String; 2]| {
         format!("<tr><th>{name}</th><td>{}</td><td>{}</td></tr>\n", cells[0], cells[1])
@@ -51,6 +53,7 @@ fn table(comparison: &Comparison) -> String {
         row("pores; particles", of(&|side| side.unknowns.to_string())),
         row("events; time steps", of(&|side| side.steps.to_string())),
         row("wall time in s", of(&|side| format!("{:.2}", side.wall_time_s))),
+        row("processor time in s", of(&|side| seconds(side.processor_time_s))),
     ];
     format!(
         "<table>\n<tr><th></th><th>network</th><th>direct simulation</th></tr>\n{}</table>\n<p>Rank correlation of the order in which {} \
@@ -60,6 +63,15 @@ fn table(comparison: &Comparison) -> String {
         share(comparison.rank_correlation),
         share(comparison.mean_overlap)
     )
+}
+
+/// What a reader must know before trusting either.
+fn warnings(comparison: &Comparison) -> String {
+    let of = |name: &str, side: &Side| -> String {
+        side.warnings.iter().map(|warning| format!("<li>{name}: {}</li>\n", escaped(warning))).collect()
+    };
+    let all = of("network", &comparison.network) + &of("direct simulation", &comparison.direct);
+    if all.is_empty() { all } else { format!("<h2>Warnings</h2>\n<ul>\n{all}</ul>\n") }
 }
 
 /// Both curves on one pair of axes.
