@@ -14,6 +14,8 @@ pub mod geometry;
 
 pub mod case;
 
+pub mod interface;
+
 pub mod analysis;
 pub mod network;
 pub mod sph;

@@ -42,7 +42,7 @@ fn relative_difference(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::lattice::Lattice;
+    use crate::interface::lattice::Lattice;
 
     /// Lattice points in the ellipse with half axes 1.2 and 0.8, turned by `turn` (rad).
     fn ellipse(turn: f64) -> Vec<Vec2> {

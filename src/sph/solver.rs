@@ -2,8 +2,9 @@
 
 use std::sync::OnceLock;
 
-use crate::analysis::phases::{PhaseAreas, WallSample, density_error};
+use crate::analysis::phases::{PhaseAreas, density_error};
 use crate::case::checked::MeasureSet;
+use crate::interface::lengths::WallSample;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{

@@ -1,10 +1,10 @@
 //! What of a flow is out of the reach of its resolution, in words for the reader of its measures.
 
 use crate::analysis::blobs::{LINK, blobs};
-use crate::analysis::contact::ContactLine;
 use crate::analysis::laws::drops::cap;
 use crate::analysis::resolution::thin_parts;
-use crate::analysis::wall::{WallPoint, is_edge_between};
+use crate::interface::contact::ContactLine;
+use crate::interface::wall::{WallPoint, is_edge_between};
 use crate::math::{Vec2, perpendicular};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::{Subject, measure, wetting_points};
-use crate::analysis::contour::Polyline;
 use crate::analysis::moments::Moments;
+use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
 use crate::solver::Measure;
 use crate::sph::observe::Observation;

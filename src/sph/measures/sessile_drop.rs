@@ -1,9 +1,9 @@
 //! Base, height and, under gravity, the angle of a drop on a wall (C1 and C2 of the benchmarks).
 
 use super::{Subject, measure};
-use crate::analysis::contact::ContactLine;
 use crate::analysis::laws::drops::cap;
 use crate::analysis::young_laplace::sessile_drop;
+use crate::interface::contact::ContactLine;
 use crate::math::Vec2;
 use crate::solver::Measure;
 

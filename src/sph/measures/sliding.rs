@@ -6,10 +6,10 @@
 
 use super::stream;
 use super::{Subject, measure};
-use crate::analysis::WallPoint;
-use crate::analysis::contact::ContactSettings;
-use crate::analysis::contour::Polyline;
-use crate::analysis::meniscus::{MeniscusEnd, ends_under_force};
+use crate::interface::contact::ContactSettings;
+use crate::interface::meniscus_ends::{MeniscusEnd, ends_under_force};
+use crate::interface::polyline::Polyline;
+use crate::interface::wall::WallPoint;
 use crate::math::Vec2;
 use crate::solver::{Measure, Series};
 use crate::sph::observe::Observation;

@@ -1,11 +1,11 @@
 //! What measures and output know of the walls.
 
 use super::handed_back::hand_back;
-use crate::analysis::contour::Polyline;
-use crate::analysis::phases::wall_samples;
 use crate::case::checked::{Case, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
+use crate::interface::lengths::wall_samples;
+use crate::interface::polyline::Polyline;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::Lines;
 use crate::sph::measures::DiscOf;

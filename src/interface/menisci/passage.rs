@@ -10,12 +10,12 @@
 use std::f64::consts::PI;
 
 use crate::geometry::curve::{Curve, cross};
+use crate::interface::menisci::circle::{Circle, circles, has_curvature};
+use crate::interface::menisci::meniscus::Meniscus;
+use crate::interface::menisci::obstacle::Obstacle;
+use crate::interface::menisci::path::{Leg, Place, Station, Walls, held, meets};
+use crate::interface::menisci::wall::{Contact, Hand, Piece, Wall, WallPart, pieces};
 use crate::math::Vec2;
-use crate::network::menisci::circle::{Circle, circles, has_curvature};
-use crate::network::menisci::meniscus::Meniscus;
-use crate::network::menisci::obstacle::Obstacle;
-use crate::network::menisci::path::{Leg, Place, Station, Walls, held, meets};
-use crate::network::menisci::wall::{Contact, Hand, Piece, Wall, WallPart, pieces};
 
 /// The two walls of a throat and all menisci between them, ready for questions.
 #[derive(Debug, Clone)]

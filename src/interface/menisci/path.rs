@@ -9,9 +9,9 @@
 use std::f64::consts::PI;
 
 use crate::geometry::curve::cross;
+use crate::interface::menisci::circle::{Circle, Condition, meets_round, meets_straight};
+use crate::interface::menisci::wall::{Piece, Shape, wrapped};
 use crate::math::Vec2;
-use crate::network::menisci::circle::{Circle, Condition, meets_round, meets_straight};
-use crate::network::menisci::wall::{Piece, Shape, wrapped};
 
 /// A contact on each wall: the piece, and the parameter on it.
 #[derive(Debug, Clone, Copy, PartialEq)]

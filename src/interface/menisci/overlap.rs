@@ -3,8 +3,8 @@
 //! They become one where their contacts meet on the wall; earlier, off the wall, where both bulge and the arcs touch first: the defending
 //! pocket behind the place of touch stays on the wall.
 
-use crate::network::menisci::meniscus::Meniscus;
-use crate::network::menisci::passage::Passage;
+use crate::interface::menisci::meniscus::Meniscus;
+use crate::interface::menisci::passage::Passage;
 
 /// The smallest curvature, at most `up_to` (1/m), at which two menisci meet that advance along a shared wall: the left wall of `a`, beyond
 /// its chord, is the right wall of `b` run through the other way. `shared` is the length of that wall between both chords in m. Both

@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::{Cell, Random, polyline, relative};
+use crate::interface::menisci::{Hand, Meniscus, Passage, Wall};
 use crate::math::Vec2;
-use crate::network::menisci::{Hand, Meniscus, Passage, Wall};
 
 /// A slit of width 1 along y from −2 to 2 whose walls change their angle at y = 1.
 fn patched(near: f64, far: f64) -> Passage {

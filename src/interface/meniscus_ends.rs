@@ -7,7 +7,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::contact::{ContactSettings, LEAST_POINTS, WettingSide, fitted_points};
-use super::contour::Polyline;
+use super::polyline::Polyline;
 use super::wall::WallPoint;
 use crate::math::{Vec2, perpendicular};
 

@@ -1,6 +1,6 @@
 //! What a measurement needs to know of a wall at a point of the plane, and contours cut off there.
 
-use super::contour::Polyline;
+use super::polyline::Polyline;
 use crate::math::{Vec2, perpendicular};
 
 /// The wall as seen from a point.

@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::arc::Arc;
 use super::circle;
-use super::contour::Polyline;
+use super::polyline::Polyline;
 use super::wall::{WallPoint, face_beside, is_edge_between};
 use crate::math::Vec2;
 

@@ -1,4 +1,7 @@
-//! Circles through weighted points by least squares: free, held to an angle at a wall, and through a given point.
+//! Circles through weighted points by linear least squares: free, held to an angle at a wall, and through a given point.
+//!
+//! Beside the fit of [`circle`](super::circle), which minimizes distances and has standard errors: this one is a solve of three unknowns, cheap
+//! enough for every particle in every step, its weights let points come and go smoothly, and it can be held to a contact angle.
 //!
 //! A circle through points (u, v) in the frame of tangent and normal obeys v = a + b u + k (u² + v²)/2 with curvature
 //! k/√(1 + b² − 2ka): linear in a, b and k, and exact for circles. At a wall the circle leaves the contact point with the
@@ -19,17 +22,24 @@ const ITERATIONS: usize = 12;
 /// The contact point is found when it moves by less than this share of the stencil.
 const CONVERGED: f64 = 1e-9;
 
-/// A point of the stencil relative to the nearest one, with its weight.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Near {
-    pub(super) index: usize,
-    pub(super) x: Vec2,
-    pub(super) weight: f64,
+/// Fewest points of a fit from the wall: two unknowns and some redundancy. A line that moves fast parts the particles at its
+/// tip, and few pairs span the interface there.
+pub const FEWEST_FROM_CONTACT: usize = 3;
+
+/// A point that a circle is fitted to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WeightedPoint {
+    /// Its number among the points of the interface.
+    pub index: usize,
+    /// Its place in m, relative to the origin of the fit.
+    pub x: Vec2,
+    /// Its weight.
+    pub weight: f64,
 }
 
 /// The circle v = a + b u + k (u² + v²)/2 in the frame of `tangent` and `normal`, its origin where that of the points was.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Circle {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WeightedCircle {
     a: f64,
     b: f64,
     k: f64,
@@ -37,9 +47,10 @@ pub(super) struct Circle {
     normal: Vec2,
 }
 
-impl Circle {
-    /// Weighted least squares through `near`, none through too few points; `normal` is about that of the interface.
-    pub(super) fn through(near: &[Near], normal: Vec2) -> Option<Self> {
+impl WeightedCircle {
+    /// Weighted least squares through `near`, none through fewer than five points; `normal` is about that of the interface.
+    #[must_use]
+    pub fn through(near: &[WeightedPoint], normal: Vec2) -> Option<Self> {
         if near.len() < FEWEST {
             return None;
         }
@@ -55,8 +66,9 @@ impl Circle {
         Some(Self { a: solution[0], b: solution[1], k: solution[2], tangent, normal })
     }
 
-    /// k/√(1 + b² − 2ka) in 1/m.
-    pub(super) fn curvature(&self) -> Option<f64> {
+    /// k/√(1 + b² − 2ka) in 1/m, positive for a drop on the side of `normal`; none where there is no real circle.
+    #[must_use]
+    pub fn curvature(&self) -> Option<f64> {
         let square = 1.0 + self.b * self.b - 2.0 * self.k * self.a;
         (square > 0.0).then(|| self.k / square.sqrt())
     }
@@ -64,7 +76,8 @@ impl Circle {
     /// The point of the circle nearest to `x` (m) and the unit normal there, none for the center.
     ///
     /// F = a + b u + k (u² + v²)/2 − v is quadratic, and on the line through x along ∇F it is F − t|∇F| + k t²/2.
-    pub(super) fn closest_point(&self, x: Vec2) -> Option<(Vec2, Vec2)> {
+    #[must_use]
+    pub fn closest_point(&self, x: Vec2) -> Option<(Vec2, Vec2)> {
         let slope = |u: f64, v: f64| Vec2::new(self.b + self.k * u, self.k * v - 1.0);
         let (u, v) = (x.dot(&self.tangent), x.dot(&self.normal));
         let off = self.a + self.b * u + 0.5 * self.k * (u * u + v * v) - v;
@@ -86,9 +99,10 @@ impl Circle {
 /// `contact` in m from the point that `near` is relative to; ν along the wall and its normal. With the contact point right, the circle
 /// v = k (u² + v²)/2 passes through it; a fit of v = a + k (u² + v²)/2 misses it by a, and Newton's method moves it until a = 0. At 0 and
 /// 180 degrees the circle touches the wall: moved along the wall by δ the circle then moves by k u δ alone, which is what the points
-/// farther from the wall tell.
-pub(super) fn fit_from_contact(
-    near: &[Near],
+/// farther from the wall tell. None where the points do not determine the fit.
+#[must_use]
+pub fn fit_from_contact(
+    near: &[WeightedPoint],
     contact: Vec2,
     (outwards, normal): (Vec2, Vec2),
     angle: f64,
@@ -124,8 +138,9 @@ pub(super) fn fit_from_contact(
 /// Angle in rad at which the circle through `anchor` (m, from the point that `near` is relative to) meets the wall with the
 /// normal `wall`; `normal` is about that of the interface.
 ///
-/// Least squares of v = b u + k (u² + v²)/2 about the anchor: the normal there is (−b, 1)/√(1 + b²).
-pub(super) fn angle_through(near: &[Near], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {
+/// Least squares of v = b u + k (u² + v²)/2 about the anchor: the normal there is (−b, 1)/√(1 + b²). None where the points do not determine it.
+#[must_use]
+pub fn angle_through(near: &[WeightedPoint], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {
     let tangent = -perpendicular(normal);
     let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
     for q in near {

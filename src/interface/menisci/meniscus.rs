@@ -1,9 +1,9 @@
 //! A meniscus: the arc of a circle, or a straight line, between its contacts with two walls.
 
 use crate::geometry::curve::{Curve, cross};
+use crate::interface::menisci::crossing::{circle_circle, meetings};
+use crate::interface::menisci::wall::Contact;
 use crate::math::{Vec2, perpendicular};
-use crate::network::menisci::crossing::{circle_circle, meetings};
-use crate::network::menisci::wall::Contact;
 
 /// Arcs of a smaller angle between chord and interface, in rad, count as straight where their circle's center is asked for.
 const STRAIGHT: f64 = 1e-6;

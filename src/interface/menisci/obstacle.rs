@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use crate::geometry::curve::Curve;
+use crate::interface::menisci::circle::{Circle, Condition, circles, meets_round, meets_straight};
+use crate::interface::menisci::path::{Leg, Place, Walls, meets};
+use crate::interface::menisci::wall::{Shape, wrapped};
 use crate::math::{Bounds, Vec2};
-use crate::network::menisci::circle::{Circle, Condition, circles, meets_round, meets_straight};
-use crate::network::menisci::path::{Leg, Place, Walls, meets};
-use crate::network::menisci::wall::{Shape, wrapped};
 
 /// A wall that a meniscus may touch, lengths over the width of the throat.
 pub(super) struct Obstacle {

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use super::{Cell, Random, discs, mirrored, polyline, relative};
 use crate::geometry::curve::Curve;
+use crate::interface::menisci::{Hand, Passage, Wall, WallPart};
 use crate::math::{Vec2, perpendicular};
-use crate::network::menisci::{Hand, Passage, Wall, WallPart};
 
 #[test]
 fn equal_discs_burst_at_the_tabulated_pressures() {

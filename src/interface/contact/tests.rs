@@ -1,7 +1,7 @@
 use super::*;
-use crate::analysis::contour::contour;
-use crate::analysis::lattice::Lattice;
-use crate::analysis::wall::clip;
+use crate::interface::contour::contour;
+use crate::interface::lattice::Lattice;
+use crate::interface::wall::clip;
 use nalgebra::Rotation2;
 
 const H: f64 = 1.5 / 40.0;

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use super::{Cell, Random, relative};
 use crate::geometry::curve::{Curve, cross};
+use crate::interface::menisci::{Hand, Passage, Wall, WallPart, overlap};
 use crate::math::Vec2;
-use crate::network::menisci::{Hand, Passage, Wall, WallPart, overlap};
 
 #[test]
 fn a_third_wall_is_touched_where_a_dense_scan_sees_it() {
