@@ -21,6 +21,8 @@ pub mod network;
 pub mod sph;
 pub mod thin_film;
 
+pub mod benchmarks;
+
 pub mod io;
 
 pub mod run;

@@ -2,7 +2,8 @@
 //!
 //! Along a static meniscus the curvature is κ = κ_0 + (Δρ/σ) g·(x − x_0) (Young and Laplace). The turn of its tangent is the integral of that
 //! over the arc length, φ = φ_0 + κ_0 s + (Δρ/σ) ∫ g·(x − x_0) ds, linear in the two unknowns where the places x are those of the
-//! contour. The fit is followed to the wall. Without a force it is a circle. Leaves out the bending of a moving interface by the flow.
+//! contour. The fit is followed to the wall. Without a force it is a circle. Beside it stands [`contact`](super::contact), which fits distances and has
+//! error bars: on an interface that the flow bends the two differ, so that the angles of moving drops keep their own. Leaves out the bending of a moving interface by the flow.
 
 use nalgebra::{Matrix2, Vector2};
 

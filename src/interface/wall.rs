@@ -12,6 +12,13 @@ pub struct WallPoint {
     pub normal: Vec2,
 }
 
+impl From<(f64, Vec2)> for WallPoint {
+    /// From the signed distance in m and the normal.
+    fn from((distance, normal): (f64, Vec2)) -> Self {
+        Self { distance, normal }
+    }
+}
+
 /// A wall that has turned away by more than this (sine) has an edge.
 const TURNED: f64 = 0.8;
 

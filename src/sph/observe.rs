@@ -49,10 +49,7 @@ impl Observation {
         let all = sharp_color(flow);
         let (volumes, color) = (&flow.fields.volume[..fluids], &all[..fluids]);
         let areas = PhaseAreas::new(volumes, color);
-        let wall_point = |x: Vec2| {
-            let (distance, normal) = (flow.wall)(x);
-            WallPoint { distance, normal }
-        };
+        let wall_point = |x: Vec2| WallPoint::from((flow.wall)(x));
         let two_phases = flow.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
         let (interface, wall_color) = interface_and_walls(flow, (&all, two_phases), wall, &wall_point);
         let settings =

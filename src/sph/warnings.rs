@@ -115,10 +115,7 @@ fn thin_liquid_at_edge(flow: &Flow, seen: &Observation) -> Option<String> {
     let m = &flow.method;
     let length = seen.areas.wetting.min(seen.areas.non_wetting).sqrt();
     let ohnesorge = m.wetting_fluid.viscosity / (m.wetting_fluid.density * m.tension * length).sqrt();
-    let wall = |x: Vec2| {
-        let (distance, normal) = (flow.wall)(x);
-        WallPoint { distance, normal }
-    };
+    let wall = |x: Vec2| WallPoint::from((flow.wall)(x));
     let is_at_edge = |line: &ContactLine| {
         let along = m.kernel.h * perpendicular(wall(line.position).normal);
         is_edge_between(&wall, line.position - along, line.position + along)

@@ -22,7 +22,6 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surro
         plates: plates(&case.geometry),
         wall_speeds: sph.wall_speeds,
         stages: sph.measure.permeability.then(|| Stages::new(sph.gravity, case.end)).flatten(),
-        measures: sph.measure.clone(),
         grid_spacing: case.output.grid_ratio * sph.spacing,
         hand_back: sph.initial.network.as_ref().map(|start| hand_back(start, sph.tension)),
     }

@@ -1,4 +1,4 @@
-//! Stencils: the points of the interface around one of them, and where they would lie for a fit of one circle.
+//! The interface as points, and stencils: the points around one place, and where they would lie for a fit of one circle.
 //!
 //! The level 1/2 of the smoothed color is drawn towards the center of curvature by h²κ/7 (`LINE_MOMENT`). A gradient of the curvature
 //! bends the interface away from its circle by the deflection w with w'' = ∇κ·x along it, w = ∇κ·d |d|²/6 at the distance d.

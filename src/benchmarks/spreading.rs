@@ -1,18 +1,22 @@
 //! The exponent of a drop that spreads on a wall (C13 of the benchmarks; Tanner's law in the plane: 1/7).
 
-use super::{Subject, measure};
 use crate::solver::Measure;
+use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
+use crate::sph::projection::Flow;
+
+/// Columns and measures of its table `[sph.measure.spreading]`.
+pub const GROUP: Group = Group { columns, measures };
 
 /// Distance in m of the two contact points.
-pub fn columns(seen: &Observation) -> [(&'static str, f64); 1] {
+fn columns(_: &Flow, seen: &Observation) -> Columns {
     let lines: Vec<_> = seen.lines_with_angle().collect();
     // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
     let base = if let [a, b] = lines[..] { (b.position - a.position).norm() } else { f64::NAN };
-    [("base_m", base)]
+    vec![("base_m", base)]
 }
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+fn measures(s: &Subject) -> Vec<Measure> {
     let end = s.series.column("time_s").last().unwrap_or(f64::NAN);
     let all = s.series.column("time_s").zip(s.series.column("base_m"));
     let decade: Vec<(f64, f64)> =

@@ -2,11 +2,14 @@
 
 use std::f64::consts::PI;
 
-use super::{Subject, measure};
 use crate::analysis::laws::pores::entry_curvature;
 use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+/// Measures of its table `[sph.measure.throat-entry]`.
+pub const GROUP: Group = Group::of(measures);
+
+fn measures(s: &Subject) -> Vec<Measure> {
     let (tension, h) = (s.flow.method.tension, s.flow.method.kernel.h);
     let found = &s.seen.capillary_pressure;
     let pressure = measure(

@@ -2,10 +2,13 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::{Subject, measure};
 use crate::analysis::laws::flow::Poiseuille;
 use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::open::{Drive, OpenSide};
+
+/// Measures of its table `[sph.measure.poiseuille]`.
+pub const GROUP: Group = Group::of(measures);
 
 /// The force per volume in N/m³ that drives the flow, and whether it does so from time zero on.
 fn force(s: &Subject) -> (f64, bool) {
@@ -25,7 +28,7 @@ fn force(s: &Subject) -> (f64, bool) {
     (weight + (pressure(0) - pressure(1)) / size.x, true)
 }
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, bounds) = (s.flow, s.flow.domain.bounds);
     let fluid = flow.method.wetting_fluid;
     let (force, starts_up) = force(s);
@@ -53,7 +56,8 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
         let found = matrix.solve(&right);
         found[1] / (found[0] * height)
     });
-    let method = "L2 norm over particles of the velocity less the start-up series at the end, over that of the series; with a given flow less the steady parabola";
+    let method = "L2 norm over particles of the velocity less the start-up series at the end, over that of the series; with a given flow less \
+                  the steady parabola";
     let method_of_slip = "b of the parabola a (y (H - y) + H b) fitted to the velocities at the end; of a steady flow";
     vec![
         measure("velocity-l2-error", (error / size).sqrt(), "", None, method),

@@ -1,16 +1,19 @@
 //! Base, height and, under gravity, the angle of a drop on a wall (C1 and C2 of the benchmarks).
 
-use super::{Subject, measure};
 use crate::analysis::laws::drops::cap;
 use crate::analysis::young_laplace::sessile_drop;
 use crate::interface::contact::ContactLine;
 use crate::math::Vec2;
 use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
+
+/// Measures of its table `[sph.measure.sessile-drop]`.
+pub const GROUP: Group = Group::of(measures);
 
 /// A wall is level where its normal points up to this cosine.
 const LEVEL: f64 = 1.0 - 1e-6;
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+fn measures(s: &Subject) -> Vec<Measure> {
     let (base, height) = extent(s);
     let mut found = vec![
         measure("base-m", base, "m", None, "distance of the two contact points of the fitted meniscus"),

@@ -1,16 +1,19 @@
 //! Laplace jump and parasitic currents of a free drop (B1 of the benchmarks).
 
-use super::{Subject, measure, wetting_points};
-use crate::analysis::moments::Moments;
+use super::moments::Moments;
 use crate::analysis::phases::{PressureSamples, laplace_jump, resolution_error};
 use crate::math::Vec2;
 use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::observe::sharp_color;
+
+/// Measures of its table `[sph.measure.laplace-drop]`.
+pub const GROUP: Group = Group::of(measures);
 
 /// The parasitic current is the largest speed in this last share of the run.
 const LAST: f64 = 0.1;
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, fluids) = (s.flow, s.flow.particles.fluids);
     let colors = sharp_color(flow);
     let radius = (s.seen.areas.wetting / std::f64::consts::PI).sqrt();
@@ -63,5 +66,5 @@ fn scatter(s: &Subject) -> f64 {
 
 /// Center of the drop in m, also where it lies across a periodic side.
 fn center(s: &Subject) -> Vec2 {
-    Moments::of(&wetting_points(s.flow)).center
+    Moments::of_wetting_phase(s.flow).center
 }

@@ -1,10 +1,13 @@
 //! A drop on a disc without gravity (C10 of the benchmarks), compared with its closed form.
 
-use super::{Subject, measure};
 use crate::analysis::laws::drops::drop_on_disc;
 use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+/// Measures of its table `[sph.measure.drop-on-disc]`.
+pub const GROUP: Group = Group::of(measures);
+
+fn measures(s: &Subject) -> Vec<Measure> {
     let (Some(disc), Some(wetting)) = (s.discs.first(), s.flow.method.wetting) else { return vec![] };
     let ends: Vec<_> = s.seen.lines_with_angle().collect();
     let half = match ends[..] {

@@ -1,11 +1,14 @@
 //! Two layers between plates, the wetting phase below (A2 of the benchmarks).
 
-use super::{Subject, measure};
 use crate::analysis::laws::flow::LayeredPoiseuille;
 use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::particles::Phase;
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+/// Measures of its table `[sph.measure.layered-poiseuille]`.
+pub const GROUP: Group = Group::of(measures);
+
+fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, bounds, m) = (s.flow, s.flow.domain.bounds, &s.flow.method);
     let p = &flow.particles;
     let height = bounds.size().y;

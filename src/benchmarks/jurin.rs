@@ -1,11 +1,19 @@
 //! Rise beside a plate that divides a trough into a narrow and a wide part (C3 of the benchmarks; Jurin's law).
 
-use super::{Subject, measure};
-use crate::analysis::laws::pores::jurin_mean_height;
 use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::particles::Phase;
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+/// Measures of its table `[sph.measure.jurin]`.
+pub const GROUP: Group = Group::of(measures);
+
+/// Mean height in m of rise between plates `width` (m) apart: 2 l_c² cos theta/w, exact for the mean (Jurin).
+#[must_use]
+pub fn jurin_mean_height(width: f64, capillary_length: f64, angle: f64) -> f64 {
+    2.0 * capillary_length.powi(2) * angle.cos() / width
+}
+
+fn measures(s: &Subject) -> Vec<Measure> {
     let (Some(plate), Some(wetting)) = (s.plates.first(), s.flow.method.wetting) else { return vec![] };
     let (flow, bounds, m) = (s.flow, s.flow.domain.bounds, &s.flow.method);
     let widths = [plate.min.x - bounds.min.x, bounds.max.x - plate.max.x];
@@ -42,4 +50,18 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
             "difference of the mean levels over that of Jurin's law on both sides",
         ),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mean_rise_between_plates_is_as_printed() {
+        for (degrees, width, height) in
+            [(40.0_f64, 0.5, 3.06418), (40.0, 1.0, 1.53209), (60.0, 1.0, 1.0), (60.0, 2.0, 0.5)]
+        {
+            assert!((jurin_mean_height(width, 1.0, degrees.to_radians()) - height).abs() < 0.6e-5);
+        }
+    }
 }

@@ -1,10 +1,14 @@
 //! Drag on the solids of a periodic cell (A5 to A7 of the benchmarks; Sangani & Acrivos 1982).
 
-use super::{Subject, measure, pairs};
+use super::series::pairs;
 use crate::math::Vec2;
 use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+/// Measures of its table `[sph.measure.cylinder-array]`.
+pub const GROUP: Group = Group::of(measures);
+
+fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, m) = (s.flow, &s.flow.method);
     let area = flow.domain.bounds.area();
     let p = &flow.particles;

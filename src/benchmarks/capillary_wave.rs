@@ -2,14 +2,19 @@
 
 use std::f64::consts::TAU;
 
-use super::{Subject, measure, pairs};
+use super::series::pairs;
 use crate::analysis::laws::waves::CapillaryWave;
 use crate::solver::Measure;
+use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
 
+/// Columns and measures of its table `[sph.measure.capillary-wave]`.
+pub const GROUP: Group = Group { columns, measures };
+
 /// Amplitude in m of the first Fourier mode along x of the area of the wetting phase, crest in the middle of the box.
-pub fn columns(flow: &Flow) -> [(&'static str, f64); 1] {
+fn columns(flow: &Flow, _: &Observation) -> Columns {
     let (bounds, fluids) = (flow.domain.bounds, flow.particles.fluids);
     let length = bounds.size().x;
     let mode = |a: usize| {
@@ -17,10 +22,10 @@ pub fn columns(flow: &Flow) -> [(&'static str, f64); 1] {
         flow.fields.volume[a] * (TAU * x / length).cos()
     };
     let wetting = (0..fluids).filter(|&a| flow.particles.phase[a] == Phase::Wetting);
-    [("wave_amplitude_m", 2.0 / length * wetting.map(mode).sum::<f64>())]
+    vec![("wave_amplitude_m", 2.0 / length * wetting.map(mode).sum::<f64>())]
 }
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+fn measures(s: &Subject) -> Vec<Measure> {
     let m = &s.flow.method;
     let wave = CapillaryWave {
         length: s.flow.domain.bounds.size().x,

@@ -1,15 +1,18 @@
 //! Extreme velocities on the center lines of a cavity whose top wall moves (A4 of the benchmarks).
 
-use super::{Subject, measure};
 use crate::analysis::resample::Stencils;
 use crate::math::Vec2;
 use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::observe::fluid_samples;
+
+/// Measures of its table `[sph.measure.cavity]`.
+pub const GROUP: Group = Group::of(measures);
 
 /// Points on a center line: much closer than particles, so that the extremum is met.
 const POINTS: usize = 400;
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, bounds) = (s.flow, s.flow.domain.bounds);
     let lid = s.wall_speeds[3];
     let velocity = &flow.particles.velocity[..flow.particles.fluids];

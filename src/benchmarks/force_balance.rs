@@ -4,9 +4,9 @@
 //! the whole drop, so the angles that close the balance are those at the wall, which the wetting model asks for. Apparent angles of
 //! moving lines count the friction of the wedge next to the line a second time, since that is what bends the interface there.
 
-use super::sliding::{last, last_mean};
-use super::{Subject, measure};
+use super::series::{last, last_mean};
 use crate::solver::{Measure, Series};
+use crate::sph::measures::{Subject, measure};
 
 /// The last part of the time that the balance is taken over. It holds at all times, also while the drop speeds up, and a drop of a thin
 /// liquid swings: the longer the better.

@@ -2,16 +2,17 @@
 //!
 //! *Ahead* is the way that the drop is driven: the part of the body force along the wall, less buoyancy, else the motion of the drop relative to its
 //! wall. Lines whose ν_ns points ahead are the advancing ones. The momentum of the drop along a flat wall changes by
-//! d(P)/dt = body force less buoyancy + friction of the wall + drag of the other fluid − σ (cos θ_R − cos θ_A): see `balance`.
+//! d(P)/dt = body force less buoyancy + friction of the wall + drag of the other fluid − σ (cos θ_R − cos θ_A): see `force_balance`.
 
-use super::stream;
-use super::{Subject, measure};
+use super::force_balance;
+use super::series::{LAST_QUARTER, last, last_mean};
 use crate::interface::contact::ContactSettings;
 use crate::interface::meniscus_ends::{MeniscusEnd, ends_under_force};
 use crate::interface::polyline::Polyline;
 use crate::interface::wall::WallPoint;
 use crate::math::Vec2;
 use crate::solver::{Measure, Series};
+use crate::sph::measures::{Columns, Group, Subject, measure, stream};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
@@ -24,11 +25,11 @@ const WINDOW: f64 = 0.5;
 /// Measured lines belong to followed ones within this distance over h.
 const SAME_LINE: f64 = 6.0;
 
-/// The last part of the records that is averaged over.
-const LAST: f64 = 0.25;
-
 /// A body force along the wall below this share of the whole does not tell the way ahead.
 const DRIVEN: f64 = 1e-3;
+
+/// Columns and measures of its table `[sph.measure.moving-drop]`.
+pub const GROUP: Group = Group { columns, measures };
 
 /// The lines that go ahead and those that follow, as means.
 struct Ends {
@@ -87,10 +88,7 @@ fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
 /// The ends of the interface, by fits to the share `window` of the contour next to each.
 fn fitted(flow: &Flow, seen: &Observation, window: f64) -> Vec<MeniscusEnd> {
     let m = &flow.method;
-    let wall = |x: Vec2| {
-        let (distance, normal) = (flow.wall)(x);
-        WallPoint { distance, normal }
-    };
+    let wall = |x: Vec2| WallPoint::from((flow.wall)(x));
     let force = (m.wetting_fluid.density - m.other_fluid.density) / m.tension * m.gravity;
     let fit = |contour: &Polyline| {
         let window = window * contour.length();
@@ -110,7 +108,7 @@ fn forces(flow: &Flow) -> [Vec2; 2] {
 }
 
 /// Angles, ways and speeds of both ends, and what drives the drop along the wall.
-pub fn columns(flow: &Flow, seen: &Observation) -> Vec<(&'static str, f64)> {
+fn columns(flow: &Flow, seen: &Observation) -> Columns {
     let nan = f64::NAN;
     let ends = ends(flow, seen).unwrap_or(Ends { ahead: Vec2::repeat(nan), lines: [[nan; 4]; 2] });
     let [[advancing, way, speed, at_wall], [receding, way_behind, speed_behind, at_wall_behind]] = ends.lines;
@@ -137,17 +135,9 @@ pub fn columns(flow: &Flow, seen: &Observation) -> Vec<(&'static str, f64)> {
     ]
 }
 
-/// Mean and standard deviation of a column over the last part of the records, where it has values.
-pub(super) fn last_mean(series: &Series, column: &str) -> (f64, f64) {
-    let values: Vec<f64> = last(series, column, LAST).into_iter().map(|(_, value)| value).collect();
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    (mean, (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt())
-}
-
 /// Slope in time of a column over the last part of the records.
 fn last_slope(series: &Series, column: &str) -> f64 {
-    let points = last(series, column, LAST);
+    let points = last(series, column, LAST_QUARTER);
     let count = points.len() as f64;
     let mean = |f: fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / count;
     let (t, y) = (mean(|p| p.0), mean(|p| p.1));
@@ -156,14 +146,7 @@ fn last_slope(series: &Series, column: &str) -> f64 {
     up / down
 }
 
-/// Times in s and values of a column over the last `part` of the time.
-pub(super) fn last(series: &Series, column: &str, part: f64) -> Vec<(f64, f64)> {
-    let end = series.column("time_s").last().unwrap_or(f64::NAN);
-    let all = series.column("time_s").zip(series.column(column));
-    all.filter(|(time, value)| *time >= (1.0 - part) * end && value.is_finite()).collect()
-}
-
-pub fn measures(s: &Subject) -> Vec<Measure> {
+fn measures(s: &Subject) -> Vec<Measure> {
     let m = &s.flow.method;
     let fit = "static meniscus under the body force fitted to the half of the contour next to the line (a meniscus that moves as a \
                whole: to all of it), 2h from the wall left out; mean over the last quarter of the records";
@@ -177,7 +160,8 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     let front = last_mean(s.series, "advancing_speed_m_per_s");
     let back = last_mean(s.series, "receding_speed_m_per_s");
     let way = [last_slope(s.series, "advancing_line_m"), -last_slope(s.series, "receding_line_m")];
-    let from_velocity = "speed of the line ahead relative to its wall, from the normal velocity of the interface next to it; mean over the last quarter of the records";
+    let from_velocity = "speed of the line ahead relative to its wall, from the normal velocity of the interface next to it; mean over the last \
+                         quarter of the records";
     let from_way =
         "slope in time of the place of the line ahead, not relative to the wall, over the last quarter of the records";
     let capillary = |speed: f64| speed * m.wetting_fluid.viscosity / m.tension;
@@ -190,7 +174,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
         measure("advancing-capillary-number", capillary(front.0), "", Some(capillary(front.1)), over),
         measure("receding-capillary-number", -capillary(back.0), "", Some(capillary(back.1)), over),
     ]);
-    found.extend(super::balance::measures(s));
+    found.extend(force_balance::measures(s));
     let gone =
         s.series.column("time_s").zip(s.series.column("wetted_length_m")).find(|(_, length)| *length < m.spacing);
     found.push(measure(

@@ -2,19 +2,22 @@
 
 use std::f64::consts::PI;
 
-use super::{Subject, measure, wetting_points};
-use crate::analysis::moments::Moments;
+use super::moments::Moments;
 use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
 use crate::solver::Measure;
+use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
 
+/// Columns and measures of its table `[sph.measure.rising-bubble]`.
+pub const GROUP: Group = Group { columns, measures };
+
 /// Height of the center, mean speed against gravity, and circularity.
-pub fn columns(flow: &Flow, seen: &Observation) -> [(&'static str, f64); 3] {
-    let center = Moments::of(&wetting_points(flow)).center;
-    [
+fn columns(flow: &Flow, seen: &Observation) -> Columns {
+    let center = Moments::of_wetting_phase(flow).center;
+    vec![
         ("bubble_center_m", center.dot(&up(flow))),
         ("bubble_speed_m_per_s", speed(flow)),
         ("bubble_circularity", circularity(&seen.interface)),
@@ -39,7 +42,7 @@ fn circularity(interface: &[Polyline]) -> f64 {
     largest.map_or(f64::NAN, |line| 2.0 * (PI * line.signed_area().abs()).sqrt() / line.length())
 }
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+fn measures(s: &Subject) -> Vec<Measure> {
     vec![
         measure(
             "rise-center-m",
