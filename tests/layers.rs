@@ -233,7 +233,11 @@ fn imports_within(folder: &str) -> BTreeMap<String, BTreeSet<String>> {
         }
         if importer == "mod" {
             of_file.clear();
-            of_file.extend(names.iter().filter(|child| holds(code, &format!("{child}::"))).cloned());
+            let leads_to = |child: &&String| {
+                let path = format!("{child}::");
+                code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(is_word))
+            };
+            of_file.extend(names.iter().filter(leads_to).cloned());
         }
         of_file.remove(&importer);
     }
