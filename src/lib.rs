@@ -14,10 +14,14 @@ pub mod geometry;
 
 pub mod case;
 
+pub mod interface;
+
 pub mod analysis;
 pub mod network;
 pub mod sph;
 pub mod thin_film;
+
+pub mod benchmarks;
 
 pub mod io;
 

@@ -22,6 +22,13 @@ pub fn perpendicular(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 
+/// The shortest of the periodic images of `difference` (m).
+#[must_use]
+pub fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 {
+    let wrap = |d: f64, period: Option<f64>| period.map_or(d, |l| d - l * (d / l).round());
+    Vec2::new(wrap(difference.x, period[0]), wrap(difference.y, period[1]))
+}
+
 /// Half the second moment of [`wendland_c2`] along a line through its center, over that of zeroth order, in h².
 ///
 /// The share k²h² times this is what smoothing takes from a wave of an interface; of a disc of the curvature κ it draws the level 1/2

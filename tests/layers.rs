@@ -2,11 +2,12 @@
 //!
 //! Reads the sources as text: comments are cut off, every path that begins with `crate::` counts.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// What each module of the crate may import besides itself. Output code sees snapshots, so `io` sees neither case nor solver
-/// modules; `sph` and `analysis` never meet but in one direction: `analysis` is pure.
-const MAY_IMPORT: [(&str, &[&str]); 17] = [
+/// modules; `interface` and `analysis` are pure.
+const MAY_IMPORT: [(&str, &[&str]); 19] = [
     ("math", &[]),
     ("input", &["math"]),
     ("snapshot", &["math"]),
@@ -15,9 +16,11 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
     ("solver", &["math", "snapshot", "diagram", "table"]),
     ("geometry", &["math", "input", "snapshot"]),
     ("case", &["math", "input", "geometry"]),
-    ("analysis", &["math", "snapshot", "geometry"]),
-    ("network", &["math", "geometry", "snapshot", "diagram", "table", "solver", "case", "analysis"]),
-    ("sph", &["math", "geometry", "snapshot", "table", "solver", "case", "analysis"]),
+    ("interface", &["math", "snapshot", "geometry"]),
+    ("analysis", &["math", "snapshot", "interface"]),
+    ("network", &["math", "geometry", "snapshot", "diagram", "table", "solver", "case", "interface", "analysis"]),
+    ("sph", &["math", "geometry", "snapshot", "table", "solver", "case", "interface", "analysis"]),
+    ("benchmarks", &["math", "solver", "case", "interface", "analysis", "sph"]),
     ("thin_film", &["math", "snapshot", "diagram", "solver", "case", "analysis"]),
     ("io", &["math", "snapshot", "diagram", "table", "solver"]),
     (
@@ -33,14 +36,18 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
             "analysis",
             "network",
             "sph",
+            "benchmarks",
             "thin_film",
             "io",
         ],
     ),
     ("study", &["input", "case", "analysis", "io", "run"]),
-    ("verify", &["math", "input", "geometry", "case", "network", "io", "study"]),
+    ("verify", &["math", "input", "geometry", "case", "interface", "network", "io", "study"]),
     ("cli", &["math", "input", "geometry", "snapshot", "solver", "case", "analysis", "io", "run", "study", "verify"]),
 ];
+
+/// Folders whose files form a chain: none imports a file that leads back to it.
+const CHAINS: [&str; 5] = ["interface", "interface/menisci", "sph/surface_force", "sph/measures", "benchmarks"];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
 const ONE_PLACE: [(&str, &[&str]); 19] = [
@@ -136,9 +143,13 @@ fn holds(line: &str, word: &str) -> bool {
 
 /// The first parts of the paths behind each `crate::` of a file with their lines; `crate::{a::B, c}` has two.
 fn imports(source: &Source) -> Vec<(usize, String)> {
-    let text = source.lines.join("\n");
+    heads_behind(&source.lines.join("\n"), "crate::")
+}
+
+/// The first parts of the paths behind each `prefix` of a text with their lines.
+fn heads_behind(text: &str, prefix: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
-    for (at, path) in text.match_indices("crate::") {
+    for (at, path) in text.match_indices(prefix) {
         let line = text[..at].matches('\n').count();
         let rest = &text[at + path.len()..];
         if let Some(group) = rest.strip_prefix('{') {
@@ -197,6 +208,59 @@ fn low_layers_do_not_import_high_ones() {
     assert_none(&violations);
 }
 
+/// The files and folders of a folder by name, each with those that it imports outside of its tests; `mod` is the folder itself.
+fn imports_within(folder: &str) -> BTreeMap<String, BTreeSet<String>> {
+    let sources: Vec<Source> = sources()
+        .into_iter()
+        .filter(|source| source.path.starts_with(&format!("{folder}/")))
+        .filter(|source| !source.path.ends_with("/tests.rs") && !source.path.contains("/tests/"))
+        .collect();
+    let inner = |source: &Source| source.path[folder.len() + 1..].to_owned();
+    let name = |source: &Source| inner(source).split('/').next().unwrap_or_default().trim_end_matches(".rs").to_owned();
+    let names: BTreeSet<String> = sources.iter().map(name).collect();
+    let mut found = BTreeMap::<String, BTreeSet<String>>::new();
+    for source in &sources {
+        let text = source.lines.join("\n");
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let mut heads = heads_behind(code, &format!("crate::{}::", folder.replace('/', "::")));
+        if !inner(source).contains('/') {
+            heads.extend(heads_behind(code, "super::"));
+        }
+        let importer = name(source);
+        let of_file = found.entry(importer.clone()).or_default();
+        for (_, head) in heads {
+            of_file.insert(if names.contains(&head) { head } else { "mod".to_owned() });
+        }
+        if importer == "mod" {
+            of_file.clear();
+            let leads_to = |child: &&String| {
+                let path = format!("{child}::");
+                code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(is_word))
+            };
+            of_file.extend(names.iter().filter(leads_to).cloned());
+        }
+        of_file.remove(&importer);
+    }
+    found
+}
+
+#[test]
+fn the_files_of_a_chain_import_each_other_in_one_direction() {
+    let mut violations = Vec::new();
+    for folder in CHAINS {
+        let mut left = imports_within(folder);
+        assert!(left.len() > 4, "{folder}: {left:?}");
+        // Files that import none of those left are the end of the chain.
+        while let Some(end) = left.iter().find(|(_, imported)| imported.is_empty()).map(|(name, _)| name.clone()) {
+            left.remove(&end);
+            left.values_mut().for_each(|imported| _ = imported.remove(&end));
+        }
+        violations
+            .extend(left.iter().map(|(name, imported)| format!("src/{folder}/{name}: in a circle by {imported:?}")));
+    }
+    assert_none(&violations);
+}
+
 #[test]
 fn no_file_climbs_out_of_its_module_by_super() {
     let mut violations = Vec::new();
@@ -216,11 +280,11 @@ fn no_file_climbs_out_of_its_module_by_super() {
 }
 
 #[test]
-fn only_setup_and_the_choice_of_measures_see_the_case() {
+fn only_setup_sees_the_case() {
     let mut violations = Vec::new();
     for source in sources().iter().filter(|source| source.module() == "sph" && !source.path.starts_with("sph/setup/")) {
         for (number, line) in source.lines.iter().enumerate() {
-            if line.contains("crate::case") && line.trim() != "use crate::case::checked::MeasureSet;" {
+            if line.contains("crate::case") {
                 violations.push(format!("{}: only src/sph/setup sees the case: {}", source.place(number), line.trim()));
             }
         }
@@ -246,7 +310,10 @@ fn foreign_libraries_and_printing_keep_to_their_place() {
 #[test]
 fn the_physics_touches_no_file() {
     let mut violations = Vec::new();
-    for source in sources().iter().filter(|source| matches!(source.module(), "math" | "sph" | "analysis")) {
+    for source in sources()
+        .iter()
+        .filter(|source| matches!(source.module(), "math" | "interface" | "analysis" | "sph" | "benchmarks"))
+    {
         for (number, line) in source.lines.iter().enumerate() {
             if ["std::fs", "std::io", "std::env", "std::process"].iter().any(|name| line.contains(name)) {
                 violations.push(format!("{}: {}", source.place(number), line.trim()));

@@ -70,7 +70,7 @@ fn root(parent: &mut [usize], i: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::lattice::Lattice;
+    use crate::interface::lattice::Lattice;
 
     #[test]
     fn two_drops_and_a_satellite_are_three_blobs() {

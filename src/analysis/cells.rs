@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use crate::math::Vec2;
+use crate::math::{Vec2, nearest_image};
 
 /// Scattered points sorted into square cells.
 #[derive(Debug, Clone)]
@@ -120,13 +120,6 @@ impl<'a> Cells<'a> {
         };
         (first..=last).map(move |k| k.rem_euclid(count) as usize)
     }
-}
-
-/// The shortest of the periodic images of `difference` (m).
-#[must_use]
-pub fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 {
-    let wrap = |d: f64, period: Option<f64>| period.map_or(d, |l| d - l * (d / l).round());
-    Vec2::new(wrap(difference.x, period[0]), wrap(difference.y, period[1]))
 }
 
 #[cfg(test)]

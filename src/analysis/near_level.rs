@@ -1,11 +1,11 @@
 //! Where a smoothed field can cross a level: the work of a contour grows with the length of the interface, not with the area.
 
-use super::lattice::Lattice;
 use super::resample::{SUPPORT, Samples};
+use crate::interface::lattice::Lattice;
 use crate::math::Vec2;
 
-/// The nodes of `lattice` that [`contour`](super::contour::contour) needs of a field smoothed from `values` of `samples`, in order: those with values on both sides of
-/// `level` near them. Elsewhere the smoothed field lies on one side, so that it may as well be missing (NaN) there.
+/// The nodes of `lattice` that [`contour`](crate::interface::contour::contour) needs of a field smoothed from `values` of `samples`, in
+/// order: those with values on both sides of `level` near them. Elsewhere the smoothed field lies on one side, so that it may as well be missing (NaN) there.
 #[must_use]
 pub fn nodes_near_level(lattice: &Lattice, samples: &Samples, values: &[f64], level: f64) -> Vec<usize> {
     /// A contour asks for nodes so many spacings from an edge that it crosses.
@@ -44,8 +44,8 @@ pub fn nodes_near_level(lattice: &Lattice, samples: &Samples, values: &[f64], le
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::contour::contour;
     use crate::analysis::resample::Stencils;
+    use crate::interface::contour::contour;
 
     #[test]
     fn a_contour_has_the_same_bits_with_the_nodes_near_the_level_alone() {
@@ -74,5 +74,23 @@ mod tests {
             let lines = contour(&lattice, &all, 0.5);
             assert!(lines.len() > 1 && lines == contour(&lattice, &some, 0.5), "{periodic:?}");
         }
+    }
+
+    #[test]
+    fn the_contour_of_the_smoothed_color_of_particles_is_the_shifted_circle() {
+        let n = 60;
+        let dx = 2.0 / n as f64;
+        let points = Lattice::open(Vec2::repeat(-1.0 + 0.3 * dx), Vec2::repeat(dx), [n, n]).nodes();
+        let color: Vec<f64> = points.iter().map(|p| f64::from(p.norm() < 0.5)).collect();
+        let volumes = vec![dx * dx; points.len()];
+        let h = 1.5 * dx;
+        let samples = Samples { points: &points, volumes: &volumes, smoothing_length: h, period: [None, None] };
+        let lattice = Lattice::open(Vec2::repeat(-1.0), Vec2::repeat(dx), [n + 1, n + 1]);
+        let values = Stencils::new(&samples, &lattice.nodes()).scalar(&color);
+        let lines = contour(&lattice, &values, 0.5);
+        assert_eq!(lines.len(), 1, "a node in a corner of a lattice may lack particles, not the disc");
+        let mean = lines[0].points.iter().map(|p| p.norm()).sum::<f64>() / lines[0].points.len() as f64;
+        // The cut lattice scatters by a fraction of dx; the mean shift is h²/(7 R).
+        assert!((mean - (0.5 - h * h / 3.5)).abs() < 0.05 * dx, "mean radius off by {} dx", (mean - 0.5) / dx);
     }
 }

@@ -1,4 +1,4 @@
-//! Sums over particles and contours: areas, saturation, wetted length, capillary pressure, Laplace jump, density error.
+//! Sums over particles: areas, saturation, capillary pressure, Laplace jump, density error.
 //!
 //! Colors are sharp here: above 0.5 is the wetting phase. Solid particles are left out by the caller.
 
@@ -6,12 +6,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::cells::Cells;
-use super::contour::Polyline;
-use super::wall::WallPoint;
-use crate::math::Vec2;
-
-/// Color above which a particle is of the wetting phase.
-pub const WETTING_COLOR: f64 = 0.5;
+use crate::interface::lengths::WETTING_COLOR;
+use crate::interface::polyline::Polyline;
+use crate::interface::wall::WallPoint;
+use crate::math::{Vec2, nearest_image};
 
 /// Areas of the phases per depth.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -43,53 +41,6 @@ impl PhaseAreas {
     pub fn drift_since(&self, start: &Self) -> [f64; 2] {
         [self.wetting / start.wetting - 1.0, self.non_wetting / start.non_wetting - 1.0]
     }
-}
-
-/// Total length of `contours` in m.
-#[must_use]
-pub fn interface_length(contours: &[Polyline]) -> f64 {
-    contours.iter().map(Polyline::length).sum()
-}
-
-/// Lengths of wall that touch the phases.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WettedLength {
-    /// Length under the wetting phase in m.
-    pub wetting: f64,
-    /// Length under the non-wetting phase in m.
-    pub non_wetting: f64,
-}
-
-/// A piece of wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WallSample {
-    /// Middle of the piece in m.
-    pub point: Vec2,
-    /// Its length in m.
-    pub length: f64,
-}
-
-/// Cuts wall outlines into pieces no longer than `longest` (m).
-#[must_use]
-pub fn wall_samples(outlines: &[Polyline], longest: f64) -> Vec<WallSample> {
-    let mut samples = Vec::new();
-    for (a, b) in outlines.iter().flat_map(Polyline::segments) {
-        let pieces = ((b - a).norm() / longest).ceil().max(1.0);
-        let length = (b - a).norm() / pieces;
-        samples.extend(
-            (0..pieces as usize).map(|i| WallSample { point: a + (b - a) * ((i as f64 + 0.5) / pieces), length }),
-        );
-    }
-    samples
-}
-
-/// Wetted length from the smoothed color at each sample; samples without one (NaN: no fluid near) are left out.
-#[must_use]
-pub fn wetted_length(samples: &[WallSample], colors: &[f64]) -> WettedLength {
-    let sum = |inside: &dyn Fn(f64) -> bool| {
-        samples.iter().zip(colors).filter(|(_, c)| inside(**c)).map(|(sample, _)| sample.length).sum()
-    };
-    WettedLength { wetting: sum(&|c| c > WETTING_COLOR), non_wetting: sum(&|c| c <= WETTING_COLOR) }
 }
 
 /// Fluid particles whose pressure is measured.
@@ -217,7 +168,7 @@ impl MeanValue {
 pub fn laplace_jump(samples: &PressureSamples, center: Vec2, radius: f64) -> MeanValue {
     let band = FROM_INTERFACE * samples.smoothing_length;
     let mean = |inside: &dyn Fn(f64) -> bool| {
-        let distance = |x: Vec2| super::cells::nearest_image(x - center, samples.period).norm();
+        let distance = |x: Vec2| nearest_image(x - center, samples.period).norm();
         let chosen = samples.points.iter().zip(samples.pressures).filter(|(x, _)| inside(distance(**x)));
         MeanValue::of(chosen.map(|(_, p)| *p))
     };
@@ -237,7 +188,7 @@ pub fn density_error(volumes: &[f64], reference: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::lattice::Lattice;
+    use crate::interface::lattice::Lattice;
 
     fn circle(center: Vec2, radius: f64, count: usize) -> Polyline {
         let at = |i: usize| 2.0 * std::f64::consts::PI * i as f64 / count as f64;
@@ -252,22 +203,6 @@ mod tests {
         assert!((areas.saturation() - 1.0 / 6.0).abs() < 1e-15);
         let later = PhaseAreas { wetting: 1.01, non_wetting: 4.99 };
         assert!((later.drift_since(&areas)[0] - 0.01).abs() < 1e-12);
-    }
-
-    #[test]
-    fn interface_length_of_a_disc_is_its_circumference() {
-        let length = interface_length(&[circle(Vec2::zeros(), 0.5, 400)]);
-        assert!((length - std::f64::consts::PI).abs() < 1e-4 * std::f64::consts::PI);
-    }
-
-    #[test]
-    fn wetted_length_is_the_part_of_the_wall_with_color_one() {
-        let wall = Polyline { points: vec![Vec2::zeros(), Vec2::new(4.0, 0.0)], closed: false };
-        let samples = wall_samples(&[wall], 0.01);
-        let color = |x: f64| if x > 3.5 { f64::NAN } else { f64::from((1.0..2.5).contains(&x)) };
-        let colors: Vec<f64> = samples.iter().map(|s| color(s.point.x)).collect();
-        let wetted = wetted_length(&samples, &colors);
-        assert!((wetted.wetting - 1.5).abs() < 0.011 && (wetted.non_wetting - 2.0).abs() < 0.011, "{wetted:?}");
     }
 
     #[test]

@@ -128,7 +128,7 @@ impl Stencils {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::lattice::Lattice;
+    use crate::interface::lattice::Lattice;
 
     fn unit_square(n: usize) -> (Vec<Vec2>, Vec<f64>) {
         let dx = 1.0 / n as f64;

@@ -34,7 +34,7 @@ pub fn thin_parts(points: &[Vec2], is_wetting: &[bool], spacing: f64, period: [O
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::lattice::Lattice;
+    use crate::interface::lattice::Lattice;
 
     #[test]
     fn films_and_single_particles_are_thin_and_drops_and_interfaces_are_not() {

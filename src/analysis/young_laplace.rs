@@ -106,6 +106,8 @@ pub fn rise_between_plates(width: f64, capillary_length: f64, angle: f64) -> Opt
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interface::arc::Arc;
+    use crate::math::Vec2;
 
     #[test]
     fn sessile_drops_of_area_one_have_the_printed_base_and_height() {
@@ -130,6 +132,30 @@ mod tests {
         {
             let found = rise_between_plates(width, 1.0, degrees.to_radians()).expect("a meniscus");
             assert!((found - height).abs() < 1.1e-5, "{degrees} {width}: {found}");
+        }
+    }
+
+    #[test]
+    fn the_end_of_a_flat_puddle_is_found_from_four_capillary_lengths_of_it() {
+        let length = 0.316;
+        for (apex_curvature, degrees) in [(1e-3, 60.0_f64), (0.02, 120.0)] {
+            let side = profile(apex_curvature, length, degrees.to_radians());
+            let floor = side.last().unwrap().z;
+            let points: Vec<Vec2> = side.iter().rev().map(|p| Vec2::new(p.x, -p.z)).collect();
+            let mut way = 0.0;
+            let mut last = points[0];
+            let used = points.iter().filter(|x| {
+                way += (**x - last).norm();
+                last = **x;
+                x.y > -0.8 * floor && way < 4.0 * length
+            });
+            let used: Vec<Vec2> = used.step_by(8).copied().collect();
+            let arc = Arc::fit(&used, Vec2::new(0.0, -length.powi(-2)), length).unwrap();
+            assert!(arc.middle.rms < 1e-4, "{degrees}: {:e}", arc.middle.rms);
+            let way = (points[0] - used[0]).norm();
+            let back = arc.walk(used[0], -way);
+            let off = arc.normal_at(points[0]).dot(&Vec2::y()) + degrees.to_radians().cos();
+            assert!((back - points[0]).norm() < 0.02 * length && off.abs() < 2e-3, "{degrees}: {back:?}, {off}");
         }
     }
 }

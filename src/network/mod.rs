@@ -8,7 +8,6 @@ pub mod dynamic;
 pub mod extract;
 pub mod graph;
 pub mod laplacian;
-pub mod menisci;
 pub mod permeability;
 pub mod setup;
 pub mod solver;

@@ -6,7 +6,7 @@ use crate::geometry::Geometry;
 use crate::input::Problem;
 use crate::math::{Bounds, Vec2};
 use crate::solver::{Series, Solver};
-use crate::{network, sph, thin_film};
+use crate::{benchmarks, network, sph, thin_film};
 
 /// A case that no solver can be made for.
 #[derive(Debug, thiserror::Error)]
@@ -51,7 +51,10 @@ pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
 /// [`SetupError`].
 pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
-        Model::Sph(sph) => Ok(Box::new(sph::setup::build_watched(case, sph, packed)?)),
+        Model::Sph(sph) => {
+            let solver = sph::setup::build_watched(case, sph, packed)?;
+            Ok(Box::new(solver.measuring(benchmarks::asked_for(&sph.measure))))
+        }
         Model::ThinFilm(film) => Ok(Box::new(thin_film::setup::build(case, film)?)),
         Model::Network(network) => Ok(network::setup::build(case, network)?),
     }
@@ -63,7 +66,10 @@ pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn
 /// [`SetupError`].
 pub fn build_to_resume(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
-        Model::Sph(sph) => Ok(Box::new(sph::setup::build_to_resume(case, sph)?)),
+        Model::Sph(sph) => {
+            let solver = sph::setup::build_to_resume(case, sph)?;
+            Ok(Box::new(solver.measuring(benchmarks::asked_for(&sph.measure))))
+        }
         Model::ThinFilm(_) | Model::Network(_) => build(case),
     }
 }

@@ -13,6 +13,7 @@ use crate::sph::surface_force::SurfaceForce;
 use crate::sph::surface_force::fit::InterfaceFit;
 use crate::sph::surface_force::jump::Jump;
 use crate::sph::surface_force::points::{PointFields, interface_points};
+use crate::sph::surface_force::stencils::Interface;
 use crate::sph::terms::{color, curvature, density, pressure_gradient, surface_tension};
 use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
 use crate::sph::wetting::lines::{Following, LINE_REACH, Line, nearest};
@@ -246,10 +247,10 @@ impl Fields {
         };
         let lengths = (method.spacing, method.kernel.h);
         let points = interface_points((pairs, images), domain, &fields, moving, lengths);
-        let mut fit = InterfaceFit::new(&points, domain, lengths, place.wall).under(method.curvature_gradient());
+        let interface = Interface::new(&points, domain, lengths, place.wall).under(method.curvature_gradient());
         let mut pinned = Vec::new();
         if method.wetting.is_some() {
-            let seen = fit.lines();
+            let seen = interface.lines();
             self.contact_lines = seen.len();
             self.lines = place.following(method, |following| following.follow(lines, &seen, dt));
             pinned.extend(seen.iter().zip(&self.lines).filter_map(|(line, now)| line.pinned(now.angle)));
@@ -262,6 +263,7 @@ impl Fields {
                 if model.is_static() { None } else { nearest(lines, domain, x, outward, LINE_REACH * lengths.1) };
             line.map_or_else(|| model.static_angle(), |line| line.angle)
         };
+        let mut fit = InterfaceFit::free(&interface);
         if method.wetting.is_some() {
             fit = fit.held_to(&angle_at).with_pinned_lines(&pinned);
         }

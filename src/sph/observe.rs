@@ -1,16 +1,16 @@
 //! What can be seen of a flow at one time: interface, contact lines, phases, pressures. Computed per record, not per step.
 
-use crate::analysis::WallPoint;
 use crate::analysis::blobs::{Blob, LINK, blobs};
-use crate::analysis::contact::{AngleSummary, ContactLine, ContactSettings, contact_lines, summarize};
-use crate::analysis::contour::{Polyline, contour};
-use crate::analysis::lattice::Lattice;
 use crate::analysis::near_level::nodes_near_level;
-use crate::analysis::phases::{
-    CapillaryPressure, PhaseAreas, PressureSamples, WallSample, capillary_pressure, interface_length, wetted_length,
-};
+use crate::analysis::phases::{CapillaryPressure, PhaseAreas, PressureSamples, capillary_pressure};
 use crate::analysis::resample::{Samples, Stencils};
-use crate::analysis::wall::clip;
+use crate::interface::contact::{AngleSummary, ContactLine, ContactSettings, contact_lines, summarize};
+use crate::interface::contour::contour;
+use crate::interface::lattice::Lattice;
+use crate::interface::lengths::{WallSample, interface_length, wetted_length};
+use crate::interface::polyline::Polyline;
+use crate::interface::wall::WallPoint;
+use crate::interface::wall::clip;
 use crate::math::Vec2;
 use crate::sph::particles::Phase;
 use crate::sph::projection::Flow;
@@ -41,7 +41,7 @@ impl Observation {
         self.contact_lines.iter().filter(|line| line.angle_deg.is_finite())
     }
 
-    /// Looks at the flow; `wall` samples as `analysis::phases::wall_samples` makes them.
+    /// Looks at the flow; `wall` samples as `interface::lengths::wall_samples` makes them.
     #[must_use]
     pub fn of(flow: &Flow, wall: &[WallSample]) -> Self {
         let fluids = flow.particles.fluids;
@@ -49,10 +49,7 @@ impl Observation {
         let all = sharp_color(flow);
         let (volumes, color) = (&flow.fields.volume[..fluids], &all[..fluids]);
         let areas = PhaseAreas::new(volumes, color);
-        let wall_point = |x: Vec2| {
-            let (distance, normal) = (flow.wall)(x);
-            WallPoint { distance, normal }
-        };
+        let wall_point = |x: Vec2| WallPoint::from((flow.wall)(x));
         let two_phases = flow.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
         let (interface, wall_color) = interface_and_walls(flow, (&all, two_phases), wall, &wall_point);
         let settings =

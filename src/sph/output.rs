@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::analysis::contour::Polyline;
 use crate::analysis::resample::Stencils;
+use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
 use crate::sph::observe::{Observation, fluid_samples, nodes};

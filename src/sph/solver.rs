@@ -2,14 +2,14 @@
 
 use std::sync::OnceLock;
 
-use crate::analysis::phases::{PhaseAreas, WallSample, density_error};
-use crate::case::checked::MeasureSet;
+use crate::analysis::phases::{PhaseAreas, density_error};
+use crate::interface::lengths::WallSample;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{
     Measure, Quantity, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
 };
-use crate::sph::measures::{DiscOf, Subject, all, columns, permeability};
+use crate::sph::measures::{DiscOf, Group, Subject, all, columns, permeability};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Particles;
 use crate::sph::projection::Flow;
@@ -27,12 +27,14 @@ pub struct SphSolver {
     /// What is seen of the present state, once someone has looked.
     seen: OnceLock<Observation>,
     surroundings: Surroundings,
+    /// What is measured beside what every run measures.
+    groups: Vec<Group>,
 }
 
 /// A text made from the particles and the capillary pressure in Pa.
 pub type HandBack = Box<dyn Fn(&Particles, f64) -> Document + Send + Sync>;
 
-/// What stands still around the flow, and what is to be measured.
+/// What stands still around the flow.
 pub struct Surroundings {
     /// Outline of the solids.
     pub outline: Lines<'static>,
@@ -46,8 +48,6 @@ pub struct Surroundings {
     pub wall_speeds: [f64; 4],
     /// Body forces that act one after the other, where that is what is measured.
     pub stages: Option<Stages>,
-    /// Groups of measures.
-    pub measures: MeasureSet,
     /// Distance of grid nodes in m.
     pub grid_spacing: f64,
     /// Where the flow began with the state of a network: what it hands back.
@@ -59,9 +59,16 @@ impl SphSolver {
     #[must_use]
     pub fn new(flow: Flow, surroundings: Surroundings) -> Self {
         let seen = Observation::of(&flow, &surroundings.wall_samples);
-        let mut solver = Self { flow, start: seen.areas, seen: OnceLock::from(seen), surroundings };
+        let groups = Vec::new();
+        let mut solver = Self { flow, start: seen.areas, seen: OnceLock::from(seen), surroundings, groups };
         solver.turn_force();
         solver
+    }
+
+    /// The same solver that has the columns and measures of `groups` too.
+    #[must_use]
+    pub fn measuring(self, groups: Vec<Group>) -> Self {
+        Self { groups, ..self }
     }
 
     /// Gives the flow the body force of its time, where several act one after the other.
@@ -139,7 +146,7 @@ impl Solver for SphSolver {
             ("momentum_x_kg_per_m_s", momentum.x),
             ("momentum_y_kg_per_m_s", momentum.y),
         ];
-        let asked = columns(flow, seen, &self.surroundings.measures);
+        let asked = columns(flow, seen, self.surroundings.stages.is_some(), &self.groups);
         row.into_iter().chain(asked).map(|(name, value)| Sample { name, value }).collect()
     }
 
@@ -171,7 +178,7 @@ impl Solver for SphSolver {
             wall_speeds: around.wall_speeds,
             stages: around.stages.as_ref(),
         };
-        all(&subject, &around.measures)
+        all(&subject, &self.groups)
     }
 
     fn warnings(&self, series: &Series) -> Vec<String> {

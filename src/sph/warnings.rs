@@ -1,10 +1,10 @@
 //! What of a flow is out of the reach of its resolution, in words for the reader of its measures.
 
 use crate::analysis::blobs::{LINK, blobs};
-use crate::analysis::contact::ContactLine;
 use crate::analysis::laws::drops::cap;
 use crate::analysis::resolution::thin_parts;
-use crate::analysis::wall::{WallPoint, is_edge_between};
+use crate::interface::contact::ContactLine;
+use crate::interface::wall::{WallPoint, is_edge_between};
 use crate::math::{Vec2, perpendicular};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
@@ -115,10 +115,7 @@ fn thin_liquid_at_edge(flow: &Flow, seen: &Observation) -> Option<String> {
     let m = &flow.method;
     let length = seen.areas.wetting.min(seen.areas.non_wetting).sqrt();
     let ohnesorge = m.wetting_fluid.viscosity / (m.wetting_fluid.density * m.tension * length).sqrt();
-    let wall = |x: Vec2| {
-        let (distance, normal) = (flow.wall)(x);
-        WallPoint { distance, normal }
-    };
+    let wall = |x: Vec2| WallPoint::from((flow.wall)(x));
     let is_at_edge = |line: &ContactLine| {
         let along = m.kernel.h * perpendicular(wall(line.position).normal);
         is_edge_between(&wall, line.position - along, line.position + along)

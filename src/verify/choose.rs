@@ -7,8 +7,8 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::subject::Subject;
 use crate::geometry::curve::Curve;
+use crate::interface::menisci::{Meniscus, Passage};
 use crate::math::Vec2;
-use crate::network::menisci::{Meniscus, Passage};
 
 /// Pressures that differ by less than this share are close to each other.
 const CLOSE: f64 = 0.05;

@@ -8,8 +8,8 @@ use super::wall_path::{Followed, Frame, UpperWall, follow, mirrored};
 use crate::geometry::Geometry;
 use crate::geometry::curve::Curve;
 use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, HalfPlane, ShapeSpec, SolidSide};
+use crate::interface::menisci::{Hand, Meniscus, Passage, Wall};
 use crate::math::{Vec2, perpendicular};
-use crate::network::menisci::{Hand, Meniscus, Passage, Wall};
 
 /// How far a wall draws back from the throat before the box cuts it, in widths: there the passage is four widths wide, and its resistance
 /// per length a sixty-fourth of that in the throat.

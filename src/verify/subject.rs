@@ -1,10 +1,10 @@
 //! What is verified: a network with its menisci, and how its first displacement went up to breakthrough.
 
 use crate::case::checked::{Case, Fluid as FluidOf, Model};
+use crate::interface::menisci::Passage;
 use crate::network::cycles::{Cycles, Entry, Fluid};
 use crate::network::displacement::{Conditions, Displacement};
 use crate::network::graph::Throat;
-use crate::network::menisci::Passage;
 use crate::network::setup::{SetupError, build_still};
 use crate::network::solver::NetworkSolver;
 

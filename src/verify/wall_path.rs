@@ -7,8 +7,8 @@
 use nalgebra::Rotation2;
 
 use crate::geometry::curve::Curve;
+use crate::interface::menisci::{Hand, Wall};
 use crate::math::Vec2;
-use crate::network::menisci::{Hand, Wall};
 
 /// Places along a curve at which its height is looked up before the crossing of a level is bisected.
 const SAMPLES: usize = 64;

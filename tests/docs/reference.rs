@@ -238,7 +238,9 @@ fn every_measure_is_described() {
     let mut there = BTreeSet::new();
     let others = ["src/thin_film/measures.rs", "src/network/measures.rs", "src/network/dynamic/measures.rs"]
         .map(|file| root().join(file));
-    for file in files(&root().join("src/sph/measures"), &["rs"]).into_iter().chain(others) {
+    let of_flows =
+        ["src/sph/measures", "src/benchmarks"].into_iter().flat_map(|folder| files(&root().join(folder), &["rs"]));
+    for file in of_flows.chain(others) {
         let source = std::fs::read_to_string(file).unwrap();
         let calls = source.split("measure(").skip(1).filter_map(|rest| rest.trim_start().strip_prefix('"'));
         there.extend(calls.filter_map(|rest| rest.split('"').next().map(str::to_owned)));

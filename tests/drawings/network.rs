@@ -6,11 +6,11 @@ use meniscus::geometry::Geometry;
 use meniscus::geometry::curve::Curve;
 use meniscus::geometry::import::Options;
 use meniscus::geometry::spec::GeometrySpec;
+use meniscus::interface::menisci::{Hand, Passage, Wall, WallPart};
 use meniscus::math::Vec2;
 use meniscus::network::displacement::{Conditions, Displacement, Events, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores, Throat};
-use meniscus::network::menisci::{Hand, Passage, Wall, WallPart};
 use serde_json::Value;
 
 use crate::contents::*;

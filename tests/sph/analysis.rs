@@ -1,14 +1,16 @@
 //! The way of a measurement from particles to angle, curvature and lengths, on states whose answer is known.
 
-use meniscus::analysis::WallPoint;
-use meniscus::analysis::contact::{ContactLine, ContactSettings, contact_lines, summarize};
-use meniscus::analysis::contour::{Polyline, contour};
-use meniscus::analysis::lattice::Lattice;
 use meniscus::analysis::laws::drops::cap;
 use meniscus::analysis::laws::pores::DiscPair;
-use meniscus::analysis::phases::{PhaseAreas, interface_length, wall_samples, wetted_length};
+use meniscus::analysis::phases::PhaseAreas;
 use meniscus::analysis::resample::{Samples, Stencils};
-use meniscus::analysis::wall::clip;
+use meniscus::interface::contact::{ContactLine, ContactSettings, contact_lines, summarize};
+use meniscus::interface::contour::contour;
+use meniscus::interface::lattice::Lattice;
+use meniscus::interface::lengths::{interface_length, wall_samples, wetted_length};
+use meniscus::interface::polyline::Polyline;
+use meniscus::interface::wall::WallPoint;
+use meniscus::interface::wall::clip;
 use meniscus::math::{Vec2, perpendicular};
 
 type Wall<'a> = &'a dyn Fn(Vec2) -> WallPoint;

@@ -101,12 +101,6 @@ impl LayeredPoiseuille {
     }
 }
 
-/// Speed of a Taylor-Green vortex of period `length` (m) over its initial speed: exp(-8 pi² nu t/L²).
-#[must_use]
-pub fn taylor_green_decay(kinematic_viscosity: f64, length: f64, time: f64) -> f64 {
-    (-8.0 * PI * PI * kinematic_viscosity * time / (length * length)).exp()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -148,10 +142,5 @@ mod tests {
             assert!((q1 - below).abs() < 1e-7 && (q2 - above).abs() < 1e-7, "m {m}: {q1} {q2}");
             assert!(flow.velocity(1.0).abs() < 1e-14);
         }
-    }
-
-    #[test]
-    fn taylor_green_at_reynolds_100_has_decayed_to_the_printed_speed() {
-        assert!((taylor_green_decay(0.01, 1.0, 2.0) - 0.20615).abs() < 0.6e-5);
     }
 }

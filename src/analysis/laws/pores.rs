@@ -1,4 +1,4 @@
-//! Menisci in pores: throats and liquid between discs, bridges, rise between plates. Without gravity but for Jurin's law.
+//! Menisci in pores without gravity: throats and liquid between discs, bridges.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -114,12 +114,6 @@ pub struct Bridge {
     pub force: f64,
 }
 
-/// Mean height in m of rise between plates `width` (m) apart: 2 l_c² cos theta/w, exact for the mean (Jurin).
-#[must_use]
-pub fn jurin_mean_height(width: f64, capillary_length: f64, angle: f64) -> f64 {
-    2.0 * capillary_length.powi(2) * angle.cos() / width
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -181,15 +175,6 @@ mod tests {
             assert!((found.curvature - curvature).abs() < 1e-5, "{degrees} {area}: {found:?}");
             assert!((found.force - force).abs() < 1e-5, "{degrees} {area}: {found:?}");
             assert!((found.half_neck - neck).abs() < 1e-5, "{degrees} {area}: {found:?}");
-        }
-    }
-
-    #[test]
-    fn mean_rise_between_plates_is_as_printed() {
-        for (degrees, width, height) in
-            [(40.0_f64, 0.5, 3.06418), (40.0, 1.0, 1.53209), (60.0, 1.0, 1.0), (60.0, 2.0, 0.5)]
-        {
-            assert!((jurin_mean_height(width, 1.0, degrees.to_radians()) - height).abs() < 0.6e-5);
         }
     }
 }

@@ -4,9 +4,9 @@
 use super::fronts::Candidate;
 use super::loops::GateId;
 use super::{Displacement, EventKind};
+use crate::interface::menisci::Passage;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
-use crate::network::menisci::Passage;
 
 /// A gate and the end at which a meniscus enters.
 pub type FrontId = (usize, usize);

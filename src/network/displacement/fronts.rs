@@ -5,9 +5,9 @@ use super::mesh::Mesh;
 use super::walls::{Sides, gate_walls, is_same};
 use super::{Displacement, EventKind, Events};
 use crate::geometry::curve::Curve;
+use crate::interface::menisci::{Hand, Passage, Wall, WallPart, overlap};
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
-use crate::network::menisci::{Hand, Passage, Wall, WallPart, overlap};
 
 /// A meniscus that waits in a gate, entering the element on one side of it.
 #[derive(Debug, Clone)]

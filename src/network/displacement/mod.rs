@@ -28,8 +28,8 @@ use self::mesh::Mesh;
 use self::outflow::Outflow;
 pub use self::standing::{Beginning, Interfaces, Standing};
 use super::graph::{Network, Pores, Region};
-use super::menisci::Passage;
 use crate::geometry::curve::Curve;
+use crate::interface::menisci::Passage;
 use crate::math::Vec2;
 
 /// Which events move a meniscus.

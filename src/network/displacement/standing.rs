@@ -14,9 +14,9 @@ use super::loops::GateId;
 use super::wall_chains::{Side, WallChains};
 use super::{Conditions, Displacement, EventKind};
 use crate::geometry::curve::Curve;
+use crate::interface::menisci::{Meniscus, Passage};
 use crate::math::{Bounds, Vec2};
 use crate::network::graph::{Network, Pores};
-use crate::network::menisci::{Meniscus, Passage};
 
 /// An interface between two elements.
 #[derive(Debug, Clone, PartialEq)]

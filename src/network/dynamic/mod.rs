@@ -353,7 +353,7 @@ impl Dynamic {
     }
 
     /// The menisci that wait.
-    fn arcs(&self) -> impl Iterator<Item = super::menisci::Meniscus> + '_ {
+    fn arcs(&self) -> impl Iterator<Item = crate::interface::menisci::Meniscus> + '_ {
         self.displacement.waiting().filter_map(|front| {
             let meniscus = self.state.menisci[front.0][front.1].filter(|meniscus| !meniscus.has_burst)?;
             let rise = self.rises[front.0][front.1].as_ref()?;

@@ -1,6 +1,6 @@
 //! The curvature of a meniscus over the area that it has swept in its gate, up to its event.
 
-use crate::network::menisci::Passage;
+use crate::interface::menisci::Passage;
 
 /// Menisci that a table is made of; they stand closer towards the event, where the curvature of a burst is level.
 const PLACES: usize = 17;

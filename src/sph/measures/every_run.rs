@@ -1,6 +1,7 @@
 //! What every run reports: angle, pressures, saturation, lengths and the bookkeeping of areas and densities.
 
-use super::{Subject, measure};
+use super::open;
+use super::subject::{Subject, measure};
 use crate::analysis::phases::{PhaseAreas, density_error};
 use crate::math::Vec2;
 use crate::solver::Measure;
@@ -43,7 +44,7 @@ fn smallest_distance(flow: &Flow) -> f64 {
 
 fn two_phases(s: &Subject) -> Vec<Measure> {
     // What came in and left through open sides is no drift.
-    let (passed, seen) = (super::open::net(s.flow), s.seen.areas);
+    let (passed, seen) = (open::net(s.flow), s.seen.areas);
     let kept = PhaseAreas { wetting: seen.wetting - passed[0], non_wetting: seen.non_wetting - passed[1] };
     let drift = kept.drift_since(&s.start);
     let drift = drift.iter().map(|d| d.abs()).filter(|d| d.is_finite()).fold(0.0, f64::max);

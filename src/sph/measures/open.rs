@@ -1,6 +1,6 @@
 //! What runs with open sides report: the balance of what came in, what left and what is inside.
 
-use super::{Subject, measure};
+use super::subject::{Columns, Subject, measure};
 use crate::solver::Measure;
 use crate::sph::open::{Drive, Ledger, OpenSide, Through};
 use crate::sph::particles::Phase;
@@ -22,7 +22,7 @@ fn rising(flow: &Flow) -> Option<&OpenSide> {
 }
 
 /// Areas in m² that came in and left since time zero, by phase: particles times their area at rest.
-pub fn columns(flow: &Flow) -> Vec<(&'static str, f64)> {
+pub fn columns(flow: &Flow) -> Columns {
     if !is_open(flow) {
         return vec![];
     }

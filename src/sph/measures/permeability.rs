@@ -1,6 +1,6 @@
 //! Permeability tensor of a periodic cell from the slow flow under a body force along each axis in turn: u_i = k_ij f_j/μ (Darcy's law).
 
-use super::{Subject, measure};
+use super::subject::{Columns, Subject, measure};
 use crate::math::Vec2;
 use crate::solver::{Measure, Series};
 use crate::sph::projection::Flow;
@@ -20,7 +20,7 @@ const MEANS: [&str; 2] = ["mean_velocity_x_m_per_s", "mean_velocity_y_m_per_s"];
 const MOMENTA: [&str; 2] = ["momentum_x_kg_per_m_s", "momentum_y_kg_per_m_s"];
 
 /// The velocity averaged over the whole cell, solids at rest, in m/s.
-pub fn columns(flow: &Flow) -> Vec<(&'static str, f64)> {
+pub fn columns(flow: &Flow) -> Columns {
     let p = &flow.particles;
     let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.volume[a] * p.velocity[a]).sum();
     let mean = flux / flow.domain.bounds.area();

@@ -7,7 +7,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::analysis::contour::Polyline;
+use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
 use crate::sph::cells::Cells;
 use crate::sph::observe::Observation;

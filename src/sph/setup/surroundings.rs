@@ -1,11 +1,11 @@
 //! What measures and output know of the walls.
 
 use super::handed_back::hand_back;
-use crate::analysis::contour::Polyline;
-use crate::analysis::phases::wall_samples;
 use crate::case::checked::{Case, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
+use crate::interface::lengths::wall_samples;
+use crate::interface::polyline::Polyline;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::Lines;
 use crate::sph::measures::DiscOf;
@@ -22,7 +22,6 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surro
         plates: plates(&case.geometry),
         wall_speeds: sph.wall_speeds,
         stages: sph.measure.permeability.then(|| Stages::new(sph.gravity, case.end)).flatten(),
-        measures: sph.measure.clone(),
         grid_spacing: case.output.grid_ratio * sph.spacing,
         hand_back: sph.initial.network.as_ref().map(|start| hand_back(start, sph.tension)),
     }

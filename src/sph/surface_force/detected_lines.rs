@@ -3,10 +3,13 @@
 //! Points nearer to the wall than 2 dx, where both phases touch it, that continue to the same place are one line. Around that place, the points within the
 //! stencil of a fit tell its speed and its angle. Leaves out lines with fewer points than a fit needs.
 
+use crate::interface::weighted_circle::{
+    FEWEST_FROM_CONTACT, WeightedCircle, WeightedPoint, angle_through, fit_from_contact,
+};
 use crate::math::{Vec2, perpendicular};
 use crate::sph::domain::Domain;
-use crate::sph::surface_force::circles::{Circle, Near, angle_through, fit_from_contact};
-use crate::sph::surface_force::fit::{ContactPoint, FEWEST_HELD, InterfaceFit};
+use crate::sph::surface_force::contact_points::ContactPoint;
+use crate::sph::surface_force::stencils::Interface;
 use crate::sph::wetting::lines::DetectedLine;
 
 /// Points nearer to the wall than this, over dx, tell the place of a line: those between its first two layers of particles, or where
@@ -18,7 +21,7 @@ const ONE_LINE: f64 = 2.0;
 
 /// A contact line as the interface shows it.
 pub struct InterfaceLine<'a> {
-    pub(super) fit: &'a InterfaceFit<'a>,
+    pub(super) interface: &'a Interface<'a>,
     /// About where it is, on the wall, in m.
     pub(super) place: Vec2,
     pub(super) outward: Vec2,
@@ -29,10 +32,10 @@ pub struct InterfaceLine<'a> {
     /// Mean unit normal of the interface.
     pub(super) into_wetting: Vec2,
     /// The points around it, relative to the place.
-    pub(super) near: Vec<Near>,
+    pub(super) near: Vec<WeightedPoint>,
 }
 
-impl InterfaceFit<'_> {
+impl Interface<'_> {
     /// The contact lines in the order of their first points.
     #[must_use]
     pub fn lines(&self) -> Vec<InterfaceLine<'_>> {
@@ -93,11 +96,11 @@ impl InterfaceFit<'_> {
         let side = ends[group[0]].1.side;
         let outward = side * perpendicular(normal);
         let level = self.stencil(into_wetting, place);
-        let circle = Circle::through(&self.of_one_curvature(&level, Vec2::zeros()), into_wetting);
+        let circle = WeightedCircle::through(&self.of_one_curvature(&level, Vec2::zeros()), into_wetting);
         let kappa = circle.and_then(|circle| circle.curvature()).unwrap_or(0.0);
         let near = self.of_one_curvature(&self.on_interface(&level, kappa), Vec2::zeros());
-        (near.len() >= FEWEST_HELD).then_some(InterfaceLine {
-            fit: self,
+        (near.len() >= FEWEST_FROM_CONTACT).then_some(InterfaceLine {
+            interface: self,
             place,
             outward,
             normal,
@@ -115,7 +118,7 @@ fn is_inside(domain: &Domain, x: Vec2) -> bool {
 
 impl DetectedLine for InterfaceLine<'_> {
     fn place(&self) -> Vec2 {
-        self.fit.domain.wrapped(self.place)
+        self.interface.domain.wrapped(self.place)
     }
 
     fn outward(&self) -> Vec2 {
@@ -125,7 +128,7 @@ impl DetectedLine for InterfaceLine<'_> {
     /// Σ w v·n/Σ w ν·n: along the wall, the interface moves at the speed U where v·n = U ν·n.
     fn speed(&self) -> f64 {
         let (moved, along) = self.near.iter().fold((0.0, 0.0), |(moved, along), q| {
-            let p = &self.fit.points[q.index];
+            let p = &self.interface.points[q.index];
             (moved + q.weight * p.velocity.dot(&p.normal), along + q.weight * self.outward.dot(&p.normal))
         });
         // ν·n is −sin of the angle; where its mean vanishes the interface lies along the wall and tells no speed.
@@ -133,7 +136,7 @@ impl DetectedLine for InterfaceLine<'_> {
     }
 
     fn present(&self, anchor: Option<Vec2>) -> f64 {
-        let anchor = anchor.map_or(Vec2::zeros(), |anchor| self.fit.domain.separation(anchor, self.place));
+        let anchor = anchor.map_or(Vec2::zeros(), |anchor| self.interface.domain.separation(anchor, self.place));
         let straight = (-self.into_wetting.dot(&self.normal)).clamp(-1.0, 1.0).acos();
         angle_through(&self.near, anchor, self.into_wetting, self.normal).unwrap_or(straight)
     }
@@ -141,9 +144,10 @@ impl DetectedLine for InterfaceLine<'_> {
     fn meets(&self, angle: f64) -> Vec2 {
         let shift = fit_from_contact(&self.near, Vec2::zeros(), (self.outward, self.normal), angle);
         // A fit that runs away along the wall is no better than the straight continuation.
-        let shift = shift.map(|(_, shift)| shift).filter(|shift| shift.abs() < ONE_LINE * self.fit.h).unwrap_or(0.0);
+        let shift =
+            shift.map(|(_, shift)| shift).filter(|shift| shift.abs() < ONE_LINE * self.interface.h).unwrap_or(0.0);
         let x = self.place + shift * self.outward;
-        let (distance, normal) = (self.fit.wall)(x);
+        let (distance, normal) = (self.interface.wall)(x);
         x - distance * normal
     }
 }
@@ -192,8 +196,8 @@ mod tests {
     fn a_drop_has_two_lines_with_their_place_angle_and_speed() {
         for degrees in [40.0_f64, 60.0, 90.0, 120.0, 140.0] {
             let (points, domain) = (drop(degrees, 0.3), domain());
-            let fit = InterfaceFit::new(&points, &domain, (0.1, H), &floor);
-            let lines = fit.lines();
+            let interface = Interface::new(&points, &domain, (0.1, H), &floor);
+            let lines = interface.lines();
             assert_eq!(lines.len(), 2, "{degrees}");
             for line in lines {
                 let side = line.outward().x;
@@ -211,8 +215,8 @@ mod tests {
     #[test]
     fn an_interface_that_stands_out_over_its_anchor_looks_steeper() {
         let (points, domain) = (drop(90.0, 0.0), domain());
-        let fit = InterfaceFit::new(&points, &domain, (0.1, H), &floor);
-        for line in fit.lines() {
+        let interface = Interface::new(&points, &domain, (0.1, H), &floor);
+        for line in interface.lines() {
             let inside = line.present(Some(Vec2::new(0.97 * line.outward().x, 0.0))).to_degrees();
             let outside = line.present(Some(Vec2::new(1.03 * line.outward().x, 0.0))).to_degrees();
             assert!(inside > 92.0 && outside < 88.0, "{inside} {outside}");

@@ -1,4 +1,4 @@
-//! Curvature of the interface from local fits of circles (`circles`), free in the bulk and held to the contact angle at walls.
+//! Curvature of the interface from local fits of circles, free in the bulk and held to the contact angle at walls.
 //!
 //! Under gravity the curvature of an interface at rest varies by ∇κ = (ρ_w − ρ_n) g/σ (Young and Laplace). A stencil that ends at a
 //! wall would take the curvature of its middle for that at its end. What the known gradient has bent the interface is taken out
@@ -7,31 +7,20 @@
 //! The points lie on the level 1/2 of the smoothed color, which is drawn towards the center of curvature by h²κ/7. So a stencil is
 //! fitted more than once: for the curvature that moves its points to the interface, and there.
 
+use crate::interface::weighted_circle::{FEWEST_FROM_CONTACT, WeightedCircle, WeightedPoint, fit_from_contact};
 use crate::math::{Vec2, perpendicular};
-use crate::sph::cells::Cells;
-use crate::sph::domain::Domain;
-use crate::sph::surface_force::circles::{Circle, Near, fit_from_contact};
+use crate::sph::surface_force::contact_points::{ContactPoint, angle_pulled};
 use crate::sph::surface_force::pinned_lines::PinnedLine;
 use crate::sph::surface_force::points::InterfacePoint;
-use crate::sph::surface_force::stencils::STENCIL_RADIUS;
+use crate::sph::surface_force::stencils::Interface;
 use crate::sph::wetting::lines::LINE_REACH;
 
 /// The points of a stencil are moved from the level to the interface so many times. At a wall, the circle through the level is not the
 /// one that meets it at the angle; each time gains more than a digit.
 const MOVES: usize = 3;
 
-/// Fewest points of a fit from the wall: two unknowns and some redundancy. A line that moves fast parts the particles at its
-/// tip, and few pairs span the interface there.
-pub(super) const FEWEST_HELD: usize = 3;
-
-/// Share of the normal along the wall below which the interface runs parallel to it and has no contact line.
-const SMALLEST_TANGENT: f64 = 0.1;
-
 /// Way along the interface to the wall, over h, below which the fit is held to the contact angle; fades in over 2h.
 const REACH: f64 = 3.0;
-
-/// Largest difference of the angle used from the present one, so that far starts move and do not tear: 45 degrees.
-const LARGEST_PULL: f64 = std::f64::consts::FRAC_PI_4;
 
 /// The contact point is projected on a curved wall at most so many times; each gains more than a digit.
 const PROJECTIONS: usize = 4;
@@ -39,62 +28,32 @@ const PROJECTIONS: usize = 4;
 /// Walls whose normals differ by less than this are the same straight wall, in rad.
 const SAME_NORMAL: f64 = 1e-4;
 
-/// Signed distance in m and normal of the wall at a point.
-pub type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
-
 /// The angle in rad at which the interface is to meet the wall at a point of it (m), with ν_ns there.
 pub type AngleAt<'a> = dyn Fn(Vec2, Vec2) -> f64 + Sync + 'a;
 
-/// The interface, ready for fits.
+/// The fits that give the curvature of an interface.
 pub struct InterfaceFit<'a> {
-    pub(super) points: &'a [InterfacePoint],
-    pub(super) cells: Cells,
-    pub(super) h: f64,
-    pub(super) spacing: f64,
+    interface: &'a Interface<'a>,
     /// Angle of the wetting law, where there is one.
     angle: Option<&'a AngleAt<'a>>,
-    /// ∇κ in 1/m² of an interface at rest.
-    pub(super) gradient: Vec2,
-    pub(super) wall: &'a Wall<'a>,
-    pub(super) domain: &'a Domain,
     /// The contact lines at edges and tight bends of the walls.
     pinned_lines: &'a [PinnedLine],
 }
 
-/// Where the straight continuation of the interface meets the wall.
-pub(super) struct ContactPoint {
-    /// From the point of the interface to the wall, in m.
-    pub(super) contact: Vec2,
-    /// Wall normal there.
-    pub(super) normal: Vec2,
-    /// 1 where ν_ns lies to the left of the normal, else -1: the same all along a wall, around its edges too.
-    pub(super) side: f64,
-    /// Way along the interface to the wall in m.
-    pub(super) way: f64,
-}
-
 impl<'a> InterfaceFit<'a> {
-    /// Sorts the points; the interface meets walls at any angle.
+    /// Free fits: the interface meets walls at any angle.
     #[must_use]
-    pub fn new(points: &'a [InterfacePoint], domain: &'a Domain, (spacing, h): (f64, f64), wall: &'a Wall<'a>) -> Self {
-        let places: Vec<Vec2> = points.iter().map(|p| p.x).collect();
-        let cells = Cells::build(&places, domain, STENCIL_RADIUS * h);
-        Self { points, cells, h, spacing, angle: None, gradient: Vec2::zeros(), wall, domain, pinned_lines: &[] }
+    pub fn free(interface: &'a Interface<'a>) -> Self {
+        Self { interface, angle: None, pinned_lines: &[] }
     }
 
-    /// The same interface under gravity, with the gradient (1/m²) of its curvature at rest.
-    #[must_use]
-    pub fn under(self, gradient: Vec2) -> Self {
-        Self { gradient, ..self }
-    }
-
-    /// The same interface, which is to meet walls at the given angle.
+    /// The same fits, but the interface is to meet walls at the given angle.
     #[must_use]
     pub fn held_to(self, angle: &'a AngleAt<'a>) -> Self {
         Self { angle: Some(angle), ..self }
     }
 
-    /// The same interface with its contact lines at edges and tight bends.
+    /// The same fits with the contact lines at edges and tight bends.
     #[must_use]
     pub fn with_pinned_lines(self, pinned_lines: &'a [PinnedLine]) -> Self {
         Self { pinned_lines, ..self }
@@ -104,6 +63,7 @@ impl<'a> InterfaceFit<'a> {
     #[must_use]
     pub fn curvature(&self, x: Vec2) -> Option<f64> {
         let (sum, count) = self
+            .interface
             .nearest(x)
             .into_iter()
             .filter_map(|(p, from_p)| self.curvature_at(p, from_p, x))
@@ -113,21 +73,21 @@ impl<'a> InterfaceFit<'a> {
 
     /// The curvature at `x` from the stencil near the point `p`, from which x lies at `from_p`.
     fn curvature_at(&self, p: usize, from_p: Vec2, x: Vec2) -> Option<f64> {
-        let nearest = InterfacePoint { x: x - from_p, ..self.points[p] };
-        let (point, level) = self.stencil_at_closest_point(nearest, x);
+        let nearest = InterfacePoint { x: x - from_p, ..self.interface.points[p] };
+        let (point, level) = self.interface.stencil_at_closest_point(nearest, x);
         let mut kappa = self.fitted(&point, &level)?;
         for _ in 0..MOVES {
-            kappa = self.fitted(&point, &self.on_interface(&level, kappa))?;
+            kappa = self.fitted(&point, &self.interface.on_interface(&level, kappa))?;
         }
         // At rest the curvature, continued so off the interface, balances gravity between any two particles.
-        let kappa = kappa + self.gradient.dot(&(x - point.x));
-        let limit = self.limit();
+        let kappa = kappa + self.interface.gradient.dot(&(x - point.x));
+        let limit = self.interface.limit();
         kappa.is_finite().then(|| kappa.clamp(-limit, limit))
     }
 
     /// Curvature in 1/m of the stencil `near` at `point`: held to the angle at a wall, free far from one.
-    fn fitted(&self, point: &InterfacePoint, near: &[Near]) -> Option<f64> {
-        let free = Circle::through(&self.of_one_curvature(near, Vec2::zeros()), point.normal);
+    fn fitted(&self, point: &InterfacePoint, near: &[WeightedPoint]) -> Option<f64> {
+        let free = WeightedCircle::through(&self.interface.of_one_curvature(near, Vec2::zeros()), point.normal);
         let free = free.and_then(|circle| circle.curvature());
         match (self.held_fit(point, near), free) {
             (Some((held, share)), Some(free)) => Some(share * held + (1.0 - share) * free),
@@ -136,41 +96,19 @@ impl<'a> InterfaceFit<'a> {
         }
     }
 
-    /// The straight way from `point` to a wall in reach, none where the interface runs along the wall.
-    pub(super) fn contact_point(&self, point: &InterfacePoint) -> Option<ContactPoint> {
-        if !point.wall_distance.is_finite() {
-            return None;
-        }
-        let slope = along(point.normal, point.wall_normal).norm();
-        if slope < SMALLEST_TANGENT {
-            return None;
-        }
-        let side = -perpendicular(point.wall_normal).dot(&point.normal).signum();
-        let way = point.wall_distance.max(0.0) / slope.max(2.0 * SMALLEST_TANGENT);
-        // Down along the interface to the wall, then onto it.
-        let mut down = perpendicular(point.normal);
-        if down.dot(&point.wall_normal) > 0.0 {
-            down = -down;
-        }
-        let end = point.x + way * down;
-        let (distance, normal) = (self.wall)(end);
-        let contact = end - distance * normal - point.x;
-        Some(ContactPoint { contact, normal, side, way })
-    }
-
     /// The curvature held to the contact angle, and its share, where the interface meets a wall near `point`.
-    fn held_fit(&self, point: &InterfacePoint, near: &[Near]) -> Option<(f64, f64)> {
-        let touches = near.iter().any(|q| self.points[q.index].touches);
-        if self.angle.is_none() || !touches || near.len() < FEWEST_HELD {
+    fn held_fit(&self, point: &InterfacePoint, near: &[WeightedPoint]) -> Option<(f64, f64)> {
+        let touches = near.iter().any(|q| self.interface.points[q.index].touches);
+        if self.angle.is_none() || !touches || near.len() < FEWEST_FROM_CONTACT {
             return None;
         }
-        let ContactPoint { mut contact, mut normal, side, way } = self.contact_point(point)?;
-        let share = ((REACH * self.h - way) / (2.0 * self.h)).clamp(0.0, 1.0);
+        let ContactPoint { mut contact, mut normal, side, way } = self.interface.contact_point(point)?;
+        let share = ((REACH * self.interface.h - way) / (2.0 * self.interface.h)).clamp(0.0, 1.0);
         if share == 0.0 {
             return None;
         }
         if let Some(line) = self.pinned_line_at(point.x + contact, side) {
-            let contact = self.domain.separation(line.place, point.x);
+            let contact = self.interface.domain.separation(line.place, point.x);
             let wall = (side * perpendicular(line.normal), line.normal);
             return Some((self.fit_at(point, near, contact, wall)?.0, share));
         }
@@ -180,8 +118,8 @@ impl<'a> InterfaceFit<'a> {
             let (found, delta) = self.fit_at(point, near, contact, (outwards, normal))?;
             kappa = Some(found);
             // The contact point found lies on the tangent of the wall; a curved wall is looked at again there.
-            let place = point.x + contact + delta.clamp(-self.h, self.h) * outwards;
-            let (distance, there) = (self.wall)(place);
+            let place = point.x + contact + delta.clamp(-self.interface.h, self.interface.h) * outwards;
+            let (distance, there) = (self.interface.wall)(place);
             if (there - normal).norm() < SAME_NORMAL {
                 break;
             }
@@ -192,31 +130,26 @@ impl<'a> InterfaceFit<'a> {
 
     /// Curvature in 1/m at `point` of the circle that meets the straight wall (ν, normal) through `contact` (m from `point`) at the
     /// contact angle, and the way in m along ν from there to where it does.
-    fn fit_at(&self, point: &InterfacePoint, near: &[Near], contact: Vec2, wall: (Vec2, Vec2)) -> Option<(f64, f64)> {
+    fn fit_at(
+        &self,
+        point: &InterfacePoint,
+        near: &[WeightedPoint],
+        contact: Vec2,
+        wall: (Vec2, Vec2),
+    ) -> Option<(f64, f64)> {
         let angle = angle_pulled(point.normal, wall, (self.angle?)(point.x + contact, wall.0));
-        let at_contact = self.of_one_curvature(near, contact);
+        let at_contact = self.interface.of_one_curvature(near, contact);
         let (kappa, delta) = fit_from_contact(&at_contact, contact, wall, angle)?;
-        Some((kappa - self.gradient.dot(&(contact + delta * wall.0)), delta))
+        Some((kappa - self.interface.gradient.dot(&(contact + delta * wall.0)), delta))
     }
 
     /// The line at a bend to which an interface belongs that meets the wall about `x` (m), on the given side.
     fn pinned_line_at(&self, x: Vec2, side: f64) -> Option<&PinnedLine> {
-        let distance = |line: &&PinnedLine| self.domain.separation(line.place, x).norm();
+        let distance = |line: &&PinnedLine| self.interface.domain.separation(line.place, x).norm();
         let pinned_lines =
-            self.pinned_lines.iter().filter(|line| line.side == side && distance(line) < LINE_REACH * self.h);
+            self.pinned_lines.iter().filter(|line| line.side == side && distance(line) < LINE_REACH * self.interface.h);
         pinned_lines.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
-}
-
-/// The contact angle in rad as far as an interface with the unit `normal` is pulled towards it at once, at the wall (ν, normal).
-pub(super) fn angle_pulled(normal: Vec2, (outwards, wall): (Vec2, Vec2), angle: f64) -> f64 {
-    let present = (-normal.dot(&outwards)).atan2(-normal.dot(&wall));
-    angle.clamp(present - LARGEST_PULL, present + LARGEST_PULL)
-}
-
-/// The part of `n` along the line with the unit normal `e`.
-fn along(n: Vec2, e: Vec2) -> Vec2 {
-    n - n.dot(&e) * e
 }
 
 #[cfg(test)]
@@ -225,6 +158,8 @@ mod tests {
 
     use super::*;
     use crate::math::{Bounds, LINE_MOMENT};
+    use crate::sph::domain::Domain;
+    use crate::sph::surface_force::stencils::Wall;
 
     const H: f64 = 0.15;
 
@@ -270,7 +205,8 @@ mod tests {
     #[test]
     fn the_curvature_of_a_circle_is_one_over_its_radius() {
         let points = circle(2.0);
-        let fit = InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor);
+        let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor);
+        let fit = InterfaceFit::free(&interface);
         for t in [0.0_f64, 0.7, 2.0, 4.0] {
             let x = Vec2::new(0.0, 2.0) + 1.1 * Vec2::new(t.cos(), t.sin());
             let kappa = fit.curvature(x).unwrap();
@@ -285,7 +221,8 @@ mod tests {
         let bump = |n: &Vec2| (27.0 * n.y.atan2(n.x)).cos();
         let rough = directions().map(|n| ((level() + 0.01 * bump(&n)) * n, -n));
         let points = interface(rough, &|_| (f64::INFINITY, Vec2::zeros()));
-        let fit = InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor);
+        let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor);
+        let fit = InterfaceFit::free(&interface);
         for n in directions().take(30) {
             let [inside, outside] = [0.75, 1.25].map(|r| fit.curvature(r * n).unwrap());
             assert!((inside - outside).abs() < 5e-3, "{inside} inside, {outside} outside");
@@ -300,7 +237,8 @@ mod tests {
             let angle = degrees.to_radians();
             let points = circle(-angle.cos());
             let law = |_, _| angle;
-            let fit = InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor).held_to(&law);
+            let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor);
+            let fit = InterfaceFit::free(&interface).held_to(&law);
             // From .1 up at 30 degrees the tangent misses the contact point by so much that the steps end 1e-3 off.
             let tolerance = if degrees == 30.0 { 2e-3 } else { 1e-5 };
             // Points below the top of the cap only.
@@ -325,7 +263,8 @@ mod tests {
             };
             let points = interface(directions().map(|n| (level() * n, -n)), &wall);
             let law = |_, _| angle;
-            let fit = InterfaceFit::new(&points, &DOMAIN, (0.1, H), &wall).held_to(&law);
+            let interface = Interface::new(&points, &DOMAIN, (0.1, H), &wall);
+            let fit = InterfaceFit::free(&interface).held_to(&law);
             for point in points.iter().filter(|p| p.x.x > 0.0 && p.wall_distance < 0.3) {
                 let kappa = fit.curvature(point.x).unwrap();
                 // The interface is followed down to the wall along its tangent, and the wall along its own.
@@ -365,8 +304,8 @@ mod tests {
             );
             let law = |_, _| angle;
             let at = |gradient: f64| {
-                let fit =
-                    InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor).under(Vec2::new(0.0, gradient)).held_to(&law);
+                let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor).under(Vec2::new(0.0, gradient));
+                let fit = InterfaceFit::free(&interface).held_to(&law);
                 let near_wall = profile.iter().filter(|(_, z, ..)| depth - z < 0.3);
                 let error = |x: f64, z: f64, exact: f64| fit.curvature(Vec2::new(x, depth - z)).unwrap() - exact;
                 let largest = near_wall.map(|(x, z, _, exact)| error(*x, *z, *exact).abs()).fold(0.0, f64::max);
@@ -381,12 +320,9 @@ mod tests {
     #[test]
     fn a_cap_that_is_too_steep_bends_outwards_at_the_wall() {
         let points = circle(0.0);
-        let fit = |angle: f64| {
-            InterfaceFit::new(&points, &DOMAIN, (0.1, H), &floor)
-                .held_to(&|_, _| angle)
-                .curvature(Vec2::new(1.0, 0.02))
-                .unwrap()
-        };
+        let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor);
+        let fit =
+            |angle: f64| InterfaceFit::free(&interface).held_to(&|_, _| angle).curvature(Vec2::new(1.0, 0.02)).unwrap();
         assert!(fit(60_f64.to_radians()) < fit(90_f64.to_radians()));
         assert!(fit(120_f64.to_radians()) > fit(90_f64.to_radians()));
     }

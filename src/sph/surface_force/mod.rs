@@ -3,17 +3,19 @@
 //! [`SurfaceForce::Csf`] is the paper's: a volume force in a band, with the contact line force beside it. In
 //! [`SurfaceForce::PressureJump`] the jump σκ enters the pressure differences across the interface, as in the ghost fluid method
 //! (Fedkiw et al. 1999; Kang et al. 2000), and the wetting law is the angle at which the interface meets the wall.
-//! `points` finds the interface, `fit` its curvature by `circles` in `stencils`, `detected_lines` its contact lines and
-//! `pinned_lines` those at edges of walls, `jump` carries it to the pairs.
+//!
+//! A chain, each link of which knows those before it: `points` of the interface between particles; `stencils`, the points around one place;
+//! `contact_points`, where the interface meets a wall; `detected_lines`, its contact lines; `pinned_lines`, those at edges of walls; `fit`, its
+//! curvature; `jump`, which carries that to the pairs. The geometry of the circles is in [`interface`](crate::interface).
 
-mod circles;
+mod contact_points;
 pub mod detected_lines;
 pub mod equivalent;
 pub mod fit;
 pub mod jump;
 pub mod pinned_lines;
 pub mod points;
-mod stencils;
+pub mod stencils;
 
 use crate::sph::wetting::contact_line::LineDelta;
 

@@ -5,10 +5,10 @@
 //! look up the wall each for itself find now this face and now that one. So each line near a bend is placed once, by all of its points:
 //! where on the wall, and to which normal, does the interface have its angle? The fits around it meet that tangent.
 
+use crate::interface::weighted_circle::fit_from_contact;
 use crate::math::{Vec2, perpendicular};
-use crate::sph::surface_force::circles::fit_from_contact;
+use crate::sph::surface_force::contact_points::angle_pulled;
 use crate::sph::surface_force::detected_lines::InterfaceLine;
-use crate::sph::surface_force::fit::angle_pulled;
 
 /// A wall bends at a line where the normals this far to both sides of it, over h, differ by more than `BENT`.
 const NEIGHBORHOOD: f64 = 1.0;
@@ -47,8 +47,8 @@ impl InterfaceLine<'_> {
     /// Where the interface meets the wall at the `angle` (rad), if the wall bends there.
     #[must_use]
     pub fn pinned(&self, angle: f64) -> Option<PinnedLine> {
-        let (fit, place) = (self.fit, self.place);
-        let normal_at = |way: f64| (fit.wall)(place + way * fit.h * self.outward).1;
+        let (interface, place) = (self.interface, self.place);
+        let normal_at = |way: f64| (interface.wall)(place + way * interface.h * self.outward).1;
         if normal_at(NEIGHBORHOOD).dot(&normal_at(-NEIGHBORHOOD)) > BENT {
             return None;
         }
@@ -59,7 +59,7 @@ impl InterfaceLine<'_> {
             let outwards = self.side * perpendicular(end.normal);
             let pulled = angle_pulled(self.into_wetting, (outwards, end.normal), angle);
             let (_, way) = fit_from_contact(&self.near, end.contact, (outwards, end.normal), pulled)?;
-            if way.abs() < SAME_PLACE * fit.h {
+            if way.abs() < SAME_PLACE * interface.h {
                 break;
             }
             between[usize::from(way < 0.0)] = Some((end, way.abs()));
@@ -68,17 +68,17 @@ impl InterfaceLine<'_> {
                     let share = (out / (out + back)).clamp(0.1, 0.9);
                     (1.0 - share) * self.above(&inner) + share * self.above(&outer)
                 }
-                _ => end.contact + way.clamp(-fit.h, fit.h) * outwards,
+                _ => end.contact + way.clamp(-interface.h, interface.h) * outwards,
             };
-            let (distance, normal) = (fit.wall)(place + next);
+            let (distance, normal) = (interface.wall)(place + next);
             end = End { contact: next - distance * normal, normal };
         }
-        Some(PinnedLine { place: fit.domain.wrapped(place + end.contact), normal: end.normal, side: self.side })
+        Some(PinnedLine { place: interface.domain.wrapped(place + end.contact), normal: end.normal, side: self.side })
     }
 
     /// A place above an end from which the wall is found again with the same normal.
     fn above(&self, end: &End) -> Vec2 {
-        end.contact + LIFT * self.fit.spacing * end.normal
+        end.contact + LIFT * self.interface.spacing * end.normal
     }
 }
 
@@ -91,6 +91,7 @@ mod tests {
     use crate::sph::domain::Domain;
     use crate::sph::surface_force::fit::InterfaceFit;
     use crate::sph::surface_force::points::InterfacePoint;
+    use crate::sph::surface_force::stencils::Interface;
 
     const H: f64 = 0.15;
 
@@ -127,10 +128,10 @@ mod tests {
         let law = |_, _| 60_f64.to_radians();
         for degrees in [62.0_f64, 80.0, 112.0, 130.0, 148.0] {
             let points = drop(degrees.to_radians());
-            let fit = InterfaceFit::new(&points, &domain, (0.1, H), &wall).held_to(&law);
+            let interface = Interface::new(&points, &domain, (0.1, H), &wall);
             let pinned_lines: Vec<PinnedLine> =
-                fit.lines().iter().filter_map(|line| line.pinned(60_f64.to_radians())).collect();
-            let fit = fit.with_pinned_lines(&pinned_lines);
+                interface.lines().iter().filter_map(|line| line.pinned(60_f64.to_radians())).collect();
+            let fit = InterfaceFit::free(&interface).held_to(&law).with_pinned_lines(&pinned_lines);
             for point in points.iter().filter(|p| p.x.norm() < 0.4) {
                 let (kappa, from) = (fit.curvature(point.x).unwrap(), point.x.norm());
                 assert!((kappa - 1.0).abs() < 3e-3, "at {degrees} degrees, {from:.3} from the edge: {kappa}");

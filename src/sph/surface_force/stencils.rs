@@ -1,11 +1,12 @@
-//! Stencils: the points of the interface around one of them, and where they would lie for a fit of one circle.
+//! The interface as points, and stencils: the points around one place, and where they would lie for a fit of one circle.
 //!
 //! The level 1/2 of the smoothed color is drawn towards the center of curvature by h²κ/7 (`LINE_MOMENT`). A gradient of the curvature
 //! bends the interface away from its circle by the deflection w with w'' = ∇κ·x along it, w = ∇κ·d |d|²/6 at the distance d.
 
+use crate::interface::weighted_circle::{WeightedCircle, WeightedPoint};
 use crate::math::{LINE_MOMENT, Vec2};
-use crate::sph::surface_force::circles::{Circle, Near};
-use crate::sph::surface_force::fit::InterfaceFit;
+use crate::sph::cells::Cells;
+use crate::sph::domain::Domain;
 use crate::sph::surface_force::points::InterfacePoint;
 
 /// Radius r of the stencil of a fit over h.
@@ -27,7 +28,36 @@ const SAME_PIECE: f64 = 0.3;
 /// Largest curvature over 1/h: smaller drops are not resolved.
 const LARGEST_CURVATURE: f64 = 0.75;
 
-impl InterfaceFit<'_> {
+/// Signed distance in m and normal of the wall at a point.
+pub type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
+
+/// The interface as points, with what fits to them need to know.
+pub struct Interface<'a> {
+    pub(super) points: &'a [InterfacePoint],
+    pub(super) cells: Cells,
+    pub(super) h: f64,
+    pub(super) spacing: f64,
+    /// ∇κ in 1/m² of an interface at rest.
+    pub(super) gradient: Vec2,
+    pub(super) wall: &'a Wall<'a>,
+    pub(super) domain: &'a Domain,
+}
+
+impl<'a> Interface<'a> {
+    /// Sorts the points; `spacing` and the smoothing length `h` in m.
+    #[must_use]
+    pub fn new(points: &'a [InterfacePoint], domain: &'a Domain, (spacing, h): (f64, f64), wall: &'a Wall<'a>) -> Self {
+        let places: Vec<Vec2> = points.iter().map(|p| p.x).collect();
+        let cells = Cells::build(&places, domain, STENCIL_RADIUS * h);
+        Self { points, cells, h, spacing, gradient: Vec2::zeros(), wall, domain }
+    }
+
+    /// The same interface under gravity, with the gradient (1/m²) of its curvature at rest.
+    #[must_use]
+    pub fn under(self, gradient: Vec2) -> Self {
+        Self { gradient, ..self }
+    }
+
     /// Index of the nearest point and x − x_p; all of those that are equally near, so that a mirrored flow stays mirrored.
     pub(super) fn nearest(&self, x: Vec2) -> Vec<(usize, Vec2)> {
         let mut least = (STENCIL_RADIUS * self.h).powi(2);
@@ -47,14 +77,18 @@ impl InterfaceFit<'_> {
     /// The closest point moves as x does. The nearest point does not: particles inside see the dents of a rough interface and those outside its
     /// bumps, so that the curvatures on both sides of one place differ. Near a wall the interface ends, and a closest point may lie behind the
     /// wall or at the other line of a small base: there the stencil stays around the nearest point.
-    pub(super) fn stencil_at_closest_point(&self, nearest: InterfacePoint, x: Vec2) -> (InterfacePoint, Vec<Near>) {
+    pub(super) fn stencil_at_closest_point(
+        &self,
+        nearest: InterfacePoint,
+        x: Vec2,
+    ) -> (InterfacePoint, Vec<WeightedPoint>) {
         let mut point = nearest;
         let mut near = self.stencil(point.normal, point.x);
         if nearest.wall_distance.is_finite() {
             return (point, near);
         }
         for _ in 0..CLOSEST_POINT_PASSES {
-            let circle = Circle::through(&self.of_one_curvature(&near, Vec2::zeros()), point.normal);
+            let circle = WeightedCircle::through(&self.of_one_curvature(&near, Vec2::zeros()), point.normal);
             let Some((closest, normal)) = circle.and_then(|circle| circle.closest_point(x - point.x)) else { break };
             point.x += closest * (self.h / closest.norm()).min(1.0);
             point.normal = normal;
@@ -64,14 +98,14 @@ impl InterfaceFit<'_> {
     }
 
     /// The points of the piece with about the unit `normal` within the stencil around `x_p` (m).
-    pub(super) fn stencil(&self, normal: Vec2, x_p: Vec2) -> Vec<Near> {
+    pub(super) fn stencil(&self, normal: Vec2, x_p: Vec2) -> Vec<WeightedPoint> {
         let reach2 = (STENCIL_RADIUS * self.h).powi(2);
         let mut near = Vec::new();
         self.cells.visit_near(x_p, |i, r| {
             let index = i as usize;
             let d2 = r.norm_squared();
             if d2 < reach2 && self.points[index].normal.dot(&normal) > SAME_PIECE {
-                near.push(Near {
+                near.push(WeightedPoint {
                     index,
                     x: -r,
                     weight: self.points[index].weight * (1.0 - d2 / reach2).powi(SMOOTHNESS),
@@ -83,19 +117,19 @@ impl InterfaceFit<'_> {
 
     /// The points of a stencil moved from the level 1/2 of the smoothed color to the interface, which has the curvature `kappa` (1/m)
     /// in the middle of the stencil.
-    pub(super) fn on_interface(&self, near: &[Near], kappa: f64) -> Vec<Near> {
+    pub(super) fn on_interface(&self, near: &[WeightedPoint], kappa: f64) -> Vec<WeightedPoint> {
         let limit = self.limit();
         let drawn = |x: Vec2| LINE_MOMENT * self.h * self.h * (kappa + self.gradient.dot(&x)).clamp(-limit, limit);
-        near.iter().map(|q| Near { x: q.x - drawn(q.x) * self.points[q.index].normal, ..*q }).collect()
+        near.iter().map(|q| WeightedPoint { x: q.x - drawn(q.x) * self.points[q.index].normal, ..*q }).collect()
     }
 
     /// The points of a stencil as they would lie if the interface had everywhere the curvature that it has at `origin`.
-    pub(super) fn of_one_curvature(&self, near: &[Near], origin: Vec2) -> Vec<Near> {
+    pub(super) fn of_one_curvature(&self, near: &[WeightedPoint], origin: Vec2) -> Vec<WeightedPoint> {
         near.iter()
             .map(|q| {
                 let d = q.x - origin;
                 let deflection = self.gradient.dot(&d) * d.norm_squared() / 6.0;
-                Near { x: q.x - deflection * self.points[q.index].normal, ..*q }
+                WeightedPoint { x: q.x - deflection * self.points[q.index].normal, ..*q }
             })
             .collect()
     }

@@ -1,0 +1,36 @@
+//! Extreme velocities on the center lines of a cavity whose top wall moves (A4 of the benchmarks).
+
+use crate::analysis::resample::Stencils;
+use crate::math::Vec2;
+use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
+use crate::sph::observe::fluid_samples;
+
+/// Measures of its table `[sph.measure.cavity]`.
+pub const GROUP: Group = Group::of(measures);
+
+/// Points on a center line: much closer than particles, so that the extremum is met.
+const POINTS: usize = 400;
+
+fn measures(s: &Subject) -> Vec<Measure> {
+    let (flow, bounds) = (s.flow, s.flow.domain.bounds);
+    let lid = s.wall_speeds[3];
+    let velocity = &flow.particles.velocity[..flow.particles.fluids];
+    let on_line = |axis: usize| {
+        let at = |i: usize| {
+            let mut x: Vec2 = bounds.center();
+            x[axis] = bounds.min[axis] + (i as f64 + 0.5) / POINTS as f64 * bounds.size()[axis];
+            x
+        };
+        let nodes: Vec<Vec2> = (0..POINTS).map(at).collect();
+        Stencils::new(&fluid_samples(flow), &nodes).vector(velocity)
+    };
+    let (upright, level) = (on_line(1), on_line(0));
+    let u = upright.iter().map(|v| v.x / lid).fold(f64::NAN, f64::min);
+    let [least, most] = [f64::min, f64::max].map(|pick| level.iter().map(|v| v.y / lid).fold(f64::NAN, pick));
+    vec![
+        measure("u-min", u, "", None, "least velocity along the lid on the upright center line, over that of the lid"),
+        measure("v-max", most, "", None, "largest upward velocity on the level center line, over that of the lid"),
+        measure("v-min", least, "", None, "least upward velocity on the level center line, over that of the lid"),
+    ]
+}

@@ -1,0 +1,51 @@
+//! Drag on the solids of a periodic cell (A5 to A7 of the benchmarks; Sangani & Acrivos 1982).
+
+use super::series::pairs;
+use crate::math::Vec2;
+use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
+
+/// Measures of its table `[sph.measure.cylinder-array]`.
+pub const GROUP: Group = Group::of(measures);
+
+fn measures(s: &Subject) -> Vec<Measure> {
+    let (flow, m) = (s.flow, &s.flow.method);
+    let area = flow.domain.bounds.area();
+    let p = &flow.particles;
+    let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.volume[a] * p.velocity[a]).sum();
+    let force = m.wetting_fluid.density * m.gravity;
+    // Along the force, so that its direction does not matter.
+    let along = force.try_normalize(0.0).unwrap_or_else(Vec2::x);
+    let mean = flux.dot(&along) / area;
+    // Side walls take their part; whatever stands within the cell takes the rest.
+    let bounds = flow.domain.bounds;
+    let is_side = |x: Vec2| !bounds.contains(x);
+    let mu_u = m.wetting_fluid.viscosity * mean;
+    let drag = (force.norm() * area - flow.friction(|_, x| is_side(x)).dot(&along)) / mu_u;
+    let permeability = mu_u / force.norm();
+    let method = "force per volume times the area of the cell less the friction on its sides that are walls, over viscosity and the \
+                  velocity averaged over the whole cell, at the end";
+    let method_of_mean = "velocity along the force averaged over the whole cell, solids at rest, at the end";
+    let method_of_permeability = "viscosity times mean velocity over force per volume";
+    let pull = force.norm() * s.seen.areas.wetting;
+    let unsteady = acceleration(s) / pull;
+    let method_of_unsteady = "magnitude of the rate of the momentum, across the force too, between the last two records over the force on the \
+                              fluid; the drag of a flow that still gathers speed is too high";
+    vec![
+        measure("drag-over-mu-u", drag, "", None, method),
+        measure("mean-velocity-m-per-s", mean, "m/s", None, method_of_mean),
+        measure("permeability-m2", permeability, "m2", None, method_of_permeability),
+        measure("unsteady-share", unsteady, "", None, method_of_unsteady),
+    ]
+}
+
+/// Magnitude in N/m of the rate at which the fluid gathered momentum between the last two records.
+fn acceleration(s: &Subject) -> f64 {
+    let (times, x) = pairs(s.series, "momentum_x_kg_per_m_s");
+    let (_, y) = pairs(s.series, "momentum_y_kg_per_m_s");
+    let momenta: Vec<Vec2> = x.into_iter().zip(y).map(|(x, y)| Vec2::new(x, y)).collect();
+    match (&times[..], &momenta[..]) {
+        ([.., before, now], [.., was, is]) => (is - was).norm() / (now - before),
+        _ => f64::NAN,
+    }
+}

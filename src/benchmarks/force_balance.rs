@@ -1,0 +1,106 @@
+//! The balance of the forces on a drop along its wall, each of them measured on its own.
+//!
+//! d(P)/dt = body force less buoyancy + friction of the wall + drag of the other fluid − σ (cos θ_R − cos θ_A). The friction of the wall is that under
+//! the whole drop, so the angles that close the balance are those at the wall, which the wetting model asks for. Apparent angles of
+//! moving lines count the friction of the wedge next to the line a second time, since that is what bends the interface there.
+
+use super::series::{last, last_mean};
+use crate::solver::{Measure, Series};
+use crate::sph::measures::{Subject, measure};
+
+/// The last part of the time that the balance is taken over. It holds at all times, also while the drop speeds up, and a drop of a thin
+/// liquid swings: the longer the better.
+const BALANCED: f64 = 0.75;
+
+/// The angles at the wall and the balance of the forces along it.
+pub fn measures(s: &Subject) -> Vec<Measure> {
+    let (tension, series) = (s.flow.method.tension, s.series);
+    let model = "angle at which the wetting model asks the interface to meet the wall; mean over the last quarter of the records";
+    let angles = ["advancing_wall_angle_deg", "receding_wall_angle_deg"].map(|column| last_mean(series, column));
+    // A mean of cosines: a line that lets go now and then has not the cosine of its mean angle.
+    let cosine = |column: &str| average(series, column, |angle| angle.to_radians().cos());
+    let pull = |advancing: &str, receding: &str| tension * (cosine(receding) - cosine(advancing));
+    let seen = pull("advancing_angle_deg", "receding_angle_deg");
+    let at_wall = pull("advancing_wall_angle_deg", "receding_wall_angle_deg");
+    let force = |column: &str| average(series, column, |force| force);
+    let stream = force("stream_pressure_N_per_m") + force("stream_friction_N_per_m");
+    let drag =
+        force("drive_N_per_m") + force("wall_friction_N_per_m") + stream - rise(series, "drop_momentum_kg_per_m_s");
+    let static_angle = s.flow.method.wetting.map_or(f64::NAN, |model| model.static_angle());
+    let retention = "tension times (cosine of the receding less that of the advancing angle), mean over the last three quarters of the time";
+    vec![
+        measure("advancing-wall-angle-deg", angles[0].0, "deg", Some(angles[0].1), model),
+        measure("receding-wall-angle-deg", angles[1].0, "deg", Some(angles[1].1), model),
+        measure(
+            "adhesion-tension-N-per-m",
+            tension * static_angle.cos(),
+            "N/m",
+            None,
+            "tension times the cosine of the static angle: that of the dry less that of the wetted wall",
+        ),
+        measure("retention-N-per-m", seen, "N/m", None, retention),
+        measure("wall-retention-N-per-m", at_wall, "N/m", None, "the same with the angles at the wall"),
+        measure(
+            "stream-drag-N-per-m",
+            stream,
+            "N/m",
+            None,
+            "pressure of the other fluid on the interface less buoyancy, and its friction, ahead; mean over the last three quarters of the time",
+        ),
+        measure(
+            "net-drag-N-per-m",
+            drag,
+            "N/m",
+            None,
+            "body force less buoyancy plus friction of the wall plus drag of the stream less the change of the momentum of the drop, along \
+             the wall, over the last three quarters of the time",
+        ),
+        measure("drag-over-retention", drag / seen, "", None, "net drag over the retention by the apparent angles"),
+        measure(
+            "drag-over-wall-retention",
+            drag / at_wall,
+            "",
+            None,
+            "net drag over the retention by the angles at the wall",
+        ),
+    ]
+}
+
+/// The mean in time of a function of a column over the last three quarters of the time, by the trapezoidal rule.
+fn average(series: &Series, column: &str, f: impl Fn(f64) -> f64) -> f64 {
+    let points = last(series, column, BALANCED);
+    let (mut sum, mut time) = (0.0, 0.0);
+    for pair in points.windows(2) {
+        let dt = pair[1].0 - pair[0].0;
+        sum += 0.5 * dt * (f(pair[0].1) + f(pair[1].1));
+        time += dt;
+    }
+    sum / time
+}
+
+/// What a column gains per time over the last three quarters of the time: to the mean of a force belongs the gain from end to end.
+fn rise(series: &Series, column: &str) -> f64 {
+    match last(series, column, BALANCED)[..] {
+        [first, .., last] => (last.1 - first.1) / (last.0 - first.0),
+        _ => f64::NAN,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mean_of_a_force_is_the_gain_of_momentum_however_it_swings() {
+        // A force 1 + 20 cos(20 t), sampled twenty times a swing, and its momentum.
+        let rows = (0..=200).map(|i| {
+            let t = 0.0157 * f64::from(i);
+            vec![t, 1.0 + 20.0 * (20.0 * t).cos(), t + (20.0 * t).sin()]
+        });
+        let columns = ["time_s", "force", "momentum"].map(str::to_owned).to_vec();
+        let series = Series { columns, rows: rows.collect() };
+        let (force, gain) = (average(&series, "force", |f| f), rise(&series, "momentum"));
+        // The trapezoidal rule over twenty points a swing.
+        assert!((force - gain).abs() < 0.02, "{force} {gain}");
+    }
+}

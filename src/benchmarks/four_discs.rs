@@ -1,0 +1,43 @@
+//! Menisci of a wetting liquid between four discs (C8 of the benchmarks), compared with their closed form.
+
+use super::disc_pair::disc_pair;
+use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
+
+/// Measures of its table `[sph.measure.four-discs]`.
+pub const GROUP: Group = Group::of(measures);
+
+fn measures(s: &Subject) -> Vec<Measure> {
+    let found: Vec<f64> = s.seen.lines_with_angle().map(|line| line.curvature).collect();
+    let mean = found.iter().sum::<f64>() / found.len() as f64;
+    let of_fits = s.seen.lines_with_angle().map(|line| line.curvature_uncertainty).sum::<f64>() / found.len() as f64;
+    let spread = (found.iter().map(|k| (k - mean).powi(2)).sum::<f64>() / found.len() as f64).sqrt();
+    let error = spread.hypot(of_fits);
+    let exact = disc_pair(s).and_then(|pair| pair.liquid_between_four(s.seen.areas.wetting));
+    let over_exact = |curvature: f64| exact.map_or(f64::NAN, |exact| curvature / exact.curvature);
+    let (pressure, tension) = (s.seen.capillary_pressure, s.flow.method.tension);
+    let pressure_error = pressure.uncertainty(tension, s.flow.method.kernel.h);
+    vec![
+        measure(
+            "interface-curvature-per-m",
+            mean,
+            "1/m",
+            Some(error),
+            "mean over the fitted menisci, negative where the wetting liquid is concave",
+        ),
+        measure(
+            "interface-curvature-ratio",
+            over_exact(-mean),
+            "",
+            Some(error / mean.abs()),
+            "curvature over that of the exact menisci with the same area and the requested angle",
+        ),
+        measure(
+            "capillary-pressure-ratio",
+            over_exact(pressure.value / tension),
+            "",
+            Some(over_exact(pressure_error / tension).abs()),
+            "capillary pressure over that of the exact menisci with the same area and the requested angle",
+        ),
+    ]
+}

@@ -1,0 +1,70 @@
+//! Laplace jump and parasitic currents of a free drop (B1 of the benchmarks).
+
+use super::moments::Moments;
+use crate::analysis::phases::{PressureSamples, laplace_jump, resolution_error};
+use crate::math::Vec2;
+use crate::solver::Measure;
+use crate::sph::measures::{Group, Subject, measure};
+use crate::sph::observe::sharp_color;
+
+/// Measures of its table `[sph.measure.laplace-drop]`.
+pub const GROUP: Group = Group::of(measures);
+
+/// The parasitic current is the largest speed in this last share of the run.
+const LAST: f64 = 0.1;
+
+fn measures(s: &Subject) -> Vec<Measure> {
+    let (flow, fluids) = (s.flow, s.flow.particles.fluids);
+    let colors = sharp_color(flow);
+    let radius = (s.seen.areas.wetting / std::f64::consts::PI).sqrt();
+    let samples = PressureSamples {
+        points: &flow.particles.position[..fluids],
+        pressures: &flow.particles.pressure[..fluids],
+        colors: &colors,
+        smoothing_length: flow.method.kernel.h,
+        period: flow.domain.periods(),
+    };
+    let jump = laplace_jump(&samples, center(s), radius);
+    let scale = flow.method.tension / radius;
+    let from = flow.time * (1.0 - LAST);
+    let speeds = s.series.column("time_s").zip(s.series.column("max_speed_m_per_s"));
+    let speed = speeds.filter(|(time, _)| *time >= from).map(|(_, speed)| speed).fold(f64::NAN, f64::max);
+    let capillary = flow.method.wetting_fluid.viscosity * speed / flow.method.tension;
+    vec![
+        measure(
+            "laplace-jump-ratio",
+            jump.mean / scale,
+            "",
+            Some(jump.error.hypot(resolution_error(jump.mean, flow.method.tension, flow.method.kernel.h)) / scale),
+            "mean p over r < R - 3h less mean p over r > R + 3h, over tension/R with R from the drop's area",
+        ),
+        measure(
+            "parasitic-capillary-number",
+            capillary,
+            "",
+            None,
+            "drop viscosity times the largest speed of the records in the last tenth of the run over the tension",
+        ),
+        measure(
+            "radius-scatter-ratio",
+            scatter(s),
+            "",
+            None,
+            "standard deviation over mean of the distance of the c = 0.5 contour from the center of the drop",
+        ),
+    ]
+}
+
+/// Standard deviation over mean of the distance of contour points from the center.
+fn scatter(s: &Subject) -> f64 {
+    let center = center(s);
+    let points = s.seen.interface.iter().flat_map(|line| &line.points);
+    let radii: Vec<f64> = points.map(|x| s.flow.domain.separation(*x, center).norm()).collect();
+    let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+    (radii.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / radii.len() as f64).sqrt() / mean
+}
+
+/// Center of the drop in m, also where it lies across a periodic side.
+fn center(s: &Subject) -> Vec2 {
+    Moments::of_wetting_phase(s.flow).center
+}

@@ -1,0 +1,65 @@
+//! Benchmarks: named cases, one file for each table `[sph.measure.NAME]` of a case file but that of the permeability, which is no benchmark.
+//!
+//! A benchmark is a [`Group`] of measures: further columns of the time series, and measures at the end. It sees the flow and what is
+//! observed of it; the solver gets the groups of a case as a list and knows none of them (`src/run/setup.rs`). Exact solutions stand in
+//! the file of their benchmark, or in [`laws`](crate::analysis::laws) and [`young_laplace`](crate::analysis::young_laplace).
+//!
+//! Tools: `series` reads the time series, `moments` is the shape of a drop, `damped` fits an oscillation, `disc_pair` finds two
+//! discs, `force_balance` is that of a drop on a wall.
+
+mod capillary_bridge;
+mod capillary_rise;
+mod capillary_wave;
+mod cavity;
+mod cylinder_array;
+mod damped;
+mod disc_pair;
+mod drop_on_disc;
+mod force_balance;
+mod four_discs;
+mod jurin;
+mod laplace_drop;
+mod layered_poiseuille;
+mod moments;
+mod moving_drop;
+mod oscillating_drop;
+mod poiseuille;
+mod rising_bubble;
+mod series;
+mod sessile_drop;
+mod shear_drop;
+mod slit_filling;
+mod spreading;
+mod taylor_green;
+mod throat_entry;
+
+use crate::case::checked::MeasureSet;
+use crate::sph::measures::Group;
+
+/// The groups of measures that a case asks for.
+#[must_use]
+pub fn asked_for(set: &MeasureSet) -> Vec<Group> {
+    let all = [
+        (set.sessile_drop, sessile_drop::GROUP),
+        (set.laplace_drop, laplace_drop::GROUP),
+        (set.poiseuille, poiseuille::GROUP),
+        (set.taylor_green, taylor_green::GROUP),
+        (set.capillary_bridge, capillary_bridge::GROUP),
+        (set.four_discs, four_discs::GROUP),
+        (set.drop_on_disc, drop_on_disc::GROUP),
+        (set.oscillating_drop, oscillating_drop::GROUP),
+        (set.shear_drop, shear_drop::GROUP),
+        (set.capillary_wave, capillary_wave::GROUP),
+        (set.rising_bubble, rising_bubble::GROUP),
+        (set.layered_poiseuille, layered_poiseuille::GROUP),
+        (set.cavity, cavity::GROUP),
+        (set.cylinder_array, cylinder_array::GROUP),
+        (set.throat_entry, throat_entry::GROUP),
+        (set.jurin, jurin::GROUP),
+        (set.moving_drop, moving_drop::GROUP),
+        (set.spreading, spreading::GROUP),
+        (set.slit_filling, slit_filling::GROUP),
+        (set.capillary_rise, capillary_rise::GROUP),
+    ];
+    all.into_iter().filter(|(is_asked_for, _)| *is_asked_for).map(|(_, group)| group).collect()
+}

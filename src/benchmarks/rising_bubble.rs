@@ -1,0 +1,69 @@
+//! A rising bubble, the wetting phase (B6 of the benchmarks; Hysing et al. 2009).
+
+use std::f64::consts::PI;
+
+use super::moments::Moments;
+use crate::interface::polyline::Polyline;
+use crate::math::Vec2;
+use crate::solver::Measure;
+use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::observe::Observation;
+use crate::sph::particles::Phase;
+use crate::sph::projection::Flow;
+
+/// Columns and measures of its table `[sph.measure.rising-bubble]`.
+pub const GROUP: Group = Group { columns, measures };
+
+/// Height of the center, mean speed against gravity, and circularity.
+fn columns(flow: &Flow, seen: &Observation) -> Columns {
+    let center = Moments::of_wetting_phase(flow).center;
+    vec![
+        ("bubble_center_m", center.dot(&up(flow))),
+        ("bubble_speed_m_per_s", speed(flow)),
+        ("bubble_circularity", circularity(&seen.interface)),
+    ]
+}
+
+/// Unit vector against gravity; along y without gravity.
+fn up(flow: &Flow) -> Vec2 {
+    (-flow.method.gravity).try_normalize(0.0).unwrap_or_else(Vec2::y)
+}
+
+fn speed(flow: &Flow) -> f64 {
+    let p = &flow.particles;
+    let inside: Vec<Vec2> = (0..p.fluids).filter(|&a| p.phase[a] == Phase::Wetting).map(|a| p.velocity[a]).collect();
+    inside.iter().sum::<Vec2>().dot(&up(flow)) / inside.len() as f64
+}
+
+/// Circumference of the circle with the area of the largest closed contour over the length of that contour.
+fn circularity(interface: &[Polyline]) -> f64 {
+    let closed = interface.iter().filter(|line| line.closed);
+    let largest = closed.max_by(|a, b| a.signed_area().abs().total_cmp(&b.signed_area().abs()));
+    largest.map_or(f64::NAN, |line| 2.0 * (PI * line.signed_area().abs()).sqrt() / line.length())
+}
+
+fn measures(s: &Subject) -> Vec<Measure> {
+    vec![
+        measure(
+            "rise-center-m",
+            s.series.column("bubble_center_m").last().unwrap_or(f64::NAN),
+            "m",
+            None,
+            "center of the wetting particles against gravity at the end",
+        ),
+        measure(
+            "max-rise-velocity",
+            s.series.column("bubble_speed_m_per_s").fold(f64::NAN, f64::max),
+            "m/s",
+            None,
+            "largest mean speed of the wetting particles against gravity over the records",
+        ),
+        measure(
+            "min-circularity",
+            s.series.column("bubble_circularity").fold(f64::NAN, f64::min),
+            "",
+            None,
+            "least circumference of the circle of equal area over the length of the c = 0.5 contour",
+        ),
+    ]
+}

@@ -1,0 +1,41 @@
+//! The exponent of a drop that spreads on a wall (C13 of the benchmarks; Tanner's law in the plane: 1/7).
+
+use crate::solver::Measure;
+use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::observe::Observation;
+use crate::sph::projection::Flow;
+
+/// Columns and measures of its table `[sph.measure.spreading]`.
+pub const GROUP: Group = Group { columns, measures };
+
+/// Distance in m of the two contact points.
+fn columns(_: &Flow, seen: &Observation) -> Columns {
+    let lines: Vec<_> = seen.lines_with_angle().collect();
+    // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
+    let base = if let [a, b] = lines[..] { (b.position - a.position).norm() } else { f64::NAN };
+    vec![("base_m", base)]
+}
+
+fn measures(s: &Subject) -> Vec<Measure> {
+    let end = s.series.column("time_s").last().unwrap_or(f64::NAN);
+    let all = s.series.column("time_s").zip(s.series.column("base_m"));
+    let decade: Vec<(f64, f64)> =
+        all.filter(|(t, base)| *t >= 0.1 * end && *base > 0.0).map(|(t, base)| (t.ln(), base.ln())).collect();
+    // By trapezoids in ln t, so that the many records at late times do not outweigh the few at early ones.
+    let weights: Vec<f64> = (0..decade.len())
+        .map(|i| {
+            let before = decade[i.saturating_sub(1)].0;
+            let after = decade[(i + 1).min(decade.len() - 1)].0;
+            0.5 * (after - before)
+        })
+        .collect();
+    let total: f64 = weights.iter().sum();
+    let mean = |f: fn(&(f64, f64)) -> f64| decade.iter().zip(&weights).map(|(p, w)| w * f(p)).sum::<f64>() / total;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let (up, down) = decade
+        .iter()
+        .zip(&weights)
+        .fold((0.0, 0.0), |(up, down), (p, w)| (up + w * (p.0 - x) * (p.1 - y), down + w * (p.0 - x).powi(2)));
+    let method = "slope of the logarithm of the base over that of the time in the last decade of the run, all of it weighed alike";
+    vec![measure("spreading-exponent", up / down, "", None, method)]
+}

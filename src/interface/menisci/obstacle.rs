@@ -1,0 +1,147 @@
+//! The first touch of an advancing meniscus with a third wall: circles under three conditions, in closed form.
+
+use std::f64::consts::PI;
+
+use crate::geometry::curve::Curve;
+use crate::interface::menisci::circle::{Circle, Condition, circles, meets_round, meets_straight};
+use crate::interface::menisci::path::{Leg, Place, Walls, meets};
+use crate::interface::menisci::wall::{Shape, wrapped};
+use crate::math::{Bounds, Vec2};
+
+/// A wall that a meniscus may touch, lengths over the width of the throat.
+pub(super) struct Obstacle {
+    curves: Vec<(Curve, Bounds)>,
+}
+
+/// The share of a piece by which a point of touch may lie outside: rounding. Corners between pieces count on their own.
+const SLACK: f64 = 1e-9;
+
+impl Obstacle {
+    pub fn new(curves: &[Curve], origin: Vec2, scale: f64) -> Self {
+        let local = |curve: &Curve| match *curve {
+            Curve::Segment { a, b } => Curve::Segment { a: (a - origin) / scale, b: (b - origin) / scale },
+            Curve::Arc { center, radius, start, sweep } => {
+                Curve::Arc { center: (center - origin) / scale, radius: radius / scale, start, sweep }
+            }
+        };
+        Self { curves: curves.iter().map(local).map(|curve| (curve, curve.bounds())).collect() }
+    }
+
+    /// The curvature at the first touch along a leg.
+    pub fn first_touch(&self, walls: &Walls, leg: &Leg) -> Option<f64> {
+        let boxed = swept_box(walls, leg);
+        let mut first: Option<(f64, f64)> = None;
+        for (curve, bounds) in &self.curves {
+            if (0..2).any(|i| bounds.max[i] < boxed.min[i] || boxed.max[i] < bounds.min[i]) {
+                continue;
+            }
+            let ends = if curve.is_closed() {
+                [None, None]
+            } else {
+                [0.0, 1.0].map(|u| Some(meets_round(curve.point(u), 0.0, 1.0)))
+            };
+            let conditions = [Some(touches(curve)), ends[0], ends[1]];
+            for (which, condition) in conditions.into_iter().enumerate() {
+                let Some(condition) = condition else { continue };
+                for (place, circle) in candidates(walls, leg, condition) {
+                    let meniscus = walls.meniscus(&walls.station(place));
+                    let point = match which {
+                        0 => touching_point(curve, &circle),
+                        end => Some(curve.point(end as f64 - 1.0)),
+                    };
+                    if point.is_some_and(|point| meniscus.holds(point)) {
+                        let order = order_on(leg, &place);
+                        if first.is_none_or(|(earliest, _)| order < earliest) {
+                            first = Some((order, circle.k));
+                        }
+                    }
+                }
+            }
+        }
+        first.map(|(_, k)| k)
+    }
+}
+
+/// A box around all menisci of a leg.
+fn swept_box(walls: &Walls, leg: &Leg) -> Bounds {
+    let [a, b] = [leg.start, leg.end].map(|station| walls.meniscus(&station).curve().bounds());
+    let both = Bounds { min: a.min.inf(&b.min), max: a.max.sup(&b.max) };
+    // Arcs in between may stick out by the bulge of the walls.
+    both.grown(0.25 * both.size().norm())
+}
+
+/// How far along a leg a place is.
+fn order_on(leg: &Leg, place: &Place) -> f64 {
+    let share = |x: f64, a: f64, b: f64| if a == b { 0.0 } else { (x - a) / (b - a) };
+    let (start, end) = (leg.start.place, leg.end.place);
+    share(place.left.1, start.left.1, end.left.1).max(share(place.right.1, start.right.1, end.right.1))
+}
+
+/// The menisci of a leg that satisfy one more condition.
+fn candidates(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Place, Circle)> {
+    let Place { left: (i, _), right: (j, _) } = leg.end.place;
+    let (l, r) = (&walls.left[i], &walls.right[j]);
+    if matches!((l.shape, r.shape), (Shape::Straight { .. }, Shape::Straight { .. })) {
+        return between_lines(walls, leg, condition);
+    }
+    let found = circles([meets(l), meets(r), condition]).into_iter().flatten();
+    found.filter_map(|circle| Some((walls.place_on(leg, &circle)?, circle))).collect()
+}
+
+/// Between straight walls β stays and the chord grows by its share of the way: the condition times the chord is quadratic in the share.
+fn between_lines(walls: &Walls, leg: &Leg, condition: Condition) -> Vec<(Place, Circle)> {
+    let value = |share: f64| {
+        let station = walls.station(walls.share(leg, share));
+        let circle = walls.circle(&station);
+        let sum =
+            condition[0] * circle.x.x + condition[1] * circle.x.y + condition[2] * circle.y + condition[3] * circle.k;
+        (sum - condition[4]) * walls.meniscus(&station).chord()
+    };
+    let (f0, f1, f2) = (value(0.0), value(0.5), value(1.0));
+    let (a, b, c) = (2.0 * (f0 - 2.0 * f1 + f2), 4.0 * f1 - 3.0 * f0 - f2, f0);
+    let square = b * b - 4.0 * a * c;
+    if square < 0.0 {
+        return Vec::new();
+    }
+    let sum = -0.5 * (b + square.sqrt().copysign(b));
+    let shares = [sum / a, c / sum].into_iter().filter(|share| (-SLACK..=1.0 + SLACK).contains(share));
+    shares
+        .map(|share| {
+            let station = walls.station(walls.share(leg, share.clamp(0.0, 1.0)));
+            (station.place, walls.circle(&station))
+        })
+        .collect()
+}
+
+/// The condition to touch a curve.
+fn touches(curve: &Curve) -> Condition {
+    match *curve {
+        Curve::Segment { a, .. } => meets_straight(a, curve.normal(0.5), 1.0),
+        Curve::Arc { center, radius, sweep, .. } => meets_round(center, radius * sweep.signum(), 1.0),
+    }
+}
+
+/// Where a circle that touches the line or circle of a curve does so, if that is on the curve.
+fn touching_point(curve: &Curve, circle: &Circle) -> Option<Vec2> {
+    match *curve {
+        Curve::Segment { a, b } => {
+            // The normal of the wall leads from the point of touch to the center: t·X = k t·x.
+            let along = b - a;
+            let square = along.norm_squared();
+            let u = if circle.k.abs() * square.sqrt() > 1e-9 {
+                (along.dot(&circle.x) / circle.k - along.dot(&a)) / square
+            } else {
+                return None;
+            };
+            (-SLACK..=1.0 + SLACK).contains(&u).then(|| a + along * u)
+        }
+        Curve::Arc { center, radius, start, sweep } => {
+            let signed = radius * sweep.signum();
+            let toward = (circle.x - center * circle.k) * (circle.k * signed + 1.0).signum();
+            let normal = toward.y.atan2(toward.x);
+            let polar = if sweep < 0.0 { normal + PI } else { normal };
+            let u = 0.5 + wrapped(polar - start - 0.5 * sweep) / sweep;
+            (-SLACK..=1.0 + SLACK).contains(&u).then(|| center + crate::geometry::curve::unit(polar) * radius)
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! The passage of a meniscus between the two walls of a throat: where it stands, when it bursts, when it touches a third wall.
+//!
+//! All menisci that meet the walls under their angles form a path from behind the throat to ahead of it (see `path`). As the pressure
+//! rises slowly a meniscus goes along the path to the first place of the curvature that is applied; where the curvature of the path falls,
+//! it jumps. At the end of its largest rise it bursts: the throat is passed.
+//!
+//! Left out: a meniscus that touches its own two walls ahead of its contacts before these get there (in deep notches below 90 degrees);
+//! films; gravity.
+
+use std::f64::consts::PI;
+
+use crate::geometry::curve::{Curve, cross};
+use crate::interface::menisci::circle::{Circle, circles, has_curvature};
+use crate::interface::menisci::meniscus::Meniscus;
+use crate::interface::menisci::obstacle::Obstacle;
+use crate::interface::menisci::path::{Leg, Place, Station, Walls, held, meets};
+use crate::interface::menisci::wall::{Contact, Hand, Piece, Wall, WallPart, pieces};
+use crate::math::Vec2;
+
+/// The two walls of a throat and all menisci between them, ready for questions.
+#[derive(Debug, Clone)]
+pub struct Passage {
+    left: Wall,
+    right: Wall,
+    walls: Walls,
+    origin: Vec2,
+    scale: f64,
+    /// The stable part of the path: along the largest rise of the curvature, up to the burst.
+    path: Vec<Leg>,
+    lowest: Option<Station>,
+    highest: Option<Station>,
+}
+
+impl Passage {
+    /// The passage between two walls, seen in the direction of advance: on the left wall curves run with the advance, on the right wall
+    /// against it. Cost grows with the number of parts.
+    #[must_use]
+    pub fn new(mut left: Wall, mut right: Wall) -> Self {
+        for wall in [&mut left, &mut right] {
+            wall.behind = wall.behind.min(wall.parts.len());
+        }
+        let (origin, other) = (chord_end(&left, Hand::Left), chord_end(&right, Hand::Right));
+        let (origin, other) = (origin.unwrap_or_default(), other.unwrap_or_default());
+        let width = (other - origin).norm();
+        let scale = if width > 0.0 { width } else { 1.0 };
+        let (left_pieces, left_chord) = pieces(&left, Hand::Left, origin, scale);
+        let (right_pieces, right_chord) = pieces(&right, Hand::Right, origin, scale);
+        let walls = Walls { left: left_pieces, right: right_pieces };
+        let (lowest, highest, path) = stable_part(walls.path((left_chord, right_chord)));
+        Self { left, right, walls, origin, scale, path, lowest, highest }
+    }
+
+    /// The left wall.
+    #[must_use]
+    pub fn left(&self) -> &Wall {
+        &self.left
+    }
+
+    /// The right wall.
+    #[must_use]
+    pub fn right(&self) -> &Wall {
+        &self.right
+    }
+
+    /// The same throat passed the other way with the phases changed: its burst is the smallest curvature of this passage, times −1.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let turned = |wall: &Wall| {
+            let part = |part: &WallPart| WallPart { angle: PI - part.angle, ..*part };
+            let parts: Vec<_> = wall.parts.iter().rev().map(part).collect();
+            Wall { behind: parts.len() - wall.behind.min(parts.len()), parts }
+        };
+        Self::new(turned(&self.right), turned(&self.left))
+    }
+
+    /// The meniscus of the largest curvature on the way through: beyond it the throat is passed. It may stand at the end of a wall.
+    #[must_use]
+    pub fn burst(&self) -> Option<Meniscus> {
+        self.highest.map(|station| self.meniscus(&station))
+    }
+
+    /// The meniscus of the smallest curvature before the burst: below it the meniscus draws back out of the throat.
+    #[must_use]
+    pub fn lowest(&self) -> Option<Meniscus> {
+        self.lowest.map(|station| self.meniscus(&station))
+    }
+
+    /// Where the advancing meniscus stands at the curvature `k` (1/m): the first place of the path where the curvature reaches it. The
+    /// lowest one where all are above, nothing beyond the burst.
+    #[must_use]
+    pub fn at(&self, k: f64) -> Option<Meniscus> {
+        let (lowest, highest) = (self.lowest?, self.highest?);
+        // The curvature that the burst gives is the burst's, whatever its last digit.
+        let slack = 8.0 * f64::EPSILON * highest.curvature.abs();
+        let k = if (k * self.scale - highest.curvature).abs() <= slack { highest.curvature } else { k * self.scale };
+        if k <= lowest.curvature {
+            return Some(self.meniscus(&lowest));
+        }
+        let rise = self.path.iter().find(|leg| leg.end.curvature >= k)?;
+        Some(self.meniscus(&self.walls.on_leg(rise, k)))
+    }
+
+    /// The smallest curvature, at most `up_to` (1/m), at which the meniscus touches a third wall. No angle enters: it is the first contact.
+    #[must_use]
+    pub fn touch(&self, obstacle: &[Curve], up_to: f64) -> Option<f64> {
+        let up_to = up_to * self.scale;
+        let lowest = self.lowest.filter(|lowest| lowest.curvature <= up_to)?;
+        if obstacle.iter().any(|curve| self.meniscus(&lowest).touches(curve)) {
+            return Some(lowest.curvature / self.scale);
+        }
+        let obstacle = Obstacle::new(obstacle, self.origin, self.scale);
+        // The curvature that brings the meniscus so far: the largest one up to there.
+        let mut reached = lowest.curvature;
+        for leg in self.path.iter().take_while(|leg| leg.start.curvature <= up_to) {
+            if let Some(k) = obstacle.first_touch(&self.walls, leg) {
+                let k = reached.max(k);
+                return (k <= up_to).then_some(k / self.scale);
+            }
+            reached = reached.max(leg.end.curvature);
+            if reached > up_to {
+                break;
+            }
+        }
+        None
+    }
+
+    /// Whether a point lies ahead of the line through the chord of the throat.
+    #[must_use]
+    pub fn is_ahead(&self, x: Vec2) -> bool {
+        let end = chord_end(&self.right, Hand::Right).unwrap_or_default();
+        cross(end - self.origin, x - self.origin) >= 0.0
+    }
+
+    /// Area in m² that the meniscus has swept since the chord of the throat: between chord, walls and arc.
+    #[must_use]
+    pub fn swept_area(&self, meniscus: &Meniscus) -> f64 {
+        let (p, q) = (self.origin, chord_end(&self.right, Hand::Right).unwrap_or_default());
+        let along = |wall: &Wall, contact: &Contact, hand: Hand| {
+            let (first, last) = (wall.behind, contact.part);
+            let begin = if hand == Hand::Left { 0.0 } else { 1.0 };
+            let part = |i: usize, from: f64, to: f64| {
+                let area = wall.parts[i].curve.part(from.min(to), from.max(to)).area_about(p);
+                if (to - from) * (1.0 - 2.0 * begin) < 0.0 { -area } else { area }
+            };
+            if last >= first {
+                let whole: f64 = (first..last).map(|i| part(i, begin, 1.0 - begin)).sum();
+                whole + part(last, begin, contact.u)
+            } else {
+                let whole: f64 = (last + 1..first).map(|i| part(i, 1.0 - begin, begin)).sum();
+                whole + part(last, 1.0 - begin, contact.u)
+            }
+        };
+        let walls = along(&self.left, &meniscus.left, Hand::Left) + along(&self.right, &meniscus.right, Hand::Right);
+        let triangle = |a: Vec2, b: Vec2| 0.5 * cross(a - p, b - p);
+        triangle(p, q) - walls + triangle(meniscus.right.point, meniscus.left.point) + meniscus.area_from_chord()
+    }
+
+    fn meniscus(&self, station: &Station) -> Meniscus {
+        let local = self.walls.meniscus(station);
+        let contact = |contact: Contact| Contact {
+            point: self.origin + contact.point * self.scale,
+            advance: contact.advance * self.scale,
+            ..contact
+        };
+        Meniscus {
+            curvature: local.curvature / self.scale,
+            left: contact(local.left),
+            right: contact(local.right),
+            bend: local.bend,
+        }
+    }
+}
+
+impl Walls {
+    pub(super) fn meniscus(&self, station: &Station) -> Meniscus {
+        let Place { left: (i, s), right: (j, t) } = station.place;
+        let (left, right) = (contact(&self.left[i], s), contact(&self.right[j], t));
+        Meniscus { curvature: station.curvature, left, right, bend: station.bend }
+    }
+
+    /// The meniscus of curvature `k` on a leg with k in between.
+    fn on_leg(&self, leg: &Leg, k: f64) -> Station {
+        let Place { left: (i, _), right: (j, _) } = leg.end.place;
+        let found = circles([meets(&self.left[i]), meets(&self.right[j]), has_curvature(k)]);
+        let place = found.into_iter().flatten().find_map(|circle| self.place_on(leg, &circle));
+        let station = self.station(place.unwrap_or_else(|| self.bisect(leg, k)));
+        Station { curvature: k, ..station }
+    }
+
+    /// The contacts of a circle where both lie on a leg.
+    pub(super) fn place_on(&self, leg: &Leg, circle: &Circle) -> Option<Place> {
+        let (start, end) = (leg.start.place, leg.end.place);
+        let place = self.contacts((end.left.0, end.right.0), circle)?;
+        // Rounding; a double root has half the digits only.
+        const SLACK: f64 = 1e-7;
+        let inside = |x: f64, a: f64, b: f64| x > a.min(b) - SLACK && x < a.max(b) + SLACK;
+        let left = inside(place.left.1, start.left.1, end.left.1);
+        (left && inside(place.right.1, start.right.1, end.right.1)).then(|| Place {
+            left: (place.left.0, held(place.left.1, start.left.1, end.left.1)),
+            right: (place.right.0, held(place.right.1, start.right.1, end.right.1)),
+        })
+    }
+
+    fn bisect(&self, leg: &Leg, k: f64) -> Place {
+        let (mut low, mut high) = (0.0, 1.0);
+        // As many halvings as there are digits.
+        for _ in 0..52 {
+            let middle = 0.5 * (low + high);
+            let is_below = self.station(self.share(leg, middle)).curvature < k;
+            if is_below == (leg.start.curvature < k) { low = middle } else { high = middle }
+        }
+        self.share(leg, high)
+    }
+
+    /// A place on a leg, by the share of the way of the contact that goes farther over its piece.
+    pub(super) fn share(&self, leg: &Leg, share: f64) -> Place {
+        let (start, end) = (leg.start.place, leg.end.place);
+        let (i, j) = (end.left.0, end.right.0);
+        let (l, r) = (&self.left[i], &self.right[j]);
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        let (s, t) = (mix(start.left.1, end.left.1), mix(start.right.1, end.right.1));
+        if (end.left.1 - start.left.1).abs() >= (end.right.1 - start.right.1).abs() {
+            let t = r.answer(l.point(s), l.direction(s)).unwrap_or(t);
+            Place { left: (i, s), right: (j, held(t, start.right.1, end.right.1)) }
+        } else {
+            let s = l.answer(r.point(t), r.direction(t)).unwrap_or(s);
+            Place { left: (i, held(s, start.left.1, end.left.1)), right: (j, t) }
+        }
+    }
+}
+
+fn contact(piece: &Piece, s: f64) -> Contact {
+    let u = if piece.is_edge() { 1.0 } else { s };
+    let u = match piece.hand {
+        Hand::Left => u,
+        Hand::Right => 1.0 - u,
+    };
+    Contact { part: piece.part, u, point: piece.point(s), advance: piece.advance + s * piece.length }
+}
+
+/// Where the chord of the throat ends on a wall.
+fn chord_end(wall: &Wall, hand: Hand) -> Option<Vec2> {
+    let begin = if hand == Hand::Left { 0.0 } else { 1.0 };
+    let ahead = wall.parts.get(wall.behind).map(|part| part.curve.point(begin));
+    ahead.or_else(|| wall.parts.last().map(|part| part.curve.point(1.0 - begin)))
+}
+
+/// The ends of the largest rise of the curvature along the path, and the legs in between. Behind the throat curvatures fall, and ahead of it they do so
+/// again: what is larger far behind is no part of the way through.
+fn stable_part(mut path: Vec<Leg>) -> (Option<Station>, Option<Station>, Vec<Leg>) {
+    let Some(start) = path.first().map(|leg| leg.start) else { return (None, None, path) };
+    // Each end with the number of legs before it.
+    let mut low = (start, 0);
+    let (mut lowest, mut highest) = (low, low);
+    for (i, leg) in path.iter().enumerate() {
+        let end = (leg.end, i + 1);
+        if end.0.curvature <= low.0.curvature {
+            low = end;
+        }
+        if end.0.curvature - low.0.curvature > highest.0.curvature - lowest.0.curvature {
+            (lowest, highest) = (low, end);
+        }
+    }
+    path.truncate(highest.1);
+    path.drain(..lowest.1);
+    (Some(lowest.0), Some(highest.0), path)
+}

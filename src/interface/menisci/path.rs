@@ -1,0 +1,344 @@
+//! The menisci between two walls, from behind the throat to ahead of it, as one path.
+//!
+//! A meniscus with contacts P on the left and Q on the right leaves the walls in the directions μ_l and μ_r. Both make the angle β with the
+//! chord d = Q − P, so that its polar angle is ψ = (μ_l + μ_r − π)/2, and the curvature is k = 2 sin β/|d|. In the plane of both contacts'
+//! parameters this is a curve, which is followed from the chord of the throat both ways. On every pair of pieces it has a closed form and
+//! runs one way in both parameters, and so do the places where k is largest and smallest: at these center, circle and walls are
+//! symmetric. Between neighboring stations k rises or falls, therefore.
+
+use std::f64::consts::PI;
+
+use crate::geometry::curve::cross;
+use crate::interface::menisci::circle::{Circle, Condition, meets_round, meets_straight};
+use crate::interface::menisci::wall::{Piece, Shape, wrapped};
+use crate::math::Vec2;
+
+/// A contact on each wall: the piece, and the parameter on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    pub left: (usize, f64),
+    pub right: (usize, f64),
+}
+
+/// A meniscus of the path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Station {
+    pub place: Place,
+    /// Angle β between chord and interface, above 0 where the meniscus bulges into the defending phase.
+    pub bend: f64,
+    pub curvature: f64,
+}
+
+/// A part of the path on one pair of pieces: curvature rises or falls all along it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Leg {
+    pub start: Station,
+    pub end: Station,
+}
+
+/// The pieces of both walls.
+#[derive(Debug, Clone)]
+pub(super) struct Walls {
+    pub left: Vec<Piece>,
+    pub right: Vec<Piece>,
+}
+
+/// Parameters nearer to an end than this are the end: rounding of the closed forms.
+const SNAP: f64 = 1e-12;
+
+fn snapped(s: f64) -> f64 {
+    if s.abs() < SNAP {
+        0.0
+    } else if (s - 1.0).abs() < SNAP {
+        1.0
+    } else {
+        s
+    }
+}
+
+/// Which way the path is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Forward,
+    Backward,
+}
+
+impl Walls {
+    pub fn station(&self, place: Place) -> Station {
+        let (l, r) = (&self.left[place.left.0], &self.right[place.right.0]);
+        let d = r.point(place.right.1) - l.point(place.left.1);
+        let psi = d.y.atan2(d.x);
+        // The mean of both sides: mirrored walls give the same number.
+        let one = wrapped(l.direction(place.left.1) - psi);
+        let other = one + wrapped(psi + PI - r.direction(place.right.1) - one);
+        let bend = 0.5 * (one + other);
+        Station { place, bend, curvature: 2.0 * bend.sin() / d.norm() }
+    }
+
+    pub fn circle(&self, station: &Station) -> Circle {
+        let Place { left: (i, s), right: (j, t) } = station.place;
+        let (l, r) = (&self.left[i], &self.right[j]);
+        // An edge has its position to the last digit.
+        let (piece, s) = if r.is_edge() && !l.is_edge() { (r, t) } else { (l, s) };
+        Circle::through(piece.point(s), piece.inward(s), station.curvature)
+    }
+
+    /// All menisci that can be reached from the chord, in the order of the advance.
+    pub fn path(&self, chord: (usize, usize)) -> Vec<Leg> {
+        let Some(start) = self.start(chord) else { return Vec::new() };
+        let mut path = self.follow(start, Way::Backward);
+        path.reverse();
+        path.extend(self.follow(start, Way::Forward));
+        if path.is_empty() { vec![Leg { start, end: start }] } else { path }
+    }
+
+    /// A meniscus with one contact at the chord, else as near to it along a wall as there is one.
+    fn start(&self, chord: (usize, usize)) -> Option<Station> {
+        let (m, n) = (self.left.len(), self.right.len());
+        if m == 0 || n == 0 {
+            return None;
+        }
+        let end = |index: usize, len: usize| if index < len { (index, 0.0) } else { (len - 1, 1.0) };
+        let answered = |on: &Piece, (piece, s): (&Piece, f64)| {
+            let s = snapped(on.answer(piece.point(s), piece.direction(s))?);
+            (0.0..=1.0).contains(&s).then_some(s)
+        };
+        let of_left = outward(chord.0, m).find_map(|i| {
+            let left = end(i, m);
+            let known = (&self.left[left.0], left.1);
+            let found = |j: usize| answered(self.right.get(j)?, known).map(|t| Place { left, right: (j, t) });
+            outward(chord.1, n).find_map(found)
+        });
+        let of_right = || {
+            outward(chord.1, n).find_map(|j| {
+                let right = end(j, n);
+                let known = (&self.right[right.0], right.1);
+                let found = |i: usize| answered(self.left.get(i)?, known).map(|s| Place { left: (i, s), right });
+                outward(chord.0, m).find_map(found)
+            })
+        };
+        of_left.or_else(of_right).map(|place| self.station(place))
+    }
+
+    fn follow(&self, start: Station, way: Way) -> Vec<Leg> {
+        let mut path = Vec::new();
+        let mut now = start;
+        // Each pair of pieces is passed a few times at most; what turns in circles is left there.
+        for _ in 0..8 * (self.left.len() + self.right.len()) {
+            let Some(cell) = self.cell_ahead(&now, way) else { break };
+            let Some(exit) = self.far_side(&cell) else { break };
+            let mut inner: Vec<Station> = self.extremes(&cell, &exit).into_iter().flatten().collect();
+            if inner.len() == 2 && cell.is_beyond(&inner[0], &inner[1]) {
+                inner.swap(0, 1);
+            }
+            let mut last = Station { place: cell.place, ..now };
+            for station in inner.into_iter().chain([exit]) {
+                // Beyond half a turn the arc would go through infinity.
+                if (last.bend + self.change_of_bend(&last, &station)).abs() > PI {
+                    return path;
+                }
+                path.push(match way {
+                    Way::Forward => Leg { start: last, end: station },
+                    Way::Backward => Leg { start: station, end: last },
+                });
+                last = station;
+            }
+            now = exit;
+        }
+        path
+    }
+
+    /// β = (μ_l − μ_r + π)/2 up to a constant: its change within a pair of pieces.
+    fn change_of_bend(&self, from: &Station, to: &Station) -> f64 {
+        let left = &self.left[to.place.left.0];
+        let right = &self.right[to.place.right.0];
+        let turn = |piece: &Piece, from: f64, to: f64| (to - from) * (piece.direction[1] - piece.direction[0]);
+        0.5 * (turn(left, from.place.left.1, to.place.left.1) - turn(right, from.place.right.1, to.place.right.1))
+    }
+
+    /// The pair of pieces that the path enters, and the signs of both contacts' motion there.
+    fn cell_ahead(&self, now: &Station, way: Way) -> Option<Cell> {
+        let mut place = now.place;
+        // A corner of four pairs is left after three changes.
+        for _ in 0..4 {
+            let signs = self.motion(place, way);
+            let left = entered(place.left, signs.0, self.left.len())?;
+            let right = entered(place.right, signs.1, self.right.len())?;
+            if (left, right) == (place.left, place.right) {
+                return Some(Cell { place, signs });
+            }
+            place = Place { left, right };
+        }
+        None
+    }
+
+    /// The signs of both contacts' motion along the path: the level line of F = μ_l + μ_r − 2 ψ − π, F > 0 on its left contact's side.
+    fn motion(&self, place: Place, way: Way) -> (f64, f64) {
+        let (l, r) = (&self.left[place.left.0], &self.right[place.right.0]);
+        let d = r.point(place.right.1) - l.point(place.left.1);
+        let ((p, turn_l), (q, turn_r)) = (l.rates(place.left.1), r.rates(place.right.1));
+        let square = d.norm_squared();
+        let left = turn_l + 2.0 * cross(d, p) / square;
+        let right = turn_r - 2.0 * cross(d, q) / square;
+        match way {
+            Way::Forward => (-right, left),
+            Way::Backward => (right, -left),
+        }
+    }
+
+    /// Where the path leaves a pair of pieces.
+    fn far_side(&self, cell: &Cell) -> Option<Station> {
+        let Place { left: (i, s), right: (j, t) } = cell.place;
+        let (l, r) = (&self.left[i], &self.right[j]);
+        let far = |sign: f64| if sign > 0.0 { 1.0 } else { 0.0 };
+        let (s_far, t_far) = (far(cell.signs.0), far(cell.signs.1));
+        let t_there = r.answer(l.point(s_far), l.direction(s_far));
+        let s_there = l.answer(r.point(t_far), r.direction(t_far));
+        // By how much an answer lies outside of what is left of the piece.
+        let outside = |answer: Option<f64>, from: f64, to: f64| {
+            answer.map_or(f64::INFINITY, |x| (from.min(to) - x).max(x - from.max(to)).max(0.0))
+        };
+        let (out_t, out_s) = (outside(t_there, t, t_far), outside(s_there, s, s_far));
+        // More than rounding: the pieces meet, or the path ends.
+        const ROUNDING: f64 = 1e-6;
+        let (s, t) = if out_t <= out_s && out_t < ROUNDING {
+            (s_far, held(t_there?, t, t_far))
+        } else if out_s < ROUNDING {
+            (held(s_there?, s, s_far), t_far)
+        } else {
+            return None;
+        };
+        Some(self.station(Place { left: (i, s), right: (j, t) }))
+    }
+
+    /// Places of the largest and smallest curvature strictly between entry and exit of a pair of pieces.
+    fn extremes(&self, cell: &Cell, exit: &Station) -> [Option<Station>; 2] {
+        let Place { left: (i, s0), right: (j, t0) } = cell.place;
+        let ((_, s1), (_, t1)) = (exit.place.left, exit.place.right);
+        extreme_circles(&self.left[i], &self.right[j]).map(|circle| {
+            let place = self.contacts((i, j), &circle?)?;
+            let (s, t) = (place.left.1, place.right.1);
+            let inside = |x: f64, a: f64, b: f64| x > a.min(b) && x < a.max(b);
+            let mut station = (inside(s, s0, s1) && inside(t, t0, t1)).then(|| self.station(place))?;
+            station.curvature = circle?.k;
+            Some(station)
+        })
+    }
+
+    /// The contacts of a circle that meets both pieces; not held to them. Nothing for two straight pieces, where k need not tell the place.
+    pub fn contacts(&self, (i, j): (usize, usize), circle: &Circle) -> Option<Place> {
+        let (l, r) = (&self.left[i], &self.right[j]);
+        let (s, t) = match (turned(l, circle), turned(r, circle)) {
+            (Some(s), Some(t)) => (s, t),
+            (Some(s), None) => (s, r.answer(l.point(s), l.direction(s))?),
+            (None, Some(t)) => (l.answer(r.point(t), r.direction(t))?, t),
+            (None, None) => return None,
+        };
+        Some(Place { left: (i, s), right: (j, t) })
+    }
+}
+
+/// A pair of pieces that the path enters at `place`.
+struct Cell {
+    place: Place,
+    signs: (f64, f64),
+}
+
+impl Cell {
+    /// Whether `a` lies beyond `b` on the path.
+    fn is_beyond(&self, a: &Station, b: &Station) -> bool {
+        self.signs.0.signum() * (a.place.left.1 - b.place.left.1)
+            + self.signs.1.signum() * (a.place.right.1 - b.place.right.1)
+            > 0.0
+    }
+}
+
+/// The indices 0 to `len` by their distance from `from`.
+fn outward(from: usize, len: usize) -> impl Iterator<Item = usize> {
+    (0..=len)
+        .flat_map(move |k| [Some(from + k), from.checked_sub(k).filter(|_| k > 0)])
+        .flatten()
+        .filter(move |&i| i <= len)
+}
+
+/// The piece and parameter from which a contact goes on with the sign of its motion; nothing at the end of the wall.
+fn entered((index, s): (usize, f64), sign: f64, len: usize) -> Option<(usize, f64)> {
+    if s >= 1.0 && sign > 0.0 {
+        (index + 1 < len).then_some((index + 1, 0.0))
+    } else if s <= 0.0 && sign < 0.0 {
+        index.checked_sub(1).map(|index| (index, 1.0))
+    } else {
+        Some((index, s))
+    }
+}
+
+/// The number in the range of two others, rounding at its ends taken off.
+pub(super) fn held(x: f64, a: f64, b: f64) -> f64 {
+    snapped(x.clamp(a.min(b), a.max(b)))
+}
+
+/// The parameter of a circle's contact on a round piece, or at an edge.
+fn turned(piece: &Piece, circle: &Circle) -> Option<f64> {
+    let Shape::Turn { center, radius } = piece.shape else { return None };
+    // X − k c = k R n + v, and v is n turned by the contact angle.
+    let x = circle.x - center * circle.k;
+    let (sin, cos) = piece.angle.sin_cos();
+    let turn = (-piece.hand.sign() * sin).atan2(circle.k * radius + cos);
+    Some(piece.parameter(x.y.atan2(x.x) - turn - piece.offset))
+}
+
+/// The condition to meet a piece under its angle.
+pub(super) fn meets(piece: &Piece) -> Condition {
+    let cos = piece.angle.cos();
+    match piece.shape {
+        Shape::Straight { a, .. } => meets_straight(a, piece.normal(0.0), cos),
+        Shape::Turn { center, radius } => meets_round(center, radius, cos),
+    }
+}
+
+/// The circles of largest and smallest curvature among those that meet both pieces, continued to whole circles and lines: their centers
+/// lie on the line of symmetry of both. None for two lines.
+fn extreme_circles(one: &Piece, other: &Piece) -> [Option<Circle>; 2] {
+    let circle =
+        |x: Vec2, k: f64| (x.x.is_finite() && x.y.is_finite() && k.is_finite()).then_some(Circle { x, y: 0.0, k });
+    match (one.shape, other.shape) {
+        (Shape::Turn { center: c1, radius: r1 }, Shape::Turn { center: c2, radius: r2 }) => {
+            let line = c2 - c1;
+            let l = line.norm();
+            let (d0, d1) = ((r1 - r2) * (r1 + r2), r1 * one.angle.cos() - r2 * other.angle.cos());
+            // G k² − 4 b k − 4 c = 0.
+            let g = (l - r1 - r2) * (l + r1 + r2) * (l + r1 - r2) * (l - r1 + r2);
+            let b = r1 * one.angle.cos() * (l * l - d0) + r2 * other.angle.cos() * (l * l + d0);
+            let c = (l - d1) * (l + d1);
+            roots(g, 2.0 * b, -4.0 * c).map(|k| {
+                let k = k?;
+                let along = (k * (d0 + l * l) + 2.0 * d1) / (2.0 * l);
+                circle(c1 * k + line * (along / l), k)
+            })
+        }
+        (Shape::Turn { center, radius }, Shape::Straight { a, .. }) => beside_line(center, radius, one, a, other),
+        (Shape::Straight { a, .. }, Shape::Turn { center, radius }) => beside_line(center, radius, other, a, one),
+        (Shape::Straight { .. }, Shape::Straight { .. }) => [None, None],
+    }
+}
+
+fn beside_line(center: Vec2, radius: f64, round: &Piece, a: Vec2, straight: &Piece) -> [Option<Circle>; 2] {
+    let normal = straight.normal(0.0);
+    let distance = normal.dot(&(center - a));
+    let (cos, (sin, cos_line)) = (round.angle.cos(), straight.angle.sin_cos());
+    let g = (distance - radius) * (distance + radius);
+    roots(g, radius * cos + distance * cos_line, -sin * sin).map(|k| {
+        let k = k?;
+        Some(Circle { x: center * k + normal * (cos_line - k * distance), y: 0.0, k })
+    })
+}
+
+/// The roots of g k² − 2 b k + c = 0.
+fn roots(g: f64, b: f64, c: f64) -> [Option<f64>; 2] {
+    let square = b * b - g * c;
+    if square < 0.0 {
+        return [None, None];
+    }
+    let sum = b + square.sqrt().copysign(b);
+    [sum / g, c / sum].map(|k| k.is_finite().then_some(k))
+}

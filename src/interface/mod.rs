@@ -1,0 +1,18 @@
+//! The interface and its contact lines as geometry: no solver, no particle, no file.
+//!
+//! Lines: a field on the nodes of a [`lattice`] has a [`contour`], an ordered [`polyline`] with its curvature, which is cut off at a [`wall`];
+//! [`lengths`] of interface and wetted wall. Shapes: the [`circle`] and the [`arc`] of Young and Laplace through ordered points with standard errors, the
+//! [`weighted_circle`] through a stencil of points, free or held to an angle at a wall. Contact lines: [`contact`] has their angles with
+//! error bars, [`meniscus_ends`] those of interfaces that move under a body force. [`menisci`] between two walls: place, burst, touch, overlap.
+
+pub mod arc;
+pub mod circle;
+pub mod contact;
+pub mod contour;
+pub mod lattice;
+pub mod lengths;
+pub mod menisci;
+pub mod meniscus_ends;
+pub mod polyline;
+pub mod wall;
+pub mod weighted_circle;

@@ -1,0 +1,108 @@
+//! What a measurement needs to know of a wall at a point of the plane, and contours cut off there.
+
+use super::polyline::Polyline;
+use crate::math::{Vec2, perpendicular};
+
+/// The wall as seen from a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallPoint {
+    /// Signed distance to the nearest wall in m: above 0 in the pore, below 0 in the solid.
+    pub distance: f64,
+    /// Unit normal of the nearest wall, pointing into the pore.
+    pub normal: Vec2,
+}
+
+impl From<(f64, Vec2)> for WallPoint {
+    /// From the signed distance in m and the normal.
+    fn from((distance, normal): (f64, Vec2)) -> Self {
+        Self { distance, normal }
+    }
+}
+
+/// A wall that has turned away by more than this (sine) has an edge.
+const TURNED: f64 = 0.8;
+
+/// Cosine between the normals of both faces of an edge.
+const BENT: f64 = 0.5;
+
+/// Whether the walls nearest to two points (m) are the faces of an edge.
+#[must_use]
+pub fn is_edge_between(wall: &dyn Fn(Vec2) -> WallPoint, behind: Vec2, ahead: Vec2) -> bool {
+    wall(behind).normal.dot(&wall(ahead).normal) < BENT
+}
+
+/// Normal of the wall at a point `x` (m) of it; where an edge stands within `reach` (m) to the left, for someone who looks into the
+/// pore, or else to the right, of the face behind that.
+#[must_use]
+pub fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool, reach: f64) -> Vec2 {
+    let normal = wall(x).normal;
+    let along = if left { perpendicular(normal) } else { -perpendicular(normal) };
+    let there = wall(x + reach * along).normal;
+    if there.dot(&along) > TURNED { there } else { normal }
+}
+
+/// The parts of `lines` in the pore, ending on the wall.
+///
+/// Contour a field that goes on for a spacing or two into the solid and cut it here: a field that is missing at each
+/// node of the solid tears contours that meet the wall at a small angle into pieces.
+#[must_use]
+pub fn clip(lines: &[Polyline], wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
+    lines.iter().flat_map(|line| clip_line(line, wall)).collect()
+}
+
+fn clip_line(line: &Polyline, wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
+    let mut places: Vec<(Vec2, f64)> = line.points.iter().map(|&p| (p, wall(p).distance)).collect();
+    let Some(solid) = places.iter().position(|(_, d)| *d <= 0.0) else { return vec![line.clone()] };
+    if line.closed {
+        // A closed line begins in the solid, so that no piece is cut where the line happened to begin.
+        places.rotate_left(solid);
+        places.push(places[0]);
+    }
+    let mut pieces = Vec::new();
+    let mut piece: Vec<Vec2> = Vec::new();
+    for (k, &(here, d)) in places.iter().enumerate() {
+        if k > 0 && (places[k - 1].1 > 0.0) != (d > 0.0) {
+            let (before, d_before) = places[k - 1];
+            piece.push(before + (here - before) * (d_before / (d_before - d)));
+        }
+        if d > 0.0 {
+            piece.push(here);
+        } else if piece.len() > 1 {
+            pieces.push(std::mem::take(&mut piece));
+        }
+    }
+    pieces.extend((piece.len() > 1).then_some(piece));
+    pieces.into_iter().map(|points| Polyline { points, closed: false }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn floor(x: Vec2) -> WallPoint {
+        WallPoint { distance: x.y, normal: Vec2::y() }
+    }
+
+    fn circle(height: f64, first: f64) -> Polyline {
+        let at = |i: i32| first + std::f64::consts::PI * f64::from(i) / 50.0;
+        let points = (0..100).map(|i| Vec2::new(at(i).cos(), height + at(i).sin())).collect();
+        Polyline { points, closed: true }
+    }
+
+    #[test]
+    fn a_circle_through_the_wall_leaves_one_arc_wherever_it_begins() {
+        for first in [0.0, 1.3, 4.5] {
+            let arcs = clip(&[circle(0.5, first)], &floor);
+            assert_eq!(arcs.len(), 1);
+            let points = &arcs[0].points;
+            assert!(!arcs[0].closed && points[0].y.abs() < 1e-12 && points[points.len() - 1].y.abs() < 1e-12);
+            assert!(points[0].x > 0.8 && points[points.len() - 1].x < -0.8, "the order is kept");
+        }
+    }
+
+    #[test]
+    fn lines_in_the_pore_stay_and_lines_in_the_solid_go() {
+        assert_eq!(clip(&[circle(2.0, 0.0)], &floor), vec![circle(2.0, 0.0)]);
+        assert!(clip(&[circle(-2.0, 0.0)], &floor).is_empty());
+    }
+}

@@ -1,0 +1,63 @@
+//! What measures look at, and the groups of them that a case can ask for.
+
+use crate::analysis::phases::PhaseAreas;
+use crate::math::{Bounds, Vec2};
+use crate::solver::{Measure, Series};
+use crate::sph::observe::Observation;
+use crate::sph::projection::Flow;
+use crate::sph::stages::Stages;
+
+/// A disc of the geometry, for measures that compare with closed forms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DiscOf {
+    /// Center in m.
+    pub center: Vec2,
+    /// Radius in m.
+    pub radius: f64,
+}
+
+/// What a measure may look at.
+pub struct Subject<'a> {
+    /// The flow at its end.
+    pub flow: &'a Flow,
+    /// What is seen of it.
+    pub seen: &'a Observation,
+    /// Areas of the phases at time zero.
+    pub start: PhaseAreas,
+    /// All records.
+    pub series: &'a Series,
+    /// The discs of the geometry.
+    pub discs: &'a [DiscOf],
+    /// The upright rectangles of the geometry.
+    pub plates: &'a [Bounds],
+    /// Speeds of the walls at the left, right, bottom and top side in m/s.
+    pub wall_speeds: [f64; 4],
+    /// The body forces, where they act one after the other.
+    pub stages: Option<&'a Stages>,
+}
+
+/// Columns of the time series: name and value.
+pub type Columns = Vec<(&'static str, f64)>;
+
+/// What a case can ask for beside what every run measures: a benchmark, most often.
+#[derive(Clone, Copy)]
+pub struct Group {
+    /// Further columns of the time series, always the same in the same order.
+    pub columns: fn(&Flow, &Observation) -> Columns,
+    /// Measures at the end, from the flow, the time series or both.
+    pub measures: fn(&Subject) -> Vec<Measure>,
+}
+
+impl Group {
+    /// A group without columns of its own.
+    #[must_use]
+    pub const fn of(measures: fn(&Subject) -> Vec<Measure>) -> Self {
+        Self { columns: |_, _| Vec::new(), measures }
+    }
+}
+
+/// A measure: its value and standard `uncertainty` in `unit`, and in one sentence the `method`.
+#[must_use]
+pub fn measure(name: &str, value: f64, unit: &str, uncertainty: Option<f64>, method: &str) -> Measure {
+    Measure { name: name.into(), value, unit: unit.into(), uncertainty, method: method.into() }
+}
