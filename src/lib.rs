@@ -12,9 +12,11 @@ pub mod input;
 
 pub mod geometry;
 
+pub mod analysis;
+pub mod wetting;
+
 pub mod case;
 
-pub mod analysis;
 pub mod network;
 pub mod sph;
 pub mod thin_film;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// What each module of the crate may import besides itself. Output code sees snapshots, so `io` sees neither case nor solver
 /// modules; `sph` and `analysis` never meet but in one direction: `analysis` is pure.
-const MAY_IMPORT: [(&str, &[&str]); 17] = [
+const MAY_IMPORT: [(&str, &[&str]); 18] = [
     ("math", &[]),
     ("input", &["math"]),
     ("snapshot", &["math"]),
@@ -14,10 +14,11 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
     ("table", &[]),
     ("solver", &["math", "snapshot", "diagram", "table"]),
     ("geometry", &["math", "input", "snapshot"]),
-    ("case", &["math", "input", "geometry"]),
     ("analysis", &["math", "snapshot", "geometry"]),
-    ("network", &["math", "geometry", "snapshot", "diagram", "table", "solver", "case", "analysis"]),
-    ("sph", &["math", "geometry", "snapshot", "table", "solver", "case", "analysis"]),
+    ("wetting", &["input", "analysis"]),
+    ("case", &["math", "input", "geometry", "wetting"]),
+    ("network", &["math", "geometry", "snapshot", "diagram", "table", "solver", "wetting", "case", "analysis"]),
+    ("sph", &["math", "geometry", "snapshot", "table", "solver", "wetting", "case", "analysis"]),
     ("thin_film", &["math", "snapshot", "diagram", "solver", "case", "analysis"]),
     ("io", &["math", "snapshot", "diagram", "table", "solver"]),
     (
@@ -39,7 +40,13 @@ const MAY_IMPORT: [(&str, &[&str]); 17] = [
     ),
     ("study", &["input", "case", "analysis", "io", "run"]),
     ("verify", &["math", "input", "geometry", "case", "network", "io", "study"]),
-    ("cli", &["math", "input", "geometry", "snapshot", "solver", "case", "analysis", "io", "run", "study", "verify"]),
+    (
+        "cli",
+        &[
+            "math", "input", "geometry", "snapshot", "solver", "wetting", "case", "analysis", "io", "run", "study",
+            "verify",
+        ],
+    ),
 ];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
