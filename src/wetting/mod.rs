@@ -4,6 +4,7 @@
 //! which makes the enum, the table `[sph.wetting]` or `[network.wetting]` of a case file, and the rows of `meniscus list`. Which part of a
 //! wall has which law is said by `case`; lines that last from step to step, and their forces, are in `sph::wetting`.
 
+mod bracke;
 mod cox_voinov;
 mod hysteresis;
 mod jiang;
@@ -19,6 +20,7 @@ mod young;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use bracke::Bracke;
 pub use cox_voinov::CoxVoinov;
 pub use hysteresis::Hysteresis;
 pub use jiang::Jiang;
@@ -158,6 +160,7 @@ laws! {
         pub cox_voinov: CoxVoinov,
         pub kistler: Kistler,
         pub jiang: Jiang,
+        pub bracke: Bracke,
         pub hysteresis: Hysteresis,
         /// Parts of the walls with angles of their own, in the same model; later ones override earlier ones.
         pub patches: Vec<Patch>,
