@@ -5,6 +5,8 @@
 
 #[path = "../tests/support/cloud.rs"]
 mod cloud;
+#[path = "../tests/support/dice.rs"]
+mod dice;
 #[path = "support/table.rs"]
 mod table;
 
@@ -17,7 +19,7 @@ use faer::prelude::*;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
-use meniscus::sph::conjugate_gradients::{Convergence, conjugate_gradients};
+use meniscus::sph::conjugate_gradients::{Convergence, Tolerance, conjugate_gradients};
 use meniscus::sph::poisson::{Matrix, Multigrid};
 
 /// As cases have it by default.
@@ -52,7 +54,8 @@ impl System {
     fn iterate(&self, multigrid: &Multigrid) -> Convergence {
         let mut x = vec![0.0; self.b.len()];
         let precondition = |r: &[f64], z: &mut [f64]| multigrid.precondition(&self.matrix, r, z);
-        let found = conjugate_gradients(&self.matrix, &self.b, &mut x, (RESIDUAL, 300), precondition);
+        let tolerance = Tolerance { residual: RESIDUAL, iterations: 300 };
+        let found = conjugate_gradients(&self.matrix, &self.b, &mut x, tolerance, precondition);
         black_box(x);
         found
     }

@@ -12,11 +12,14 @@ pub mod input;
 
 pub mod geometry;
 
-pub mod case;
-
 pub mod interface;
 
 pub mod analysis;
+
+pub mod wetting;
+
+pub mod case;
+
 pub mod network;
 pub mod sph;
 pub mod thin_film;

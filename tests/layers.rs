@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// What each module of the crate may import besides itself. Output code sees snapshots, so `io` sees neither case nor solver
 /// modules; `interface` and `analysis` are pure.
-const MAY_IMPORT: [(&str, &[&str]); 19] = [
+const MAY_IMPORT: [(&str, &[&str]); 20] = [
     ("math", &[]),
     ("input", &["math"]),
     ("snapshot", &["math"]),
@@ -15,11 +15,15 @@ const MAY_IMPORT: [(&str, &[&str]); 19] = [
     ("table", &[]),
     ("solver", &["math", "snapshot", "diagram", "table"]),
     ("geometry", &["math", "input", "snapshot"]),
-    ("case", &["math", "input", "geometry"]),
     ("interface", &["math", "snapshot", "geometry"]),
     ("analysis", &["math", "snapshot", "interface"]),
-    ("network", &["math", "geometry", "snapshot", "diagram", "table", "solver", "case", "interface", "analysis"]),
-    ("sph", &["math", "geometry", "snapshot", "table", "solver", "case", "interface", "analysis"]),
+    ("wetting", &["input"]),
+    ("case", &["math", "input", "geometry", "wetting"]),
+    (
+        "network",
+        &["math", "geometry", "snapshot", "diagram", "table", "solver", "wetting", "case", "interface", "analysis"],
+    ),
+    ("sph", &["math", "geometry", "snapshot", "table", "solver", "wetting", "case", "interface", "analysis"]),
     ("benchmarks", &["math", "solver", "case", "interface", "analysis", "sph"]),
     ("thin_film", &["math", "snapshot", "diagram", "solver", "case", "analysis"]),
     ("io", &["math", "snapshot", "diagram", "table", "solver"]),
@@ -43,11 +47,18 @@ const MAY_IMPORT: [(&str, &[&str]); 19] = [
     ),
     ("study", &["input", "case", "analysis", "io", "run"]),
     ("verify", &["math", "input", "geometry", "case", "interface", "network", "io", "study"]),
-    ("cli", &["math", "input", "geometry", "snapshot", "solver", "case", "analysis", "io", "run", "study", "verify"]),
+    (
+        "cli",
+        &[
+            "math", "input", "geometry", "snapshot", "solver", "wetting", "case", "analysis", "io", "run", "study",
+            "verify",
+        ],
+    ),
 ];
 
 /// Folders whose files form a chain: none imports a file that leads back to it.
-const CHAINS: [&str; 5] = ["interface", "interface/menisci", "sph/surface_force", "sph/measures", "benchmarks"];
+const CHAINS: [&str; 6] =
+    ["wetting", "interface", "interface/menisci", "sph/surface_force", "sph/measures", "benchmarks"];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
 const ONE_PLACE: [(&str, &[&str]); 19] = [

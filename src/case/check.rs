@@ -1,12 +1,9 @@
-//! Checks of a case: end, output, expectations; and the tools that all checks share.
+//! Checks of a case: end, output, expectations.
 
 use super::checked::{Compression, Expectation, Model, Output};
 use super::measures::{Offer, offers, unmeasured};
 use super::raw::{RawCase, RawCompression, RawEvery, RawExpectation};
-use crate::input::Problem;
-
-/// The format of case and shape files that this program reads.
-const FORMAT: u32 = 1;
+use crate::input::Checker;
 
 /// Most records of one kind: more files than a folder should hold.
 const MOST_RECORDS: f64 = 1.0e5;
@@ -21,66 +18,6 @@ const END_RANGE: (f64, f64) = (1.0e-15, 1.0e9);
 const VTK_RECORDS: f64 = 50.0;
 const SERIES_RECORDS: f64 = 200.0;
 const RESTART_RECORDS: f64 = 10.0;
-
-/// Collects problems while values pass through.
-#[derive(Debug, Default)]
-pub(crate) struct Checker {
-    pub problems: Vec<Problem>,
-}
-
-impl Checker {
-    pub fn refuse(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
-        self.problems.push(Problem { path: path.into(), message: message.into(), help: help.into() });
-    }
-
-    /// The value, or a problem where it is missing.
-    pub fn require<T>(&mut self, path: &str, value: Option<T>, example: &str) -> Option<T> {
-        if value.is_none() {
-            let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
-            let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
-            self.refuse(path, format!("missing key `{key}`{place}"), format!("add {example}"));
-        }
-        value
-    }
-
-    /// The value where it is above zero; `what` names it with its unit.
-    pub fn positive(&mut self, path: &str, value: Option<f64>, what: &str) -> Option<f64> {
-        let value = value?;
-        if value > 0.0 {
-            return Some(value);
-        }
-        self.refuse(path, format!("expected {what} above 0, found {value:?}"), "");
-        None
-    }
-
-    /// The value where it is there and above zero; `what` names it with its unit.
-    pub fn require_positive(&mut self, path: &str, value: Option<f64>, example: &str, what: &str) -> Option<f64> {
-        let value = self.require(path, value, example);
-        self.positive(path, value, what)
-    }
-
-    /// The value where it lies in a closed range; `what` names it with its unit.
-    pub fn within(&mut self, path: &str, value: Option<f64>, range: (f64, f64), what: &str) -> Option<f64> {
-        let value = value?;
-        if range.0 <= value && value <= range.1 {
-            return Some(value);
-        }
-        self.refuse(path, format!("expected {what} from {:?} to {:?}, found {value:?}", range.0, range.1), "");
-        None
-    }
-
-    pub fn format(&mut self, found: Option<u32>) {
-        if let Some(found) = self.require("format", found, "format = 1")
-            && found != FORMAT
-        {
-            self.refuse(
-                "format",
-                format!("expected format {FORMAT}, found {found}"),
-                "this version reads format 1; a newer format needs a newer version",
-            );
-        }
-    }
-}
 
 /// Whether the clock of the case counts displaced pore volumes.
 fn is_quasi_static(raw: &RawCase) -> bool {

@@ -8,6 +8,7 @@ pub use super::patches::{PatchedWall, Stripes, WettingPatch};
 pub use super::steady::{FEWEST_ROWS, SteadyStop};
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::math::Vec2;
+use crate::wetting::Wetting;
 
 /// A case that can be run.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -57,7 +58,7 @@ pub struct Sph {
     /// Form of the surface force; absent where the tension is 0.
     pub surface_force: Option<SurfaceForce>,
     /// Wetting model; absent: no line force.
-    pub wetting_model: Option<WettingModel>,
+    pub wetting_model: Option<Wetting>,
     /// Parts of the walls with angles of their own.
     pub wetting_patches: Vec<WettingPatch>,
     /// The length L of the dimensionless numbers in m, where the case gives one.
@@ -113,82 +114,6 @@ pub enum LineDelta {
     Normalized,
     /// By a form of each particle alone.
     Local,
-}
-
-/// Wetting models; angles through the wetting phase in rad.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum WettingModel {
-    /// Unbalanced Young force [Huber2013, Eqs. 7 and 23].
-    Young {
-        /// Static contact angle.
-        contact_angle: f64,
-    },
-    /// Static angle from two measured ones \[Tadmor2004\].
-    Tadmor {
-        /// Advancing angle.
-        advancing: f64,
-        /// Receding angle.
-        receding: f64,
-    },
-    /// Friction of the line in proportion to its speed \[BrochardWyart1992\].
-    LineFriction {
-        /// Static contact angle.
-        contact_angle: f64,
-        /// Friction in Pa s.
-        friction: f64,
-    },
-    /// Molecular kinetic theory \[Blake1969\].
-    MolecularKinetic {
-        /// Static contact angle.
-        contact_angle: f64,
-        /// Jumps per second at rest, in 1/s.
-        frequency: f64,
-        /// Length of a jump in m.
-        jump_length: f64,
-        /// Temperature in K.
-        temperature: f64,
-    },
-    /// Viscous bending below the scale of the fit [Voinov1976; Cox1986].
-    CoxVoinov {
-        /// Static contact angle.
-        contact_angle: f64,
-        /// Slip length in m.
-        slip_length: f64,
-    },
-    /// Kistler's fit of Hoffman's data \[Kistler1993\].
-    Kistler {
-        /// Static contact angle.
-        contact_angle: f64,
-    },
-    /// The fit of Jiang, Oh and Slattery of Hoffman's data \[Jiang1979\].
-    Jiang {
-        /// Static contact angle.
-        contact_angle: f64,
-    },
-    /// A line that holds between two angles.
-    Hysteresis {
-        /// Advancing angle.
-        advancing: f64,
-        /// Receding angle.
-        receding: f64,
-    },
-}
-
-impl WettingModel {
-    /// The smallest and the largest angle in rad that were written for a line at rest.
-    #[must_use]
-    pub fn angles(&self) -> [f64; 2] {
-        match *self {
-            Self::Young { contact_angle }
-            | Self::LineFriction { contact_angle, .. }
-            | Self::MolecularKinetic { contact_angle, .. }
-            | Self::CoxVoinov { contact_angle, .. }
-            | Self::Kistler { contact_angle }
-            | Self::Jiang { contact_angle } => [contact_angle; 2],
-            Self::Tadmor { advancing, receding } | Self::Hysteresis { advancing, receding } => [receding, advancing],
-        }
-    }
 }
 
 /// One side of the domain.

@@ -1,11 +1,11 @@
 //! Checks of `[sph.initial]`: which phase is where at time zero, and how it moves.
 
-use super::check::Checker;
 use super::checked::{Initial, InitialVelocity, Sides};
 use super::network::state::Start;
 use super::raw::{RawInitial, RawPhase};
 use super::shapes::shape_problems;
 use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
 use crate::math::Vec2;
 
 /// The state at time zero by shapes.

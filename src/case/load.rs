@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::check::{self, Checker};
+use super::check;
 use super::checked::{Case, Model};
 use super::kind::other_than_a_case;
 use super::magnitude::magnitudes;
@@ -12,7 +12,7 @@ use super::{film, network, permeability, resolve, shapes, sph, start, steady};
 use crate::geometry::ShapeFileError;
 use crate::geometry::import::{self, Beyond, Format, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
-use crate::input::{Document, InputError, Mistake, Overrides, Problem, Renamed, file};
+use crate::input::{Checker, Document, InputError, Mistake, Overrides, Problem, Renamed, file};
 
 /// A checked case and where it came from.
 #[derive(Debug, Clone)]

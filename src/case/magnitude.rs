@@ -3,7 +3,7 @@
 use serde::Serialize;
 use toml::Value;
 
-use super::check::Checker;
+use crate::input::Checker;
 
 /// Smallest and largest size of a number that is not 0.
 const SIZES: (f64, f64) = (1.0e-20, 1.0e15);

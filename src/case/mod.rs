@@ -28,7 +28,6 @@ mod start;
 mod steady;
 mod wetting;
 
-pub(crate) use check::Checker;
 pub use facts::{Facts, check_against};
 pub use kind::is_case;
 pub(crate) use kind::other_than_a_study;

@@ -1,8 +1,8 @@
 //! Checks of `[sph.numerics]`, and its defaults.
 
-use super::check::Checker;
 use super::checked::{Numerics, SurfaceForce, ViscousStep, ViscousTerm};
 use super::raw::{RawNumerics, RawViscousStep, RawViscousTerm};
+use crate::input::Checker;
 
 /// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and the density-error correction in the pressure equation,
 /// the others by shifting and either that correction or the one by shifting (docs/numerics).

@@ -1,8 +1,8 @@
 //! Checks of `[sph.sides.open]`: what is given at inlets, outlets and periodic sides with a flow, and what cannot work.
 
-use super::check::Checker;
 use super::checked::{Drive, Open, PressureSteps, Profile, SIDES};
 use super::raw::{RawOpenSide, RawPhase, RawProfile, RawSide, RawSides};
+use crate::input::Checker;
 
 /// The flow through the left, right, bottom and top side; none where a mistake was found.
 pub(super) fn open(checker: &mut Checker, raw: &RawSides, two_phases: bool) -> Option<[Option<Open>; 4]> {

@@ -1,7 +1,7 @@
 //! Parts of the walls with angles of their own, checked.
 
-use super::checked::WettingModel;
 use crate::math::Vec2;
+use crate::wetting::Wetting;
 
 /// A part of the walls with angles of its own (`[[sph.wetting.patches]]`); later ones lie over earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -11,7 +11,7 @@ pub struct WettingPatch {
     /// Which part of them; absent: all.
     pub stripes: Option<Stripes>,
     /// The model with the angles of the patch.
-    pub model: WettingModel,
+    pub model: Wetting,
 }
 
 /// The walls that a patch lies on.

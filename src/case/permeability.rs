@@ -1,8 +1,8 @@
 //! Checks of `[sph.measure.permeability]`: one fluid, periodic sides, and a force along each axis that they let through.
 
-use super::check::Checker;
 use super::checked::{Model, Output, SIDES, Side, Sph};
 use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
 
 /// Fewest records under each force: the last two tell whether the flow is steady.
 const FEWEST_RECORDS: f64 = 2.0;

@@ -5,6 +5,7 @@ mod ranges;
 use serde_json::{Map, Value, json};
 
 use super::raw::RawCase;
+use crate::wetting::laws;
 use ranges::RANGES;
 
 /// Tables that hold exactly one of some tables or keys, each an alternative: the type, and the keys that are none.
@@ -18,17 +19,12 @@ const AT_MOST_ONE: [&str; 2] = ["RawFilmMethod", "RawFilmWetting"];
 const MODELS: [&str; 3] = ["sph", "thin-film", "network"];
 
 /// Keys that their table requires.
-const REQUIRED: [(&str, &[&str]); 20] = [
-    ("RawHysteresisRange", &["advancing-angle-deg", "receding-angle-deg"]),
-    ("RawContactAngle", &["contact-angle-deg"]),
-    ("RawCoxVoinov", &["contact-angle-deg", "slip-length"]),
+const REQUIRED: [(&str, &[&str]); 15] = [
     ("RawDroplet", &["half-width", "height"]),
     ("RawExpectation", &["measure", "value", "tolerance"]),
     ("RawGeometric", &["smoothing-length"]),
-    ("RawLineFriction", &["contact-angle-deg", "friction"]),
     ("RawMeasured", &["geometry-hash"]),
     ("RawMeasuredThroat", &["index", "formula-curvature", "entry-curvature"]),
-    ("RawMolecularKinetic", &["contact-angle-deg", "frequency", "jump-length"]),
     ("RawPartialWetting", &["contact-angle-deg"]),
     ("RawPhases", &["wetting"]),
     ("RawPrecursor", &["film-height"]),
@@ -58,6 +54,17 @@ pub fn schema() -> Value {
     }
     for (table, required) in REQUIRED {
         schema["$defs"][table]["required"] = json!(required);
+    }
+    for law in laws() {
+        schema["$defs"]["RawWetting"]["properties"][&law.key]["description"] = json!(law.about);
+        let table = &mut schema["$defs"][law.type_name];
+        for (key, quantity) in &law.keys {
+            for (keyword, limit) in quantity.range.keywords() {
+                table["properties"][key][keyword] = limit;
+            }
+        }
+        let required = law.keys.iter().filter(|(_, quantity)| quantity.default.is_none()).map(|(key, _)| key);
+        table["required"] = required.cloned().collect();
     }
     for (table, others) in EXACTLY_ONE {
         let keys = schema["$defs"][table]["properties"].as_object().into_iter().flat_map(Map::keys);

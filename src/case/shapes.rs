@@ -1,12 +1,11 @@
 //! Domain and solids of a case or of a shape file: which keys go together, and what the shapes themselves say.
 
-use super::check::Checker;
 use super::checked::{Model, Side};
 use super::network::raw::{RawNetworkSide, RawNetworkSides};
 use super::raw::{RawGeometry, RawShapeFile, RawSide, RawSides};
 use crate::geometry::import::{Beyond, Options};
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
-use crate::input::Problem;
+use crate::input::{Checker, Problem};
 
 /// The geometry of a shape file.
 pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<GeometrySpec> {

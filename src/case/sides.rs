@@ -1,8 +1,8 @@
 //! Checks of `[sph.sides]` and `[sph.walls]`: what stands at the sides of the domain, and what walls are like.
 
-use super::check::Checker;
 use super::checked::{Side, Sides, Walls};
 use super::raw::{RawSide, RawSides, RawWalls};
+use crate::input::Checker;
 
 pub(super) fn sides(checker: &mut Checker, raw: &RawSides) -> Sides {
     let given = [("left", raw.left), ("right", raw.right), ("bottom", raw.bottom), ("top", raw.top)];

@@ -1,6 +1,5 @@
 //! Checks of `[sph]`: ranges of every value, and which values go together.
 
-use super::check::Checker;
 use super::checked::{Fluid, LineDelta, MeasureSet, Sph, SurfaceForce};
 use super::network::state::Start;
 use super::preset::{COLD, WARM};
@@ -8,6 +7,7 @@ use super::raw::{RawCsf, RawFluid, RawLineDelta, RawSph};
 use super::sides::{sides, wall_speeds, walls};
 use super::{initial, numerics, wetting};
 use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
 use crate::math::Vec2;
 
 /// Most particles that a run may have: their pairs then fill the memory of a large machine.

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::check::Checker;
 use super::network::state::{NetworkState, Start};
 use super::raw::RawCase;
 use crate::geometry::spec::GeometrySpec;
-use crate::input::file;
+use crate::input::{Checker, file};
 use crate::math::{FNV1A_BASIS, fnv1a};
 
 /// What to do about a file that is no state.

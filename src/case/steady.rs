@@ -1,8 +1,8 @@
 //! `[time.steady]`: when a run counts as steady. Checks and the way back into a case file.
 
-use super::check::Checker;
 use super::checked::Output;
 use super::raw::{RawCase, RawSteady};
+use crate::input::Checker;
 
 /// Fewest rows of the series in a window: fewer tell no spread.
 pub const FEWEST_ROWS: f64 = 5.0;

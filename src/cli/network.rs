@@ -11,9 +11,10 @@ use super::verify::verify;
 use super::verify_arguments::NetworkCommand;
 use crate::case::network::quick as network_case;
 use crate::case::network::raw::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
-use crate::case::raw::{RawContactAngle, RawInterface, RawSideName, RawWetting};
+use crate::case::raw::{RawInterface, RawSideName, RawWetting};
 use crate::geometry::spec::GeometrySpec;
 use crate::run::execute::Mode;
+use crate::wetting::{Wetting, Young};
 
 /// Tension in N/m where none is given: pressures are then those per N/m of tension.
 const UNIT_TENSION: f64 = 1.0;
@@ -90,10 +91,9 @@ fn raw(arguments: &NetworkArguments) -> RawNetwork {
         interface: arguments
             .has_interface()
             .then(|| RawInterface { tension: Some(arguments.tension.unwrap_or(UNIT_TENSION)) }),
-        wetting: arguments.has_interface().then(|| RawWetting {
-            young: Some(RawContactAngle { contact_angle_deg: Some(angle) }),
-            ..RawWetting::default()
-        }),
+        wetting: arguments
+            .has_interface()
+            .then(|| RawWetting::of(&Wetting::Young(Young { contact_angle_deg: angle }), None)),
         process: arguments.process.map(|process| match process {
             NetworkProcess::Drainage => RawProcess::Drainage,
             NetworkProcess::Imbibition => RawProcess::Imbibition,

@@ -3,8 +3,7 @@
 use std::fmt::Write as _;
 
 use super::output::{duration, readable};
-use crate::analysis::laws::drops::tadmor;
-use crate::case::checked::{Case, Model, WettingModel};
+use crate::case::checked::{Case, Model};
 use crate::run::execute::Finished;
 use crate::run::report::{Reading, Report, Status};
 use crate::run::steady::Steadiness;
@@ -69,10 +68,7 @@ fn ending(report: &Report) -> String {
 /// The angle that the case asks for, or the two angles between which a line holds, in degrees.
 fn requested_angle(case: &Case) -> Option<String> {
     let [smallest, largest] = match &case.model {
-        Model::Sph(sph) => match sph.wetting_model? {
-            WettingModel::Tadmor { advancing, receding } => [tadmor(advancing, receding); 2],
-            model => model.angles(),
-        },
+        Model::Sph(sph) => sph.wetting_model?.hysteresis_range(),
         Model::ThinFilm(film) => [film.contact_angle?; 2],
         // It holds the angle exactly: there is nothing to measure.
         Model::Network(_) => return None,
@@ -143,12 +139,13 @@ mod tests {
     use crate::run::mock::{MockSolver, case};
     use crate::run::report::Motion;
     use crate::run::simulation::Unwatched;
+    use crate::wetting::{Wetting, Young};
 
     #[test]
     fn the_summary_shows_both_angles_measures_and_files() {
         let mut case = case();
         let Model::Sph(sph) = &mut case.model else { panic!("the mock case is one of SPH") };
-        sph.wetting_model = Some(WettingModel::Young { contact_angle: 40.0_f64.to_radians() });
+        sph.wetting_model = Some(Wetting::Young(Young { contact_angle_deg: 40.0 }));
         let folder = tempfile::tempdir().unwrap();
         let job = Job { case: &case, resolved: "", folder: folder.path().to_path_buf(), mode: Mode::New };
         let never = std::sync::atomic::AtomicBool::new(false);

@@ -4,6 +4,7 @@
 //! the checkers of a type name [`Problem`]s by key path, and [`Reading::refuse`] finds their places. [`Overrides`] are
 //! the `--set KEY=VALUE` of the command line.
 
+mod checker;
 mod document;
 mod error;
 mod excerpt;
@@ -12,13 +13,16 @@ pub mod file;
 mod overrides;
 mod path;
 pub mod problem;
+mod range;
 mod read;
 mod suggest;
 mod tree;
 
+pub use checker::Checker;
 pub use document::{Document, Renamed};
 pub use error::{InputError, Mistake};
 pub use overrides::Overrides;
 pub use problem::Problem;
+pub use range::Range;
 pub use read::Reading;
 pub use suggest::nearest;

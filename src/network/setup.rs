@@ -12,8 +12,7 @@ use super::dynamic::{self, Drive, Dynamic, Terms};
 use super::graph::{Network, Pores};
 use super::solver::{NetworkSolver, Setting};
 use super::state;
-use crate::analysis::laws::drops::tadmor;
-use crate::case::checked::{Case, PatchedWall, Side, WettingModel};
+use crate::case::checked::{Case, PatchedWall, Side};
 use crate::case::network::checked::{
     Driven, NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop,
 };
@@ -21,6 +20,7 @@ use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
 use crate::geometry::{Geometry, GeometryError};
 use crate::solver::Solver;
+use crate::wetting::Wetting;
 
 /// Names of the sides in their order.
 pub(super) const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
@@ -339,11 +339,9 @@ fn half_cycles(
 
 /// Contact angle of each wall through the defending phase in rad: where the non-wetting phase invades, the wetting one recedes.
 fn angles(interface: &NetworkInterface, walls: usize, invading: Fluid) -> Vec<f64> {
-    let through_defending = |model: &WettingModel| match (model, invading) {
-        (WettingModel::Tadmor { advancing, receding }, Fluid::NonWetting) => tadmor(*advancing, *receding),
-        (WettingModel::Tadmor { advancing, receding }, Fluid::Wetting) => PI - tadmor(*advancing, *receding),
-        (model, Fluid::NonWetting) => model.angles()[0],
-        (model, Fluid::Wetting) => PI - model.angles()[1],
+    let through_defending = |model: &Wetting| match invading {
+        Fluid::NonWetting => model.hysteresis_range()[0],
+        Fluid::Wetting => PI - model.hysteresis_range()[1],
     };
     let mut angles = vec![through_defending(&interface.wetting_model); walls];
     let first_side = walls - SIDES.len();

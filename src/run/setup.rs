@@ -124,7 +124,7 @@ fn not_at_rest(sph: &Sph) -> Vec<String> {
     /// Angles in degrees that differ by less are the same, written and read.
     const SAME: f64 = 1e-6;
     let mut found = Vec::new();
-    let angles = sph.wetting_model.map(|model| model.angles().map(f64::to_degrees));
+    let angles = sph.wetting_model.map(|model| model.hysteresis_range().map(f64::to_degrees));
     let [smallest, largest] = start.state.contact_angles_deg;
     if sph.wetting_patches.is_empty()
         && let Some([receding, advancing]) = angles.filter(|it| it[0] > largest + SAME || it[1] < smallest - SAME)

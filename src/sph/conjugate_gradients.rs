@@ -59,7 +59,16 @@ pub struct Convergence {
     pub residual: f64,
 }
 
-/// Solves M x = b from the given x until |b − M x| ≤ `tolerance` |b|, at most `most` iterations.
+/// When the iteration stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Largest |b − M p|/|b|.
+    pub residual: f64,
+    /// Most iterations.
+    pub iterations: usize,
+}
+
+/// Solves M x = b from the given x until |b − M x| is within the tolerance.
 ///
 /// `b` must be in the range of M: of a pressure, sum zero over each part without a fixed value. `precondition(r, z)` sets z ≈ M⁻¹ r.
 /// Where rounding allows no smaller residual the iteration stops early.
@@ -67,7 +76,7 @@ pub fn conjugate_gradients<T: Unknown>(
     matrix: &impl SymmetricMatrix<T>,
     b: &[T],
     x: &mut [T],
-    (tolerance, most): (f64, usize),
+    Tolerance { residual: tolerance, iterations: most }: Tolerance,
     precondition: impl Fn(&[T], &mut [T]),
 ) -> Convergence {
     let n = b.len();

@@ -16,12 +16,23 @@ use crate::sph::surface_force::points::{PointFields, interface_points};
 use crate::sph::surface_force::stencils::Interface;
 use crate::sph::terms::{color, curvature, density, pressure_gradient, surface_tension};
 use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
-use crate::sph::wetting::lines::{Following, LINE_REACH, Line, nearest};
+use crate::sph::wetting::lines::{DetectedLine, Following, LINE_REACH, Line, nearest};
 use crate::sph::wetting::wall::WallSpots;
 
 use rayon::prelude::*;
 
-/// Where the interface is in space: sides, walls, and what they are made of.
+/// The particles, and what lies around each of them.
+#[derive(Clone, Copy)]
+pub struct Neighborhood<'a> {
+    /// The particles.
+    pub particles: &'a Particles,
+    /// Pairs within the support of the kernel.
+    pub pairs: &'a Pairs,
+    /// Images of the particles beyond periodic and mirror sides.
+    pub images: &'a Images,
+}
+
+/// Where the interface is in space: sides, walls, what they are made of, and the contact lines of the step before.
 pub struct Place<'a> {
     /// Box and sides.
     pub domain: &'a Domain,
@@ -29,6 +40,10 @@ pub struct Place<'a> {
     pub wall: &'a WallQuery,
     /// Wetting models and velocities of walls.
     pub spots: &'a WallSpots,
+    /// The contact lines of the step before.
+    pub lines_before: &'a [Line],
+    /// How long ago that was in s.
+    pub dt: f64,
 }
 
 /// Fields over particles and images; forces over fluid particles only.
@@ -78,7 +93,7 @@ impl Fields {
     /// Volumes and densities [Huber2013, Eq. 17], viscosities and wall distances.
     pub fn update_bulk(
         &mut self,
-        (particles, pairs, images): (&Particles, &Pairs, &Images),
+        Neighborhood { particles, pairs, images }: Neighborhood,
         method: &Method,
         wall: impl Fn(Vec2) -> (f64, Vec2) + Sync,
     ) {
@@ -115,16 +130,8 @@ impl Fields {
     }
 
     /// Normals, curvature and the forces of interface and contact lines [Huber2013, Eqs. 18-23].
-    ///
-    /// `lines` are the contact lines of the step before, `dt` (s) ago.
-    pub fn update_interface(
-        &mut self,
-        neighborhood: (&Particles, &Pairs, &Images),
-        method: &Method,
-        place: &Place,
-        (lines, dt): (&[Line], f64),
-    ) {
-        let (particles, pairs, images) = neighborhood;
+    pub fn update_interface(&mut self, neighborhood: Neighborhood, method: &Method, place: &Place) {
+        let Neighborhood { particles, pairs, images } = neighborhood;
         let (n, fluids) = (particles.len(), particles.fluids);
         for field in [&mut self.surface_force, &mut self.line_force] {
             field.clear();
@@ -157,9 +164,9 @@ impl Fields {
         color::smoothed_color(pairs, &self.fluid_volume, &sharp, &self.mixed, &mut self.color);
         images.extend(&mut self.color);
         match method.surface_force {
-            SurfaceForce::Csf(delta) => self.continuum_forces(neighborhood, (method, delta), place, (lines, dt)),
+            SurfaceForce::Csf(delta) => self.continuum_forces(neighborhood, method, delta, place),
             SurfaceForce::PressureJump { curvature } => {
-                self.pressure_jump((neighborhood, &sharp), (method, curvature), place, (lines, dt));
+                self.pressure_jump(neighborhood, &sharp, method, curvature, place);
             }
         }
         self.slip_near_lines(particles, method, place.domain);
@@ -179,10 +186,10 @@ impl Fields {
     /// The paper's forces: normals and curvature in a band, surface force and line force [Huber2013, Eqs. 18-23].
     fn continuum_forces(
         &mut self,
-        (particles, pairs, images): (&Particles, &Pairs, &Images),
-        (method, delta): (&Method, LineDelta),
+        Neighborhood { particles, pairs, images }: Neighborhood,
+        method: &Method,
+        delta: LineDelta,
         place: &Place,
-        (lines, dt): (&[Line], f64),
     ) {
         let (fluids, moving) = (particles.fluids, particles.moving());
         color::color_gradient(pairs, &self.fluid_volume, &self.color, &mut self.normal[..moving]);
@@ -208,18 +215,20 @@ impl Fields {
         let found = LineParticles::find((pairs, images), &fields, &method.kernel, fluids);
         let seen = found.detected_lines(&fields, place.domain);
         self.contact_lines = found.count();
-        self.lines = place.following(method, |following| following.follow(lines, &seen, dt));
+        self.lines = place.follow(method, &seen);
         let angles: Vec<f64> = self.lines.iter().map(|line| line.angle).collect();
         found.line_force(&fields, delta, (&angles, method.tension), &mut self.line_force);
     }
 
     /// Sides and curvatures for the pressure jump, fitted where none is `given` (1/m); the normal is the consistent gradient of the smoothed color.
+    /// `sharp` is the color of each particle and image, 0 or 1.
     fn pressure_jump(
         &mut self,
-        ((particles, pairs, images), sharp): ((&Particles, &Pairs, &Images), &[f64]),
-        (method, given): (&Method, Option<f64>),
+        Neighborhood { particles, pairs, images }: Neighborhood,
+        sharp: &[f64],
+        method: &Method,
+        given: Option<f64>,
         place: &Place,
-        (lines, dt): (&[Line], f64),
     ) {
         let (fluids, moving) = (particles.fluids, particles.moving());
         let (position, domain) = (&particles.position, place.domain);
@@ -230,7 +239,7 @@ impl Fields {
             let is_mixed = |b: usize| b < moving && mixed[b];
             mixed[a] || pairs.of(a).any(|ab| is_mixed(images.source(ab.b)))
         });
-        color::consistent_gradient(pairs, (&self.fluid_volume, &near), &self.color, r_ab, normal);
+        color::consistent_gradient(pairs, &self.fluid_volume, &near, &self.color, r_ab, normal);
         self.moment.resize(fluids, 0.0);
         pressure_gradient::moment(pairs, &self.volume, r_ab, &mut self.moment);
         images.extend_reflected(&mut self.normal);
@@ -252,7 +261,7 @@ impl Fields {
         if method.wetting.is_some() {
             let seen = interface.lines();
             self.contact_lines = seen.len();
-            self.lines = place.following(method, |following| following.follow(lines, &seen, dt));
+            self.lines = place.follow(method, &seen);
             pinned.extend(seen.iter().zip(&self.lines).filter_map(|(line, now)| line.pinned(now.angle)));
         }
         let lines = &self.lines;
@@ -286,13 +295,13 @@ impl Fields {
 }
 
 impl Place<'_> {
-    /// Hands out what the contact lines are followed with.
-    fn following(&self, method: &Method, follow: impl Fn(&Following) -> Vec<Line>) -> Vec<Line> {
+    /// The contact lines now, from those of the step before and from what is `seen` of them.
+    fn follow(&self, method: &Method, seen: &[impl DetectedLine]) -> Vec<Line> {
         let Some(base) = method.wetting else { return Vec::new() };
         let (h, viscosity) = (method.kernel.h, method.wetting_fluid.viscosity);
         // Nothing happens at a line faster than an interface of the size h moves.
         let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
-        follow(&Following {
+        let following = Following {
             domain: self.domain,
             model: &|x| self.spots.model(method, x).unwrap_or(base),
             wall_velocity: &|x| self.spots.velocity(x),
@@ -300,6 +309,7 @@ impl Place<'_> {
             viscosity,
             h,
             mean_over,
-        })
+        };
+        following.follow(self.lines_before, seen, self.dt)
     }
 }

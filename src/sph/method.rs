@@ -6,7 +6,7 @@ use crate::sph::kernel::WendlandC2;
 use crate::sph::particles::Phase;
 use crate::sph::poisson::Tolerance;
 use crate::sph::surface_force::SurfaceForce;
-use crate::sph::wetting::Wetting;
+use crate::wetting::Wetting;
 
 /// Above this ratio of densities Eq. (15) fails.
 const LARGEST_SYMMETRIC_RATIO: f64 = 5.0;

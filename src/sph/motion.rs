@@ -2,6 +2,7 @@
 
 use crate::math::Vec2;
 use crate::solver::{SolverError, StepInfo};
+use crate::sph::open::Moved;
 use crate::sph::pairs::largest;
 use crate::sph::particles::Phase;
 use crate::sph::projection::{Flow, Predicted, Response};
@@ -30,7 +31,8 @@ impl Flow {
         &mut self,
         predicted: &Predicted,
         mut velocity: Vec<Vec2>,
-        (drift, responses): (&[Vec2], &[Response]),
+        drift: &[Vec2],
+        responses: &[Response],
         until: f64,
     ) -> Result<(), SolverError> {
         let (fluids, moving, dt) = (self.particles.fluids, self.particles.moving(), predicted.dt);
@@ -56,8 +58,8 @@ impl Flow {
         self.set_back_from_walls(&mut position[..fluids], &mut velocity[..fluids]);
         for through in &mut self.open.through {
             let (old, phase) = (&self.particles.position[..fluids], &mut self.particles.phase[..fluids]);
-            let counted = (&mut self.open.ledger, self.method.volume, dt);
-            through.pass(&self.domain, (old, &position[..fluids]), phase, counted);
+            let moved = Moved { from: old, to: &position[..fluids], volume: self.method.volume, dt };
+            through.pass(&self.domain, &moved, phase, &mut self.open.ledger);
         }
         self.particles.position[..moving].copy_from_slice(&position);
         self.particles.velocity[..moving].copy_from_slice(&velocity);
@@ -85,7 +87,7 @@ impl Flow {
                 weight: (m.wetting_fluid.density - m.other_fluid.density) / m.mean_density() * m.gravity,
                 wall_hysteresis: &f.wall_hysteresis,
             };
-            strays.displace(&self.pairs, m.kernel.h, (m.capillary_speed(), dt), &mut by);
+            strays.displace(&self.pairs, m.kernel.h, m.capillary_speed(), dt, &mut by);
         } else if diffusion == 0.0 {
             return;
         }
@@ -93,7 +95,7 @@ impl Flow {
         let mut all = velocity.to_vec();
         all.extend_from_slice(&self.particles.velocity[self.particles.moving()..]);
         self.images.extend_velocity(&mut all);
-        shifting::carried_velocity(&self.pairs, (&f.volume, &f.density), &all, &by, &mut change);
+        shifting::carried_velocity(&self.pairs, &f.volume, &f.density, &all, &by, &mut change);
         for a in 0..fluids {
             position[a] = self.domain.wrapped(position[a] + by[a]);
             velocity[a] += change[a];
@@ -111,8 +113,8 @@ impl Flow {
         }
         if m.anti_clustering > 0.0 {
             let mut push = vec![Vec2::zeros(); self.particles.fluids];
-            shifting::anti_clustering(&self.pairs, &f.volume, (m.anti_clustering, m.kernel.w(m.spacing)), &mut push);
-            shifting::take_out_mean((&self.pairs, &self.images), &f.fluid_volume, &mut push);
+            shifting::anti_clustering(&self.pairs, &f.volume, m.anti_clustering, m.kernel.w(m.spacing), &mut push);
+            shifting::take_out_mean(&self.pairs, &self.images, &f.fluid_volume, &mut push);
             uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
         }
         uneven

@@ -51,7 +51,7 @@ impl Observation {
         let areas = PhaseAreas::new(volumes, color);
         let wall_point = |x: Vec2| WallPoint::from((flow.wall)(x));
         let two_phases = flow.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
-        let (interface, wall_color) = interface_and_walls(flow, (&all, two_phases), wall, &wall_point);
+        let (interface, wall_color) = interface_and_walls(flow, &all, two_phases, wall, &wall_point);
         let settings =
             ContactSettings::for_smoothing_length(flow.method.kernel.h).under(flow.method.curvature_gradient());
         let pressures = pressures_at_interface(flow, &interface);
@@ -144,7 +144,8 @@ pub fn nodes(flow: &Flow, spacing: f64) -> Lattice {
 /// grows with its length and not with the area.
 fn interface_and_walls(
     flow: &Flow,
-    (color, two_phases): (&[f64], bool),
+    color: &[f64],
+    two_phases: bool,
     walls: &[WallSample],
     wall: &dyn Fn(Vec2) -> WallPoint,
 ) -> (Vec<Polyline>, Vec<f64>) {

@@ -170,7 +170,7 @@ impl Packing<'_> {
         let mut source: Vec<f64> = (0..n).map(|a| SHARE * volume[a] * density_error(a)).collect();
         images.extend(&mut volume);
         let ones = vec![1.0; volume.len()];
-        assemble(&mut solve.matrix, (pairs, images), &volume, &ones, |_, _| true);
+        assemble(&mut solve.matrix, pairs, images, &volume, &ones, |_, _| true);
         let part = parts(pairs, images, |_, _| true);
         let unknowns = Unknowns {
             position: &points[..n],

@@ -65,7 +65,7 @@ impl Pairs {
         kernel: &WendlandC2,
     ) -> Self {
         let mut pairs = Self::default();
-        pairs.find_anew(cells, points, count, (domain, kernel));
+        pairs.find_anew(cells, points, count, domain, kernel);
         pairs
     }
 
@@ -75,7 +75,8 @@ impl Pairs {
         cells: &Cells,
         points: &[Vec2],
         count: usize,
-        (domain, kernel): (&Domain, &WendlandC2),
+        domain: &Domain,
+        kernel: &WendlandC2,
     ) {
         let reach2 = kernel.support() * kernel.support();
         let chunks: Vec<Rows> = points[..count]

@@ -6,7 +6,8 @@ use toml::Value;
 
 use super::definition::{Axis, Column, Target};
 use super::raw::{RawAxis, RawColumn, RawRange, RawScale};
-use crate::case::{Checker, read};
+use crate::case::read;
+use crate::input::Checker;
 
 /// Most values of an axis: a study with more runs is no study.
 const MOST_VALUES: usize = 10_000;

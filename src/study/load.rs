@@ -8,8 +8,8 @@ use super::definition::{Assignment, Axis, Expectation, Study, Target, Trend};
 use super::names::Names;
 use super::raw::RawStudy;
 use super::results::RUN_NUMBERS;
-use crate::case::{Checker, other_than_a_study, read};
-use crate::input::{Document, InputError, Overrides};
+use crate::case::{other_than_a_study, read};
+use crate::input::{Checker, Document, InputError, Overrides};
 
 /// Most runs of a study.
 const MOST_RUNS: usize = 10_000;

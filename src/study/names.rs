@@ -7,8 +7,7 @@ use toml::Value;
 use super::definition::{Axis, Choice, Curve, Expectation, Quantity, ReportPlan, Trend};
 use super::raw::{RawCurve, RawExpectation, RawReport, RawTrend};
 use super::values::{number_of, same, shown};
-use crate::case::Checker;
-use crate::input::nearest;
+use crate::input::{Checker, nearest};
 
 /// The parameters, by which expectations and curves name values.
 pub(super) struct Names<'a> {

@@ -1,4 +1,5 @@
-//! The tables of keys in the reference come from the JSON schemas, and so from the comments on the types of `src/case` and `src/study`.
+//! The tables of keys in the reference come from the JSON schemas, and so from the comments on the types of `src/case`,
+//! `src/wetting` and `src/study`.
 //!
 //! A page holds blocks `<!-- keys: PATH -->` to `<!-- end of keys -->` with the keys of the table at PATH, those of tables within it
 //! included, unless they have a block of their own. The first block, of the whole file, has no path: every key is on the page.
@@ -158,8 +159,9 @@ fn table(rows: &[[String; 4]]) -> String {
 }
 
 /// A page with its tables as the schema has them.
-fn written(page: &str, schema: &Value, folder: &str) -> String {
-    let source = files(&root().join(folder), &["rs"]).into_iter().map(|file| std::fs::read_to_string(file).unwrap());
+fn written(page: &str, schema: &Value, folders: &[&str]) -> String {
+    let files = folders.iter().flat_map(|folder| files(&root().join(folder), &["rs"]));
+    let source = files.map(|file| std::fs::read_to_string(file).unwrap());
     let path = |rest: &str| rest.split("-->").next().unwrap_or_default().trim().to_owned();
     let blocks: BTreeSet<String> = page.split(BEGIN).skip(1).map(path).collect();
     assert!(blocks.contains(""), "the page has no block for the whole file");
@@ -179,11 +181,11 @@ fn written(page: &str, schema: &Value, folder: &str) -> String {
 #[test]
 fn the_tables_of_keys_are_those_of_the_schemas() {
     let pages = [
-        ("docs/reference/case-file.md", meniscus::case::schema(), "src/case"),
-        ("docs/reference/study-file.md", meniscus::study::schema(), "src/study"),
+        ("docs/reference/case-file.md", meniscus::case::schema(), &["src/case", "src/wetting"][..]),
+        ("docs/reference/study-file.md", meniscus::study::schema(), &["src/study"]),
     ];
-    for (path, schema, folder) in pages {
-        let (page, expected) = (text(path), written(&text(path), &schema, folder));
+    for (path, schema, folders) in pages {
+        let (page, expected) = (text(path), written(&text(path), &schema, folders));
         if std::env::var_os("MENISCUS_BLESS").is_some() {
             std::fs::write(root().join(path), &expected).unwrap();
         } else {

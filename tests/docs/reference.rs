@@ -123,6 +123,18 @@ fn every_shape_and_its_keys_are_described() {
 }
 
 #[test]
+fn every_wetting_law_is_described_with_its_source() {
+    let rows = page("docs/numerics/wetting.md").rows();
+    let told: BTreeMap<String, &str> = rows.iter().map(|row| (code(&row[0]).remove(0), row[2].as_str())).collect();
+    let laws = meniscus::wetting::laws();
+    for law in &laws {
+        let name = format!("[sph.wetting.{}]", law.key);
+        assert_eq!(told.get(&name), Some(&law.what_and_source().1), "{name}");
+    }
+    assert_eq!(told.len(), laws.len());
+}
+
+#[test]
 fn the_presets_of_the_reference_are_those_of_the_program() {
     let rows = page("docs/reference/presets.md").rows();
     assert_eq!(rows.len(), Preset::ALL.len());

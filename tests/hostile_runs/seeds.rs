@@ -6,6 +6,7 @@ use meniscus::case::checked::{Case, Model};
 use meniscus::case::{self, Loaded};
 use meniscus::input::Overrides;
 use meniscus::run::setup;
+use meniscus::wetting::{LawTable, laws};
 
 /// Particles or nodes that a case is to have, the fewest first.
 const TARGETS: [f64; 4] = [300.0, 600.0, 1000.0, 1600.0];
@@ -13,15 +14,15 @@ const TARGETS: [f64; 4] = [300.0, 600.0, 1000.0, 1600.0];
 const MOST_UNKNOWNS: f64 = 2500.0;
 const MOST_SHAPES: usize = 16;
 
-/// Wetting models that no case of the project has, for its drop on a wall.
-const WETTING: [&str; 6] = [
-    "{ tadmor = { advancing-angle-deg = 70.0, receding-angle-deg = 50.0 } }",
-    "{ line-friction = { contact-angle-deg = 60.0, friction = 0.8 } }",
-    "{ molecular-kinetic = { contact-angle-deg = 60.0, frequency = 3.0e6, jump-length = 1.0e-9 } }",
-    "{ cox-voinov = { contact-angle-deg = 60.0, slip-length = 1.0e-7 } }",
-    "{ kistler = { contact-angle-deg = 60.0 } }",
-    "{ jiang = { contact-angle-deg = 60.0 } }",
-];
+/// The tables of all wetting laws, with the examples of their parameters, for a drop on a wall.
+fn wetting() -> Vec<String> {
+    let table = |law: LawTable| {
+        let value = |example: &str| example.split(" #").next().unwrap_or_default().to_owned();
+        let keys: Vec<String> = law.keys.iter().map(|(_, quantity)| value(quantity.example)).collect();
+        format!("{{ {} = {{ {} }} }}", law.key, keys.join(", "))
+    };
+    laws().into_iter().map(table).collect()
+}
 
 /// A case as text.
 pub struct Seed {
@@ -43,9 +44,9 @@ pub fn seeds() -> Vec<Seed> {
             found.extend(small(&path, &[]).map(|text| Seed { name, text }));
         }
     }
-    for model in WETTING {
+    for model in wetting() {
         let text = small(&project.join("cases/sessile-drop.toml"), &[format!("sph.wetting={model}")]);
-        found.push(Seed { name: model.to_owned(), text: text.expect(model) });
+        found.push(Seed { text: text.expect(&model), name: model });
     }
     found
 }

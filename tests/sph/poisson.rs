@@ -32,7 +32,9 @@ fn iterative(cloud: &Cloud, matrix: &Matrix, density: &[f64], b: &[f64], toleran
     let kind: Vec<u8> = density.iter().map(|rho| u8::from(*rho < 500.0)).collect();
     let multigrid = Multigrid::new(matrix, &cloud.points, &kind, cloud.spacing);
     let mut x = vec![0.0; b.len()];
-    let found = conjugate_gradients(matrix, b, &mut x, (tolerance, 300), |r, z| multigrid.precondition(matrix, r, z));
+    let found = conjugate_gradients(matrix, b, &mut x, Tolerance { residual: tolerance, iterations: 300 }, |r, z| {
+        multigrid.precondition(matrix, r, z)
+    });
     (without_mean(x), found.iterations, found.residual)
 }
 

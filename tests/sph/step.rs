@@ -145,7 +145,7 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
         flow.images.extend_velocity(&mut velocity);
         let by = vec![Vec2::new(0.0, 0.1 * flow.method.spacing); flow.particles.fluids];
         let mut change = vec![Vec2::zeros(); flow.particles.fluids];
-        carried_velocity(&flow.pairs, (&flow.fields.volume, &flow.fields.density), &velocity, &by, &mut change);
+        carried_velocity(&flow.pairs, &flow.fields.volume, &flow.fields.density, &velocity, &by, &mut change);
         let largest = |of_moving: bool| {
             let meant = (0..flow.particles.fluids).filter(|a| moves(*a) == of_moving);
             meant.map(|a| change[a].norm()).fold(0.0, f64::max)
@@ -161,8 +161,8 @@ fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
     let (dx, fluids) = (flow.method.spacing, flow.particles.fluids);
     let push = |flow: &Flow| {
         let mut push = vec![Vec2::zeros(); fluids];
-        let strength = (0.2, flow.method.kernel.w(dx));
-        anti_clustering(&flow.pairs, &flow.fields.fluid_volume, strength, &mut push);
+        let w_of_spacing = flow.method.kernel.w(dx);
+        anti_clustering(&flow.pairs, &flow.fields.fluid_volume, 0.2, w_of_spacing, &mut push);
         push
     };
     let largest = |push: &[Vec2]| push.iter().map(|s| s.norm()).fold(0.0, f64::max);
@@ -170,7 +170,7 @@ fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
 
     // What is the same everywhere would move all, and is taken out.
     let mut all_alike = vec![Vec2::new(1.0, -2.0) / dx; fluids];
-    take_out_mean((&flow.pairs, &flow.images), &flow.fields.fluid_volume, &mut all_alike);
+    take_out_mean(&flow.pairs, &flow.images, &flow.fields.fluid_volume, &mut all_alike);
     assert!(largest(&all_alike) < 1e-9 / dx, "{:.1e} of 2.2/dx", largest(&all_alike) * dx);
 
     // Two neighbors come to half of the spacing: the sum points to the other, shifting goes down it.
@@ -185,7 +185,7 @@ fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
     let of = |flow: &Flow, x: Vec2| (0..fluids).find(|&c| (flow.particles.position[c] - x).norm() < 0.1 * dx).unwrap();
     let (left, right) = (of(&flow, moved - Vec2::new(0.5 * dx, 0.0)), of(&flow, moved));
     let mut push = push(&flow);
-    take_out_mean((&flow.pairs, &flow.images), &flow.fields.fluid_volume, &mut push);
+    take_out_mean(&flow.pairs, &flow.images, &flow.fields.fluid_volume, &mut push);
     assert!(
         push[left].x * dx > 0.1 && push[right].x * dx < -0.1,
         "{} and {} over 1/dx",

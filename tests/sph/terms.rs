@@ -6,7 +6,7 @@ use meniscus::sph::terms::viscosity::Viscous;
 use meniscus::sph::terms::{color, curvature, divergence, pressure_gradient, surface_tension};
 use meniscus::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
 use meniscus::sph::wetting::lines::Following;
-use meniscus::sph::wetting::{Wetting, YoungForce};
+use meniscus::wetting::{Wetting, Young};
 use nalgebra::Matrix2;
 
 /// Relative rounding error of the weights of pairs, which are kept in single precision.
@@ -276,7 +276,7 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
         volume: &cloud.volume,
         weight: &ones,
     };
-    let law = Wetting::Young(YoungForce { contact_angle });
+    let law = Wetting::Young(Young { contact_angle_deg: contact_angle.to_degrees() });
     let mut force = vec![Vec2::zeros(); n];
     let following = Following {
         domain: &cloud.domain,

@@ -10,9 +10,7 @@ use meniscus::sph::pairs::Pairs;
 use meniscus::sph::poisson::{Matrix, assemble};
 use meniscus::sph::terms::density;
 
-#[path = "dice.rs"]
-mod dice;
-pub use dice::Dice;
+pub use super::dice::Dice;
 
 /// Smoothing length over spacing, as cases have it by default.
 pub const SMOOTHING_RATIO: f64 = 1.5;
@@ -68,7 +66,7 @@ impl Cloud {
 /// The matrix of the pressure equation.
 pub fn pressure_matrix(cloud: &Cloud, density: &[f64]) -> Matrix {
     let mut matrix = Matrix::default();
-    assemble(&mut matrix, (&cloud.pairs, &cloud.images), &cloud.volume, density, |_, _| true);
+    assemble(&mut matrix, &cloud.pairs, &cloud.images, &cloud.volume, density, |_, _| true);
     matrix
 }
 

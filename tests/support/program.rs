@@ -5,10 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-#[path = "files.rs"]
-mod files;
-
-pub use files::files;
+pub use super::files::files;
 
 /// A drop on a floor, coarse and short: a run of 50 steps in well below a second.
 pub const SMALL: &str = r#"

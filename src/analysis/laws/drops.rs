@@ -1,4 +1,4 @@
-//! Drops without gravity on flat walls and on discs, and Tadmor's angle of equilibrium.
+//! Drops without gravity on flat walls and on discs.
 
 use std::f64::consts::PI;
 
@@ -74,23 +74,6 @@ pub fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<DropOnDis
     })
 }
 
-/// Contact angle of equilibrium in rad from an advancing and a receding one (Tadmor 2004).
-///
-/// cos theta = (G_A cos theta_A + G_R cos theta_R)/(G_A + G_R), G = (sin³/(2 - 3 cos + cos³))^(1/3).
-///
-/// Written with 1/G³ = (2 + cos) tan(theta/2)/(2 cos²(theta/2)), which keeps its digits down to 0: a receding angle of 0 is one of equilibrium of 0.
-#[must_use]
-pub fn tadmor(advancing: f64, receding: f64) -> f64 {
-    let inverse = |angle: f64| {
-        let half = 0.5 * angle;
-        (2.0 + angle.cos()) * half.tan() / (2.0 * half.cos().powi(2))
-    };
-    let (a, r) = (inverse(advancing), inverse(receding));
-    // G_A/G_R; two angles of 0 weigh alike.
-    let ratio = if a > 0.0 { (r / a).cbrt() } else { 1.0 };
-    ((ratio * advancing.cos() + receding.cos()) / (ratio + 1.0)).clamp(-1.0, 1.0).acos()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -136,35 +119,5 @@ mod tests {
         let flat = cap(1.0, 1.2);
         let drop = drop_on_disc(1.0, 1.2, 1.0e3).expect("a drop");
         assert!((drop.height / flat.height - 1.0).abs() < 2e-3);
-    }
-
-    #[test]
-    fn tadmor_gives_the_angles_of_the_alkanes() {
-        // Advancing and receding angles of Lam et al. 2002 as printed in Table 1 of Huber et al. 2013.
-        for (advancing, receding, expected) in [
-            (52.9_f64, 40.7_f64, 46.77),
-            (58.4, 45.7, 51.98),
-            (61.9, 51.5, 56.63),
-            (65.4, 60.1, 62.73),
-            (69.6, 64.3, 66.92),
-            (73.1, 65.8, 69.39),
-            (76.7, 71.0, 73.81),
-        ] {
-            let found = tadmor(advancing.to_radians(), receding.to_radians()).to_degrees();
-            assert!((found - expected).abs() < 0.006, "{advancing}/{receding}: {found}");
-        }
-    }
-
-    #[test]
-    fn tadmor_goes_on_to_complete_wetting_and_drying() {
-        let degrees =
-            |advancing: f64, receding: f64| tadmor(advancing.to_radians(), receding.to_radians()).to_degrees();
-        for same in [0.0, 1.0e-9, 1.0e-3, 1.0, 90.0, 179.0, 180.0] {
-            // The arc cosine of 1 - 1e-16 is 1e-6 degrees.
-            assert!((degrees(same, same) - same).abs() < 1.0e-5, "{same}: {}", degrees(same, same));
-        }
-        // A receding angle of 0 outweighs any other, at the speed of its third root.
-        let falling = [10.0, 1.0, 1.0e-3, 1.0e-9, 1.0e-20, 0.0].map(|receding| degrees(60.0, receding));
-        assert!(falling.windows(2).all(|pair| pair[1] < pair[0]) && falling[5] == 0.0, "{falling:?}");
     }
 }

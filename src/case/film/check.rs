@@ -7,8 +7,8 @@ use super::method::method;
 use super::raw::{RawFilmSymmetry, RawFilmWeights, RawThinFilm};
 use super::resolution::{count, resolution, rounding};
 use super::thinness;
-use crate::case::check::Checker;
 use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
 
 /// Checks `[thin-film]`; `geometry` is missing where it was wrong.
 pub(in crate::case) fn thin_film(

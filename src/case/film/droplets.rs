@@ -2,9 +2,9 @@
 
 use super::checked::{FilmDroplet, FilmSymmetry, SCALED};
 use super::raw::{RawDroplet, RawThinFilm};
-use crate::case::check::Checker;
 use crate::case::preset::{COLD, WARM};
 use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
 
 /// What a film is made of, SI units.
 pub(super) struct Liquid {

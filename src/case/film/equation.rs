@@ -2,7 +2,7 @@
 
 use super::checked::{FilmEquation, FilmSymmetry};
 use super::raw::{RawFilmEquation, RawFilmWetting};
-use crate::case::check::Checker;
+use crate::input::Checker;
 
 /// Height of the film that counts as dry over the slip length, where the case says nothing.
 const DRY: f64 = 0.1;

@@ -2,7 +2,7 @@
 
 use super::checked::{FilmIntegrator, FilmMethod, FilmSums, LatticeEnergy};
 use super::raw::{RawFilmIntegrator, RawFilmMethod, RawFilmSums, RawLatticeEnergy};
-use crate::case::check::Checker;
+use crate::input::Checker;
 
 /// Errors of a step over the initial width.
 const TOLERANCES: (f64, f64) = (1.0e-12, 1.0e-3);

@@ -1,8 +1,8 @@
 //! Checks of spacings against droplets, filter, slip length and films on the wall.
 
 use super::checked::{FilmDroplet, FilmEquation};
-use crate::case::check::Checker;
 use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
 
 /// Most particles or nodes.
 const MOST_UNKNOWNS: f64 = 1.0e7;

@@ -5,8 +5,8 @@
 //! slopes are no angles.
 
 use super::checked::{FilmDroplet, FilmSymmetry, ThinFilm};
-use crate::case::check::Checker;
 use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
 
 /// Slope at rest up to which a film is called thin: its pressure is right within 12 %.
 const THIN: f64 = 0.5;

@@ -6,12 +6,13 @@ use super::checked::{
 use super::measured;
 use super::raw::{RawDynamic, RawEvents, RawNetwork, RawNetworkSide, RawProcess};
 use super::state::Start;
-use crate::case::check::Checker;
-use crate::case::checked::{SIDES, Side, Sides, WettingModel};
+use crate::case::checked::{SIDES, Side, Sides};
 use crate::case::raw::RawSideName;
 use crate::case::sph::fluid;
 use crate::case::wetting;
 use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
+use crate::wetting::Wetting;
 
 /// Persistence ratio where the case says nothing.
 pub(crate) const DEFAULT_PERSISTENCE: f64 = 0.95;
@@ -170,19 +171,11 @@ fn interface(
 }
 
 /// The model, where it is one of lines at rest.
-fn static_model(checker: &mut Checker, model: WettingModel) -> Option<WettingModel> {
-    let name = match model {
-        WettingModel::Young { .. } | WettingModel::Tadmor { .. } | WettingModel::Hysteresis { .. } => {
-            return Some(model);
-        }
-        WettingModel::LineFriction { .. } => "line-friction",
-        WettingModel::MolecularKinetic { .. } => "molecular-kinetic",
-        WettingModel::CoxVoinov { .. } => "cox-voinov",
-        WettingModel::Kistler { .. } => "kistler",
-        WettingModel::Jiang { .. } => "jiang",
-    };
-    let [receding, advancing] = model.angles().map(f64::to_degrees);
-    let angle = 0.5 * (receding + advancing);
+fn static_model(checker: &mut Checker, model: Wetting) -> Option<Wetting> {
+    if !model.is_dynamic() {
+        return Some(model);
+    }
+    let (name, angle) = (model.table().key, model.static_angle().to_degrees());
     checker.refuse(
         format!("network.wetting.{name}"),
         format!("`{name}` is a law of the speed of contact lines, and a quasi-static displacement has no speed"),

@@ -2,7 +2,8 @@
 
 use super::measured::Measured;
 use super::state::Start;
-use crate::case::checked::{Fluid, Sides, WettingModel, WettingPatch};
+use crate::case::checked::{Fluid, Sides, WettingPatch};
+use crate::wetting::Wetting;
 
 /// A pore network and what is displaced in it.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -38,7 +39,7 @@ pub struct NetworkInterface {
     /// Interfacial tension in N/m.
     pub tension: f64,
     /// Static angles through the wetting phase: Young, Tadmor or hysteresis.
-    pub wetting_model: WettingModel,
+    pub wetting_model: Wetting,
     /// Walls with angles of their own, without stripes.
     pub patches: Vec<WettingPatch>,
 }

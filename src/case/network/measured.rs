@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::raw::{RawMeasured, RawMeasuredThroat, RawNetwork};
-use crate::case::check::Checker;
+use crate::input::Checker;
 
 /// Measured entry pressures of throats.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

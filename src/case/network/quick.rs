@@ -2,12 +2,12 @@
 
 use super::check::network;
 use super::raw::RawNetwork;
-use crate::case::check::{self, Checker};
+use crate::case::check;
 use crate::case::checked::{Case, Model};
 use crate::case::raw::RawCase;
 use crate::case::{resolve, shapes};
 use crate::geometry::spec::GeometrySpec;
-use crate::input::Problem;
+use crate::input::{Checker, Problem};
 
 /// The case and its text as a case file, with records at the beginning and at the end only.
 ///

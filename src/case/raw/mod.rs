@@ -37,10 +37,7 @@ pub use sph::{
     RawCsf, RawFluid, RawInitial, RawInterface, RawLineDelta, RawNumerics, RawPhase, RawPhases, RawPressureJump,
     RawSph, RawSurfaceForce, RawTaylorGreen, RawVelocity, RawViscousStep, RawViscousTerm, RawWalls,
 };
-pub use wetting::{
-    RawAxis, RawContactAngle, RawCoxVoinov, RawHysteresisRange, RawLineFriction, RawMolecularKinetic, RawStripes,
-    RawWetting, RawWettingPatch,
-};
+pub use wetting::{RawAxis, RawStripes, RawWetting, RawWettingPatch};
 
 tables! {
     /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.

@@ -1,45 +1,10 @@
 //! The ranges of numbers in a case file, as the schema tells them to editors. The checks tell them to everyone; a test holds both and the
 //! reference together.
 
-use serde_json::{Value, json};
-
-/// A range of numbers.
-pub(super) enum Range {
-    /// Above a limit.
-    Above(f64),
-    /// At or above a limit.
-    AtLeast(f64),
-    /// From one limit to the other, both among them.
-    Within(f64, f64),
-    /// Between two limits, neither among them.
-    Between(f64, f64),
-}
-
-use Range::{Above, AtLeast, Between, Within};
-
-impl Range {
-    /// The keywords of JSON Schema that say it.
-    pub(super) fn keywords(&self) -> Vec<(&'static str, Value)> {
-        match *self {
-            Above(limit) => vec![("exclusiveMinimum", number(limit))],
-            AtLeast(limit) => vec![("minimum", number(limit))],
-            Within(low, high) => vec![("minimum", number(low)), ("maximum", number(high))],
-            Between(low, high) => vec![("exclusiveMinimum", number(low)), ("exclusiveMaximum", number(high))],
-        }
-    }
-}
-
-/// A whole number without a decimal point, as people write it.
-fn number(value: f64) -> Value {
-    if value.fract() == 0.0 && value.abs() < 1.0e6 { json!(value as i64) } else { json!(value) }
-}
+use crate::input::Range::{self, Above, AtLeast, Between, Within};
 
 /// Tables, by the name of their type, their keys and the ranges of these.
-pub(super) const RANGES: [(&str, &str, Range); 63] = [
-    ("RawHysteresisRange", "advancing-angle-deg", Within(0.0, 180.0)),
-    ("RawContactAngle", "contact-angle-deg", Within(0.0, 180.0)),
-    ("RawCoxVoinov", "contact-angle-deg", Within(0.0, 180.0)),
-    ("RawCoxVoinov", "slip-length", Above(0.0)),
+pub(super) const RANGES: [(&str, &str, Range); 53] = [
     ("RawDroplet", "height", Above(0.0)),
     ("RawDynamic", "largest-step", Within(1e-6, 1.0)),
     ("RawDynamic", "pressure-drop", Above(0.0)),
@@ -58,12 +23,6 @@ pub(super) const RANGES: [(&str, &str, Range); 63] = [
     ("RawGeometry", "threshold", Between(0.0, 1.0)),
     ("RawGrid", "ratio", Within(0.25, 100.0)),
     ("RawInterface", "tension", AtLeast(0.0)),
-    ("RawLineFriction", "contact-angle-deg", Within(0.0, 180.0)),
-    ("RawLineFriction", "friction", Above(0.0)),
-    ("RawMolecularKinetic", "contact-angle-deg", Within(0.0, 180.0)),
-    ("RawMolecularKinetic", "frequency", Above(0.0)),
-    ("RawMolecularKinetic", "jump-length", Above(0.0)),
-    ("RawMolecularKinetic", "temperature-c", Within(-100.0, 500.0)),
     ("RawNetwork", "cycles", Within(1.0, 100.0)),
     ("RawNetwork", "persistence", Within(0.5, 1.0)),
     ("RawNumerics", "background-pressure", Within(0.0, 1000.0)),

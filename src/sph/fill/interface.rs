@@ -23,7 +23,7 @@ impl<'a> Interface<'a> {
     pub fn new(region: &'a Region, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
         let spacing = lattice.volume().sqrt();
         let surface = UnfittedSurface::new(region.surface(), 0.0, |a, b| lattice.fits(a, b))
-            .where_it(move |closest, normal| is_interface((closest, normal), pore, spacing));
+            .where_it(move |closest, normal| is_interface(closest, normal, pore, spacing));
         Self { region, pore, surface }
     }
 
@@ -37,12 +37,12 @@ impl<'a> Interface<'a> {
     /// As many other fluid particles are left on each side as its area has room for beside its layer, those farthest from the interface.
     ///
     /// Nothing is changed, and there are no layers, where the lattice fits the interface, and where a phase is too small for one.
-    pub fn make_room(&self, (lattice, domain): (&Lattice, &Domain), places: &mut Places) -> Vec<Vec2> {
+    pub fn make_room(&self, lattice: &Lattice, domain: &Domain, places: &mut Places) -> Vec<Vec2> {
         if self.surface.is_empty() {
             return Vec::new();
         }
         let spacing = lattice.volume().sqrt();
-        let [inner, outer] = [0.5, -0.5].map(|depth| self.layer(depth * spacing, (lattice, domain)));
+        let [inner, outer] = [0.5, -0.5].map(|depth| self.layer(depth * spacing, lattice, domain));
         let within = (self.region.area().unwrap_or_else(|| self.area(lattice)) / lattice.volume()).round() as usize;
         let core = within.checked_sub(inner.len());
         let rest = places.fluid.len().checked_sub(within + outer.len());
@@ -65,7 +65,7 @@ impl<'a> Interface<'a> {
     }
 
     /// The particles at `depth` (m) within the region.
-    fn layer(&self, depth: f64, (lattice, domain): (&Lattice, &Domain)) -> Vec<Vec2> {
+    fn layer(&self, depth: f64, lattice: &Lattice, domain: &Domain) -> Vec<Vec2> {
         let spacing = lattice.volume().sqrt();
         // A line that meets a wall ends where its last particle, half a spacing along the line from its end, has half a spacing of room.
         let is_in_pore = |x: Vec2| {
@@ -104,7 +104,7 @@ impl<'a> Interface<'a> {
 
 /// Whether a point of a region's outline is interface: not deep in a wall or out of the box, and no side of the region that lies along one of
 /// these, as those of a rectangle from wall to wall.
-fn is_interface((closest, normal): (Vec2, Vec2), pore: &Geometry, spacing: f64) -> bool {
+fn is_interface(closest: Vec2, normal: Vec2, pore: &Geometry, spacing: f64) -> bool {
     let lies_along = |distance: f64, wall: Vec2| {
         /// Cosine of the angle between two surfaces that are taken for one.
         const ALONG: f64 = 0.99;

@@ -8,7 +8,7 @@ mod walls;
 pub use interface::Interface;
 pub use lattice::{Lattice, on_lattice};
 pub use region::Region;
-pub use walls::along_walls;
+pub use walls::{Room, along_walls};
 
 use crate::math::Vec2;
 use crate::sph::cells::Cells;

@@ -9,17 +9,29 @@ use crate::sph::domain::Domain;
 /// Lattice points farther than this from a wall, in spacings, are surely fluid or surely not.
 const DOUBTFUL: f64 = 0.5;
 
+/// Where particles are filled in.
+pub struct Room<'a> {
+    /// The lattice.
+    pub lattice: &'a Lattice,
+    /// Box and sides.
+    pub domain: &'a Domain,
+    /// Support of the kernel in m: so deep are the walls.
+    pub support: f64,
+    /// Whether the left, right, bottom and top side is a wall of particles.
+    pub walls: [bool; 4],
+}
+
 /// Fills the domain with wall particles in layers at half a spacing, one and a half, .. below the walls that no lattice fits, evenly
 /// along each layer, so that each has the volume of the lattice; all else as [`super::on_lattice`] does.
 ///
 /// As many fluid particles as the pore has room for: `pore_area` in m². They stand on the lattice still, to be packed next.
 pub fn along_walls(
-    (lattice, domain): (&Lattice, &Domain),
-    (support, walls): (f64, [bool; 4]),
+    room: &Room,
     unfitted: &UnfittedSurface,
     signed_distance: impl Fn(Vec2) -> f64 + Sync,
     pore_area: f64,
 ) -> Places {
+    let &Room { lattice, domain, support, walls } = room;
     let spacing = lattice.step.product().sqrt();
     let mut places = Places::default();
     let mut doubtful: Vec<(f64, Vec2)> = Vec::new();

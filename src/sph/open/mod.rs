@@ -19,7 +19,7 @@ pub use ledger::Ledger;
 pub use pressure::Prescribed;
 pub use profile::{Opening, Profile, Shape, openings};
 pub use side::{DEPTH, Drive, OpenSide, Staircase};
-pub use through::{GivenFlow, Through};
+pub use through::{GivenFlow, Moved, Through};
 
 /// The open sides of a run with what passed through them.
 #[derive(Debug, Clone, Default)]

@@ -61,7 +61,7 @@ const BISECTIONS: usize = 60;
 
 /// The openings between `from` and `to` (m), where `is_open` holds, looked for at steps of `step` (m).
 #[must_use]
-pub fn openings((from, to): (f64, f64), step: f64, is_open: impl Fn(f64) -> bool) -> Vec<Opening> {
+pub fn openings(from: f64, to: f64, step: f64, is_open: impl Fn(f64) -> bool) -> Vec<Opening> {
     let count = ((to - from) / step).ceil().max(1.0) as usize;
     let place = |i: usize| from + (to - from) * (i as f64 + 0.5) / count as f64;
     let edge = |mut closed: f64, mut open: f64| {
@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn openings_end_where_solids_begin() {
         let is_open = |y: f64| (0.1..0.3).contains(&y) || y > 0.55;
-        let found = openings((0.0, 1.0), 0.02, is_open);
+        let found = openings(0.0, 1.0, 0.02, is_open);
         assert_eq!(found.len(), 2);
         for (place, wanted) in [(found[0].from, 0.1), (found[0].to, 0.3), (found[1].from, 0.55), (found[1].to, 1.0)] {
             assert!((place - wanted).abs() < 1e-12, "{place}, wanted {wanted}");

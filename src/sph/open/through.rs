@@ -31,6 +31,18 @@ pub struct GivenFlow {
     pub largest_error: f64,
 }
 
+/// Particles that move.
+pub struct Moved<'a> {
+    /// Where they were, in m.
+    pub from: &'a [Vec2],
+    /// Where they are, in m.
+    pub to: &'a [Vec2],
+    /// The area of each in m².
+    pub volume: f64,
+    /// How long it took them, in s.
+    pub dt: f64,
+}
+
 impl Through {
     /// A side through which nothing has come in yet.
     #[must_use]
@@ -62,23 +74,16 @@ impl Through {
         }
     }
 
-    /// Counts what comes in as particles of the area `volume` (m²) each go from `old` to `new` (m) in `dt` (s), and changes the phase of those
-    /// that come through the side.
-    pub fn pass(
-        &mut self,
-        domain: &Domain,
-        (old, new): (&[Vec2], &[Vec2]),
-        phase: &mut [Phase],
-        (ledger, volume, dt): (&mut Ledger, f64, f64),
-    ) {
+    /// Counts what comes in as particles move, and changes the phase of those that come through the side.
+    pub fn pass(&mut self, domain: &Domain, moved: &Moved, phase: &mut [Phase], ledger: &mut Ledger) {
         let (way, period) = (self.way(), domain.bounds.size()[self.side.axis()]);
         let side = &self.side;
         let mut gone = 0.0;
-        for (a, (&from, &to)) in old.iter().zip(new).enumerate() {
+        for (a, (&from, &to)) in moved.from.iter().zip(moved.to).enumerate() {
             gone += domain.separation(to, from).dot(&way);
-            let moved = side.beyond(to) - side.beyond(from);
-            if moved.abs() > 0.5 * period {
-                let inwards = moved > 0.0;
+            let way_through = side.beyond(to) - side.beyond(from);
+            if way_through.abs() > 0.5 * period {
+                let inwards = way_through > 0.0;
                 ledger.leaves(if inwards { side.number ^ 1 } else { side.number }, phase[a]);
                 if let (true, Some(enters)) = (inwards, side.enters) {
                     phase[a] = enters;
@@ -86,10 +91,10 @@ impl Through {
                 ledger.comes(if inwards { side.number } else { side.number ^ 1 }, phase[a]);
             }
         }
-        let passed = volume * gone / period;
+        let passed = moved.volume * gone / period;
         let asked = self.flow_rate();
         self.state.passed += passed;
-        self.state.rate = passed / dt;
+        self.state.rate = passed / moved.dt;
         self.state.largest_error = self.state.largest_error.max((self.state.rate / asked - 1.0).abs());
     }
 }

@@ -15,7 +15,8 @@ use crate::sph::terms::poisson::coefficient;
 /// `volume` in m² and `density` in kg/m³ over particles and images. Pairs that are not `joined` have no coupling.
 pub fn assemble(
     matrix: &mut Matrix,
-    (pairs, images): (&Pairs, &Images),
+    pairs: &Pairs,
+    images: &Images,
     volume: &[f64],
     density: &[f64],
     joined: impl Fn(usize, usize) -> bool + Sync,

@@ -9,6 +9,7 @@ use faer::{Col, Side};
 
 use crate::math::factor_in_one_thread;
 use crate::sph::poisson::Matrix;
+use crate::sph::poisson::solve::Unknowns;
 
 /// A direct solver that remembers the elimination order of the last pattern it saw.
 #[derive(Default)]
@@ -30,12 +31,12 @@ impl SparseCholesky {
     pub fn solve(
         &mut self,
         matrix: &Matrix,
-        (part, has_dirichlet): (&[u32], &[bool]),
+        unknowns: &Unknowns,
         b: &[f64],
         x: &mut [f64],
     ) -> Result<(), FactorizationError> {
         factor_in_one_thread();
-        let lower = lower_triangle(matrix, part, has_dirichlet)?;
+        let lower = lower_triangle(matrix, unknowns.part, unknowns.has_dirichlet)?;
         let failed = |e: &dyn std::fmt::Debug| FactorizationError(format!("{e:?}"));
         if self.pattern.0 != matrix.start || self.pattern.1 != matrix.column {
             self.symbolic = None;

@@ -10,8 +10,9 @@ mod matrix;
 mod multigrid;
 mod solve;
 
+pub use crate::sph::conjugate_gradients::Tolerance;
 pub use assemble::{assemble, parts};
 pub use dirichlet::impose;
 pub use matrix::{Matrix, weighted_sum};
 pub use multigrid::Multigrid;
-pub use solve::{PressureSolve, System, Tolerance, Unknowns};
+pub use solve::{PressureSolve, System, Unknowns};

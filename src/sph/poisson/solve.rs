@@ -1,22 +1,13 @@
 //! One pressure solve: the right side made compatible, the solver chosen by size, the result checked.
 
 use crate::math::Vec2;
-use crate::sph::conjugate_gradients::{Convergence, conjugate_gradients};
+use crate::sph::conjugate_gradients::{Convergence, Tolerance, conjugate_gradients};
 use crate::sph::pairs::total;
 use crate::sph::poisson::cholesky::SparseCholesky;
 use crate::sph::poisson::{Matrix, Multigrid};
 
 /// Systems up to this size are solved directly. Above it the factorization costs more than the iteration (benches/poisson.rs).
 const SMALL: usize = 300;
-
-/// When the iteration stops.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerance {
-    /// Largest |b − M p|/|b|.
-    pub residual: f64,
-    /// Most iterations.
-    pub iterations: usize,
-}
 
 /// The points of the unknowns, for the multigrid.
 pub struct Unknowns<'a> {
@@ -71,7 +62,7 @@ impl PressureSolve {
 
     fn solve_directly(&mut self, unknowns: &Unknowns, system: &mut System) -> Convergence {
         let (b, x) = (&*system.b, &mut *system.x);
-        if self.cholesky.solve(&self.matrix, (unknowns.part, unknowns.has_dirichlet), b, x).is_err() {
+        if self.cholesky.solve(&self.matrix, unknowns, b, x).is_err() {
             return self.iterate(unknowns, std::slice::from_mut(system))[0];
         }
         let mut r = vec![0.0; b.len()];
@@ -85,7 +76,7 @@ impl PressureSolve {
         let multigrid = Multigrid::new(&self.matrix, unknowns.position, unknowns.kind, unknowns.spacing);
         self.hierarchy_bytes = multigrid.bytes();
         let solve = |System { b, x, tolerance }: &mut System| {
-            conjugate_gradients(&self.matrix, b, x, (tolerance.residual, tolerance.iterations), |r, z| {
+            conjugate_gradients(&self.matrix, b, x, *tolerance, |r, z| {
                 multigrid.precondition(&self.matrix, r, z);
             })
         };

@@ -16,7 +16,7 @@ impl Flow {
         let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);
         let mut velocity: Vec<Vec2> = corrected.collect();
         let gradient_changes = self.gradient_changes(&velocity, &responses, predicted.dt);
-        add_responses(&mut velocity, (&responses, &gradient_changes), predicted.dt);
+        add_responses(&mut velocity, &responses, &gradient_changes, predicted.dt);
         for (response, change) in responses.iter().zip(&gradient_changes) {
             pressure.iter_mut().zip(&response.potential).for_each(|(p, by)| *p += change * by);
         }

@@ -151,7 +151,7 @@ impl Flow {
         let mut mean: Vec<Vec2> =
             new.iter().zip(old).map(|(&to, &from)| self.domain.separation(to, from) / dt).collect();
         let changes = self.gradient_changes(&mean, responses, dt);
-        add_responses(&mut mean, (responses, &changes), dt);
+        add_responses(&mut mean, responses, &changes, dt);
         new.iter_mut().zip(old).zip(mean).for_each(|((to, from), mean)| *to = self.domain.wrapped(from + dt * mean));
     }
 
@@ -175,14 +175,14 @@ impl Flow {
         velocity.truncate(fluids);
         velocity.iter_mut().zip(&by_walls).for_each(|(v, by)| *v += by);
         let changes = self.gradient_changes(&velocity, &responses, 1.0);
-        add_responses(&mut velocity, (&responses, &changes), 1.0);
+        add_responses(&mut velocity, &responses, &changes, 1.0);
         self.particles.velocity[..fluids].copy_from_slice(&velocity);
         Ok(())
     }
 }
 
 /// Adds to the `velocity` (m/s) of the fluid what the changes (Pa/m) of the mean gradients do in `dt` (s).
-pub(super) fn add_responses(velocity: &mut [Vec2], (responses, changes): (&[Response], &[f64]), dt: f64) {
+pub(super) fn add_responses(velocity: &mut [Vec2], responses: &[Response], changes: &[f64], dt: f64) {
     for (response, change) in responses.iter().zip(changes) {
         velocity.iter_mut().zip(&response.acceleration).for_each(|(v, by)| *v += dt * change * by);
     }

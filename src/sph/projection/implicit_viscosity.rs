@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::Flow;
 use crate::math::{Mat2, Vec2};
-use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, conjugate_gradients};
+use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, Tolerance, conjugate_gradients};
 use crate::sph::images::Images;
 use crate::sph::method::ViscousTerm;
 use crate::sph::pairs::{GRAIN, Pair, Pairs, each, largest, split_rows};
@@ -135,7 +135,8 @@ impl ViscousMatrix<'_> {
         let mut b = vec![Vec2::zeros(); fluids];
         each(&mut b, |a| dt * self.root_mass[a] * acceleration[a]);
         let mut change = vec![Vec2::zeros(); fluids];
-        let found = conjugate_gradients(&system, &b, &mut change, (RESIDUAL, ITERATIONS), |r, z| {
+        let tolerance = Tolerance { residual: RESIDUAL, iterations: ITERATIONS };
+        let found = conjugate_gradients(&system, &b, &mut change, tolerance, |r, z| {
             each(z, |a| inverse[a] * r[a]);
         });
         change.iter_mut().zip(&self.root_mass).for_each(|(change, root)| *change /= *root);

@@ -17,7 +17,7 @@ use crate::math::{Vec2, perpendicular};
 use crate::solver::{PartTime, SolverError, StepInfo};
 use crate::sph::cells::Cells;
 use crate::sph::domain::{Domain, WallQuery};
-use crate::sph::fields::{Fields, Place};
+use crate::sph::fields::{Fields, Neighborhood, Place};
 use crate::sph::images::Images;
 use crate::sph::method::{Method, ViscousStep};
 use crate::sph::open::{self, InteriorPoints, Open};
@@ -153,7 +153,8 @@ impl Flow {
         method: Method,
         domain: Domain,
         wall: WallQuery,
-        (particles, wall_depth): (Particles, Vec<f64>),
+        particles: Particles,
+        wall_depth: Vec<f64>,
         open: Open,
     ) -> Self {
         let mut flow = Self {
@@ -205,12 +206,18 @@ impl Flow {
         let mut points = self.particles.position.clone();
         self.images = Images::append(&mut points, &self.domain, self.method.kernel.support());
         let cells = Cells::build(&points, &self.domain, self.method.kernel.support());
-        self.pairs.find_anew(&cells, &points, self.particles.len(), (&self.domain, &self.method.kernel));
+        self.pairs.find_anew(&cells, &points, self.particles.len(), &self.domain, &self.method.kernel);
         let after = Instant::now();
-        let neighborhood = (&self.particles, &self.pairs, &self.images);
+        let neighborhood = Neighborhood { particles: &self.particles, pairs: &self.pairs, images: &self.images };
         self.fields.update_bulk(neighborhood, &self.method, &self.wall);
-        let place = Place { domain: &self.domain, wall: &self.wall, spots: &self.spots };
-        self.fields.update_interface(neighborhood, &self.method, &place, (&self.lines, self.last.dt));
+        let place = Place {
+            domain: &self.domain,
+            wall: &self.wall,
+            spots: &self.spots,
+            lines_before: &self.lines,
+            dt: self.last.dt,
+        };
+        self.fields.update_interface(neighborhood, &self.method, &place);
         self.work.seconds[0] += (after - start).as_secs_f64();
         self.work.seconds[1] += after.elapsed().as_secs_f64();
     }
@@ -254,21 +261,21 @@ impl Flow {
         if self.steps == 0 {
             self.find_first_pressure(until)?;
         }
-        let mut predicted = self.predict((until, f64::INFINITY), self.method.viscous_step)?;
+        let mut predicted = self.predict(until, f64::INFINITY, self.method.viscous_step)?;
         let after_forces = Instant::now();
         let mut corrected = self.end_of(&predicted)?;
         for _ in 0..MOST_REPEATS {
             let velocity = &corrected.velocity;
             let fastest = largest(velocity.len(), |a| velocity[a].norm()).map_or(0.0, |l| l.1);
             let Some(dt) = self.method.shorter_step(predicted.dt, fastest * predicted.dt) else { break };
-            predicted = self.predict((until, dt), self.method.viscous_step)?;
+            predicted = self.predict(until, dt, self.method.viscous_step)?;
             corrected = self.end_of(&predicted)?;
             self.work.repeats += 1;
         }
         self.work.viscous_iterations += predicted.damped.iterations as u64;
         let after_pressure = Instant::now();
         let Corrected { velocity, pressure, drift, gradient_changes, responses } = corrected;
-        self.advance(&predicted, velocity, (&drift, &responses), until)?;
+        self.advance(&predicted, velocity, &drift, &responses, until)?;
         self.take_up(pressure, &gradient_changes);
         if !self.open.sides.is_empty() {
             open::exchange(&mut self.particles, &self.open.sides, &mut self.open.ledger, self.method.spacing);
@@ -287,7 +294,7 @@ impl Flow {
     fn find_first_pressure(&mut self, until: f64) -> Result<(), SolverError> {
         self.start_given_flow()?;
         for _ in 0..if self.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
-            let predicted = self.predict((until, f64::INFINITY), ViscousStep::Explicit)?;
+            let predicted = self.predict(until, f64::INFINITY, ViscousStep::Explicit)?;
             let corrected = self.end_of(&predicted)?;
             self.take_up(corrected.pressure, &corrected.gradient_changes);
         }

@@ -16,7 +16,8 @@ impl Flow {
     /// `viscous_step` says; how long the step is does not hang on it.
     pub(super) fn predict(
         &self,
-        (until, longest): (f64, f64),
+        until: f64,
+        longest: f64,
         viscous_step: ViscousStep,
     ) -> Result<Predicted, SolverError> {
         let (particles, fluids, moving) = (&self.particles, self.particles.fluids, self.particles.moving());

@@ -104,7 +104,7 @@ impl Flow {
     fn assembled(&mut self) -> Matrix {
         let mut matrix = std::mem::take(&mut self.pressure.matrix);
         let (facing, f) = (self.facing(), &self.fields);
-        assemble(&mut matrix, (&self.pairs, &self.images), &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
+        assemble(&mut matrix, &self.pairs, &self.images, &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
         matrix
     }
 

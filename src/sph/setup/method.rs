@@ -1,6 +1,6 @@
-//! The constants of the method, and the wetting models.
+//! The constants of the method.
 
-use crate::case::checked::{self, Sph, WettingModel};
+use crate::case::checked::{self, Sph};
 use crate::sph::boundary::no_slip::NoSlip;
 use crate::sph::fill::Lattice;
 use crate::sph::kernel::WendlandC2;
@@ -8,9 +8,6 @@ use crate::sph::method::{Fluid, Method, ViscousStep, ViscousTerm};
 use crate::sph::poisson::Tolerance;
 use crate::sph::surface_force::SurfaceForce;
 use crate::sph::wetting::contact_line::LineDelta;
-use crate::sph::wetting::{
-    CoxVoinov, Hysteresis, Jiang, Kistler, LineFriction, MolecularKinetic, TadmorAngle, Wetting, YoungForce,
-};
 
 /// Most iterations of a pressure solve; a healthy one takes about ten.
 const ITERATIONS: usize = 300;
@@ -34,8 +31,8 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
             }
             Some(checked::SurfaceForce::Csf { .. }) | None => SurfaceForce::Csf(LineDelta::Normalized),
         },
-        wetting: sph.wetting_model.map(wetting),
-        patches: sph.wetting_patches.iter().map(|patch| wetting(patch.model)).collect(),
+        wetting: sph.wetting_model,
+        patches: sph.wetting_patches.iter().map(|patch| patch.model).collect(),
         gravity: sph.gravity,
         no_slip: NoSlip {
             spacing: sph.spacing,
@@ -59,24 +56,5 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
         anti_clustering: numerics.anti_clustering,
         tolerance: Tolerance { residual: numerics.pressure_tolerance, iterations: ITERATIONS },
         time_step_factor: numerics.time_step_factor,
-    }
-}
-
-fn wetting(model: WettingModel) -> Wetting {
-    match model {
-        WettingModel::Young { contact_angle } => Wetting::Young(YoungForce { contact_angle }),
-        WettingModel::Tadmor { advancing, receding } => Wetting::Tadmor(TadmorAngle { advancing, receding }),
-        WettingModel::LineFriction { contact_angle, friction } => {
-            Wetting::LineFriction(LineFriction { contact_angle, friction })
-        }
-        WettingModel::MolecularKinetic { contact_angle, frequency, jump_length, temperature } => {
-            Wetting::MolecularKinetic(MolecularKinetic { contact_angle, frequency, jump_length, temperature })
-        }
-        WettingModel::CoxVoinov { contact_angle, slip_length } => {
-            Wetting::CoxVoinov(CoxVoinov { contact_angle, slip_length })
-        }
-        WettingModel::Kistler { contact_angle } => Wetting::Kistler(Kistler { contact_angle }),
-        WettingModel::Jiang { contact_angle } => Wetting::Jiang(Jiang { contact_angle }),
-        WettingModel::Hysteresis { advancing, receding } => Wetting::Hysteresis(Hysteresis { advancing, receding }),
     }
 }

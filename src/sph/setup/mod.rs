@@ -17,7 +17,7 @@ pub use initial::region;
 
 use self::method::method;
 use self::open_sides::{inside_of_open_sides, open_sides};
-use self::places::places;
+use self::places::{Filling, places};
 use self::surroundings::surroundings;
 use self::walls::{mirrors, wall_spots};
 use crate::case::checked::{Case, Side, Sph};
@@ -50,7 +50,7 @@ pub fn checked_geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> 
     let geometry = geometry(case, sph)?;
     let ground = Ground::new(&geometry, sph)?;
     let region = start_region(case, sph);
-    open_sides(sph, (&geometry, &ground.lattice, ground.method.kernel.h), &|x| start_phase(sph, &region, x))?;
+    open_sides(sph, &geometry, &ground.lattice, ground.method.kernel.h, &|x| start_phase(sph, &region, x))?;
     Ok(geometry)
 }
 
@@ -126,13 +126,21 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
     let phase = |x: Vec2| start_phase(sph, &region, x);
     let walls = sides.map(|side| side == Side::Wall);
     let interface = (sph.non_wetting.is_some() && sph.numerics.fitted_interface).then_some(&region);
-    let places = places((&geometry, &domain), interface, &lattice, (&method, sph.numerics.fitted_walls), sides, packed);
+    let filling = Filling {
+        geometry: &geometry,
+        domain: &domain,
+        lattice: &lattice,
+        method: &method,
+        sides,
+        fitted_walls: sph.numerics.fitted_walls,
+    };
+    let places = places(&filling, interface, packed);
     let mut particles = places.particles(phase);
     let mut depth = places.depth;
     if particles.fluids == 0 {
         return Err(SetupError::NoFluid(sph.spacing));
     }
-    let open = open_sides(sph, (&geometry, &lattice, method.kernel.h), &phase)?;
+    let open = open_sides(sph, &geometry, &lattice, method.kernel.h, &phase)?;
     let inside = inside_of_open_sides(&open.sides);
     let around = Around {
         bounds,
@@ -155,7 +163,7 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
         let wall = geometry.wall(inside(x));
         (wall.distance, wall.normal)
     });
-    let mut flow = Flow::new(method, domain, query, (particles, depth), open);
+    let mut flow = Flow::new(method, domain, query, particles, depth, open);
     if let Some(spots) = spots {
         flow = flow.with_walls(spots);
     }

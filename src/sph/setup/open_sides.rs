@@ -11,10 +11,12 @@ use crate::sph::particles::Phase;
 /// How far inside of a side its openings are looked for, over the spacing: on the side itself a solid can end.
 const INSIDE: f64 = 1e-3;
 
-/// The open sides, and the periodic ones with a given flow.
+/// The open sides, and the periodic ones with a given flow; `h` is the smoothing length in m.
 pub(super) fn open_sides(
     sph: &Sph,
-    (geometry, lattice, h): (&Geometry, &Lattice, f64),
+    geometry: &Geometry,
+    lattice: &Lattice,
+    h: f64,
     phase: &dyn Fn(Vec2) -> Phase,
 ) -> Result<Open, SetupError> {
     let bounds = geometry.bounds();
@@ -43,17 +45,17 @@ pub(super) fn open_sides(
         // Solids narrower than this are no obstacle that particles would see.
         let step = 0.1 * sph.spacing;
         let is_pore = |y: f64| geometry.signed_distance(near_side(y)) > 0.0;
-        let openings = open::openings((bounds.min[along], bounds.max[along]), step, is_pore);
+        let openings = open::openings(bounds.min[along], bounds.max[along], step, is_pore);
         if openings.is_empty() {
             return Err(SetupError::Blocked(SIDES[number]));
         }
         if kinds[number] != Side::Periodic {
-            goes_on(&side, (geometry, &openings), &near_side, lattice.step)?;
+            goes_on(&side, geometry, &openings, &near_side, lattice.step)?;
         }
         side.main = enters.unwrap_or_else(|| main_phase(&openings, |y| phase(near_side(y)), step));
         let width: f64 = openings.iter().map(|o| o.to - o.from).sum();
         let profile = |mean: f64, form| {
-            shape(form, (SIDES[number], &openings), [kinds[2 * along], kinds[2 * along + 1]])
+            shape(form, SIDES[number], &openings, [kinds[2 * along], kinds[2 * along + 1]])
                 .map(|shape| open::Drive::Velocity(Profile { mean, shape, openings: openings.clone() }))
         };
         side.drive = match given.drive {
@@ -78,7 +80,8 @@ pub(super) fn open_sides(
 /// Form of a profile over the openings of a side, between the sides of the kinds `ends`.
 fn shape(
     form: checked::Profile,
-    (side, openings): (&'static str, &[Opening]),
+    side: &'static str,
+    openings: &[Opening],
     ends: [Side; 2],
 ) -> Result<Shape, SetupError> {
     match (form, ends) {
@@ -93,7 +96,8 @@ fn shape(
 /// Whether solids at the side reach beyond it, as the walls of its buffer do.
 fn goes_on(
     side: &OpenSide,
-    (geometry, openings): (&Geometry, &[Opening]),
+    geometry: &Geometry,
+    openings: &[Opening],
     near_side: &dyn Fn(f64) -> Vec2,
     step: Vec2,
 ) -> Result<(), SetupError> {

@@ -6,20 +6,30 @@ use crate::geometry::Geometry;
 use crate::geometry::offset_curves::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::fill::{self, Interface, Lattice, Places, Region};
+use crate::sph::fill::{self, Interface, Lattice, Places, Region, Room};
 use crate::sph::method::Method;
 use crate::sph::packing::Packing;
 
+/// What is filled with particles.
+pub(super) struct Filling<'a> {
+    /// The pore.
+    pub geometry: &'a Geometry,
+    /// Box and sides.
+    pub domain: &'a Domain,
+    /// The lattice.
+    pub lattice: &'a Lattice,
+    /// Constants.
+    pub method: &'a Method,
+    /// The left, right, bottom and top side.
+    pub sides: [Side; 4],
+    /// Whether wall particles follow walls that the lattice does not fit.
+    pub fitted_walls: bool,
+}
+
 /// Where the particles stand: along walls and, with a `region` that one phase fills, along its interface, where the lattice does not fit these, and packed to
 /// them; `done` is told the share of the packing that is done, and without it nothing is packed.
-pub(super) fn places(
-    (geometry, domain): (&Geometry, &Domain),
-    region: Option<&Region>,
-    lattice: &Lattice,
-    (method, fitted_walls): (&Method, bool),
-    sides: [Side; 4],
-    done: Option<&mut dyn FnMut(f64)>,
-) -> Places {
+pub(super) fn places(filling: &Filling, region: Option<&Region>, done: Option<&mut dyn FnMut(f64)>) -> Places {
+    let &Filling { geometry, domain, lattice, method, sides, fitted_walls } = filling;
     let support = method.kernel.support();
     let signed_distance = |x| geometry.signed_distance(x);
     let walls = sides.map(|side| side == Side::Wall);
@@ -27,13 +37,13 @@ pub(super) fn places(
     let follows_walls = fitted_walls && !unfitted.is_empty();
     let mut places = if follows_walls {
         let pore_area = geometry.porosity().value * geometry.bounds().area();
-        fill::along_walls((lattice, domain), (support, walls), &unfitted, signed_distance, pore_area)
+        fill::along_walls(&Room { lattice, domain, support, walls }, &unfitted, signed_distance, pore_area)
     } else {
         fill::on_lattice(lattice, support, walls, signed_distance)
     };
     let interface = region.map(|region| Interface::new(region, geometry, lattice));
     let layers =
-        interface.as_ref().map(|interface| interface.make_room((lattice, domain), &mut places)).unwrap_or_default();
+        interface.as_ref().map(|interface| interface.make_room(lattice, domain, &mut places)).unwrap_or_default();
     if let Some(done) = done.filter(|_| follows_walls || !layers.is_empty()) {
         let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
         let held = places_of_sides(domain.bounds).into_iter().zip(sides);

@@ -30,7 +30,8 @@ pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], normal
 /// `r_ab(a, b)` in m. Zero where a particle is not `near` the interface.
 pub fn consistent_gradient(
     pairs: &Pairs,
-    (fluid_volume, near): (&[f64], &[bool]),
+    fluid_volume: &[f64],
+    near: &[bool],
     color: &[f64],
     r_ab: impl Fn(usize, usize) -> Vec2 + Sync,
     gradient: &mut [Vec2],

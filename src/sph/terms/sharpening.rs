@@ -49,8 +49,8 @@ pub struct Sharpening<'a> {
 }
 
 impl Sharpening<'_> {
-    /// Adds to `shift` (m) the way of strays across the interface. `h` in m, capillary speed in m/s, `dt` in s.
-    pub fn displace(&self, pairs: &Pairs, h: f64, (speed, dt): (f64, f64), shift: &mut [Vec2]) {
+    /// Adds to `shift` (m) the way of strays across the interface. `h` in m, capillary `speed` in m/s, `dt` in s.
+    pub fn displace(&self, pairs: &Pairs, h: f64, speed: f64, dt: f64, shift: &mut [Vec2]) {
         let mut back = vec![Vec2::zeros(); shift.len()];
         each(&mut back, |a| {
             let n = self.normal[a];
@@ -125,7 +125,7 @@ mod tests {
             wall_hysteresis: &vec![[f64::NAN; 2]; 256],
         };
         let mut shift = vec![Vec2::zeros(); points.len()];
-        strays.displace(&pairs, H, (1.0, 0.1), &mut shift);
+        strays.displace(&pairs, H, 1.0, 0.1, &mut shift);
         points.into_iter().zip(shift).collect()
     }
 

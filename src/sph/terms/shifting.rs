@@ -31,7 +31,7 @@ pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
 /// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m: grows steeply where two are nearer than dx (after Monaghan 2000, Lind et al. 2012).
 ///
 /// Sums of ∇C can be even over particles that touch in pairs or rows; this one is not. `w_of_spacing` = W(dx) in 1/m².
-pub fn anti_clustering(pairs: &Pairs, volume: &[f64], (strength, w_of_spacing): (f64, f64), push: &mut [Vec2]) {
+pub fn anti_clustering(pairs: &Pairs, volume: &[f64], strength: f64, w_of_spacing: f64, push: &mut [Vec2]) {
     pairs.sum_into(push, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w);
 }
 
@@ -39,7 +39,7 @@ pub fn anti_clustering(pairs: &Pairs, volume: &[f64], (strength, w_of_spacing): 
 ///
 /// The mean of short pushes drives particles from strained to calm places. The pressure must then bring fluid back, by a flow that is no flow
 /// of the liquid and goes through interfaces. `fluid_volume` in m², 0 on walls, over particles and images.
-pub fn take_out_mean((pairs, images): (&Pairs, &Images), fluid_volume: &[f64], push: &mut [Vec2]) {
+pub fn take_out_mean(pairs: &Pairs, images: &Images, fluid_volume: &[f64], push: &mut [Vec2]) {
     let mut all = push.to_vec();
     all.resize(pairs.rows(), Vec2::zeros());
     images.extend_reflected(&mut all);
@@ -61,7 +61,8 @@ pub fn shift(uneven: &[Vec2], diffusion: f64, h: f64, shift: &mut [Vec2]) {
 /// Beside a light fluid a heavy one takes hardly any of its velocity, as it takes no momentum from it; in one fluid the weight is 1.
 pub fn carried_velocity(
     pairs: &Pairs,
-    (volume, density): (&[f64], &[f64]),
+    volume: &[f64],
+    density: &[f64],
     velocity: &[Vec2],
     shift: &[Vec2],
     change: &mut [Vec2],

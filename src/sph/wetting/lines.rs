@@ -14,7 +14,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::wetting::{LineState, Wetting};
+use crate::wetting::Wetting;
+use crate::wetting::law::LineState;
 
 /// A line is looked for this far from where it was, over h: more than it moves in a step, less than lines are apart.
 const SAME_LINE: f64 = 1.5;
@@ -155,7 +156,7 @@ pub fn nearest<'l>(lines: &'l [Line], domain: &Domain, place: Vec2, outward: Vec
 mod tests {
     use super::*;
     use crate::math::Bounds;
-    use crate::sph::wetting::{Hysteresis, YoungForce};
+    use crate::wetting::{Hysteresis, Young};
 
     const H: f64 = 0.1;
 
@@ -205,7 +206,7 @@ mod tests {
     }
 
     fn with_hysteresis() -> Wetting {
-        Wetting::Hysteresis(Hysteresis { advancing: degrees(100.0), receding: degrees(60.0) })
+        Wetting::Hysteresis(Hysteresis { advancing_angle_deg: 100.0, receding_angle_deg: 60.0 })
     }
 
     #[test]
@@ -243,7 +244,7 @@ mod tests {
 
     #[test]
     fn the_speed_is_a_mean_over_time() {
-        let young = Wetting::Young(YoungForce { contact_angle: 1.0 });
+        let young = Wetting::Young(Young { contact_angle_deg: 57.0 });
         let at = |speed: f64| [Straight { x: 0.0, angle: 1.0, speed }];
         let mut lines = follow(young, 0.0, &[], &at(0.0), 0.0);
         for _ in 0..100 {

@@ -2,7 +2,7 @@
 
 use crate::math::Vec2;
 use crate::sph::method::Method;
-use crate::sph::wetting::Wetting;
+use crate::wetting::Wetting;
 
 /// A wall at a point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -3,22 +3,26 @@
 //! (cos θ_e − cos θ_d)/(cos θ_e + 1) = tanh(4.96 Ca^0.702), for lines that advance. A receding line takes the same change of the
 //! cosine with the other sign, which nobody has measured. It is the angle far from the line, as Kistler's is.
 
-use crate::sph::wetting::LineState;
+use super::law::{Law, LineState, Quantity, law};
 
-/// A static angle and Hoffman's curve.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Jiang {
-    /// Static angle θ_e in rad.
-    pub contact_angle: f64,
+law! {
+    /// Fit of Hoffman's data (Jiang, Oh and Slattery 1979).
+    pub struct Jiang {
+        /// Static contact angle in degrees.
+        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+    }
 }
 
-impl Jiang {
+impl Law for Jiang {
     /// Dynamic angle θ_d in rad [Jiang1979, Eq. 7].
-    #[must_use]
-    pub fn angle(&self, line: &LineState) -> f64 {
-        let (cos_e, capillary) = (self.contact_angle.cos(), line.capillary_number());
+    fn angle(&self, line: &LineState) -> f64 {
+        let (cos_e, capillary) = (self.static_angle().cos(), line.capillary_number());
         let change = (cos_e + 1.0) * (4.96 * capillary.abs().powf(0.702)).tanh();
         (cos_e - change.copysign(capillary)).clamp(-1.0, 1.0).acos()
+    }
+
+    fn static_angle(&self) -> f64 {
+        self.contact_angle_deg.to_radians()
     }
 }
 
@@ -28,7 +32,7 @@ mod tests {
 
     #[test]
     fn angles_are_the_published_ones() {
-        let model = Jiang { contact_angle: 46.8_f64.to_radians() };
+        let model = Jiang { contact_angle_deg: 46.8 };
         for (capillary, expected) in [(1e-4, 47.81), (1e-3, 51.75), (1e-2, 68.95)] {
             let line = LineState { present: 0.0, speed: capillary, tension: 1.0, viscosity: 1.0, length: 1.0 };
             let found = model.angle(&line).to_degrees();

@@ -7,24 +7,28 @@
 
 use std::f64::consts::PI;
 
-use crate::sph::wetting::LineState;
+use super::law::{Law, LineState, Quantity, law};
 
-/// A static angle and a slip length.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CoxVoinov {
-    /// Static angle θ_e in rad.
-    pub contact_angle: f64,
-    /// Slip length λ in m.
-    pub slip_length: f64,
+law! {
+    /// Viscous bending below the resolved scale (Voinov 1976; Cox 1986).
+    pub struct CoxVoinov {
+        /// Static contact angle in degrees.
+        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        /// Slip length of the liquid on its wall in m.
+        pub slip_length: Quantity::positive("a slip length in m", "slip-length = 1.0e-9 # m"),
+    }
 }
 
-impl CoxVoinov {
+impl Law for CoxVoinov {
     /// Dynamic angle θ_d in rad at the distance `line.length` from the line [Cox1986, Eq. 8.3 for small angles].
-    #[must_use]
-    pub fn angle(&self, line: &LineState) -> f64 {
+    fn angle(&self, line: &LineState) -> f64 {
         let decades = (line.length / self.slip_length).ln().max(0.0);
-        let cube = self.contact_angle.powi(3) + 9.0 * line.capillary_number() * decades;
+        let cube = self.static_angle().powi(3) + 9.0 * line.capillary_number() * decades;
         cube.max(0.0).cbrt().min(PI)
+    }
+
+    fn static_angle(&self) -> f64 {
+        self.contact_angle_deg.to_radians()
     }
 }
 
@@ -35,7 +39,7 @@ mod tests {
     #[test]
     fn angles_for_a_logarithm_of_ten_are_the_published_ones() {
         let length = 1.0e-4;
-        let model = CoxVoinov { contact_angle: 46.8_f64.to_radians(), slip_length: length / 10_f64.exp() };
+        let model = CoxVoinov { contact_angle_deg: 46.8, slip_length: length / 10_f64.exp() };
         for (capillary, expected) in [(1e-4, 47.06), (1e-3, 49.25), (1e-2, 64.78)] {
             let line = LineState { present: 0.0, speed: capillary, tension: 1.0, viscosity: 1.0, length };
             let found = model.angle(&line).to_degrees();

@@ -6,23 +6,27 @@
 
 use std::f64::consts::PI;
 
-use crate::sph::wetting::LineState;
+use super::law::{Law, LineState, Quantity, law};
 
-/// A static angle that moves along Hoffman's curve.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Kistler {
-    /// Static angle θ_e in rad.
-    pub contact_angle: f64,
+law! {
+    /// Fit of Hoffman's data (Kistler 1993; Hoffman 1975).
+    pub struct Kistler {
+        /// Static contact angle in degrees.
+        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+    }
 }
 
 /// Beyond this argument Hoffman's function is 180 degrees to rounding.
 const LARGEST_ARGUMENT: f64 = 1.0e3;
 
-impl Kistler {
+impl Law for Kistler {
     /// Dynamic angle θ_d in rad \[Kistler1993\].
-    #[must_use]
-    pub fn angle(&self, line: &LineState) -> f64 {
-        hoffman((line.capillary_number() + shift(self.contact_angle)).max(0.0))
+    fn angle(&self, line: &LineState) -> f64 {
+        hoffman((line.capillary_number() + shift(self.static_angle())).max(0.0))
+    }
+
+    fn static_angle(&self) -> f64 {
+        self.contact_angle_deg.to_radians()
     }
 }
 
@@ -49,7 +53,7 @@ mod tests {
 
     #[test]
     fn angles_are_the_published_ones() {
-        let model = Kistler { contact_angle: 46.8_f64.to_radians() };
+        let model = Kistler { contact_angle_deg: 46.8 };
         for (capillary, expected) in [(1e-4, 47.03), (1e-3, 49.04), (1e-2, 64.12)] {
             let line = LineState { present: 0.0, speed: capillary, tension: 1.0, viscosity: 1.0, length: 1.0 };
             let found = model.angle(&line).to_degrees();

@@ -1,0 +1,247 @@
+//! What a wetting law is: parameters with keys, units and ranges, and the angle that follows from them.
+//!
+//! The file of a law declares its parameters by `law!`, once. From that come the law, whose values are there and in range; its table in
+//! a case file (`raw`), in which every key is optional, so that one mistake does not hide another; the check that leads from the
+//! one to the other, and the way back. Parameters keep the units of their keys, angles in degrees and temperatures in °C; the report tells them
+//! in SI units and radians.
+
+use crate::input::{Checker, Problem, Range};
+
+/// What a law sees of a contact line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineState {
+    /// Angle in rad, through the wetting phase, at which the interface meets the wall where the line stands.
+    pub present: f64,
+    /// Speed U of the line in m/s relative to the wall, positive where the wetting phase advances.
+    pub speed: f64,
+    /// Interfacial tension σ_wn in N/m.
+    pub tension: f64,
+    /// Dynamic viscosity of the wetting phase in Pa s.
+    pub viscosity: f64,
+    /// Length in m over which the numerical method sees the angle: that of the circle fit, the smoothing length h.
+    pub length: f64,
+}
+
+impl LineState {
+    /// Ca = μ U/σ.
+    #[must_use]
+    pub fn capillary_number(&self) -> f64 {
+        self.viscosity * self.speed / self.tension
+    }
+}
+
+/// A wetting law. Angles are in rad, through the wetting phase.
+pub trait Law: Parameters {
+    /// The angle at which the interface is to meet the wall.
+    fn angle(&self, line: &LineState) -> f64;
+
+    /// The angle at rest; with hysteresis the one of equilibrium.
+    fn static_angle(&self) -> f64;
+
+    /// The angles between which a line at rest can stand: receding and advancing, equal but for a hysteresis range.
+    fn hysteresis_range(&self) -> [f64; 2] {
+        [self.static_angle(); 2]
+    }
+
+    /// Whether the line stays where it stands while its angle is within the hysteresis range.
+    fn holds(&self) -> bool {
+        false
+    }
+
+    /// Whether the angle depends on the speed of the line.
+    fn is_dynamic(&self) -> bool {
+        true
+    }
+
+    /// What is wrong with the parameters together, each of them in its range; the path is a key.
+    fn contradiction(&self) -> Option<Problem> {
+        None
+    }
+}
+
+/// A value in SI units and radians whose key has another unit.
+#[derive(Debug, Clone, Copy)]
+pub struct InSi {
+    /// Its name.
+    pub name: &'static str,
+    /// The value, from that of the key.
+    pub of: fn(f64) -> f64,
+}
+
+/// A number that a law is given: what its key may hold.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// What it is, with its article and its unit: `a slip length in m`.
+    pub what: &'static str,
+    /// Its line in a case file.
+    pub example: &'static str,
+    /// Where it must lie.
+    pub range: Range,
+    /// Its value where the case says nothing; without one the key is required.
+    pub default: Option<f64>,
+    /// In SI units and radians, where its key has another unit.
+    pub si: Option<InSi>,
+}
+
+impl Quantity {
+    /// A static contact angle.
+    pub const CONTACT_ANGLE: Self = Self::angle("contact_angle", "contact-angle-deg = 40.0");
+    /// An advancing contact angle.
+    pub const ADVANCING_ANGLE: Self = Self::angle("advancing", "advancing-angle-deg = 60.0");
+    /// A receding contact angle.
+    pub const RECEDING_ANGLE: Self = Self::angle("receding", "receding-angle-deg = 40.0");
+
+    /// An angle in degrees, 0 to 180; `name` is that of the angle in rad.
+    const fn angle(name: &'static str, example: &'static str) -> Self {
+        let si = Some(InSi { name, of: f64::to_radians });
+        Self { what: "an angle in degrees", example, range: Range::Within(0.0, 180.0), default: None, si }
+    }
+
+    /// A number above zero.
+    #[must_use]
+    pub const fn positive(what: &'static str, example: &'static str) -> Self {
+        Self { what, example, range: Range::Above(0.0), default: None, si: None }
+    }
+
+    /// The value at the key path `path`, where it is there and in range.
+    pub fn checked(&self, checker: &mut Checker, path: &str, value: Option<f64>) -> Option<f64> {
+        let value = value.or(self.default);
+        let value = checker.require(path, value, self.example);
+        checker.in_range(path, value, self.range, self.what)
+    }
+
+    /// Name and value in SI units and radians of what is the `value` of `field`.
+    #[must_use]
+    pub fn in_si(&self, field: &'static str, value: f64) -> (&'static str, f64) {
+        self.si.map_or((field, value), |si| (si.name, (si.of)(value)))
+    }
+}
+
+/// The parameters of a law as `law!` declares them.
+pub trait Parameters: Sized {
+    /// Its table in a case file.
+    type Raw;
+    /// What the law says and, in parentheses, who found it.
+    const ABOUT: &'static str;
+    /// Its fields and what they may hold.
+    const QUANTITIES: &'static [(&'static str, Quantity)];
+
+    /// The law, where all of its parameters are there and in range; `at` is the key path of the table.
+    fn checked(raw: &Self::Raw, checker: &mut Checker, at: &str) -> Option<Self>;
+
+    /// The table that says the same.
+    fn raw(&self) -> Self::Raw;
+
+    /// Sets the value of a key of the table.
+    fn set(raw: &mut Self::Raw, key: &str, value: Option<f64>);
+
+    /// The value of a key.
+    fn value(&self, key: &str) -> Option<f64>;
+}
+
+/// A key of a case file, from the name of its field.
+#[must_use]
+pub fn key(field: &str) -> String {
+    field.replace('_', "-")
+}
+
+/// The law whose parameters are there, in range and without a contradiction; `at` is the key path of its table.
+pub(super) fn checked<L: Law>(raw: &L::Raw, checker: &mut Checker, at: &str) -> Option<L> {
+    let law = L::checked(raw, checker, at)?;
+    if let Some(Problem { path, message, help }) = law.contradiction() {
+        checker.refuse(format!("{at}.{path}"), message, help);
+        return None;
+    }
+    Some(law)
+}
+
+/// The same law with other angles, by key, which stand in the table at the key path `at`.
+pub(super) fn with_angles<L: Law>(
+    law: &L,
+    checker: &mut Checker,
+    at: &str,
+    angles: &[(&str, Option<f64>)],
+) -> Option<L> {
+    let mut raw = law.raw();
+    for key in L::QUANTITIES.iter().map(|(field, _)| key(field)).filter(|key| is_angle(key)) {
+        let given = angles.iter().find(|(name, _)| *name == key);
+        L::set(&mut raw, &key, given.and_then(|(_, value)| *value));
+    }
+    checked(&raw, checker, at)
+}
+
+/// Whether a key is an angle: patches of walls have angles of their own, and the other parameters of the model.
+pub(super) fn is_angle(key: &str) -> bool {
+    key.ends_with("angle-deg")
+}
+
+/// Declares the parameters of a law: the comment on the law ends with its source in parentheses, those on its fields are the reference
+/// of the case file, and a field is followed by its [`Quantity`].
+macro_rules! law {
+    (
+        $(#[doc = $about:literal])+
+        pub struct $law:ident {
+            $($(#[doc = $doc:literal])+ pub $field:ident: $quantity:expr,)+
+        }
+    ) => {
+        $(#[doc = $about])+
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub struct $law {
+            $($(#[doc = $doc])+ pub $field: f64,)+
+        }
+
+        /// In SI units and radians, as the report tells it.
+        impl serde::Serialize for $law {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.collect_map([$($quantity.in_si(stringify!($field), self.$field),)+])
+            }
+        }
+
+        /// The table of the law in a case file.
+        pub mod raw {
+            $(#[doc = $about])+
+            #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+            #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+            pub struct $law {
+                $($(#[doc = $doc])+
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub $field: Option<f64>,)+
+            }
+        }
+
+        impl $crate::wetting::law::Parameters for $law {
+            type Raw = raw::$law;
+            const ABOUT: &'static str = concat!($($about),+);
+            const QUANTITIES: &'static [(&'static str, $crate::wetting::law::Quantity)] =
+                &[$((stringify!($field), $quantity),)+];
+
+            fn checked(raw: &Self::Raw, checker: &mut $crate::input::Checker, at: &str) -> Option<Self> {
+                $(let $field = $quantity.checked(
+                    checker,
+                    &format!("{at}.{}", $crate::wetting::law::key(stringify!($field))),
+                    raw.$field,
+                );)+
+                Some(Self { $($field: $field?,)+ })
+            }
+
+            fn raw(&self) -> Self::Raw {
+                raw::$law { $($field: Some(self.$field),)+ }
+            }
+
+            fn set(raw: &mut Self::Raw, key: &str, value: Option<f64>) {
+                match key.replace('-', "_").as_str() {
+                    $(stringify!($field) => raw.$field = value,)+
+                    _ => {}
+                }
+            }
+
+            fn value(&self, key: &str) -> Option<f64> {
+                match key.replace('-', "_").as_str() {
+                    $(stringify!($field) => Some(self.$field),)+
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+pub(super) use law;

@@ -1,0 +1,27 @@
+//! Friction of the contact line in proportion to its speed [BrochardWyart1992; deGennes1985].
+//!
+//! σ (cos θ_e − cos θ_d) = ζ U: what the unbalanced Young force does not spend on the fluid is spent at the line. The linear limit
+//! of the molecular kinetic theory, with ζ = k T/(κ_0 λ³). Beyond |U| = 2 σ/ζ the angle stays at 0 or 180 degrees.
+
+use super::law::{Law, LineState, Quantity, law};
+
+law! {
+    /// Contact line friction (Brochard-Wyart and de Gennes 1992).
+    pub struct LineFriction {
+        /// Static contact angle in degrees.
+        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        /// Friction coefficient `ζ` in Pa s: unbalanced Young force over line speed.
+        pub friction: Quantity::positive("a friction in Pa s", "friction = 0.05 # Pa s"),
+    }
+}
+
+impl Law for LineFriction {
+    /// Dynamic angle θ_d in rad \[BrochardWyart1992\].
+    fn angle(&self, line: &LineState) -> f64 {
+        (self.static_angle().cos() - self.friction * line.speed / line.tension).clamp(-1.0, 1.0).acos()
+    }
+
+    fn static_angle(&self) -> f64 {
+        self.contact_angle_deg.to_radians()
+    }
+}

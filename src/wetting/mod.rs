@@ -1,0 +1,209 @@
+//! Wetting models: the angle at which the interface is to meet a wall, given how the contact line moves.
+//!
+//! A law is a file: its parameters with keys, units and ranges, and its formula. It is named once more here, in the list of `laws!`,
+//! which makes the enum, the table `[sph.wetting]` or `[network.wetting]` of a case file, and the rows of `meniscus list`. Which part of a
+//! wall has which law is said by `case`; lines that last from step to step, and their forces, are in `sph::wetting`.
+
+mod bracke;
+mod cox_voinov;
+mod hysteresis;
+mod jiang;
+mod kistler;
+pub mod law;
+mod line_friction;
+mod molecular_kinetic;
+mod tadmor;
+#[cfg(test)]
+mod tests;
+mod young;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use bracke::Bracke;
+pub use cox_voinov::CoxVoinov;
+pub use hysteresis::Hysteresis;
+pub use jiang::Jiang;
+pub use kistler::Kistler;
+pub use line_friction::LineFriction;
+pub use molecular_kinetic::MolecularKinetic;
+pub use tadmor::Tadmor;
+pub use young::Young;
+
+use crate::input::Checker;
+use law::{Law, LineState, Parameters, Quantity, checked, is_angle, key, with_angles};
+
+/// Makes the models from the list of their tables.
+macro_rules! laws {
+    (
+        $(#[doc = $about:literal])+
+        pub struct $tables:ident {
+            $(pub $table:ident: $law:ident,)+
+            $(#[doc = $patches_about:literal])+
+            pub patches: Vec<Patch>,
+        }
+    ) => {
+        /// The wetting models.
+        #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum Wetting {
+            $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law),)+
+        }
+
+        $(#[doc = $about])+
+        #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+        #[schemars(rename = "RawWetting")]
+        pub struct $tables<Patch: Default> {
+            $(
+                #[doc = concat!("See [`", stringify!($law), "`].")]
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub $table: Option<<$law as Parameters>::Raw>,
+            )+
+            $(#[doc = $patches_about])+
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub patches: Option<Vec<Patch>>,
+        }
+
+        impl Wetting {
+            /// The angle in rad, through the wetting phase, at which the interface is to meet the wall.
+            #[must_use]
+            pub fn angle(&self, line: &LineState) -> f64 {
+                match self { $(Self::$law(law) => law.angle(line),)+ }
+            }
+
+            /// The static contact angle in rad; with hysteresis the one of equilibrium between both \[Tadmor2004\].
+            #[must_use]
+            pub fn static_angle(&self) -> f64 {
+                match self { $(Self::$law(law) => law.static_angle(),)+ }
+            }
+
+            /// The angles in rad between which a line at rest can stand: receding and advancing, equal but for a hysteresis range.
+            #[must_use]
+            pub fn hysteresis_range(&self) -> [f64; 2] {
+                match self { $(Self::$law(law) => law.hysteresis_range(),)+ }
+            }
+
+            /// Whether the line stays where it stands while its angle is within the range.
+            #[must_use]
+            pub fn holds(&self) -> bool {
+                match self { $(Self::$law(law) => law.holds(),)+ }
+            }
+
+            /// Whether the angle depends on the speed of the line.
+            #[must_use]
+            pub fn is_dynamic(&self) -> bool {
+                match self { $(Self::$law(law) => law.is_dynamic(),)+ }
+            }
+
+            /// The name of its table, its parameters and its source.
+            #[must_use]
+            pub fn table(&self) -> LawTable {
+                match self { $(Self::$law(_) => LawTable::of::<$law>(stringify!($table), stringify!($law)),)+ }
+            }
+
+            /// The parameter of a key, in the unit of that key; none where the model has no such key.
+            #[must_use]
+            pub fn parameter(&self, key: &str) -> Option<f64> {
+                match self { $(Self::$law(law) => law.value(key),)+ }
+            }
+
+            /// The same model with other angles, by key, which stand in the table at the key path `at`; none where these are missing
+            /// or wrong.
+            #[must_use]
+            pub fn with_angles(&self, checker: &mut Checker, at: &str, angles: &[(&str, Option<f64>)]) -> Option<Self> {
+                match self { $(Self::$law(law) => with_angles(law, checker, at, angles).map(Self::$law),)+ }
+            }
+        }
+
+        impl<Patch: Default> $tables<Patch> {
+            /// The keys of the tables that are there, those of patches aside.
+            #[must_use]
+            pub fn given(&self) -> Vec<String> {
+                let all = [$((stringify!($table), self.$table.is_some()),)+];
+                all.iter().filter(|(_, given)| *given).map(|(table, _)| key(table)).collect()
+            }
+
+            /// The model of the first table that is there; `at` is the key path of the tables. None where it is wrong.
+            #[must_use]
+            pub fn checked(&self, checker: &mut Checker, at: &str) -> Option<Wetting> {
+                $(if let Some(raw) = &self.$table {
+                    return checked(raw, checker, &format!("{at}.{}", key(stringify!($table)))).map(Wetting::$law);
+                })+
+                None
+            }
+
+            /// The table of a model.
+            #[must_use]
+            pub fn of(model: &Wetting, patches: Option<Vec<Patch>>) -> Self {
+                let mut all = Self { $($table: None,)+ patches };
+                match model { $(Wetting::$law(law) => all.$table = Some(law.raw()),)+ }
+                all
+            }
+        }
+
+        /// The tables of all laws.
+        #[must_use]
+        pub fn laws() -> Vec<LawTable> {
+            vec![$(LawTable::of::<$law>(stringify!($table), stringify!($law)),)+]
+        }
+    };
+}
+
+laws! {
+    /// Wetting models, exactly one of them, and parts of the walls that differ.
+    pub struct RawWetting {
+        pub young: Young,
+        pub tadmor: Tadmor,
+        pub line_friction: LineFriction,
+        pub molecular_kinetic: MolecularKinetic,
+        pub cox_voinov: CoxVoinov,
+        pub kistler: Kistler,
+        pub jiang: Jiang,
+        pub bracke: Bracke,
+        pub hysteresis: Hysteresis,
+        /// Parts of the walls with angles of their own, in the same model; later ones override earlier ones.
+        pub patches: Vec<Patch>,
+    }
+}
+
+impl Wetting {
+    /// Whether the angle depends on where the line stands only, not on its motion or its past.
+    #[must_use]
+    pub fn is_static(&self) -> bool {
+        !self.is_dynamic() && !self.holds()
+    }
+}
+
+/// What a law tells of its table in a case file.
+#[derive(Debug, Clone)]
+pub struct LawTable {
+    /// The key of the table: `cox-voinov`.
+    pub key: String,
+    /// The name of its type.
+    pub type_name: &'static str,
+    /// What the law says and, in parentheses, who found it.
+    pub about: &'static str,
+    /// Its keys and what they may hold.
+    pub keys: Vec<(String, Quantity)>,
+}
+
+impl LawTable {
+    fn of<L: Law>(table: &str, type_name: &'static str) -> Self {
+        let keys = L::QUANTITIES.iter().map(|(field, quantity)| (key(field), *quantity)).collect();
+        Self { key: key(table), type_name, about: L::ABOUT.trim(), keys }
+    }
+
+    /// The keys of its angles.
+    #[must_use]
+    pub fn angles(&self) -> Vec<&str> {
+        self.keys.iter().map(|(key, _)| key.as_str()).filter(|key| is_angle(key)).collect()
+    }
+
+    /// What the law says, and its source.
+    #[must_use]
+    pub fn what_and_source(&self) -> (&'static str, &'static str) {
+        let (what, source) = self.about.rsplit_once(" (").unwrap_or((self.about, ""));
+        (what, source.trim_end_matches(['.', ')']))
+    }
+}

@@ -1,0 +1,29 @@
+//! The unbalanced Young force (de Gennes 1985) as driving force of the contact line [Huber2013, Eq. 7].
+//!
+//! f = σ_ns − σ_ws − σ_wn cos α = σ_wn (cos θ − cos α): one angle, whatever the line does. Leaves out all that happens at the line
+//! below the scale of the fit; how fast the line moves is left to the slip of the wall.
+
+use super::law::{Law, LineState, Quantity, law};
+
+law! {
+    /// Static angle by the unbalanced Young force (de Gennes 1985; Huber et al. 2013, Eqs. 7 and 23).
+    pub struct Young {
+        /// Static contact angle in degrees.
+        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+    }
+}
+
+impl Law for Young {
+    /// θ: cos θ = (σ_ns − σ_ws)/σ_wn.
+    fn angle(&self, _: &LineState) -> f64 {
+        self.static_angle()
+    }
+
+    fn static_angle(&self) -> f64 {
+        self.contact_angle_deg.to_radians()
+    }
+
+    fn is_dynamic(&self) -> bool {
+        false
+    }
+}
