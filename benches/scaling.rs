@@ -13,7 +13,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use flow::flow;
-use meniscus::sph::projection::{Flow, PARTS};
+use meniscus::sph::flow::{Flow, PARTS};
 use mimalloc::MiMalloc;
 
 /// That of the program.
@@ -90,7 +90,7 @@ fn measure(size: f64, threads: usize) -> Vec<f64> {
         let (before, start) = (flow.work, Instant::now());
         advance(&mut flow, steps as usize);
         let wall = start.elapsed().as_secs_f64();
-        let particles = flow.particles.len() as f64;
+        let particles = flow.state.particles.len() as f64;
         let per_particle = |seconds: f64| 1e6 * seconds / (particles * steps);
         let parts = flow.work.seconds.iter().zip(before.seconds).map(|(after, before)| per_particle(after - before));
         let iterations = (flow.work.iterations - before.iterations) as f64 / steps;

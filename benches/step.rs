@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use criterion::{BatchSize, Criterion};
 use flow::flow;
-use meniscus::sph::projection::{Flow, PARTS};
+use meniscus::sph::flow::{Flow, PARTS};
 use rayon::ThreadPool;
 
 /// Steps before the clock starts: the lattice must have melted, as in a run.
@@ -75,7 +75,7 @@ fn print_row(density: f64) {
         let (before, start) = (flow.work, Instant::now());
         pool.install(|| advance(&mut flow, STEPS));
         let wall = start.elapsed().as_secs_f64();
-        let particles = flow.particles.len();
+        let particles = flow.state.particles.len();
         let per_particle = |seconds: f64| 1e6 * seconds / (particles * STEPS) as f64;
         print!("{:>7} {:>8} {:>8.3}", 1000.0 / density, pool.current_num_threads(), per_particle(wall));
         for (after, before) in flow.work.seconds.iter().zip(before.seconds) {

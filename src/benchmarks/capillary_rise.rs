@@ -4,9 +4,9 @@ use super::series::{extremum, pairs};
 use super::slit_filling::entry;
 use crate::math::Vec2;
 use crate::solver::Measure;
+use crate::sph::flow::Flow;
 use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
-use crate::sph::projection::Flow;
 
 /// Columns and measures of its table `[sph.measure.capillary-rise]`.
 pub const GROUP: Group = Group { columns, measures };

@@ -5,30 +5,30 @@ use std::f64::consts::TAU;
 use super::series::pairs;
 use crate::analysis::laws::waves::CapillaryWave;
 use crate::solver::Measure;
+use crate::sph::flow::Flow;
 use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
-use crate::sph::projection::Flow;
 
 /// Columns and measures of its table `[sph.measure.capillary-wave]`.
 pub const GROUP: Group = Group { columns, measures };
 
 /// Amplitude in m of the first Fourier mode along x of the area of the wetting phase, crest in the middle of the box.
 fn columns(flow: &Flow, _: &Observation) -> Columns {
-    let (bounds, fluids) = (flow.domain.bounds, flow.particles.fluids);
+    let (bounds, fluids) = (flow.setting.domain.bounds, flow.state.particles.fluids);
     let length = bounds.size().x;
     let mode = |a: usize| {
-        let x = flow.particles.position[a].x - bounds.center().x;
+        let x = flow.state.particles.position[a].x - bounds.center().x;
         flow.fields.volume[a] * (TAU * x / length).cos()
     };
-    let wetting = (0..fluids).filter(|&a| flow.particles.phase[a] == Phase::Wetting);
+    let wetting = (0..fluids).filter(|&a| flow.state.particles.phase[a] == Phase::Wetting);
     vec![("wave_amplitude_m", 2.0 / length * wetting.map(mode).sum::<f64>())]
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let m = &s.flow.method;
+    let m = &s.flow.setting.method;
     let wave = CapillaryWave {
-        length: s.flow.domain.bounds.size().x,
+        length: s.flow.setting.domain.bounds.size().x,
         tension: m.tension,
         density: m.wetting_fluid.density,
         viscosity: m.wetting_fluid.viscosity,

@@ -13,9 +13,9 @@ pub const GROUP: Group = Group::of(measures);
 const POINTS: usize = 400;
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (flow, bounds) = (s.flow, s.flow.domain.bounds);
+    let (flow, bounds) = (s.flow, s.flow.setting.domain.bounds);
     let lid = s.wall_speeds[3];
-    let velocity = &flow.particles.velocity[..flow.particles.fluids];
+    let velocity = &flow.state.particles.velocity[..flow.state.particles.fluids];
     let on_line = |axis: usize| {
         let at = |i: usize| {
             let mut x: Vec2 = bounds.center();

@@ -8,7 +8,7 @@ use crate::sph::measures::{Group, Subject, measure};
 pub const GROUP: Group = Group::of(measures);
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (Some(disc), Some(wetting)) = (s.discs.first(), s.flow.method.wetting) else { return vec![] };
+    let (Some(disc), Some(wetting)) = (s.discs.first(), s.flow.setting.method.wetting) else { return vec![] };
     let ends: Vec<_> = s.seen.lines_with_angle().collect();
     let half = match ends[..] {
         [a, b] => 0.5 * (a.position - disc.center).angle(&(b.position - disc.center)),

@@ -14,7 +14,7 @@ const BALANCED: f64 = 0.75;
 
 /// The angles at the wall and the balance of the forces along it.
 pub fn measures(s: &Subject) -> Vec<Measure> {
-    let (tension, series) = (s.flow.method.tension, s.series);
+    let (tension, series) = (s.flow.setting.method.tension, s.series);
     let model = "angle at which the wetting model asks the interface to meet the wall; mean over the last quarter of the records";
     let angles = ["advancing_wall_angle_deg", "receding_wall_angle_deg"].map(|column| last_mean(series, column));
     // A mean of cosines: a line that lets go now and then has not the cosine of its mean angle.
@@ -26,7 +26,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     let stream = force("stream_pressure_N_per_m") + force("stream_friction_N_per_m");
     let drag =
         force("drive_N_per_m") + force("wall_friction_N_per_m") + stream - rise(series, "drop_momentum_kg_per_m_s");
-    let static_angle = s.flow.method.wetting.map_or(f64::NAN, |model| model.static_angle());
+    let static_angle = s.flow.setting.method.wetting.map_or(f64::NAN, |model| model.static_angle());
     let retention = "tension times (cosine of the receding less that of the advancing angle), mean over the last three quarters of the time";
     vec![
         measure("advancing-wall-angle-deg", angles[0].0, "deg", Some(angles[0].1), model),

@@ -14,14 +14,14 @@ pub fn jurin_mean_height(width: f64, capillary_length: f64, angle: f64) -> f64 {
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (Some(plate), Some(wetting)) = (s.plates.first(), s.flow.method.wetting) else { return vec![] };
-    let (flow, bounds, m) = (s.flow, s.flow.domain.bounds, &s.flow.method);
+    let (Some(plate), Some(wetting)) = (s.plates.first(), s.flow.setting.method.wetting) else { return vec![] };
+    let (flow, bounds, m) = (s.flow, s.flow.setting.domain.bounds, &s.flow.setting.method);
     let widths = [plate.min.x - bounds.min.x, bounds.max.x - plate.max.x];
     let mut areas = [0.0; 2];
-    for a in 0..flow.particles.fluids {
-        let x = flow.particles.position[a];
+    for a in 0..flow.state.particles.fluids {
+        let x = flow.state.particles.position[a];
         // Below the plate the trough is one; its area says nothing of the levels.
-        if flow.particles.phase[a] == Phase::Wetting && x.y > plate.min.y {
+        if flow.state.particles.phase[a] == Phase::Wetting && x.y > plate.min.y {
             if x.x < plate.min.x {
                 areas[0] += flow.fields.volume[a];
             } else if x.x > plate.max.x {

@@ -14,28 +14,34 @@ pub const GROUP: Group = Group::of(measures);
 const LAST: f64 = 0.1;
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (flow, fluids) = (s.flow, s.flow.particles.fluids);
+    let (flow, fluids) = (s.flow, s.flow.state.particles.fluids);
     let colors = sharp_color(flow);
     let radius = (s.seen.areas.wetting / std::f64::consts::PI).sqrt();
     let samples = PressureSamples {
-        points: &flow.particles.position[..fluids],
-        pressures: &flow.particles.pressure[..fluids],
+        points: &flow.state.particles.position[..fluids],
+        pressures: &flow.state.particles.pressure[..fluids],
         colors: &colors,
-        smoothing_length: flow.method.kernel.h,
-        period: flow.domain.periods(),
+        smoothing_length: flow.setting.method.kernel.h,
+        period: flow.setting.domain.periods(),
     };
     let jump = laplace_jump(&samples, center(s), radius);
-    let scale = flow.method.tension / radius;
-    let from = flow.time * (1.0 - LAST);
+    let scale = flow.setting.method.tension / radius;
+    let from = flow.state.time * (1.0 - LAST);
     let speeds = s.series.column("time_s").zip(s.series.column("max_speed_m_per_s"));
     let speed = speeds.filter(|(time, _)| *time >= from).map(|(_, speed)| speed).fold(f64::NAN, f64::max);
-    let capillary = flow.method.wetting_fluid.viscosity * speed / flow.method.tension;
+    let capillary = flow.setting.method.wetting_fluid.viscosity * speed / flow.setting.method.tension;
     vec![
         measure(
             "laplace-jump-ratio",
             jump.mean / scale,
             "",
-            Some(jump.error.hypot(resolution_error(jump.mean, flow.method.tension, flow.method.kernel.h)) / scale),
+            Some(
+                jump.error.hypot(resolution_error(
+                    jump.mean,
+                    flow.setting.method.tension,
+                    flow.setting.method.kernel.h,
+                )) / scale,
+            ),
             "mean p over r < R - 3h less mean p over r > R + 3h, over tension/R with R from the drop's area",
         ),
         measure(
@@ -59,7 +65,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
 fn scatter(s: &Subject) -> f64 {
     let center = center(s);
     let points = s.seen.interface.iter().flat_map(|line| &line.points);
-    let radii: Vec<f64> = points.map(|x| s.flow.domain.separation(*x, center).norm()).collect();
+    let radii: Vec<f64> = points.map(|x| s.flow.setting.domain.separation(*x, center).norm()).collect();
     let mean = radii.iter().sum::<f64>() / radii.len() as f64;
     (radii.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / radii.len() as f64).sqrt() / mean
 }

@@ -9,8 +9,8 @@ use crate::sph::particles::Phase;
 pub const GROUP: Group = Group::of(measures);
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (flow, bounds, m) = (s.flow, s.flow.domain.bounds, &s.flow.method);
-    let p = &flow.particles;
+    let (flow, bounds, m) = (s.flow, s.flow.setting.domain.bounds, &s.flow.setting.method);
+    let p = &flow.state.particles;
     let height = bounds.size().y;
     let below = height * s.seen.areas.saturation();
     // A force per volume: the densities are equal, or the law does not hold.

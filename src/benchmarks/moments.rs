@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use crate::math::{Mat2, Vec2};
+use crate::sph::flow::Flow;
 use crate::sph::particles::Phase;
-use crate::sph::projection::Flow;
 
 /// Moments of an area.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,15 +51,15 @@ fn relative_difference(a: f64, b: f64) -> f64 {
 
 /// Positions in m of the wetting particles, joined across periodic sides: right for parts shorter than a period.
 fn wetting_points(flow: &Flow) -> Vec<Vec2> {
-    let fluids = flow.particles.fluids;
-    let wetting = |a: &usize| flow.particles.phase[*a] == Phase::Wetting;
-    let inside: Vec<Vec2> = (0..fluids).filter(wetting).map(|a| flow.particles.position[a]).collect();
-    let middle = Vec2::from_fn(|axis, _| match flow.domain.periods()[axis] {
+    let fluids = flow.state.particles.fluids;
+    let wetting = |a: &usize| flow.state.particles.phase[*a] == Phase::Wetting;
+    let inside: Vec<Vec2> = (0..fluids).filter(wetting).map(|a| flow.state.particles.position[a]).collect();
+    let middle = Vec2::from_fn(|axis, _| match flow.setting.domain.periods()[axis] {
         Some(period) => mean_on_circle(inside.iter().map(|x| x[axis]), period),
         None => 0.0,
     });
     // Points of a drop wider than half a period are still within half a period of its middle.
-    inside.into_iter().map(|x| middle + flow.domain.separation(x, middle)).collect()
+    inside.into_iter().map(|x| middle + flow.setting.domain.separation(x, middle)).collect()
 }
 
 /// The mean direction of coordinates that repeat with `period`, in m.

@@ -9,9 +9,9 @@ use super::moments::Moments;
 use super::series::pairs;
 use crate::analysis::laws::waves::OscillatingDrop;
 use crate::solver::Measure;
+use crate::sph::flow::Flow;
 use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
-use crate::sph::projection::Flow;
 
 /// Columns and measures of its table `[sph.measure.oscillating-drop]`.
 pub const GROUP: Group = Group { columns, measures };
@@ -27,7 +27,7 @@ pub(super) fn columns(flow: &Flow, _: &Observation) -> Columns {
 
 /// The drop at rest as the linear theory takes it; fluids that differ have no closed form here.
 pub(super) fn drop(s: &Subject) -> OscillatingDrop {
-    let m = &s.flow.method;
+    let m = &s.flow.setting.method;
     OscillatingDrop {
         radius: (s.seen.areas.wetting / PI).sqrt(),
         tension: m.tension,
@@ -41,7 +41,7 @@ pub(super) fn drop(s: &Subject) -> OscillatingDrop {
 /// The solution is fitted at the same times in the same way: beside its mode it has a part that decays as a power of time, by
 /// which the half periods of a viscous drop differ by some percent.
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (m, drop) = (&s.flow.method, drop(s));
+    let (m, drop) = (&s.flow.setting.method, drop(s));
     let inviscid = drop.frequency();
     let (times, values) = pairs(s.series, "elongation");
     let from = times.iter().position(|t| *t >= LEFT_OUT * TAU / inviscid).unwrap_or(times.len());

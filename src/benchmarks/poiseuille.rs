@@ -12,25 +12,25 @@ pub const GROUP: Group = Group::of(measures);
 
 /// The force per volume in N/m³ that drives the flow, and whether it does so from time zero on.
 fn force(s: &Subject) -> (f64, bool) {
-    let (flow, size) = (s.flow, s.flow.domain.bounds.size());
-    let fluid = flow.method.wetting_fluid;
-    let weight = fluid.density * flow.method.gravity.x;
-    let inlets = flow.open.sides.iter().chain(flow.open.through.iter().map(|through| &through.side));
+    let (flow, size) = (s.flow, s.flow.setting.domain.bounds.size());
+    let fluid = flow.setting.method.wetting_fluid;
+    let weight = fluid.density * flow.setting.method.gravity.x;
+    let inlets = flow.setting.open.sides.iter().chain(&flow.setting.open.through);
     for side in inlets {
         if let Drive::Velocity(profile) = &side.drive {
             return (12.0 * fluid.viscosity * profile.mean * side.inwards() / size.y.powi(2), false);
         }
     }
     let pressure = |number| {
-        let side = flow.open.sides.iter().find(|side| side.number == number);
+        let side = flow.setting.open.sides.iter().find(|side| side.number == number);
         side.and_then(OpenSide::given_pressure).unwrap_or(0.0)
     };
     (weight + (pressure(0) - pressure(1)) / size.x, true)
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (flow, bounds) = (s.flow, s.flow.domain.bounds);
-    let fluid = flow.method.wetting_fluid;
+    let (flow, bounds) = (s.flow, s.flow.setting.domain.bounds);
+    let fluid = flow.setting.method.wetting_fluid;
     let (force, starts_up) = force(s);
     let height = bounds.size().y;
     let law = Poiseuille {
@@ -38,14 +38,16 @@ fn measures(s: &Subject) -> Vec<Measure> {
         viscosity: fluid.viscosity,
         density: fluid.density,
         height,
-        slip_length: flow.method.no_slip.slip_length,
+        slip_length: flow.setting.method.no_slip.slip_length,
     };
     let (mut error, mut size) = (0.0, 0.0);
     // Least squares of u = a y (H − y) + c.
     let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
-    for (x, v) in flow.particles.position.iter().zip(&flow.particles.velocity).take(flow.particles.fluids) {
+    for (x, v) in
+        flow.state.particles.position.iter().zip(&flow.state.particles.velocity).take(flow.state.particles.fluids)
+    {
         let y = x.y - bounds.min.y;
-        let exact = if starts_up { law.at(y, flow.time) } else { law.steady(y) };
+        let exact = if starts_up { law.at(y, flow.state.time) } else { law.steady(y) };
         error += (v.x - exact).powi(2) + v.y.powi(2);
         size += exact * exact;
         let row = Vector2::new(y * (height - y), 1.0);

@@ -6,10 +6,10 @@ use super::moments::Moments;
 use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
 use crate::solver::Measure;
+use crate::sph::flow::Flow;
 use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
-use crate::sph::projection::Flow;
 
 /// Columns and measures of its table `[sph.measure.rising-bubble]`.
 pub const GROUP: Group = Group { columns, measures };
@@ -26,11 +26,11 @@ fn columns(flow: &Flow, seen: &Observation) -> Columns {
 
 /// Unit vector against gravity; along y without gravity.
 fn up(flow: &Flow) -> Vec2 {
-    (-flow.method.gravity).try_normalize(0.0).unwrap_or_else(Vec2::y)
+    (-flow.setting.method.gravity).try_normalize(0.0).unwrap_or_else(Vec2::y)
 }
 
 fn speed(flow: &Flow) -> f64 {
-    let p = &flow.particles;
+    let p = &flow.state.particles;
     let inside: Vec<Vec2> = (0..p.fluids).filter(|&a| p.phase[a] == Phase::Wetting).map(|a| p.velocity[a]).collect();
     inside.iter().sum::<Vec2>().dot(&up(flow)) / inside.len() as f64
 }

@@ -25,7 +25,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
             "largest distance of the c = 0.5 contour from the line through both contact points",
         ),
     ];
-    let more = if s.flow.method.gravity == Vec2::zeros() {
+    let more = if s.flow.setting.method.gravity == Vec2::zeros() {
         as_a_cap(s, (base, height))
     } else {
         under_gravity(s, (base, height))
@@ -51,7 +51,7 @@ fn extent(s: &Subject) -> (f64, f64) {
 
 /// Base and height (m) of a drop of either phase over those of the circular segment.
 fn as_a_cap(s: &Subject, (base, height): (f64, f64)) -> Vec<Measure> {
-    let through_wetting = s.flow.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
+    let through_wetting = s.flow.setting.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
     let is_wetting = s.seen.lines_with_angle().map(|line| line.curvature).sum::<f64>() > 0.0;
     let areas = &s.seen.areas;
     let exact = if is_wetting {
@@ -68,9 +68,9 @@ fn as_a_cap(s: &Subject, (base, height): (f64, f64)) -> Vec<Measure> {
 
 /// Base and height (m) of a drop on a level floor over those of the exact solution under gravity.
 fn under_gravity(s: &Subject, (base, height): (f64, f64)) -> Vec<Measure> {
-    let m = &s.flow.method;
+    let m = &s.flow.setting.method;
     let force = m.curvature_gradient();
-    let is_on_floor = |line: &ContactLine| -(s.flow.wall)(line.position).1.dot(&force.normalize()) > LEVEL;
+    let is_on_floor = |line: &ContactLine| -(s.flow.setting.wall)(line.position).1.dot(&force.normalize()) > LEVEL;
     let asked_for = m.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
     let exact = sessile_drop(s.seen.areas.wetting, force.norm().sqrt().recip(), asked_for);
     let exact = exact.filter(|_| s.seen.lines_with_angle().all(is_on_floor));

@@ -4,23 +4,23 @@ use super::series::pairs;
 use crate::analysis::laws::slit::SlitFilling;
 use crate::solver::Measure;
 use crate::sph::domain::ImageVelocity;
+use crate::sph::flow::Flow;
 use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 use crate::sph::open::OpenSide;
 use crate::sph::particles::Phase;
-use crate::sph::projection::Flow;
 
 /// Columns and measures of its table `[sph.measure.slit-filling]`.
 pub const GROUP: Group = Group { columns, measures };
 
 /// The side that the wetting phase comes in through: the first open one that it stands at or that it enters through.
 pub(super) fn entry(flow: &Flow) -> Option<&OpenSide> {
-    flow.open.sides.iter().find(|side| side.main == Phase::Wetting)
+    flow.setting.open.sides.iter().find(|side| side.main == Phase::Wetting)
 }
 
 /// Width of the domain across the slit in m.
 fn across(flow: &Flow, side: &OpenSide) -> f64 {
-    flow.domain.bounds.size()[1 - side.axis()]
+    flow.setting.domain.bounds.size()[1 - side.axis()]
 }
 
 /// `filled_length_m`: area of the wetting phase over the width.
@@ -31,15 +31,15 @@ fn columns(flow: &Flow, seen: &Observation) -> Columns {
 
 /// The exact law of the slit; none where the sides are not those of a slit.
 fn law(s: &Subject) -> Option<SlitFilling> {
-    let (flow, m) = (s.flow, &s.flow.method);
+    let (flow, m) = (s.flow, &s.flow.setting.method);
     let side = entry(flow)?;
-    let exit = flow.open.sides.iter().find(|other| other.number != side.number)?;
-    let is_half = flow.domain.mirrors.iter().any(|mirror| mirror.image == ImageVelocity::Mirrored);
+    let exit = flow.setting.open.sides.iter().find(|other| other.number != side.number)?;
+    let is_half = flow.setting.domain.mirrors.iter().any(|mirror| mirror.image == ImageVelocity::Mirrored);
     let width = across(flow, side) * if is_half { 2.0 } else { 1.0 };
     let capillary = 2.0 * m.tension * m.wetting?.static_angle().cos() / width;
     Some(SlitFilling {
         width,
-        length: flow.domain.bounds.size()[side.axis()],
+        length: flow.setting.domain.bounds.size()[side.axis()],
         pressure: capillary + side.given_pressure()? - exit.given_pressure()?,
         densities: [m.wetting_fluid.density, m.other_fluid.density],
         viscosities: [m.wetting_fluid.viscosity, m.other_fluid.viscosity],

@@ -1,9 +1,9 @@
 //! The exponent of a drop that spreads on a wall (C13 of the benchmarks; Tanner's law in the plane: 1/7).
 
 use crate::solver::Measure;
+use crate::sph::flow::Flow;
 use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
-use crate::sph::projection::Flow;
 
 /// Columns and measures of its table `[sph.measure.spreading]`.
 pub const GROUP: Group = Group { columns, measures };

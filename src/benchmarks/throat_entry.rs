@@ -10,7 +10,7 @@ use crate::sph::measures::{Group, Subject, measure};
 pub const GROUP: Group = Group::of(measures);
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (tension, h) = (s.flow.method.tension, s.flow.method.kernel.h);
+    let (tension, h) = (s.flow.setting.method.tension, s.flow.setting.method.kernel.h);
     let found = &s.seen.capillary_pressure;
     let pressure = measure(
         "entry-pressure-Pa",
@@ -19,7 +19,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
         Some(found.uncertainty(tension, h)),
         "capillary pressure p_n - p_w at the end: the entry pressure where the invading phase fills up to its meniscus of largest curvature",
     );
-    let ([a, b], Some(wetting)) = (s.discs, s.flow.method.wetting) else { return vec![pressure] };
+    let ([a, b], Some(wetting)) = (s.discs, s.flow.setting.method.wetting) else { return vec![pressure] };
     let distance = (b.center - a.center).norm();
     // The phase of the larger pressure is the one that invades; the angle is that through the other one.
     let angle = wetting.static_angle();

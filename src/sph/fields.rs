@@ -1,14 +1,17 @@
 //! What follows from the positions: volumes, densities, normals, curvature and the forces of interface and lines.
 //!
-//! Everything here is a function of the particles alone, so that a resumed run finds the same bits.
+//! Everything here is a function of setting and state alone, so that a resumed run finds the same bits.
 
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
-use crate::sph::domain::{Domain, WallQuery};
+use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::method::Method;
-use crate::sph::pairs::{GRAIN, Pairs, each};
+use crate::sph::neighborhood::Neighborhood;
+use crate::sph::pairs::{GRAIN, each};
 use crate::sph::particles::{Particles, Phase};
+use crate::sph::setting::Setting;
+use crate::sph::state::FlowState;
 use crate::sph::surface_force::SurfaceForce;
 use crate::sph::surface_force::fit::InterfaceFit;
 use crate::sph::surface_force::jump::Jump;
@@ -17,34 +20,8 @@ use crate::sph::surface_force::stencils::Interface;
 use crate::sph::terms::{color, curvature, density, pressure_gradient, surface_tension};
 use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
 use crate::sph::wetting::lines::{DetectedLine, Following, LINE_REACH, Line, nearest};
-use crate::sph::wetting::wall::WallSpots;
 
 use rayon::prelude::*;
-
-/// The particles, and what lies around each of them.
-#[derive(Clone, Copy)]
-pub struct Neighborhood<'a> {
-    /// The particles.
-    pub particles: &'a Particles,
-    /// Pairs within the support of the kernel.
-    pub pairs: &'a Pairs,
-    /// Images of the particles beyond periodic and mirror sides.
-    pub images: &'a Images,
-}
-
-/// Where the interface is in space: sides, walls, what they are made of, and the contact lines of the step before.
-pub struct Place<'a> {
-    /// Box and sides.
-    pub domain: &'a Domain,
-    /// Wall distance and normal.
-    pub wall: &'a WallQuery,
-    /// Wetting models and velocities of walls.
-    pub spots: &'a WallSpots,
-    /// The contact lines of the step before.
-    pub lines_before: &'a [Line],
-    /// How long ago that was in s.
-    pub dt: f64,
-}
 
 /// Fields over particles and images; forces over fluid particles only.
 #[derive(Debug, Clone, Default)]
@@ -87,16 +64,38 @@ pub struct Fields {
     pub lines: Vec<Line>,
     /// Receding and advancing angle in rad of the wall next to each fluid particle, NaN where none is in reach.
     pub wall_hysteresis: Vec<[f64; 2]>,
+    /// Normal of the wall nearest to each wall particle, into the fluid. Walls rest: found once, as their curvature.
+    pub wall_facing: Vec<Vec2>,
+    /// Curvature in 1/m of the wall nearest to each wall particle, positive where the solid is convex; 0 at edges.
+    pub wall_curvature: Vec<f64>,
 }
 
 impl Fields {
+    /// All fields but those of the wall particles.
+    pub fn update(&mut self, setting: &Setting, state: &FlowState, neighborhood: &Neighborhood) {
+        self.update_bulk(setting, &state.particles, neighborhood);
+        self.update_interface(setting, state, neighborhood);
+    }
+
+    /// Finds where each wall particle faces and how its wall bends.
+    pub fn face_walls(&mut self, setting: &Setting, particles: &Particles) {
+        let walls = &particles.position[particles.moving()..];
+        self.wall_facing = walls.iter().map(|&x| (setting.wall)(x).1).collect();
+        self.wall_curvature = walls.iter().map(|&x| setting.curvature_of_wall(x)).collect();
+    }
+
+    /// Where each wall particle and its images face; zero on the `moving` particles before them.
+    #[must_use]
+    pub fn facing(&self, moving: usize, images: &Images) -> Vec<Vec2> {
+        let mut facing = vec![Vec2::zeros(); moving];
+        facing.extend_from_slice(&self.wall_facing);
+        images.extend_reflected(&mut facing);
+        facing
+    }
+
     /// Volumes and densities [Huber2013, Eq. 17], viscosities and wall distances.
-    pub fn update_bulk(
-        &mut self,
-        Neighborhood { particles, pairs, images }: Neighborhood,
-        method: &Method,
-        wall: impl Fn(Vec2) -> (f64, Vec2) + Sync,
-    ) {
+    fn update_bulk(&mut self, setting: &Setting, particles: &Particles, neighborhood: &Neighborhood) {
+        let (Neighborhood { pairs, images }, Setting { method, wall, .. }) = (neighborhood, setting);
         let (n, fluids, moving) = (particles.len(), particles.fluids, particles.moving());
         // Buffer particles see no neighbors beyond the far end: they have the volume of the lattice.
         self.volume.resize(n, 0.0);
@@ -130,8 +129,8 @@ impl Fields {
     }
 
     /// Normals, curvature and the forces of interface and contact lines [Huber2013, Eqs. 18-23].
-    pub fn update_interface(&mut self, neighborhood: Neighborhood, method: &Method, place: &Place) {
-        let Neighborhood { particles, pairs, images } = neighborhood;
+    fn update_interface(&mut self, setting: &Setting, state: &FlowState, neighborhood: &Neighborhood) {
+        let (Neighborhood { pairs, images }, method, particles) = (neighborhood, &setting.method, &state.particles);
         let (n, fluids) = (particles.len(), particles.fluids);
         for field in [&mut self.surface_force, &mut self.line_force] {
             field.clear();
@@ -164,12 +163,12 @@ impl Fields {
         color::smoothed_color(pairs, &self.fluid_volume, &sharp, &self.mixed, &mut self.color);
         images.extend(&mut self.color);
         match method.surface_force {
-            SurfaceForce::Csf(delta) => self.continuum_forces(neighborhood, method, delta, place),
+            SurfaceForce::Csf(delta) => self.continuum_forces(setting, state, neighborhood, delta),
             SurfaceForce::PressureJump { curvature } => {
-                self.pressure_jump(neighborhood, &sharp, method, curvature, place);
+                self.pressure_jump(setting, state, neighborhood, &sharp, curvature);
             }
         }
-        self.slip_near_lines(particles, method, place.domain);
+        self.slip_near_lines(particles, method, &setting.domain);
     }
 
     /// Gives walls near contact lines the slip length of lines.
@@ -186,11 +185,13 @@ impl Fields {
     /// The paper's forces: normals and curvature in a band, surface force and line force [Huber2013, Eqs. 18-23].
     fn continuum_forces(
         &mut self,
-        Neighborhood { particles, pairs, images }: Neighborhood,
-        method: &Method,
+        setting: &Setting,
+        state: &FlowState,
+        neighborhood: &Neighborhood,
         delta: LineDelta,
-        place: &Place,
     ) {
+        let (Neighborhood { pairs, images }, Setting { method, domain, .. }) = (neighborhood, setting);
+        let particles = &state.particles;
         let (fluids, moving) = (particles.fluids, particles.moving());
         color::color_gradient(pairs, &self.fluid_volume, &self.color, &mut self.normal[..moving]);
         images.extend_reflected(&mut self.normal);
@@ -213,9 +214,9 @@ impl Fields {
             weight: &weight,
         };
         let found = LineParticles::find((pairs, images), &fields, &method.kernel, fluids);
-        let seen = found.detected_lines(&fields, place.domain);
+        let seen = found.detected_lines(&fields, domain);
         self.contact_lines = found.count();
-        self.lines = place.follow(method, &seen);
+        self.lines = follow(setting, state, &seen);
         let angles: Vec<f64> = self.lines.iter().map(|line| line.angle).collect();
         found.line_force(&fields, delta, (&angles, method.tension), &mut self.line_force);
     }
@@ -224,15 +225,17 @@ impl Fields {
     /// `sharp` is the color of each particle and image, 0 or 1.
     fn pressure_jump(
         &mut self,
-        Neighborhood { particles, pairs, images }: Neighborhood,
+        setting: &Setting,
+        state: &FlowState,
+        neighborhood: &Neighborhood,
         sharp: &[f64],
-        method: &Method,
         given: Option<f64>,
-        place: &Place,
     ) {
+        let (Neighborhood { pairs, images }, Setting { method, domain, .. }) = (neighborhood, setting);
+        let particles = &state.particles;
         let (fluids, moving) = (particles.fluids, particles.moving());
-        let (position, domain) = (&particles.position, place.domain);
-        let r_ab = |a: usize, b: usize| domain.separation(position[a], images.position(b, position));
+        let position = &particles.position;
+        let r_ab = |a: usize, b: usize| neighborhood.separation(a, b, position, domain);
         let (normal, mixed) = (&mut self.normal[..moving], &self.mixed);
         let mut near = vec![false; moving];
         each(&mut near, |a| {
@@ -256,18 +259,18 @@ impl Fields {
         };
         let lengths = (method.spacing, method.kernel.h);
         let points = interface_points((pairs, images), domain, &fields, moving, lengths);
-        let interface = Interface::new(&points, domain, lengths, place.wall).under(method.curvature_gradient());
+        let interface = Interface::new(&points, domain, lengths, &setting.wall).under(method.curvature_gradient());
         let mut pinned = Vec::new();
         if method.wetting.is_some() {
             let seen = interface.lines();
             self.contact_lines = seen.len();
-            self.lines = place.follow(method, &seen);
+            self.lines = follow(setting, state, &seen);
             pinned.extend(seen.iter().zip(&self.lines).filter_map(|(line, now)| line.pinned(now.angle)));
         }
         let lines = &self.lines;
         let angle_at = |x: Vec2, outward: Vec2| {
             // Without a model this is not asked for.
-            let Some(model) = place.spots.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
+            let Some(model) = setting.spots.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
             let line =
                 if model.is_static() { None } else { nearest(lines, domain, x, outward, LINE_REACH * lengths.1) };
             line.map_or_else(|| model.static_angle(), |line| line.angle)
@@ -287,29 +290,28 @@ impl Fields {
         }
         self.jump = Some(jump);
         let range = |a: usize| {
-            let model = if self.wall_distance[a].is_finite() { place.spots.model(method, position[a]) } else { None };
+            let model = if self.wall_distance[a].is_finite() { setting.spots.model(method, position[a]) } else { None };
             model.map_or([f64::NAN; 2], |model| model.hysteresis_range())
         };
         self.wall_hysteresis = (0..fluids).map(range).collect();
     }
 }
 
-impl Place<'_> {
-    /// The contact lines now, from those of the step before and from what is `seen` of them.
-    fn follow(&self, method: &Method, seen: &[impl DetectedLine]) -> Vec<Line> {
-        let Some(base) = method.wetting else { return Vec::new() };
-        let (h, viscosity) = (method.kernel.h, method.wetting_fluid.viscosity);
-        // Nothing happens at a line faster than an interface of the size h moves.
-        let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
-        let following = Following {
-            domain: self.domain,
-            model: &|x| self.spots.model(method, x).unwrap_or(base),
-            wall_velocity: &|x| self.spots.velocity(x),
-            tension: method.tension,
-            viscosity,
-            h,
-            mean_over,
-        };
-        following.follow(self.lines_before, seen, self.dt)
-    }
+/// The contact lines now, from those of the step before and from what is `seen` of them.
+fn follow(setting: &Setting, state: &FlowState, seen: &[impl DetectedLine]) -> Vec<Line> {
+    let Setting { method, domain, spots, .. } = setting;
+    let Some(base) = method.wetting else { return Vec::new() };
+    let (h, viscosity) = (method.kernel.h, method.wetting_fluid.viscosity);
+    // Nothing happens at a line faster than an interface of the size h moves.
+    let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
+    let following = Following {
+        domain,
+        model: &|x| spots.model(method, x).unwrap_or(base),
+        wall_velocity: &|x| spots.velocity(x),
+        tension: method.tension,
+        viscosity,
+        h,
+        mean_over,
+    };
+    following.follow(&state.lines, seen, state.last_dt)
 }

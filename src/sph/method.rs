@@ -165,6 +165,13 @@ impl Method {
         self.density_error_correction / tau * (fastest * tau / (FULL_CORRECTION_WAY * self.spacing)).min(1.0)
     }
 
+    /// The background pressure p_0 in Pa for a fluid whose largest speed is `speed` (m/s).
+    #[must_use]
+    pub fn background_pressure_at(&self, speed: f64) -> f64 {
+        let scale = if self.tension > 0.0 { self.tension / self.kernel.h } else { self.mean_density() * speed * speed };
+        self.background_pressure * scale
+    }
+
     /// ∇κ = (ρ_w − ρ_n) g/σ in 1/m² of an interface at rest, κ positive where the wetting phase is convex (Young and Laplace).
     #[must_use]
     pub fn curvature_gradient(&self) -> Vec2 {

@@ -1,6 +1,7 @@
 //! Incompressible SPH for two fluids with partial wetting, after Huber et al. 2013.
 //!
-//! `projection` decides the order of a step, `terms` holds the equations, `fields` what follows from the positions.
+//! [`flow::Flow`] is the whole, by its parts: `setting`, `state`, `neighborhood`, `fields`. `projection` decides the order of a step, `terms`
+//! holds the equations.
 
 pub mod boundary;
 mod cells;
@@ -9,11 +10,13 @@ pub mod conjugate_gradients;
 pub mod domain;
 pub mod fields;
 pub mod fill;
+pub mod flow;
 pub mod images;
 pub mod kernel;
 pub mod measures;
 pub mod method;
 mod motion;
+pub mod neighborhood;
 pub mod observe;
 pub mod open;
 mod output;
@@ -22,6 +25,7 @@ pub mod pairs;
 pub mod particles;
 pub mod poisson;
 pub mod projection;
+pub mod setting;
 pub mod setup;
 pub mod solver;
 pub mod stages;

@@ -1,11 +1,12 @@
 //! The end of a step: particles move, keep their order and stay out of walls.
 
 use crate::math::Vec2;
-use crate::solver::{SolverError, StepInfo};
-use crate::sph::open::Moved;
+use crate::solver::SolverError;
+use crate::sph::flow::Flow;
 use crate::sph::pairs::largest;
 use crate::sph::particles::Phase;
-use crate::sph::projection::{Flow, Predicted, Response};
+use crate::sph::projection::{Corrected, Predicted, keep_flow_rates};
+use crate::sph::setting::Setting;
 use crate::sph::terms::sharpening::Sharpening;
 use crate::sph::terms::shifting;
 
@@ -24,54 +25,54 @@ pub(super) fn relative_speed(velocity: &[Vec2]) -> f64 {
     largest(velocity.len(), |a| (velocity[a] - mean).norm()).map_or(0.0, |l| l.1)
 }
 
+/// Where the particles of fluid and buffers are at the end of a step.
+pub(super) struct Motion {
+    /// Position in m.
+    pub(super) position: Vec<Vec2>,
+    /// Velocity in m/s.
+    pub(super) velocity: Vec<Vec2>,
+    /// Particles set back from a wall.
+    pub(super) set_back: u64,
+}
+
 impl Flow {
-    /// Moves the particles with the new velocity, and by `drift` (m), if there is any, which takes density errors back and leaves velocities
-    /// alone; `responses` are those of given flows. The mean of old and new velocity [Huber2013, Eq. 27] would feed every swing that viscosity does not damp (docs/numerics/forces.md).
-    pub(super) fn advance(
-        &mut self,
-        predicted: &Predicted,
-        mut velocity: Vec<Vec2>,
-        drift: &[Vec2],
-        responses: &[Response],
-        until: f64,
-    ) -> Result<(), SolverError> {
-        let (fluids, moving, dt) = (self.particles.fluids, self.particles.moving(), predicted.dt);
+    /// Moves the particles with the new velocity, and by the drift, if there is any, which takes density errors back and leaves velocities
+    /// alone. The mean of old and new velocity [Huber2013, Eq. 27] would feed every swing that viscosity does not damp (docs/numerics/forces.md).
+    ///
+    /// # Errors
+    /// [`SolverError::BlowUp`] where a particle would go too far.
+    pub(super) fn moved(&self, predicted: &Predicted, corrected: &Corrected) -> Result<Motion, SolverError> {
+        let Corrected { drift, responses, .. } = corrected;
+        let (setting, old) = (&self.setting, &self.state.particles.position);
+        let mut velocity = corrected.velocity.clone();
+        let (fluids, moving, dt) = (self.state.particles.fluids, self.state.particles.moving(), predicted.dt);
         let mut position = Vec::with_capacity(moving);
         for (a, v) in velocity.iter().enumerate() {
             let by = dt * v;
-            if !(by.norm() <= LARGEST_MOVE * self.method.kernel.h) {
-                let phase = if self.particles.phase[a] == Phase::Wetting { "wetting" } else { "non-wetting" };
+            if !(by.norm() <= LARGEST_MOVE * self.setting.method.kernel.h) {
+                let phase = if self.state.particles.phase[a] == Phase::Wetting { "wetting" } else { "non-wetting" };
                 return Err(SolverError::BlowUp {
                     what: format!("a {phase} particle reached {:.3e} m/s", v.norm()),
-                    time: self.time,
-                    step: self.steps,
-                    place: self.particles.position[a],
+                    time: self.state.time,
+                    step: self.state.steps,
+                    place: self.state.particles.position[a],
                 });
             }
-            position.push(self.domain.wrapped(self.particles.position[a] + by));
+            position.push(self.setting.domain.wrapped(self.state.particles.position[a] + by));
         }
         self.shift(dt, &mut position[..fluids], &mut velocity);
         for (x, by) in position.iter_mut().zip(drift) {
-            *x = self.domain.wrapped(*x + by);
+            *x = self.setting.domain.wrapped(*x + by);
         }
-        self.keep_flow_rates(responses, dt, &mut position[..fluids]);
-        self.set_back_from_walls(&mut position[..fluids], &mut velocity[..fluids]);
-        for through in &mut self.open.through {
-            let (old, phase) = (&self.particles.position[..fluids], &mut self.particles.phase[..fluids]);
-            let moved = Moved { from: old, to: &position[..fluids], volume: self.method.volume, dt };
-            through.pass(&self.domain, &moved, phase, &mut self.open.ledger);
-        }
-        self.particles.position[..moving].copy_from_slice(&position);
-        self.particles.velocity[..moving].copy_from_slice(&velocity);
-        self.time = if dt >= until - self.time { until } else { self.time + dt };
-        self.steps += 1;
-        self.last = StepInfo { dt, limit: predicted.limit };
-        Ok(())
+        keep_flow_rates(setting, responses, dt, &old[..fluids], &mut position[..fluids]);
+        let wall_distance = &self.fields.wall_distance;
+        let set_back = set_back(setting, wall_distance, &mut position[..fluids], &mut velocity[..fluids]);
+        Ok(Motion { position, velocity, set_back })
     }
 
     /// Shifts crowded particles apart, and strays back across the interface; they carry their velocity along.
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
-        let (fluids, m, f) = (self.particles.fluids, &self.method, &self.fields);
+        let (fluids, m, f) = (self.state.particles.fluids, &self.setting.method, &self.fields);
         let diffusion = m.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
         let mut by = vec![Vec2::zeros(); fluids];
         if diffusion > 0.0 {
@@ -87,17 +88,17 @@ impl Flow {
                 weight: (m.wetting_fluid.density - m.other_fluid.density) / m.mean_density() * m.gravity,
                 wall_hysteresis: &f.wall_hysteresis,
             };
-            strays.displace(&self.pairs, m.kernel.h, m.capillary_speed(), dt, &mut by);
+            strays.displace(&self.neighborhood.pairs, m.kernel.h, m.capillary_speed(), dt, &mut by);
         } else if diffusion == 0.0 {
             return;
         }
         let mut change = vec![Vec2::zeros(); fluids];
         let mut all = velocity.to_vec();
-        all.extend_from_slice(&self.particles.velocity[self.particles.moving()..]);
-        self.images.extend_velocity(&mut all);
-        shifting::carried_velocity(&self.pairs, &f.volume, &f.density, &all, &by, &mut change);
+        all.extend_from_slice(&self.state.particles.velocity[self.state.particles.moving()..]);
+        self.neighborhood.images.extend_velocity(&mut all);
+        shifting::carried_velocity(&self.neighborhood.pairs, &f.volume, &f.density, &all, &by, &mut change);
         for a in 0..fluids {
-            position[a] = self.domain.wrapped(position[a] + by[a]);
+            position[a] = self.setting.domain.wrapped(position[a] + by[a]);
             velocity[a] += change[a];
         }
     }
@@ -105,53 +106,62 @@ impl Flow {
     /// ∇C of the fluid particles, near the interface its part along that, and the anti-clustering force, less their mean, in 1/m: what
     /// shifting goes down.
     fn uneven(&self) -> Vec<Vec2> {
-        let (m, f) = (&self.method, &self.fields);
-        let mut uneven = vec![Vec2::zeros(); self.particles.fluids];
-        shifting::concentration_gradient(&self.pairs, &f.volume, &mut uneven);
+        let (m, f) = (&self.setting.method, &self.fields);
+        let mut uneven = vec![Vec2::zeros(); self.state.particles.fluids];
+        shifting::concentration_gradient(&self.neighborhood.pairs, &f.volume, &mut uneven);
         if f.jump.is_some() {
             shifting::keep_along(&f.normal, m.kernel.h, &mut uneven);
         }
         if m.anti_clustering > 0.0 {
-            let mut push = vec![Vec2::zeros(); self.particles.fluids];
-            shifting::anti_clustering(&self.pairs, &f.volume, m.anti_clustering, m.kernel.w(m.spacing), &mut push);
-            shifting::take_out_mean(&self.pairs, &self.images, &f.fluid_volume, &mut push);
+            let mut push = vec![Vec2::zeros(); self.state.particles.fluids];
+            shifting::anti_clustering(
+                &self.neighborhood.pairs,
+                &f.volume,
+                m.anti_clustering,
+                m.kernel.w(m.spacing),
+                &mut push,
+            );
+            shifting::take_out_mean(&self.neighborhood.pairs, &self.neighborhood.images, &f.fluid_volume, &mut push);
             uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
         }
         uneven
     }
+}
 
-    fn set_back_from_walls(&mut self, position: &mut [Vec2], velocity: &mut [Vec2]) {
-        let closest = CLOSEST_TO_WALL * self.method.spacing;
-        let reach = closest + LARGEST_MOVE * self.method.kernel.h;
-        for a in 0..position.len() {
-            if self.fields.wall_distance[a] < reach {
-                for pass in 0..SET_BACKS {
-                    let (distance, normal) = (self.wall)(position[a]);
-                    if distance >= closest {
-                        break;
-                    }
-                    position[a] = self.domain.wrapped(position[a] + (closest - distance) * normal);
-                    velocity[a] -= velocity[a].dot(&normal).min(0.0) * normal;
-                    self.work.set_back += u64::from(pass == 0);
+/// Sets the fluid particles that came too near to walls or sides back to them, and counts them; `wall_distance` (m) is that before the step.
+fn set_back(setting: &Setting, wall_distance: &[f64], position: &mut [Vec2], velocity: &mut [Vec2]) -> u64 {
+    let mut count = 0;
+    let closest = CLOSEST_TO_WALL * setting.method.spacing;
+    let reach = closest + LARGEST_MOVE * setting.method.kernel.h;
+    for a in 0..position.len() {
+        if wall_distance[a] < reach {
+            for pass in 0..SET_BACKS {
+                let (distance, normal) = (setting.wall)(position[a]);
+                if distance >= closest {
+                    break;
                 }
-            }
-        }
-        // Out of an inlet with a given velocity nothing flows: what shifting brings there is set back.
-        for side in self.open.sides.iter().filter(|side| side.given_pressure().is_none()) {
-            for x in position.iter_mut().filter(|x| side.beyond(**x) > -closest) {
-                *x = side.placed(*x, -closest);
-                self.work.set_back += 1;
-            }
-        }
-        for mirror in &self.domain.mirrors {
-            let inwards = (self.domain.bounds.center()[mirror.axis] - mirror.at).signum();
-            for x in position.iter_mut() {
-                let depth = inwards * (x[mirror.axis] - mirror.at);
-                if depth < closest {
-                    x[mirror.axis] = mirror.at + inwards * closest;
-                    self.work.set_back += 1;
-                }
+                position[a] = setting.domain.wrapped(position[a] + (closest - distance) * normal);
+                velocity[a] -= velocity[a].dot(&normal).min(0.0) * normal;
+                count += u64::from(pass == 0);
             }
         }
     }
+    // Out of an inlet with a given velocity nothing flows: what shifting brings there is set back.
+    for side in setting.open.sides.iter().filter(|side| side.given_pressure().is_none()) {
+        for x in position.iter_mut().filter(|x| side.beyond(**x) > -closest) {
+            *x = side.placed(*x, -closest);
+            count += 1;
+        }
+    }
+    for mirror in &setting.domain.mirrors {
+        let inwards = (setting.domain.bounds.center()[mirror.axis] - mirror.at).signum();
+        for x in position.iter_mut() {
+            let depth = inwards * (x[mirror.axis] - mirror.at);
+            if depth < closest {
+                x[mirror.axis] = mirror.at + inwards * closest;
+                count += 1;
+            }
+        }
+    }
+    count
 }

@@ -9,8 +9,8 @@ use crate::analysis::resample::Stencils;
 use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
+use crate::sph::flow::Flow;
 use crate::sph::observe::{Observation, fluid_samples, nodes};
-use crate::sph::projection::Flow;
 use crate::sph::surface_force::equivalent::volume_forces;
 use crate::sph::warnings::Unresolved;
 
@@ -37,13 +37,13 @@ fn integer(name: &'static str, values: Vec<i64>) -> Field<'static> {
 pub fn snapshot(flow: &Flow, observation: &Observation, grid_spacing: f64) -> Snapshot<'static> {
     let mut particles = particles(flow);
     let grid = grid(flow, &particles, grid_spacing);
-    without(&mut particles, flow.particles.buffer());
+    without(&mut particles, flow.state.particles.buffer());
     Snapshot {
-        time: flow.time,
-        step: flow.steps,
+        time: flow.state.time,
+        step: flow.state.steps,
         particles,
         grid: Some(grid),
-        interface: Some(interface(&observation.interface, flow.method.kernel.h)),
+        interface: Some(interface(&observation.interface, flow.setting.method.kernel.h)),
     }
 }
 
@@ -61,16 +61,16 @@ fn without(cloud: &mut Cloud<'static>, range: Range<usize>) {
 
 /// Distance and normal of the nearest wall; without any wall the diagonal of the box, so that files hold finite numbers.
 fn wall(flow: &Flow, x: Vec2) -> (f64, Vec2) {
-    let (distance, normal) = (flow.wall)(x);
-    (distance.min(flow.domain.bounds.size().norm()), normal)
+    let (distance, normal) = (flow.setting.wall)(x);
+    (distance.min(flow.setting.domain.bounds.size().norm()), normal)
 }
 
 fn particles(flow: &Flow) -> Cloud<'static> {
-    let (p, f, n) = (&flow.particles, &flow.fields, flow.particles.len());
+    let (p, f, n) = (&flow.state.particles, &flow.fields, flow.state.particles.len());
     let on_fluid = |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect();
     let (distance, normal) = p.position.par_iter().map(|&x| wall(flow, x)).unzip();
     let (surface_force, line_force) = volume_forces(flow);
-    let (driving, from) = (flow.driving_gradient(), flow.domain.bounds.min);
+    let (driving, from) = (flow.driving_gradient(), flow.setting.domain.bounds.min);
     let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from))).collect();
     let fields = vec![
         integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
@@ -94,7 +94,7 @@ fn particles(flow: &Flow) -> Cloud<'static> {
 /// 1 where a phase is thinner than about three particles, else 0.
 fn below_resolution(flow: &Flow) -> Vec<i64> {
     let mut thin: Vec<i64> = Unresolved::of(flow).thin.into_iter().map(i64::from).collect();
-    thin.resize(flow.particles.len(), 0);
+    thin.resize(flow.state.particles.len(), 0);
     thin
 }
 
@@ -103,9 +103,9 @@ fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
     let mut lattice = nodes(flow, spacing);
     for i in 0..2 {
         // The grid covers the box: without the nodes beyond walls, and with the last node of a period.
-        let cells = (flow.domain.bounds.size()[i] / lattice.spacing[i]).round() as usize;
+        let cells = (flow.setting.domain.bounds.size()[i] / lattice.spacing[i]).round() as usize;
         lattice.counts[i] = cells + 1;
-        lattice.origin[i] = flow.domain.bounds.min[i];
+        lattice.origin[i] = flow.setting.domain.bounds.min[i];
     }
     lattice.periodic = [false; 2];
     let places = lattice.nodes();

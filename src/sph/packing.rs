@@ -75,7 +75,7 @@ pub struct Packing<'a> {
 }
 
 /// The particles of a round with all that they see.
-struct Neighborhood {
+struct Round {
     /// Fluid, what holds still, and the images of both, in m.
     points: Vec<Vec2>,
     /// Points that are no images.
@@ -98,7 +98,7 @@ impl Packing<'_> {
     ///
     /// Those farther than 24 spacings from all that is no lattice stay where they are.
     pub fn pack(&self, fluid: &mut [Vec2], done: &mut dyn FnMut(f64)) {
-        let moves = self.order(&self.neighborhood(fluid, self.fixed), fluid.len());
+        let moves = self.order(&self.round(fluid, self.fixed), fluid.len());
         let disturbed =
             fluid.iter().zip(&moves).filter(|(_, m)| m.by.norm() > DISTURBED * self.spacing).map(|(x, _)| *x);
         let band = Band::around(disturbed, BAND * self.spacing, self.domain);
@@ -118,7 +118,7 @@ impl Packing<'_> {
     fn pack_all(&self, fluid: &mut [Vec2], fixed: &[Vec2], done: &mut dyn FnMut(f64)) {
         let mut solve = PressureSolve::default();
         for round in 0..ROUNDS + LAST_ROUNDS {
-            let around = self.neighborhood(fluid, fixed);
+            let around = self.round(fluid, fixed);
             let mut moves = self.order(&around, fluid.len());
             if round >= ROUNDS {
                 moves.iter_mut().for_each(|m| m.by = Vec2::zeros());
@@ -131,16 +131,16 @@ impl Packing<'_> {
         }
     }
 
-    fn neighborhood(&self, fluid: &[Vec2], fixed: &[Vec2]) -> Neighborhood {
+    fn round(&self, fluid: &[Vec2], fixed: &[Vec2]) -> Round {
         let mut points = [fluid, fixed].concat();
         let count = points.len();
         let images = Images::append(&mut points, self.domain, self.kernel.support());
         let cells = Cells::build(&points, self.domain, self.kernel.support());
-        Neighborhood { points, count, images, cells }
+        Round { points, count, images, cells }
     }
 
     /// −D ∇C_a, ∇C_a = Σ_b V_0 ∇_a W_ab, of the first `fluids` particles. No pair is kept: most rounds need nothing else of them.
-    fn order(&self, around: &Neighborhood, fluids: usize) -> Vec<Move> {
+    fn order(&self, around: &Round, fluids: usize) -> Vec<Move> {
         let diffusion = DIFFUSION * self.kernel.h * self.kernel.h * self.volume;
         let reach2 = self.kernel.support() * self.kernel.support();
         let mut moves = vec![Move { by: Vec2::zeros(), sees_fixed: false }; fluids];
@@ -160,8 +160,8 @@ impl Packing<'_> {
     }
 
     /// Adds −∇φ with −∇²φ = the density error V_0/V − 1 of the fluid.
-    fn even(&self, around: &Neighborhood, solve: &mut PressureSolve, moves: &mut [Move]) {
-        let Neighborhood { points, count, images, cells } = around;
+    fn even(&self, around: &Round, solve: &mut PressureSolve, moves: &mut [Move]) {
+        let Round { points, count, images, cells } = around;
         let pairs = &Pairs::find_in(cells, points, *count, self.domain, self.kernel);
         let (n, fluids) = (*count, moves.len());
         let mut volume = vec![self.volume; n];

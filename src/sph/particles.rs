@@ -8,6 +8,7 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 
 use crate::math::Vec2;
+use crate::sph::pairs::largest;
 
 /// What a particle is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -90,6 +91,12 @@ impl Particles {
     #[must_use]
     pub fn buffer(&self) -> Range<usize> {
         self.fluids..self.moving()
+    }
+
+    /// The largest speed of the fluid in m/s.
+    #[must_use]
+    pub fn fluid_speed(&self) -> f64 {
+        largest(self.fluids, |a| self.velocity[a].norm()).map_or(0.0, |l| l.1)
     }
 
     /// Adds a particle at rest; fluid must come before walls.

@@ -9,10 +9,10 @@ use crate::snapshot::{Lines, Snapshot};
 use crate::solver::{
     Measure, Quantity, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
 };
+use crate::sph::flow::Flow;
 use crate::sph::measures::{DiscOf, Group, Subject, all, columns, permeability};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Particles;
-use crate::sph::projection::Flow;
 use crate::sph::stages::Stages;
 use crate::sph::warnings::warnings;
 use crate::sph::{output, state};
@@ -74,7 +74,7 @@ impl SphSolver {
     /// Gives the flow the body force of its time, where several act one after the other.
     fn turn_force(&mut self) {
         if let Some(stages) = &self.surroundings.stages {
-            self.flow.method.gravity = stages.force(self.flow.time);
+            self.flow.setting.method.gravity = stages.force(self.flow.state.time);
         }
     }
 
@@ -85,30 +85,30 @@ impl SphSolver {
     }
 
     fn kinetic_energy(&self) -> f64 {
-        let (p, m) = (&self.flow.particles, &self.flow.method);
+        let (p, m) = (&self.flow.state.particles, &self.flow.setting.method);
         let energy = |a: usize| 0.5 * m.fluid(p.phase[a]).density * m.volume * p.velocity[a].norm_squared();
         (0..p.fluids).map(energy).sum()
     }
 
     fn momentum(&self) -> Vec2 {
-        let (p, m) = (&self.flow.particles, &self.flow.method);
+        let (p, m) = (&self.flow.state.particles, &self.flow.setting.method);
         (0..p.fluids).map(|a| m.fluid(p.phase[a]).density * m.volume * p.velocity[a]).sum()
     }
 }
 
 impl Solver for SphSolver {
     fn time(&self) -> f64 {
-        self.flow.time
+        self.flow.state.time
     }
 
     fn steps(&self) -> u64 {
-        self.flow.steps
+        self.flow.state.steps
     }
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         self.seen.take();
         self.turn_force();
-        let time = self.flow.time;
+        let time = self.flow.state.time;
         self.flow.step(self.surroundings.stages.as_ref().map_or(until, |stages| stages.stop(time, until)))
     }
 
@@ -122,14 +122,14 @@ impl Solver for SphSolver {
 
     fn sample(&self) -> Vec<Sample> {
         let (flow, seen) = (&self.flow, self.observe());
-        let fluids = flow.particles.fluids;
-        let [error, _] = density_error(&flow.fields.volume[..fluids], flow.method.volume);
-        let speed = flow.particles.velocity[..fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
+        let fluids = flow.state.particles.fluids;
+        let [error, _] = density_error(&flow.fields.volume[..fluids], flow.setting.method.volume);
+        let speed = flow.state.particles.velocity[..fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
         let momentum = self.momentum();
         let row = [
-            ("time_s", flow.time),
-            ("step", flow.steps as f64),
-            ("dt_s", flow.last.dt),
+            ("time_s", flow.state.time),
+            ("step", flow.state.steps as f64),
+            ("dt_s", flow.state.last_dt),
             ("saturation", seen.areas.saturation()),
             ("interface_length_m", seen.interface_length()),
             ("wetted_length_m", seen.wetted_length),
@@ -151,7 +151,7 @@ impl Solver for SphSolver {
     }
 
     fn watched(&self) -> Vec<Watched> {
-        let (m, size) = (&self.flow.method, self.flow.domain.bounds.size());
+        let (m, size) = (&self.flow.setting.method, self.flow.setting.domain.bounds.size());
         let capillary_speed =
             (m.tension > 0.0).then(|| m.tension / m.wetting_fluid.viscosity.max(m.other_fluid.viscosity));
         let energy = Quantity::Energy { speed: "max_speed_m_per_s", capillary_speed };
@@ -189,7 +189,8 @@ impl Solver for SphSolver {
     }
 
     fn results(&self) -> Results<'_> {
-        let of_now = |hand_back: &HandBack| hand_back(&self.flow.particles, self.observe().capillary_pressure.value);
+        let of_now =
+            |hand_back: &HandBack| hand_back(&self.flow.state.particles, self.observe().capillary_pressure.value);
         let back = self.surroundings.hand_back.as_ref().map(of_now);
         Results { documents: back.into_iter().collect(), ..Results::default() }
     }
@@ -214,15 +215,15 @@ impl Solver for SphSolver {
         let work = &self.flow.work;
         let per_step = |count: u64| count as f64 / work.steps.max(1) as f64;
         Statistics {
-            unknowns: self.flow.particles.len(),
+            unknowns: self.flow.state.particles.len(),
             steps: work.steps,
             parts: self.flow.part_times(),
             counts: vec![
-                ("fluid-particles", self.flow.particles.fluids as f64),
+                ("fluid-particles", self.flow.state.particles.fluids as f64),
                 ("ppe-iterations-per-step", per_step(work.iterations)),
                 ("viscous-iterations-per-step", per_step(work.viscous_iterations)),
                 ("ppe-relative-residual", work.residual),
-                ("bytes-per-particle", self.flow.bytes() as f64 / self.flow.particles.len().max(1) as f64),
+                ("bytes-per-particle", self.flow.bytes() as f64 / self.flow.state.particles.len().max(1) as f64),
                 ("repeated-steps", work.repeats as f64),
                 ("particles-set-back-from-walls", work.set_back as f64),
             ],

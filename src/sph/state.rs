@@ -1,40 +1,57 @@
-//! What a resumed run needs: everything else follows from the particles.
+//! The state of a flow: what a step goes on from, and so what a resumed run needs. Everything else follows from it.
 
 use serde::{Deserialize, Serialize};
 
-use crate::solver::{StateError, StepInfo};
+use crate::solver::StateError;
+use crate::sph::flow::Flow;
 use crate::sph::open::{GivenFlow, Ledger};
 use crate::sph::particles::Particles;
-use crate::sph::projection::Flow;
 use crate::sph::wetting::lines::Line;
 
-#[derive(Serialize, Deserialize)]
-struct State {
-    time: f64,
-    steps: u64,
-    dt: f64,
-    particles: Particles,
-    wall_depth: Vec<f64>,
-    lines: Vec<Line>,
-    ledger: Ledger,
-    given_flows: Vec<GivenFlow>,
+/// What restart saves: these fields in this order.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FlowState {
+    /// Time in s.
+    pub time: f64,
+    /// Steps since time zero.
+    pub steps: u64,
+    /// Length of the last step in s, 0 before the first.
+    pub last_dt: f64,
+    /// The particles.
+    pub particles: Particles,
+    /// Depth of each wall particle in m.
+    pub wall_depth: Vec<f64>,
+    /// The contact lines as the last step left them; those of the present positions are among the fields.
+    pub lines: Vec<Line>,
+    /// What passed through the sides.
+    pub ledger: Ledger,
+    /// How the given flow through each periodic side of `Open::through` goes on.
+    pub given_flows: Vec<GivenFlow>,
+}
+
+impl FlowState {
+    /// The state at time zero. `wall_depth` in m as `fill` returns it; `given_flows` periodic sides have a given flow rate.
+    #[must_use]
+    pub fn new(particles: Particles, wall_depth: Vec<f64>, given_flows: usize) -> Self {
+        let next_id = u32::try_from(particles.len()).unwrap_or(u32::MAX);
+        Self {
+            time: 0.0,
+            steps: 0,
+            last_dt: 0.0,
+            wall_depth,
+            lines: Vec::new(),
+            ledger: Ledger::new(&particles.phase[..particles.fluids], next_id),
+            given_flows: vec![GivenFlow::default(); given_flows],
+            particles,
+        }
+    }
 }
 
 /// The state of the flow as bytes.
 #[must_use]
 pub fn save(flow: &Flow) -> Vec<u8> {
-    let state = State {
-        time: flow.time,
-        steps: flow.steps,
-        dt: flow.last.dt,
-        particles: flow.particles.clone(),
-        wall_depth: flow.wall_depth.clone(),
-        lines: flow.lines.clone(),
-        ledger: flow.open.ledger,
-        given_flows: flow.open.through.iter().map(|through| through.state).collect(),
-    };
     // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
-    postcard::to_stdvec(&state).unwrap_or_default()
+    postcard::to_stdvec(&flow.state).unwrap_or_default()
 }
 
 /// Takes up a saved state.
@@ -42,24 +59,16 @@ pub fn save(flow: &Flow) -> Vec<u8> {
 /// # Errors
 /// [`StateError`] where the bytes are no state of a flow with as many particles.
 pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
-    let state: State = postcard::from_bytes(bytes).map_err(|e| StateError(format!("{e}")))?;
-    let (found, expected) = (state.particles.len(), flow.particles.len());
-    let is_open = !flow.open.sides.is_empty();
-    let same_fluid = found == expected && state.particles.fluids == flow.particles.fluids;
-    if state.particles.walls != flow.particles.walls || !(is_open || same_fluid) {
+    let mut state: FlowState = postcard::from_bytes(bytes).map_err(|e| StateError(format!("{e}")))?;
+    let (saved, own) = (&state.particles, &flow.state.particles);
+    let is_open = !flow.setting.open.sides.is_empty();
+    let same_fluid = saved.len() == own.len() && saved.fluids == own.fluids;
+    if saved.walls != own.walls || !(is_open || same_fluid) {
+        let (found, expected) = (saved.len(), own.len());
         return Err(StateError(format!("it has {found} particles, the case has {expected}")));
     }
-    flow.time = state.time;
-    flow.steps = state.steps;
-    flow.last = StepInfo { dt: state.dt, limit: "restart" };
-    flow.particles = state.particles;
-    flow.wall_depth = state.wall_depth;
-    flow.face_walls();
-    flow.lines = state.lines;
-    flow.open.ledger = state.ledger;
-    for (through, state) in flow.open.through.iter_mut().zip(state.given_flows) {
-        through.state = state;
-    }
-    flow.prepare();
+    // A side that the saved run did not have begins anew.
+    state.given_flows.resize(flow.state.given_flows.len(), GivenFlow::default());
+    flow.take_up(state);
     Ok(())
 }

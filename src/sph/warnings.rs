@@ -6,9 +6,9 @@ use crate::analysis::resolution::thin_parts;
 use crate::interface::contact::ContactLine;
 use crate::interface::wall::{WallPoint, is_edge_between};
 use crate::math::{Vec2, perpendicular};
+use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
-use crate::sph::projection::Flow;
 
 /// Pieces of fewer particles than this, five across, have no curvature that a fit could find.
 const SMALLEST_PIECE: usize = 20;
@@ -42,17 +42,18 @@ impl Unresolved {
     /// Looks at the fluid of a flow.
     #[must_use]
     pub fn of(flow: &Flow) -> Self {
-        let (p, fluids) = (&flow.particles, flow.particles.fluids);
-        let (points, volumes, period) = (&p.position[..fluids], &flow.fields.volume[..fluids], flow.domain.periods());
+        let (p, fluids) = (&flow.state.particles, flow.state.particles.fluids);
+        let (points, volumes, period) =
+            (&p.position[..fluids], &flow.fields.volume[..fluids], flow.setting.domain.periods());
         let is_wetting: Vec<bool> = p.phase[..fluids].iter().map(|phase| *phase == Phase::Wetting).collect();
         let wetting = is_wetting.iter().filter(|wetting| **wetting).count();
         let smaller = wetting.min(fluids - wetting);
-        if smaller == 0 || flow.method.tension == 0.0 {
+        if smaller == 0 || flow.setting.method.tension == 0.0 {
             return Self { thin: vec![false; fluids], share: 0.0, small_pieces: 0 };
         }
-        let thin = thin_parts(points, &is_wetting, flow.method.spacing, period);
+        let thin = thin_parts(points, &is_wetting, flow.setting.method.spacing, period);
         let small = |member: &[bool]| {
-            let pieces = blobs(points, volumes, member, LINK * flow.method.spacing, period);
+            let pieces = blobs(points, volumes, member, LINK * flow.setting.method.spacing, period);
             pieces.iter().filter(|piece| piece.count < SMALLEST_PIECE).count()
         };
         let others: Vec<bool> = is_wetting.iter().map(|wetting| !wetting).collect();
@@ -65,7 +66,7 @@ impl Unresolved {
 /// The warnings that a flow asks for now.
 #[must_use]
 pub fn warnings(flow: &Flow, seen: &Observation) -> Vec<String> {
-    if flow.method.tension == 0.0 {
+    if flow.setting.method.tension == 0.0 {
         return Vec::new();
     }
     [pieces_and_films(flow), low_drop(flow, seen), limiting_angle(flow), thin_liquid_at_edge(flow, seen)]
@@ -79,7 +80,7 @@ fn pieces_and_films(flow: &Flow) -> Option<String> {
     if small_pieces == 0 && share < LARGEST_THIN_SHARE {
         return None;
     }
-    let (percent, half) = (100.0 * share, 0.5 * flow.method.spacing);
+    let (percent, half) = (100.0 * share, 0.5 * flow.setting.method.spacing);
     Some(format!(
         "{small_pieces} pieces of fewer than {SMALLEST_PIECE} particles, and films thinner than three particles with {percent:.1} % of the \
          smaller phase, are not resolved: what hangs on them (pieces counted, trapped fluid, angles beside them) is not a result; compare \
@@ -89,19 +90,19 @@ fn pieces_and_films(flow: &Flow) -> Option<String> {
 
 /// A drop on a plane of the asked-for angle that is only a few spacings high.
 fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
-    let angle = flow.method.wetting?.static_angle();
+    let angle = flow.setting.method.wetting?.static_angle();
     let areas = seen.areas;
     let is_wetting = areas.wetting < areas.non_wetting;
     let (area, through) =
         if is_wetting { (areas.wetting, angle) } else { (areas.non_wetting, std::f64::consts::PI - angle) };
     // A meniscus between two walls is no drop.
     let [a, b] = &seen.contact_lines[..] else { return None };
-    let normal = |line: &ContactLine| (flow.wall)(line.position).1;
+    let normal = |line: &ContactLine| (flow.setting.wall)(line.position).1;
     if normal(a).dot(&normal(b)) < SAME_WALL || !(area > 0.0 && through > 0.0) {
         return None;
     }
-    let across = cap(area, through).height / flow.method.spacing;
-    let spacing = flow.method.spacing * across / ENOUGH;
+    let across = cap(area, through).height / flow.setting.method.spacing;
+    let spacing = flow.setting.method.spacing * across / ENOUGH;
     (across < ENOUGH).then(|| {
         format!(
             "a drop of this area at this angle is {across:.1} spacings high on a plane, and {ENOUGH:.0} are needed: use \
@@ -112,10 +113,10 @@ fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
 
 /// A contact line at an edge of a wall in a liquid too thin to damp what the step feeds.
 fn thin_liquid_at_edge(flow: &Flow, seen: &Observation) -> Option<String> {
-    let m = &flow.method;
+    let m = &flow.setting.method;
     let length = seen.areas.wetting.min(seen.areas.non_wetting).sqrt();
     let ohnesorge = m.wetting_fluid.viscosity / (m.wetting_fluid.density * m.tension * length).sqrt();
-    let wall = |x: Vec2| WallPoint::from((flow.wall)(x));
+    let wall = |x: Vec2| WallPoint::from((flow.setting.wall)(x));
     let is_at_edge = |line: &ContactLine| {
         let along = m.kernel.h * perpendicular(wall(line.position).normal);
         is_edge_between(&wall, line.position - along, line.position + along)
@@ -129,7 +130,7 @@ fn thin_liquid_at_edge(flow: &Flow, seen: &Observation) -> Option<String> {
 }
 
 fn limiting_angle(flow: &Flow) -> Option<String> {
-    let angle = flow.method.wetting?.static_angle().to_degrees();
+    let angle = flow.setting.method.wetting?.static_angle().to_degrees();
     (!(LIMITING_ANGLE..=180.0 - LIMITING_ANGLE).contains(&angle)).then(|| {
         format!(
             "at an angle of {angle:.1} degrees pressures and places are those asked for, but an angle measured from the interface has an \

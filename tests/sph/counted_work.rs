@@ -5,7 +5,7 @@
 //! less, write the printed counts here.
 
 use crate::support::flow::flow;
-use meniscus::sph::projection::Flow;
+use meniscus::sph::flow::Flow;
 
 /// Counts may rise by this share: rounding differs between processors and may add an iteration here and there.
 const RISE: f64 = 0.03;
@@ -45,14 +45,14 @@ const ANGLE: &str = "[sph.wetting.young]\ncontact-angle-deg = 60.0\n";
 #[track_caller]
 fn holds(text: &str, end: f64, had: Counts) {
     let mut flow: Flow = flow(text);
-    while flow.time < end {
+    while flow.state.time < end {
         flow.step(end).expect("a step");
     }
     let found = Counts {
         steps: flow.work.steps,
         pressure_iterations: flow.work.iterations,
         viscous_iterations: flow.work.viscous_iterations,
-        pairs: flow.pairs.len() as u64,
+        pairs: flow.neighborhood.pairs.len() as u64,
     };
     println!("{found:?}");
     let more = |found: u64, had: u64| found as f64 > (1.0 + RISE) * had as f64;

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use crate::support::flow::flow;
 use meniscus::math::Vec2;
+use meniscus::sph::flow::Flow;
 use meniscus::sph::particles::Phase;
-use meniscus::sph::projection::Flow;
 
 const SPACING: f64 = 2.0e-5;
 
@@ -98,9 +98,9 @@ fn each_phase_has_as_many_particles_as_its_area_has_room_for() {
     for (name, shape, sides, _, area, _) in interfaces() {
         let flow = fluids(shape, sides, "");
         // Beyond open sides there are particles too.
-        let in_box = |a: &usize| flow.particles.position[*a].amax() < 5.0e-4;
-        let fluids: Vec<usize> = (0..flow.particles.fluids).filter(in_box).collect();
-        let wetting = fluids.iter().filter(|a| flow.particles.phase[**a] == Phase::Wetting).count();
+        let in_box = |a: &usize| flow.state.particles.position[*a].amax() < 5.0e-4;
+        let fluids: Vec<usize> = (0..flow.state.particles.fluids).filter(in_box).collect();
+        let wetting = fluids.iter().filter(|a| flow.state.particles.phase[**a] == Phase::Wetting).count();
         let room = area / (SPACING * SPACING);
         assert!((wetting as f64 - room).abs() < 0.6, "{name}: {wetting} particles in the room of {room}");
         assert_eq!(fluids.len(), 2500, "{name}");
@@ -112,7 +112,7 @@ fn the_particles_nearest_to_the_interface_stand_half_a_spacing_from_it() {
     for (name, shape, sides, distance, _, length) in interfaces() {
         let flow = fluids(shape, sides, "");
         let mut layers = [0, 0];
-        for x in flow.particles.position[..flow.particles.fluids].iter().filter(|x| x.amax() < 5.0e-4) {
+        for x in flow.state.particles.position[..flow.state.particles.fluids].iter().filter(|x| x.amax() < 5.0e-4) {
             let d = distance(*x) / SPACING;
             assert!(d.abs() > 0.499, "{name}: {d} spacings from the interface at {x:?}");
             assert!(!(0.501..0.7).contains(&d.abs()), "{name}: {d} spacings from the interface at {x:?}");
@@ -129,11 +129,14 @@ fn the_particles_nearest_to_the_interface_stand_half_a_spacing_from_it() {
 fn both_fluids_are_packed_evenly() {
     for (name, shape, sides, ..) in interfaces() {
         let flow = fluids(shape, sides, "");
-        let closest = (0..flow.particles.fluids).map(|a| (flow.wall)(flow.particles.position[a]).0).fold(1.0, f64::min);
+        let closest = (0..flow.state.particles.fluids)
+            .map(|a| (flow.setting.wall)(flow.state.particles.position[a]).0)
+            .fold(1.0, f64::min);
         assert!(closest > 0.24 * SPACING, "{name}: {closest:e} m from the wall");
-        let errors = flow.fields.volume[..flow.particles.fluids].iter().map(|v| flow.method.volume / v - 1.0);
+        let errors =
+            flow.fields.volume[..flow.state.particles.fluids].iter().map(|v| flow.setting.method.volume / v - 1.0);
         let (square, largest) = errors.fold((0.0, 0.0_f64), |(s, l), e| (s + e * e, l.max(e.abs())));
-        let spread = (square / flow.particles.fluids as f64).sqrt();
+        let spread = (square / flow.state.particles.fluids as f64).sqrt();
         // Largest in the tip of the flat cap.
         assert!(spread < 5e-3 && largest < 0.1, "{name}: spread {spread:.1e}, largest {largest:.1e}");
     }
@@ -144,8 +147,8 @@ fn an_interface_that_the_lattice_fits_or_is_too_small_leaves_it_as_it_is() {
     let strip = "rectangle = { center = [0.0, 0.0], size = [2.0e-4, 1.2e-4] }";
     let speck = "disc = { center = [0.0, 0.0], radius = 0.9e-5 }";
     for shape in [strip, speck] {
-        let [fitted, cut] =
-            ["", "[sph.numerics]\nfitted-interface = false\n"].map(|more| fluids(shape, PERIODIC, more).particles);
+        let [fitted, cut] = ["", "[sph.numerics]\nfitted-interface = false\n"]
+            .map(|more| fluids(shape, PERIODIC, more).state.particles);
         assert_eq!(fitted.position, cut.position);
         assert_eq!(fitted.phase, cut.phase);
     }
@@ -158,7 +161,8 @@ fn a_drop_that_starts_as_a_disc_rests() {
     for _ in 0..200 {
         flow.step(1.0).unwrap();
     }
-    let fastest = flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
+    let fastest =
+        flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
     let capillary_number = 5.0e-3 * fastest / 0.02;
     assert!(capillary_number < 1e-4, "{capillary_number:.1e}");
 }

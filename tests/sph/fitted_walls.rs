@@ -2,7 +2,7 @@
 
 use crate::support::flow::flow;
 use meniscus::math::Vec2;
-use meniscus::sph::projection::Flow;
+use meniscus::sph::flow::Flow;
 
 const SPACING: f64 = 2.0e-5;
 
@@ -44,7 +44,7 @@ const PORES: [(&str, &str, &str); 6] = [
 ];
 
 fn density_errors(flow: &Flow) -> Vec<f64> {
-    flow.fields.volume[..flow.particles.fluids].iter().map(|v| flow.method.volume / v - 1.0).collect()
+    flow.fields.volume[..flow.state.particles.fluids].iter().map(|v| flow.setting.method.volume / v - 1.0).collect()
 }
 
 fn spread(errors: &[f64]) -> [f64; 3] {
@@ -70,10 +70,10 @@ fn the_lattice_far_from_walls_stays_and_all_is_as_even_as_in_a_pore_without_such
     let fine = 0.2 * SPACING;
     for (name, shapes, sides) in [PORES[0], PORES[2]] {
         let flow = pore_of(fine, shapes, sides, "");
-        let fluid = &flow.particles.position[..flow.particles.fluids];
+        let fluid = &flow.state.particles.position[..flow.state.particles.fluids];
         // A particle is in the middle of a cell of the lattice.
         let is_on_lattice = |x: &Vec2| x.iter().all(|v| ((v / fine - 0.5).round() - (v / fine - 0.5)).abs() < 1e-9);
-        let far: Vec<&Vec2> = fluid.iter().filter(|x| (flow.wall)(**x).0 > 60.0 * fine).collect();
+        let far: Vec<&Vec2> = fluid.iter().filter(|x| (flow.setting.wall)(**x).0 > 60.0 * fine).collect();
         assert!(far.len() > 1000 && far.into_iter().all(is_on_lattice), "{name}");
         let moved = fluid.iter().filter(|x| !is_on_lattice(x)).count();
         assert!(moved > 5000 && 4 * moved < 3 * fluid.len(), "{name}: {moved} of {} were packed", fluid.len());
@@ -89,10 +89,10 @@ fn the_lattice_far_from_walls_stays_and_all_is_as_even_as_in_a_pore_without_such
 fn wall_particles_stand_in_layers_half_a_spacing_below_the_wall_and_deeper() {
     for (name, shapes, sides) in PORES {
         let flow = pore(shapes, sides, "");
-        let walls = flow.particles.fluids..flow.particles.len();
-        for (a, depth) in walls.zip(&flow.wall_depth) {
-            let x = flow.particles.position[a];
-            let found = -(flow.wall)(x).0;
+        let walls = flow.state.particles.fluids..flow.state.particles.len();
+        for (a, depth) in walls.zip(&flow.state.wall_depth) {
+            let x = flow.state.particles.position[a];
+            let found = -(flow.setting.wall)(x).0;
             assert!((found - depth).abs() < 1e-2 * SPACING, "{name}: {found:e} in place of {depth:e} at {x:?}");
             let layer = depth / SPACING - 0.5;
             // Beyond a corner of the box the lattice has its diagonal depths.
@@ -106,13 +106,17 @@ fn wall_particles_stand_in_layers_half_a_spacing_below_the_wall_and_deeper() {
 fn no_particle_starts_in_a_wall_or_on_another_one() {
     for (name, shapes, sides) in PORES {
         let flow = pore(shapes, sides, "");
-        let nearest = (0..flow.particles.fluids).map(|a| (flow.wall)(flow.particles.position[a]).0).fold(1.0, f64::min);
+        let nearest = (0..flow.state.particles.fluids)
+            .map(|a| (flow.setting.wall)(flow.state.particles.position[a]).0)
+            .fold(1.0, f64::min);
         assert!(nearest > 0.24 * SPACING, "{name}: {nearest:e} m from the wall");
-        let apart =
-            |a: usize, b: usize| flow.domain.separation(flow.particles.position[a], flow.particles.position[b]).norm();
-        let n = flow.particles.len();
-        let closest =
-            (0..n).flat_map(|a| flow.pairs.of(a).map(move |ab| (a, ab.b)).filter(|p| p.1 < n).map(|p| apart(p.0, p.1)));
+        let apart = |a: usize, b: usize| {
+            flow.setting.domain.separation(flow.state.particles.position[a], flow.state.particles.position[b]).norm()
+        };
+        let n = flow.state.particles.len();
+        let closest = (0..n).flat_map(|a| {
+            flow.neighborhood.pairs.of(a).map(move |ab| (a, ab.b)).filter(|p| p.1 < n).map(|p| apart(p.0, p.1))
+        });
         let closest = closest.fold(1.0, f64::min);
         assert!(closest > 0.45 * SPACING, "{name}: {closest:e} m between two particles");
     }
@@ -122,7 +126,7 @@ fn no_particle_starts_in_a_wall_or_on_another_one() {
 fn the_fluid_particles_fill_the_area_of_the_pore() {
     let flow = pore(DISC, PERIODIC, "");
     let area = 1.0e-6 - std::f64::consts::PI * 2.5e-4_f64.powi(2);
-    let count = flow.particles.fluids as f64 * SPACING * SPACING;
+    let count = flow.state.particles.fluids as f64 * SPACING * SPACING;
     assert!((count - area).abs() <= 0.5 * SPACING * SPACING, "{count:e} of {area:e} m²");
 }
 
@@ -131,8 +135,8 @@ fn straight_walls_on_the_lattice_stay_on_it() {
     let plate = "{ rectangle = { center = [0.0, 2.0e-5], size = [2.0e-4, 1.2e-4] } }";
     for sides in ["", PERIODIC, "left = \"symmetry\"\nbottom = \"image\""] {
         let (fitted, cut) = (pore(plate, sides, ""), pore(plate, sides, "fitted-walls = false"));
-        assert_eq!(fitted.particles, cut.particles);
-        assert_eq!(fitted.wall_depth, cut.wall_depth);
+        assert_eq!(fitted.state.particles, cut.state.particles);
+        assert_eq!(fitted.state.wall_depth, cut.state.wall_depth);
     }
 }
 
@@ -140,7 +144,7 @@ fn straight_walls_on_the_lattice_stay_on_it() {
 fn a_packing_is_the_same_bits_for_any_number_of_threads() {
     let places = |threads| -> Vec<Vec2> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| pore(DISC, PERIODIC, "").particles.position)
+        pool.install(|| pore(DISC, PERIODIC, "").state.particles.position)
     };
     assert_eq!(places(1), places(2));
 }

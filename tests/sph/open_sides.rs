@@ -1,9 +1,9 @@
 //! Open sides: flows that must pass them unchanged, the balance of what passes, and resuming with buffers.
 
 use crate::support::flow::flow;
+use meniscus::sph::flow::Flow;
 use meniscus::sph::open::Ledger;
 use meniscus::sph::particles::Phase;
-use meniscus::sph::projection::Flow;
 
 /// A channel of 2 mm by 1 mm with free slip at the bottom and the top, and 20 particles along it.
 fn channel(rest: &str) -> String {
@@ -20,31 +20,33 @@ const OTHER_FLUID: &str = "[sph.phases.non-wetting]\ndensity = 1000.0\nviscosity
                            [[sph.initial.wetting]]\nrectangle = { center = [1.0e-3, 0.0], size = [4.0e-3, 1.0e-3] }\n";
 
 fn run(flow: &mut Flow, until: f64) {
-    while flow.time < until {
+    while flow.state.time < until {
         flow.step(until).unwrap();
     }
 }
 
 /// What is missing in the balance of each phase, in particles.
 fn missing(flow: &Flow) -> [i64; 2] {
-    let (came, left) = flow.open.ledger.totals();
-    let inside = Ledger::count(&flow.particles.phase[..flow.particles.fluids]);
-    [0, 1].map(|i| flow.open.ledger.at_start[i] as i64 + came[i] as i64 - left[i] as i64 - inside[i] as i64)
+    let (came, left) = flow.state.ledger.totals();
+    let inside = Ledger::count(&flow.state.particles.phase[..flow.state.particles.fluids]);
+    [0, 1].map(|i| flow.state.ledger.at_start[i] as i64 + came[i] as i64 - left[i] as i64 - inside[i] as i64)
 }
 
 #[test]
 fn a_uniform_flow_passes_open_sides_and_stays_uniform() {
     let mut flow = flow(&channel(PLUG));
-    let start = flow.particles.fluids;
+    let start = flow.state.particles.fluids;
     // The fluid is replaced once and a half.
     run(&mut flow, 0.3);
-    let worst =
-        flow.particles.velocity[..flow.particles.fluids].iter().map(|v| (v.x - 0.01).hypot(v.y)).fold(0.0, f64::max);
+    let worst = flow.state.particles.velocity[..flow.state.particles.fluids]
+        .iter()
+        .map(|v| (v.x - 0.01).hypot(v.y))
+        .fold(0.0, f64::max);
     // The files move as one lattice: all that is left is the residual of the pressure solve.
     assert!(worst < 1e-8, "{worst:.1e} m/s");
     assert_eq!(missing(&flow), [0, 0]);
-    assert_eq!(flow.particles.fluids, start);
-    let (came, _) = flow.open.ledger.totals();
+    assert_eq!(flow.state.particles.fluids, start);
+    let (came, _) = flow.state.ledger.totals();
     assert_eq!(came[0], 300, "10 files, 3 mm long");
 }
 
@@ -55,12 +57,17 @@ fn a_column_between_two_pressures_that_carry_its_weight_rests() {
     let text = channel(sides).replace("[sph]\n", "[sph]\ngravity = [0.0, -9.81]\n");
     let mut flow = flow(&text);
     run(&mut flow, 0.05);
-    let fastest = flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
+    let fastest =
+        flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
     // Falling freely it would have reached 0.5 m/s.
     assert!(fastest < 1e-4, "{fastest:.1e} m/s");
-    for a in 0..flow.particles.fluids {
-        let exact = 10.0 - 9810.0 * flow.particles.position[a].y;
-        assert!((flow.particles.pressure[a] - exact).abs() < 0.02, "{} for {exact}", flow.particles.pressure[a]);
+    for a in 0..flow.state.particles.fluids {
+        let exact = 10.0 - 9810.0 * flow.state.particles.position[a].y;
+        assert!(
+            (flow.state.particles.pressure[a] - exact).abs() < 0.02,
+            "{} for {exact}",
+            flow.state.particles.pressure[a]
+        );
     }
 }
 
@@ -75,7 +82,7 @@ fn a_large_common_pressure_changes_nothing() {
     let speeds = [0.0, 1.0e5].map(|more| {
         let mut flow = flow(&channel(&sides(more)));
         run(&mut flow, 0.01);
-        flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.x).sum::<f64>()
+        flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.x).sum::<f64>()
     });
     // 1e5 Pa have digits of 1e-11 Pa, and the solve leaves 1e-6 of the right side.
     assert!((speeds[0] / speeds[1] - 1.0).abs() < 1e-6, "{speeds:?}");
@@ -87,11 +94,11 @@ fn layers_come_in_and_leave_as_layers() {
     let mut flow = flow(&channel(&format!("{PLUG}{OTHER_FLUID}")));
     run(&mut flow, 0.3);
     assert_eq!(missing(&flow), [0, 0]);
-    for a in 0..flow.particles.moving() {
-        let below = flow.particles.position[a].y < 5.0e-4;
-        assert_eq!(flow.particles.phase[a] == Phase::Wetting, below, "at {:?}", flow.particles.position[a]);
+    for a in 0..flow.state.particles.moving() {
+        let below = flow.state.particles.position[a].y < 5.0e-4;
+        assert_eq!(flow.state.particles.phase[a] == Phase::Wetting, below, "at {:?}", flow.state.particles.position[a]);
     }
-    let (came, left) = flow.open.ledger.totals();
+    let (came, left) = flow.state.ledger.totals();
     assert_eq!((came, left), ([150; 2], [150; 2]));
 }
 
@@ -102,7 +109,7 @@ fn the_phase_of_an_inlet_drives_the_other_one_out() {
     let mut flow = flow(&channel(&format!("{sides}{filled}")));
     run(&mut flow, 0.3);
     // The flat front has left.
-    let inside = Ledger::count(&flow.particles.phase[..flow.particles.fluids]);
+    let inside = Ledger::count(&flow.state.particles.phase[..flow.state.particles.fluids]);
     assert_eq!(inside, [0, 200]);
     assert_eq!(missing(&flow), [0, 0]);
 }
@@ -120,9 +127,9 @@ fn a_resumed_flow_with_open_sides_takes_the_same_steps() {
         for flow in [&mut whole, &mut second] {
             run(flow, 0.06);
         }
-        assert_eq!(whole.particles, second.particles);
-        assert_eq!(whole.open.ledger, second.open.ledger);
-        assert_eq!(whole.open.through, second.open.through);
+        assert_eq!(whole.state.particles, second.state.particles);
+        assert_eq!(whole.state.ledger, second.state.ledger);
+        assert_eq!(whole.state.given_flows, second.state.given_flows);
     }
 }
 
@@ -135,28 +142,29 @@ fn a_given_flow_through_periodic_sides_brings_back_one_phase() {
         "center = [1.5e-3, 5.0e-4], size = [4.0e-4, 2.0e-3]",
     );
     let mut flow = flow(&channel(&format!("{sides}{drop}")));
-    assert_eq!(Ledger::count(&flow.particles.phase[..flow.particles.fluids])[0], 40);
+    assert_eq!(Ledger::count(&flow.state.particles.phase[..flow.state.particles.fluids])[0], 40);
     run(&mut flow, 0.15);
-    assert_eq!(Ledger::count(&flow.particles.phase[..flow.particles.fluids]), [0, 200]);
+    assert_eq!(Ledger::count(&flow.state.particles.phase[..flow.state.particles.fluids]), [0, 200]);
     assert_eq!(missing(&flow), [0, 0]);
-    let mean = flow.particles.velocity[..200].iter().map(|v| v.x).sum::<f64>() / 200.0;
+    let mean = flow.state.particles.velocity[..200].iter().map(|v| v.x).sum::<f64>() / 200.0;
     assert!((mean / 0.01 - 1.0).abs() < 1e-6, "{mean}");
 }
 
 /// The larger relative error of the flow rates over `count` steps of `dt` (s), by the ways of all particles.
 fn rate_error(flow: &mut Flow, count: usize, dt: f64) -> f64 {
-    flow.open.through.iter_mut().for_each(|through| through.state.largest_error = 0.0);
+    flow.state.given_flows.iter_mut().for_each(|given| given.largest_error = 0.0);
     for _ in 0..count {
         let (before, passed): (f64, Vec<f64>) =
-            (flow.time, flow.open.through.iter().map(|through| through.state.passed).collect());
+            (flow.state.time, flow.state.given_flows.iter().map(|given| given.passed).collect());
         flow.step(before + dt).unwrap();
-        for (through, passed) in flow.open.through.iter_mut().zip(passed) {
-            let rate = (through.state.passed - passed) / (flow.time - before);
-            let error = (rate / through.flow_rate() - 1.0).abs();
-            through.state.largest_error = through.state.largest_error.max(error);
+        let taken = flow.state.time - before;
+        for ((side, given), passed) in flow.setting.open.through.iter().zip(&mut flow.state.given_flows).zip(passed) {
+            let rate = (given.passed - passed) / taken;
+            let error = (rate / side.flow_rate() - 1.0).abs();
+            given.largest_error = given.largest_error.max(error);
         }
     }
-    flow.open.through.iter().map(|through| through.state.largest_error).fold(0.0, f64::max)
+    flow.state.given_flows.iter().map(|given| given.largest_error).fold(0.0, f64::max)
 }
 
 #[test]
@@ -196,7 +204,7 @@ fn given_flows_along_both_axes_pass_an_obstacle_and_a_second_phase() {
     let error = rate_error(&mut flow, 40, 1.0e-3);
     println!("error {error:.1e}, particles set back {}", flow.work.set_back);
     assert!(error < 1e-6, "{error:.1e}");
-    let (left, top) = (&flow.open.through[0].state, &flow.open.through[1].state);
+    let (left, top) = (&flow.state.given_flows[0], &flow.state.given_flows[1]);
     assert!(left.gradient > 0.0 && top.gradient > 0.0, "{left:?}, {top:?}");
 }
 

@@ -6,8 +6,8 @@ use crate::support::boxes::{SURFACE_FORCES, case, fastest, steps};
 use crate::support::flow::{flow, solver};
 use meniscus::math::Vec2;
 use meniscus::solver::Solver;
+use meniscus::sph::flow::Flow;
 use meniscus::sph::particles::Phase;
-use meniscus::sph::projection::Flow;
 use meniscus::sph::terms::shifting::{anti_clustering, carried_velocity, keep_along, take_out_mean};
 
 const PERIODIC: &str =
@@ -15,11 +15,12 @@ const PERIODIC: &str =
 
 /// Moves the fluid particles off the lattice: each by a tenth of the spacing in a direction that depends on its place.
 fn shake(flow: &mut Flow) {
-    let spacing = flow.method.spacing;
-    for a in 0..flow.particles.fluids {
-        let x = flow.particles.position[a] / spacing;
+    let spacing = flow.setting.method.spacing;
+    for a in 0..flow.state.particles.fluids {
+        let x = flow.state.particles.position[a] / spacing;
         let by = Vec2::new((7.1 * x.x + 3.3 * x.y).sin(), (5.7 * x.y - 2.9 * x.x).cos());
-        flow.particles.position[a] = flow.domain.wrapped(flow.particles.position[a] + 0.1 * spacing * by);
+        flow.state.particles.position[a] =
+            flow.setting.domain.wrapped(flow.state.particles.position[a] + 0.1 * spacing * by);
     }
     flow.prepare();
 }
@@ -33,7 +34,7 @@ fn a_uniform_flow_of_one_fluid_stays_uniform() {
     for _ in 0..20 {
         flow.step(1.0).unwrap();
     }
-    let change = flow.particles.velocity.iter().map(|v| (v - Vec2::new(0.3, -0.1)).norm()).fold(0.0, f64::max);
+    let change = flow.state.particles.velocity.iter().map(|v| (v - Vec2::new(0.3, -0.1)).norm()).fold(0.0, f64::max);
     assert!(change < 1e-9 * 0.3, "rounding of twenty steps on the lattice: {change:.1e} m/s");
 }
 
@@ -43,7 +44,9 @@ fn the_density_error_shifting_evens_the_density_of_a_fluid_at_rest_and_leaves_it
     let mut flow = flow(&text);
     shake(&mut flow);
     let uneven = |flow: &Flow| {
-        let errors = flow.fields.volume[..flow.particles.fluids].iter().map(|v| (flow.method.volume / v - 1.0).powi(2));
+        let errors = flow.fields.volume[..flow.state.particles.fluids]
+            .iter()
+            .map(|v| (flow.setting.method.volume / v - 1.0).powi(2));
         errors.sum::<f64>().sqrt()
     };
     let before = uneven(&flow);
@@ -63,14 +66,14 @@ fn a_uniform_flow_of_two_fluids_without_tension_stays_uniform() {
     for _ in 0..20 {
         flow.step(1.0).unwrap();
     }
-    let change = flow.particles.velocity.iter().map(|v| (v - Vec2::new(0.3, -0.1)).norm()).fold(0.0, f64::max);
+    let change = flow.state.particles.velocity.iter().map(|v| (v - Vec2::new(0.3, -0.1)).norm()).fold(0.0, f64::max);
     assert!(change < 1e-9 * 0.3, "rounding of twenty steps on the lattice: {change:.1e} m/s");
 }
 
 /// The largest speed after one step of a fluid that started at rest, over that of free fall.
 fn share_of_free_fall(flow: &mut Flow) -> f64 {
     flow.step(1.0).unwrap();
-    fastest(flow) / (flow.method.gravity.norm() * flow.time)
+    fastest(flow) / (flow.setting.method.gravity.norm() * flow.state.time)
 }
 
 #[test]
@@ -123,11 +126,12 @@ fn a_moving_observer_sees_the_same_flow() {
         steps(&mut moving, 10, DT);
         let speed = fastest(&still);
         assert!(speed > 1e-3, "nothing moves: {speed:.1e} m/s");
-        let place =
-            |flow: &Flow, a: usize| flow.particles.id[..flow.particles.fluids].iter().position(|id| *id == a as u32);
-        for a in 0..still.particles.fluids {
+        let place = |flow: &Flow, a: usize| {
+            flow.state.particles.id[..flow.state.particles.fluids].iter().position(|id| *id == a as u32)
+        };
+        for a in 0..still.state.particles.fluids {
             let (here, there) = (place(&still, a).unwrap(), place(&moving, a).unwrap());
-            let change = moving.particles.velocity[there] - by - still.particles.velocity[here];
+            let change = moving.state.particles.velocity[there] - by - still.state.particles.velocity[here];
             assert!(change.norm() < 1e-7 * speed, "{form}, particle {a}: {:.1e} of {speed:.1e} m/s", change.norm());
         }
     }
@@ -139,15 +143,22 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
         let mut flow = flow(&drop(density, [0.0, 0.0], "pressure-jump"));
         shake(&mut flow);
         // The fluid around the drop moves by 1 m/s, the drop does not.
-        let moves = |a: usize| flow.particles.phase[a] == Phase::NonWetting;
+        let moves = |a: usize| flow.state.particles.phase[a] == Phase::NonWetting;
         let mut velocity: Vec<Vec2> =
-            (0..flow.particles.len()).map(|a| if moves(a) { Vec2::x() } else { Vec2::zeros() }).collect();
-        flow.images.extend_velocity(&mut velocity);
-        let by = vec![Vec2::new(0.0, 0.1 * flow.method.spacing); flow.particles.fluids];
-        let mut change = vec![Vec2::zeros(); flow.particles.fluids];
-        carried_velocity(&flow.pairs, &flow.fields.volume, &flow.fields.density, &velocity, &by, &mut change);
+            (0..flow.state.particles.len()).map(|a| if moves(a) { Vec2::x() } else { Vec2::zeros() }).collect();
+        flow.neighborhood.images.extend_velocity(&mut velocity);
+        let by = vec![Vec2::new(0.0, 0.1 * flow.setting.method.spacing); flow.state.particles.fluids];
+        let mut change = vec![Vec2::zeros(); flow.state.particles.fluids];
+        carried_velocity(
+            &flow.neighborhood.pairs,
+            &flow.fields.volume,
+            &flow.fields.density,
+            &velocity,
+            &by,
+            &mut change,
+        );
         let largest = |of_moving: bool| {
-            let meant = (0..flow.particles.fluids).filter(|a| moves(*a) == of_moving);
+            let meant = (0..flow.state.particles.fluids).filter(|a| moves(*a) == of_moving);
             meant.map(|a| change[a].norm()).fold(0.0, f64::max)
         };
         let (drop, around) = (largest(false), largest(true));
@@ -158,11 +169,11 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
 #[test]
 fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
     let mut flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
-    let (dx, fluids) = (flow.method.spacing, flow.particles.fluids);
+    let (dx, fluids) = (flow.setting.method.spacing, flow.state.particles.fluids);
     let push = |flow: &Flow| {
         let mut push = vec![Vec2::zeros(); fluids];
-        let w_of_spacing = flow.method.kernel.w(dx);
-        anti_clustering(&flow.pairs, &flow.fields.fluid_volume, 0.2, w_of_spacing, &mut push);
+        let w_of_spacing = flow.setting.method.kernel.w(dx);
+        anti_clustering(&flow.neighborhood.pairs, &flow.fields.fluid_volume, 0.2, w_of_spacing, &mut push);
         push
     };
     let largest = |push: &[Vec2]| push.iter().map(|s| s.norm()).fold(0.0, f64::max);
@@ -170,22 +181,23 @@ fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
 
     // What is the same everywhere would move all, and is taken out.
     let mut all_alike = vec![Vec2::new(1.0, -2.0) / dx; fluids];
-    take_out_mean(&flow.pairs, &flow.images, &flow.fields.fluid_volume, &mut all_alike);
+    take_out_mean(&flow.neighborhood.pairs, &flow.neighborhood.images, &flow.fields.fluid_volume, &mut all_alike);
     assert!(largest(&all_alike) < 1e-9 / dx, "{:.1e} of 2.2/dx", largest(&all_alike) * dx);
 
     // Two neighbors come to half of the spacing: the sum points to the other, shifting goes down it.
     let a = (0..fluids)
-        .min_by(|&a, &b| flow.particles.position[a].norm().total_cmp(&flow.particles.position[b].norm()))
+        .min_by(|&a, &b| flow.state.particles.position[a].norm().total_cmp(&flow.state.particles.position[b].norm()))
         .unwrap();
-    let near = flow.particles.position[a] + Vec2::new(dx, 0.0);
-    let b = (0..fluids).find(|&b| (flow.particles.position[b] - near).norm() < 0.1 * dx).unwrap();
-    let moved = flow.particles.position[a] + Vec2::new(0.5 * dx, 0.0);
-    flow.particles.position[b] = moved;
+    let near = flow.state.particles.position[a] + Vec2::new(dx, 0.0);
+    let b = (0..fluids).find(|&b| (flow.state.particles.position[b] - near).norm() < 0.1 * dx).unwrap();
+    let moved = flow.state.particles.position[a] + Vec2::new(0.5 * dx, 0.0);
+    flow.state.particles.position[b] = moved;
     flow.prepare();
-    let of = |flow: &Flow, x: Vec2| (0..fluids).find(|&c| (flow.particles.position[c] - x).norm() < 0.1 * dx).unwrap();
+    let of =
+        |flow: &Flow, x: Vec2| (0..fluids).find(|&c| (flow.state.particles.position[c] - x).norm() < 0.1 * dx).unwrap();
     let (left, right) = (of(&flow, moved - Vec2::new(0.5 * dx, 0.0)), of(&flow, moved));
     let mut push = push(&flow);
-    take_out_mean(&flow.pairs, &flow.images, &flow.fields.fluid_volume, &mut push);
+    take_out_mean(&flow.neighborhood.pairs, &flow.neighborhood.images, &flow.fields.fluid_volume, &mut push);
     assert!(
         push[left].x * dx > 0.1 && push[right].x * dx < -0.1,
         "{} and {} over 1/dx",
@@ -196,8 +208,8 @@ fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
 
 /// The fluid particle nearest to `x` (m).
 fn nearest(flow: &Flow, x: Vec2) -> usize {
-    let distance = |a: &usize| (flow.particles.position[*a] - x).norm();
-    (0..flow.particles.fluids).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+    let distance = |a: &usize| (flow.state.particles.position[*a] - x).norm();
+    (0..flow.state.particles.fluids).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
 }
 
 #[test]
@@ -208,17 +220,17 @@ fn pushes_part_a_crowded_row_across_the_interface() {
         let text =
             format!("{}[sph.numerics]\nanti-clustering = {strength:?}\n", drop(1000.0, [0.0, 0.0], "pressure-jump"));
         let mut flow = flow(&text);
-        let id = |flow: &Flow, x: Vec2| flow.particles.id[nearest(flow, x)];
+        let id = |flow: &Flow, x: Vec2| flow.state.particles.id[nearest(flow, x)];
         let pair = [id(&flow, upper), id(&flow, Vec2::new(0.5e-4, 1.5e-4))];
-        let at = |flow: &Flow, id: u32| flow.particles.id.iter().position(|other| *other == id).unwrap();
+        let at = |flow: &Flow, id: u32| flow.state.particles.id.iter().position(|other| *other == id).unwrap();
         let second = at(&flow, pair[1]);
-        flow.particles.position[second] = lower;
+        flow.state.particles.position[second] = lower;
         // Shifts need motion.
         let far = nearest(&flow, Vec2::new(4.5e-4, -4.5e-4));
-        flow.particles.velocity[far] = Vec2::new(0.05, 0.0);
+        flow.state.particles.velocity[far] = Vec2::new(0.05, 0.0);
         flow.prepare();
         flow.step(1.0).unwrap();
-        pair.map(|id| flow.particles.position[at(&flow, id)])
+        pair.map(|id| flow.state.particles.position[at(&flow, id)])
     };
     let [with, without] = [0.2, 0.0].map(moved);
     let by = [0, 1].map(|k| with[k] - without[k]);
@@ -228,7 +240,7 @@ fn pushes_part_a_crowded_row_across_the_interface() {
 #[test]
 fn particles_go_down_the_concentration_along_the_interface_only() {
     let flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
-    let (fluids, h, normal) = (flow.particles.fluids, flow.method.kernel.h, &flow.fields.normal);
+    let (fluids, h, normal) = (flow.state.particles.fluids, flow.setting.method.kernel.h, &flow.fields.normal);
     let given = Vec2::new(1.0, -2.0);
     let mut kept = vec![given; fluids];
     keep_along(normal, h, &mut kept);
@@ -244,14 +256,14 @@ fn particles_go_down_the_concentration_along_the_interface_only() {
 fn momentum_is_kept_at_equal_densities() {
     let mut flow = flow(&drop(1000.0, [0.0, 0.0], "csf"));
     shake(&mut flow);
-    let momentum = |flow: &Flow| -> Vec2 { flow.particles.velocity.iter().sum() };
+    let momentum = |flow: &Flow| -> Vec2 { flow.state.particles.velocity.iter().sum() };
     let force: Vec2 = flow.fields.surface_force.iter().zip(&flow.fields.volume).map(|(f, v)| *v * f).sum();
     let sizes: f64 = flow.fields.surface_force.iter().zip(&flow.fields.volume).map(|(f, v)| v * f.norm()).sum();
     // The continuum surface force is no sum of pair forces: on shaken particles this much of it is left over.
     println!("surface force left over: {:.1e}", force.norm() / sizes);
     // What is left over acts as long as they move: these are a quarter of what surface tension allows.
     steps(&mut flow, 10, 8.0e-5);
-    let size: f64 = flow.particles.velocity.iter().map(|v| v.norm()).sum();
+    let size: f64 = flow.state.particles.velocity.iter().map(|v| v.norm()).sum();
     println!("momentum over sizes after ten steps: {:.1e}", momentum(&flow).norm() / size);
     assert!(momentum(&flow).norm() < 0.02 * size, "{:.1e}", momentum(&flow).norm() / size);
 }
@@ -270,15 +282,15 @@ fn the_curvature_of_a_resolved_wave_keeps_its_amplitude() {
              [[sph.initial.wetting]]\nrectangle = {{ center = [5.0e-4, -2.5e-4], size = [1.0e-3, 5.0e-4] }}\n"
         ));
         let (k, a) = (TAU / 1.0e-3, 0.3 * spacing);
-        for x in &mut flow.particles.position[..flow.particles.fluids] {
+        for x in &mut flow.state.particles.position[..flow.state.particles.fluids] {
             // The stream function of the way is −(a/k) sin kx cos ky/2, which vanishes on both walls.
             let (across, along) = (0.5 * k * x.y, k * x.x);
             *x += a * Vec2::new(0.5 * along.sin() * across.sin(), along.cos() * across.cos());
         }
         flow.prepare();
-        let near = (0..flow.particles.fluids).filter(|&i| flow.fields.curvature[i] != 0.0);
+        let near = (0..flow.state.particles.fluids).filter(|&i| flow.fields.curvature[i] != 0.0);
         let (sum, norm) = near.fold((0.0, 0.0), |(sum, norm), i| {
-            let wave = (k * flow.particles.position[i].x).cos();
+            let wave = (k * flow.state.particles.position[i].x).cos();
             (sum + wave * flow.fields.curvature[i], norm + wave * wave)
         });
         let ratio = sum / norm / (a * k * k);
@@ -297,7 +309,7 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
         )));
         // Three viscous times, density H²/viscosity: the slowest part has decayed by exp(-30), with slip by exp(-24).
         steps(&mut flow, 120, 2.5e-4);
-        let weight = 1000.0 * flow.method.volume * flow.particles.fluids as f64 * GRAVITY;
+        let weight = 1000.0 * flow.setting.method.volume * flow.state.particles.fluids as f64 * GRAVITY;
         let all = flow.friction(|_, _| true);
         assert!((all.x / weight - 1.0).abs() < 1e-6, "slip {slip} m: {:.6} of the weight", all.x / weight);
         let below = flow.friction(|_, x| x.y < 0.0);
@@ -307,7 +319,7 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
 
 #[test]
 fn the_density_error_correction_rests_where_the_fluid_does() {
-    let mut method = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump")).method;
+    let mut method = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump")).setting.method;
     // Share of the density error taken back in its time, where the fastest particle goes so many spacings in one that it does not shorten.
     let share = |ways: f64| {
         let speed = ways * method.spacing / method.drift_time(0.0);
@@ -364,11 +376,11 @@ fn a_run_resumed_before_at_or_after_the_turn_of_its_force_takes_the_same_steps()
         second.restore(&first.state()).unwrap();
         to(&mut whole, 1.0e-3);
         to(&mut second, 1.0e-3);
-        assert_eq!(whole.flow.particles, second.flow.particles, "resumed at {resumed_at} s");
-        assert_eq!(whole.flow.method.gravity, Vec2::new(0.0, 2.0));
+        assert_eq!(whole.flow.state.particles, second.flow.state.particles, "resumed at {resumed_at} s");
+        assert_eq!(whole.flow.setting.method.gravity, Vec2::new(0.0, 2.0));
     }
     let mut solver = solver(TURNING);
-    assert_eq!(solver.flow.method.gravity, Vec2::new(1.0, 0.0));
+    assert_eq!(solver.flow.setting.method.gravity, Vec2::new(1.0, 0.0));
     // A step that would pass the turn ends there.
     while solver.time() < 5.0e-4 {
         solver.step(1.0).unwrap();

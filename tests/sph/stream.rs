@@ -3,10 +3,10 @@
 use crate::support::flow::{flow, solver};
 use meniscus::math::Vec2;
 use meniscus::solver::Solver;
+use meniscus::sph::flow::Flow;
 use meniscus::sph::measures::stream::along;
 use meniscus::sph::observe::Observation;
 use meniscus::sph::particles::Phase;
-use meniscus::sph::projection::Flow;
 
 /// Radius of the half disc on the floor, in m.
 const RADIUS: f64 = 4.0e-4;
@@ -24,10 +24,10 @@ fn drop(gravity: [f64; 2], more: &str) -> Flow {
 
 /// Gives each fluid particle the pressure (Pa) of its phase at its place; the drop is not to feel its own.
 fn press(flow: &mut Flow, other: impl Fn(Vec2) -> f64) {
-    for a in 0..flow.particles.fluids {
-        let x = flow.particles.position[a];
-        flow.particles.pressure[a] =
-            if flow.particles.phase[a] == Phase::Wetting { 70.0 - 3.0e5 * x.x } else { other(x) };
+    for a in 0..flow.state.particles.fluids {
+        let x = flow.state.particles.position[a];
+        flow.state.particles.pressure[a] =
+            if flow.state.particles.phase[a] == Phase::Wetting { 70.0 - 3.0e5 * x.x } else { other(x) };
     }
 }
 
@@ -90,10 +90,10 @@ const LAYERS: &str = "format = 1\ntitle = \"Two layers\"\n[geometry]\nmin = [0.0
 fn a_layer_that_is_sheared_feels_viscosity_times_shear() {
     const SHEAR: f64 = 30.0; // 1/s in the upper layer, a tenth of that in the lower one
     let mut flow = flow(LAYERS);
-    for a in 0..flow.particles.fluids {
-        let y = flow.particles.position[a].y;
+    for a in 0..flow.state.particles.fluids {
+        let y = flow.state.particles.position[a].y;
         let u = if y < 5.0e-4 { 0.1 * SHEAR * y } else { SHEAR * (y - 4.5e-4) };
-        flow.particles.velocity[a] = Vec2::new(u, 0.0);
+        flow.state.particles.velocity[a] = Vec2::new(u, 0.0);
     }
     let found = along(&flow, &Observation::of(&flow, &[]), Vec2::x());
     let exact = 1.0e-3 * SHEAR * 5.0e-4;
@@ -114,10 +114,10 @@ fn at_rest_the_drag_on_a_layer_is_what_its_wall_and_its_weight_leave() {
     let (force, height, length) = (1000.0 * 0.01, 5.0e-4, 5.0e-4);
     let exact = force * height / 2.0 * (0.01 - 1.0e-3) / (0.01 + 1.0e-3) * length;
     assert!((found.friction / exact - 1.0).abs() < 0.03, "{found:?}, exact {exact:.3e}");
-    let wetting = |a: usize| flow.particles.phase[a] == Phase::Wetting;
+    let wetting = |a: usize| flow.state.particles.phase[a] == Phase::Wetting;
     let wall = -flow.friction(|a, _| wetting(a)).x;
-    let count = (0..flow.particles.fluids).filter(|&a| wetting(a)).count() as f64;
-    let weight = force * flow.method.volume * count;
+    let count = (0..flow.state.particles.fluids).filter(|&a| wetting(a)).count() as f64;
+    let weight = force * flow.setting.method.volume * count;
     // Pairs keep momentum, so what is left is the change that ten decay times have not ended, and the drift of shifted particles.
     assert!((weight + wall + found.friction).abs() < 0.01 * weight, "{weight:.3e} {wall:.3e} {found:?}");
 }

@@ -4,8 +4,8 @@ use crate::support::boxes::{case, fastest, steps};
 use crate::support::cloud::Dice;
 use crate::support::flow::flow;
 use meniscus::math::Vec2;
+use meniscus::sph::flow::Flow;
 use meniscus::sph::method::ViscousStep;
-use meniscus::sph::projection::Flow;
 
 /// The forms of the viscous term.
 const FORMS: [&str; 3] = ["stress", "morris", "szewc"];
@@ -23,18 +23,21 @@ fn stirred(form: &str, sides: &str) -> Flow {
          [sph.interface]\ntension = 0.0\n[[sph.initial.wetting]]\ndisc = {{ center = [0.0, 0.0], radius = 3.0e-4 }}\n\
          [sph.numerics]\nviscous-term = \"{form}\"\ndensity-error-shifting = 0.0\nshifting = 0.0\n{sides}"
     )));
-    flow.method.viscous_step = ViscousStep::Implicit;
+    flow.setting.method.viscous_step = ViscousStep::Implicit;
     let mut dice = Dice::new(1);
-    for a in 0..flow.particles.fluids {
-        flow.particles.velocity[a] = 1.0e-3 * dice.vector();
+    for a in 0..flow.state.particles.fluids {
+        flow.state.particles.velocity[a] = 1.0e-3 * dice.vector();
     }
     flow
 }
 
 /// Twice the kinetic energy of the fluid in J/m.
 fn energy(flow: &Flow) -> f64 {
-    let of = |a: usize| flow.method.fluid(flow.particles.phase[a]).density * flow.particles.velocity[a].norm_squared();
-    (0..flow.particles.fluids).map(of).sum::<f64>() * flow.method.volume
+    let of = |a: usize| {
+        flow.setting.method.fluid(flow.state.particles.phase[a]).density
+            * flow.state.particles.velocity[a].norm_squared()
+    };
+    (0..flow.state.particles.fluids).map(of).sum::<f64>() * flow.setting.method.volume
 }
 
 /// The explicit limit of the step in s.
@@ -57,9 +60,9 @@ fn a_channel_starts_as_with_the_explicit_form() {
     for form in FORMS {
         let after = |step: ViscousStep, count: usize| {
             let mut flow = flow(&text(form));
-            flow.method.viscous_step = step;
+            flow.setting.method.viscous_step = step;
             steps(&mut flow, count, 5.0e-3 / count as f64);
-            flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.x).sum::<f64>()
+            flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.x).sum::<f64>()
         };
         let oracle = after(ViscousStep::Explicit, 2000);
         // Steps of 4 and 2 times the explicit limit, whose errors are between the first and the second order.
@@ -72,15 +75,15 @@ fn a_channel_starts_as_with_the_explicit_form() {
 fn a_shear_wave_decays_by_the_factor_of_the_method() {
     let shear = |step: ViscousStep, dt: f64| {
         let mut flow = flow(&case(&format!("[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n{PERIODIC}")));
-        flow.method.viscous_step = step;
+        flow.setting.method.viscous_step = step;
         let wave = |x: Vec2| (std::f64::consts::TAU * x.y / 1.0e-3).cos();
-        for a in 0..flow.particles.fluids {
-            flow.particles.velocity[a] = Vec2::new(1.0e-4 * wave(flow.particles.position[a]), 0.0);
+        for a in 0..flow.state.particles.fluids {
+            flow.state.particles.velocity[a] = Vec2::new(1.0e-4 * wave(flow.state.particles.position[a]), 0.0);
         }
         let limit = explicit_limit(&flow);
         steps(&mut flow, 1, dt);
-        let left = |a: usize| flow.particles.velocity[a].x * wave(flow.particles.position[a]);
-        let fluids = flow.particles.fluids;
+        let left = |a: usize| flow.state.particles.velocity[a].x * wave(flow.state.particles.position[a]);
+        let fluids = flow.state.particles.fluids;
         (2.0e4 * (0..fluids).map(left).sum::<f64>() / fluids as f64, limit)
     };
     let short = 1.0e-6;
@@ -104,8 +107,8 @@ fn steps_far_beyond_the_explicit_limit_bring_every_motion_to_rest() {
             let dt = times * explicit_limit(&flow);
             let before = energy(&flow);
             for _ in 0..20 {
-                let until = flow.time + dt;
-                while flow.time < until {
+                let until = flow.state.time + dt;
+                while flow.state.time < until {
                     flow.step(until).unwrap();
                 }
             }
@@ -120,11 +123,15 @@ fn steps_far_beyond_the_explicit_limit_bring_every_motion_to_rest() {
 fn viscosity_at_the_end_of_the_step_keeps_momentum() {
     let mut flow = stirred("morris", PERIODIC);
     let momentum = |flow: &Flow| -> Vec2 {
-        let of = |a: usize| flow.method.fluid(flow.particles.phase[a]).density * flow.particles.velocity[a];
-        (0..flow.particles.fluids).map(of).sum()
+        let of = |a: usize| {
+            flow.setting.method.fluid(flow.state.particles.phase[a]).density * flow.state.particles.velocity[a]
+        };
+        (0..flow.state.particles.fluids).map(of).sum()
     };
-    let size: f64 = (0..flow.particles.fluids)
-        .map(|a| flow.method.fluid(flow.particles.phase[a]).density * flow.particles.velocity[a].norm())
+    let size: f64 = (0..flow.state.particles.fluids)
+        .map(|a| {
+            flow.setting.method.fluid(flow.state.particles.phase[a]).density * flow.state.particles.velocity[a].norm()
+        })
         .sum();
     let (before, dt) = (momentum(&flow), 30.0 * explicit_limit(&flow));
     steps(&mut flow, 1, dt);
@@ -139,7 +146,7 @@ fn a_steady_flow_does_not_hang_on_the_step() {
             "gravity = [0.01, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n\
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n",
         ));
-        flow.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.method.viscous_step = ViscousStep::Implicit;
         // Three viscous times density H²/viscosity.
         steps(&mut flow, (0.03 / dt).round() as usize, dt);
         fastest(&flow)
@@ -157,10 +164,10 @@ fn a_flow_around_a_cylinder_hardly_hangs_on_the_step() {
              [sph]\nspacing = 4.0e-5\ngravity = [0.01, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.01\n\
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n",
         );
-        flow.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.method.viscous_step = ViscousStep::Implicit;
         // Six times of its slowest mode.
         steps(&mut flow, (0.024 / dt).round() as usize, dt);
-        flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.x).sum::<f64>()
+        flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.x).sum::<f64>()
     };
     let (short, long) = (mean(4.0e-5), mean(8.0e-4));
     // Without the leak of the pressure taken out, the flow of long steps is a tenth faster.
@@ -176,16 +183,16 @@ fn no_particle_goes_farther_in_a_step_than_its_limit_allows() {
     let lid = "[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 1.0e-3\n[sph.sides]\nspeed = { top = 0.1 }\n";
     for (name, text, factor) in [("drop", drop, 2.0), ("lid", lid, 1.0)] {
         let mut flow = flow(&case(text));
-        flow.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.method.viscous_step = ViscousStep::Implicit;
         for _ in 0..20 {
             flow.step(1.0).unwrap();
-            let way = fastest_of_fluid(&flow) * flow.last.dt / flow.method.kernel.h;
+            let way = fastest_of_fluid(&flow) * flow.state.last_dt / flow.setting.method.kernel.h;
             // What shifted particles take along of the velocity around them comes on top.
-            assert!(way < 1.1 * 1.5 * 0.125 * factor, "{name}: {way} h in step {}", flow.steps);
+            assert!(way < 1.1 * 1.5 * 0.125 * factor, "{name}: {way} h in step {}", flow.state.steps);
         }
     }
 }
 
 fn fastest_of_fluid(flow: &Flow) -> f64 {
-    flow.particles.velocity[..flow.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max)
+    flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max)
 }

@@ -4,7 +4,7 @@ use crate::support::boxes::{SURFACE_FORCES, case, fastest, steps};
 use crate::support::flow::{flow, solver};
 use meniscus::math::Vec2;
 use meniscus::solver::Solver;
-use meniscus::sph::projection::Flow;
+use meniscus::sph::flow::Flow;
 use meniscus::sph::surface_force::equivalent::volume_forces;
 
 /// Walls at the bottom and at the top, or left and right; the other two sides are joined.
@@ -31,8 +31,8 @@ fn liquid_on_a_wall(
 
 /// The particle of `flow` nearest to `x`, which must be nearer than `reach` (m).
 fn nearest(flow: &Flow, x: Vec2, reach: f64) -> usize {
-    let distance = |a: &usize| flow.domain.separation(flow.particles.position[*a], x).norm();
-    let found = (0..flow.particles.fluids).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
+    let distance = |a: &usize| flow.setting.domain.separation(flow.state.particles.position[*a], x).norm();
+    let found = (0..flow.state.particles.fluids).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
     assert!(distance(&found) < reach, "no particle at {x:?}: the nearest is {:.1e} m away", distance(&found));
     found
 }
@@ -58,18 +58,18 @@ fn compare_with_turned(form: &str) {
         WALLS_LEFT_AND_RIGHT,
         ("non-wetting", form),
     ));
-    assert!(upright.particles.len() <= 300, "{}", upright.particles.len());
+    assert!(upright.state.particles.len() <= 300, "{}", upright.state.particles.len());
     steps(&mut upright, 10, DT);
     steps(&mut turned, 10, DT);
     let turn = |v: Vec2| Vec2::new(-v.y, v.x);
     let speed = fastest(&upright);
-    let pressures = upright.particles.pressure.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
-    for a in 0..upright.particles.fluids {
-        let b = nearest(&turned, turn(upright.particles.position[a]), 1e-6 * upright.method.spacing);
-        assert_eq!(upright.particles.phase[a], turned.particles.phase[b]);
-        let change = (turned.particles.velocity[b] - turn(upright.particles.velocity[a])).norm();
-        assert!(change < 1e-8 * speed, "{change:.1e} of {speed:.1e} m/s at {:?}", upright.particles.position[a]);
-        let change = (turned.particles.pressure[b] - upright.particles.pressure[a]).abs();
+    let pressures = upright.state.particles.pressure.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+    for a in 0..upright.state.particles.fluids {
+        let b = nearest(&turned, turn(upright.state.particles.position[a]), 1e-6 * upright.setting.method.spacing);
+        assert_eq!(upright.state.particles.phase[a], turned.state.particles.phase[b]);
+        let change = (turned.state.particles.velocity[b] - turn(upright.state.particles.velocity[a])).norm();
+        assert!(change < 1e-8 * speed, "{change:.1e} of {speed:.1e} m/s at {:?}", upright.state.particles.position[a]);
+        let change = (turned.state.particles.pressure[b] - upright.state.particles.pressure[a]).abs();
         assert!(change < 1e-8 * pressures, "{change:.1e} of {pressures:.1e} Pa");
     }
 }
@@ -85,9 +85,9 @@ fn exchanged_phases_with_the_supplementary_angle_feel_the_same_forces() {
         let sizes =
             [&one.fields.surface_force, &one.fields.line_force].map(|f| f.iter().map(|f| f.norm()).fold(0.0, f64::max));
         assert!(form != "csf" || sizes.iter().all(|size| *size > 0.0), "{sizes:?}");
-        for a in 0..one.particles.fluids {
-            assert_eq!(one.particles.position[a], other.particles.position[a]);
-            assert!(one.particles.phase[a] != other.particles.phase[a]);
+        for a in 0..one.state.particles.fluids {
+            assert_eq!(one.state.particles.position[a], other.state.particles.position[a]);
+            assert!(one.state.particles.phase[a] != other.state.particles.phase[a]);
             let change = (one.fields.surface_force[a] - other.fields.surface_force[a]).norm();
             assert!(change <= 1e-9 * sizes[0], "surface force of particle {a}: {:.1e}", change / sizes[0]);
             let change = (one.fields.line_force[a] - other.fields.line_force[a]).norm();
@@ -96,8 +96,8 @@ fn exchanged_phases_with_the_supplementary_angle_feel_the_same_forces() {
         flows.iter_mut().for_each(|flow| steps(flow, 10, 2.0e-6));
         let [one, other] = &flows;
         let speed = fastest(one);
-        for a in 0..one.particles.fluids {
-            let change = (one.particles.velocity[a] - other.particles.velocity[a]).norm();
+        for a in 0..one.state.particles.fluids {
+            let change = (one.state.particles.velocity[a] - other.state.particles.velocity[a]).norm();
             assert!(change < 1e-8 * speed, "{form}, {angle}: velocity of particle {a}: {:.1e}", change / speed);
         }
     }
@@ -118,8 +118,8 @@ fn the_lines_of_a_drop_sum_to_the_driving_force_in_a_whole_flow() {
         assert!(form != "csf" || flow.fields.contact_lines == 2);
         let (_, line_force) = volume_forces(&flow);
         let on_side = |sign: f64| -> Vec2 {
-            let side = |a: &usize| sign * flow.particles.position[*a].x > 0.0;
-            (0..flow.particles.fluids).filter(side).map(|a| flow.fields.volume[a] * line_force[a]).sum()
+            let side = |a: &usize| sign * flow.state.particles.position[*a].x > 0.0;
+            (0..flow.state.particles.fluids).filter(side).map(|a| flow.fields.volume[a] * line_force[a]).sum()
         };
         let wanted = 0.02 * angle.to_radians().cos();
         let [left, right] = [on_side(-1.0), on_side(1.0)];
@@ -142,24 +142,28 @@ fn liquid_in_a_corner_stays_symmetric_about_the_diagonal() {
 
 fn stays_symmetric(mut flow: Flow) {
     let on_diagonal = |flow: &Flow, a: usize| {
-        let x = flow.particles.position[a];
-        (x.x - x.y).abs() < 1e-6 * flow.method.spacing
+        let x = flow.state.particles.position[a];
+        (x.x - x.y).abs() < 1e-6 * flow.setting.method.spacing
     };
     let fields = &flow.fields;
     let between_walls = |a: &usize| on_diagonal(&flow, *a) && fields.normal[*a] != Vec2::zeros();
     let reached =
-        (0..flow.particles.fluids).filter(between_walls).filter(|&a| fields.wall_distance[a] < 3.0e-4).count();
-    assert!(flow.particles.len() <= 300 && reached > 0, "{} {reached}", flow.particles.len());
+        (0..flow.state.particles.fluids).filter(between_walls).filter(|&a| fields.wall_distance[a] < 3.0e-4).count();
+    assert!(flow.state.particles.len() <= 300 && reached > 0, "{} {reached}", flow.state.particles.len());
     let mirrored = |v: Vec2| Vec2::new(v.y, v.x);
     for _ in 0..3 {
         let line_forces: Vec<f64> = flow.fields.line_force.iter().map(|f| f.norm()).collect();
         let (force, speed) = (line_forces.iter().fold(0.0_f64, |m, f| m.max(*f)), fastest(&flow));
-        for a in 0..flow.particles.fluids {
-            let b = nearest(&flow, mirrored(flow.particles.position[a]), 1e-6 * flow.method.spacing);
+        for a in 0..flow.state.particles.fluids {
+            let b = nearest(&flow, mirrored(flow.state.particles.position[a]), 1e-6 * flow.setting.method.spacing);
             let change = (flow.fields.line_force[b] - mirrored(flow.fields.line_force[a])).norm();
             assert!(change <= 1e-8 * force, "line force: {change:.1e} of {force:.1e} N/m3");
-            let change = (flow.particles.velocity[b] - mirrored(flow.particles.velocity[a])).norm();
-            assert!(change <= 1e-8 * speed, "{change:.1e} of {speed:.1e} m/s at {:?}", flow.particles.position[a]);
+            let change = (flow.state.particles.velocity[b] - mirrored(flow.state.particles.velocity[a])).norm();
+            assert!(
+                change <= 1e-8 * speed,
+                "{change:.1e} of {speed:.1e} m/s at {:?}",
+                flow.state.particles.position[a]
+            );
         }
         steps(&mut flow, 5, 2.0e-6);
     }
@@ -174,10 +178,11 @@ fn fluid_that_falls_into_a_corner_stays_out_of_both_walls() {
     let mut flow = flow(&text);
     for _ in 0..40 {
         flow.step(1.0).unwrap();
-        let nearest = flow.particles.position[..flow.particles.fluids].iter().map(|&x| (flow.wall)(x).0);
+        let nearest =
+            flow.state.particles.position[..flow.state.particles.fluids].iter().map(|&x| (flow.setting.wall)(x).0);
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         // Four passes in a right corner leave a few percent of the distance that is kept.
-        assert!(nearest > 0.045 * flow.method.spacing, "{nearest:.2e} m at step {}", flow.steps);
+        assert!(nearest > 0.045 * flow.setting.method.spacing, "{nearest:.2e} m at step {}", flow.state.steps);
     }
 }
 
@@ -238,13 +243,16 @@ fn walls_slip_by_a_spacing_near_contact_lines_and_not_elsewhere() {
     let place = ([0.0, -5.0e-4], [5.0e-4, 7.0e-4]);
     let flow =
         flow(&liquid_on_a_wall(place, [0.0, 0.0], 60.0, WALLS_BELOW_AND_ABOVE, ("non-wetting", "pressure-jump")));
-    let (fields, spacing) = (&flow.fields, flow.method.spacing);
+    let (fields, spacing) = (&flow.fields, flow.setting.method.spacing);
     assert_eq!(fields.lines.len(), 2, "{:?}", fields.lines);
-    let at_walls = (0..flow.particles.fluids).filter(|a| fields.wall_distance[*a].is_finite());
+    let at_walls = (0..flow.state.particles.fluids).filter(|a| fields.wall_distance[*a].is_finite());
     for a in at_walls {
-        let x = flow.particles.position[a];
-        let nearest =
-            fields.lines.iter().map(|line| flow.domain.separation(x, line.position).norm()).fold(f64::MAX, f64::min);
+        let x = flow.state.particles.position[a];
+        let nearest = fields
+            .lines
+            .iter()
+            .map(|line| flow.setting.domain.separation(x, line.position).norm())
+            .fold(f64::MAX, f64::min);
         let b = fields.slip_length[a];
         assert!(nearest > 3.0 * spacing || (b - spacing).abs() < 1e-12 * spacing, "at {x:?}: {b:.1e} m");
         assert!(nearest < 6.0 * spacing || b == 0.0, "at {x:?}: {b:.1e} m");
@@ -261,13 +269,13 @@ fn the_pressure_of_one_side_of_a_thin_plate_does_not_reach_the_other() {
          [sph.sides]\nbottom = \"symmetry\"\ntop = \"symmetry\"\n",
     );
     let near = |flow: &Flow, x: f64| nearest(flow, Vec2::new(x, 0.0), 1.0e-4);
-    let part = |x| flow.particles.part[near(&flow, x)];
+    let part = |x| flow.state.particles.part[near(&flow, x)];
     assert_ne!(part(-4.0e-4), part(4.0e-4), "each chamber has a pressure of its own");
     steps(&mut flow, 5, 1.0e-4);
     // Low on the left of the plate, high on its right, and as far from the mean as at the walls that have nothing behind them.
     for (at_plate, at_wall, sign) in [(-3.5e-4, -1.45e-3, -1.0), (3.5e-4, 1.45e-3, 1.0)] {
         let (plate, wall) =
-            (flow.particles.pressure[near(&flow, at_plate)], flow.particles.pressure[near(&flow, at_wall)]);
+            (flow.state.particles.pressure[near(&flow, at_plate)], flow.state.particles.pressure[near(&flow, at_wall)]);
         assert!(sign * plate > 4.0 && (plate + wall).abs() < 0.01 * plate.abs(), "{plate} Pa, {wall} Pa at the wall");
     }
 }

@@ -1,7 +1,7 @@
 //! Boxes of 1 mm with at most 300 particles, walls included: their pressure is solved directly, so that two runs of the same problem
 //! in other words differ by rounding only.
 
-use meniscus::sph::projection::Flow;
+use meniscus::sph::flow::Flow;
 
 /// Particles along a side of the box of 1 mm.
 const SPACING: &str = "1.0e-4";
@@ -20,13 +20,13 @@ pub const SURFACE_FORCES: [&str; 2] = ["csf", "pressure-jump"];
 /// Steps of equal length (s), so that flows in different motion take the same ones.
 pub fn steps(flow: &mut Flow, count: usize, dt: f64) {
     for _ in 0..count {
-        let until = flow.time + dt;
+        let until = flow.state.time + dt;
         flow.step(until).unwrap();
-        assert_eq!(flow.time, until, "the step must be short enough to be taken whole");
+        assert_eq!(flow.state.time, until, "the step must be short enough to be taken whole");
     }
 }
 
 /// The largest speed in m/s.
 pub fn fastest(flow: &Flow) -> f64 {
-    flow.particles.velocity.iter().map(|v| v.norm()).fold(0.0, f64::max)
+    flow.state.particles.velocity.iter().map(|v| v.norm()).fold(0.0, f64::max)
 }

@@ -2,7 +2,7 @@
 
 use meniscus::case::checked::{Case, Model};
 use meniscus::input::Overrides;
-use meniscus::sph::projection::Flow;
+use meniscus::sph::flow::Flow;
 use meniscus::sph::setup;
 use meniscus::sph::solver::SphSolver;
 

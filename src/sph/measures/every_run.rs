@@ -5,17 +5,18 @@ use super::subject::{Subject, measure};
 use crate::analysis::phases::{PhaseAreas, density_error};
 use crate::math::Vec2;
 use crate::solver::Measure;
-use crate::sph::projection::Flow;
+use crate::sph::flow::Flow;
 use crate::sph::warnings::Unresolved;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
-    let fluids = s.flow.particles.fluids;
-    let [rms, largest] = density_error(&s.flow.fields.volume[..fluids], s.flow.method.volume);
+    let fluids = s.flow.state.particles.fluids;
+    let [rms, largest] = density_error(&s.flow.fields.volume[..fluids], s.flow.setting.method.volume);
     let mut found = vec![
         measure("density-error", rms, "", None, "root mean square of V0/V - 1 over fluid particles at the end"),
         measure("largest-density-error", largest, "", None, "largest |V0/V - 1| over fluid particles at the end"),
     ];
-    let nearest = (0..fluids).map(|a| (s.flow.wall)(s.flow.particles.position[a]).0).fold(f64::INFINITY, f64::min);
+    let nearest =
+        (0..fluids).map(|a| (s.flow.setting.wall)(s.flow.state.particles.position[a]).0).fold(f64::INFINITY, f64::min);
     if nearest.is_finite() {
         let method = "signed distance of the fluid particle nearest to a wall; below 0: inside of it";
         found.push(measure("smallest-wall-distance-m", nearest, "m", None, method));
@@ -26,7 +27,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
             "distance of the two nearest fluid particles over dx at the end; particles that pair up come below 0.5";
         found.push(measure("smallest-particle-distance-ratio", distance, "", None, method));
     }
-    if s.flow.method.tension > 0.0 {
+    if s.flow.setting.method.tension > 0.0 {
         found.extend(two_phases(s));
     }
     found
@@ -34,12 +35,15 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
 
 /// Distance of the two nearest fluid particles over the spacing.
 fn smallest_distance(flow: &Flow) -> f64 {
-    let (position, fluids) = (&flow.particles.position, flow.particles.fluids);
-    let among_fluids = |a: usize| flow.pairs.of(a).filter(|ab| flow.images.source(ab.b) < fluids);
+    let (position, fluids) = (&flow.state.particles.position, flow.state.particles.fluids);
+    let among_fluids =
+        |a: usize| flow.neighborhood.pairs.of(a).filter(|ab| flow.neighborhood.images.source(ab.b) < fluids);
     let distances = (0..fluids).flat_map(|a| {
-        among_fluids(a).map(move |ab| flow.domain.separation(position[a], flow.images.position(ab.b, position)).norm())
+        among_fluids(a).map(move |ab| {
+            flow.setting.domain.separation(position[a], flow.neighborhood.images.position(ab.b, position)).norm()
+        })
     });
-    distances.fold(f64::INFINITY, f64::min) / flow.method.spacing
+    distances.fold(f64::INFINITY, f64::min) / flow.setting.method.spacing
 }
 
 fn two_phases(s: &Subject) -> Vec<Measure> {
@@ -62,7 +66,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
             "capillary-pressure-Pa",
             pressure.value,
             "Pa",
-            Some(pressure.uncertainty(s.flow.method.tension, s.flow.method.kernel.h)),
+            Some(pressure.uncertainty(s.flow.setting.method.tension, s.flow.setting.method.kernel.h)),
             "mean p of the non-wetting less that of the wetting particles farther than 3h from the interface, each taken to the mean height of the interface",
         ),
         measure("interface-length-m", s.seen.interface_length(), "m", None, "length of the c = 0.5 contour"),
@@ -90,11 +94,15 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
         None,
         "connected parts of either phase with fewer than 20 particles",
     ));
-    if s.flow.method.wetting.is_some() {
+    if s.flow.setting.method.wetting.is_some() {
         let angle = s.seen.angle();
         let method = how_the_angle_was_measured(s);
         found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
-        let asked = s.seen.contact_lines.iter().filter_map(|line| s.flow.spots.model(&s.flow.method, line.position));
+        let asked = s
+            .seen
+            .contact_lines
+            .iter()
+            .filter_map(|line| s.flow.setting.spots.model(&s.flow.setting.method, line.position));
         let angles: Vec<f64> = asked.map(|model| model.static_angle().to_degrees()).collect();
         let mean = angles.iter().sum::<f64>() / angles.len() as f64;
         let method = "mean over the contact lines of the static angle of the wetting model at their places";
@@ -107,7 +115,8 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
 fn how_the_angle_was_measured(s: &Subject) -> String {
     let angle = s.seen.angle();
     if angle.measured > 0 {
-        let shape = if s.flow.method.gravity == Vec2::zeros() { "circles" } else { "arcs of Young and Laplace" };
+        let shape =
+            if s.flow.setting.method.gravity == Vec2::zeros() { "circles" } else { "arcs of Young and Laplace" };
         return format!(
             "{shape} fitted to the c = 0.5 contour farther than 2h from walls, down to h for short menisci, and extrapolated to the wall; mean of {} contact lines ({} without a fit), spread {:.2} degrees",
             angle.measured, angle.failed, angle.spread_deg

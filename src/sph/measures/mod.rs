@@ -12,8 +12,8 @@ mod subject;
 pub use subject::{Columns, DiscOf, Group, Subject, measure};
 
 use crate::solver::Measure;
+use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
-use crate::sph::projection::Flow;
 
 /// All measures of a run.
 #[must_use]

@@ -2,12 +2,12 @@
 
 use super::subject::{Columns, Subject, measure};
 use crate::solver::Measure;
-use crate::sph::open::{Drive, Ledger, OpenSide, Through};
+use crate::sph::flow::Flow;
+use crate::sph::open::{Drive, GivenFlow, Ledger, OpenSide};
 use crate::sph::particles::Phase;
-use crate::sph::projection::Flow;
 
 fn is_open(flow: &Flow) -> bool {
-    !flow.open.sides.is_empty() || !flow.open.through.is_empty()
+    !flow.setting.open.sides.is_empty() || !flow.setting.open.through.is_empty()
 }
 
 /// Column of the pressure at a side where it rises in steps less that at the opposite side, in Pa.
@@ -18,7 +18,7 @@ pub const PASSED: &str = "passed_m2";
 
 /// The first side whose pressure rises in steps.
 fn rising(flow: &Flow) -> Option<&OpenSide> {
-    flow.open.sides.iter().find(|side| side.steps.is_some())
+    flow.setting.open.sides.iter().find(|side| side.steps.is_some())
 }
 
 /// Areas in m² that came in and left since time zero, by phase: particles times their area at rest.
@@ -26,8 +26,8 @@ pub fn columns(flow: &Flow) -> Columns {
     if !is_open(flow) {
         return vec![];
     }
-    let (came, left) = flow.open.ledger.totals();
-    let area = |count: u64| count as f64 * flow.method.volume;
+    let (came, left) = flow.state.ledger.totals();
+    let area = |count: u64| count as f64 * flow.setting.method.volume;
     let mut columns = vec![
         ("wetting_in_m2", area(came[0])),
         ("wetting_out_m2", area(left[0])),
@@ -39,25 +39,25 @@ pub fn columns(flow: &Flow) -> Columns {
         ("flow_rate_y_m2_per_s", "driving_gradient_y_Pa_per_m"),
     ];
     if let Some(side) = rising(flow) {
-        let opposite = flow.open.sides.iter().find(|other| other.number != side.number);
+        let opposite = flow.setting.open.sides.iter().find(|other| other.number != side.number);
         let [high, low] = [Some(side), opposite].map(|side| side.and_then(OpenSide::given_pressure).unwrap_or(0.0));
         columns.push((PRESSURE_DIFFERENCE, high - low));
         let phase = usize::from(side.main != Phase::Wetting);
-        let through = opposite.map_or(0, |opposite| flow.open.ledger.left[opposite.number][phase]);
+        let through = opposite.map_or(0, |opposite| flow.state.ledger.left[opposite.number][phase]);
         columns.push((PASSED, area(through)));
     }
-    for through in &flow.open.through {
-        let (rate, gradient) = names[through.side.axis()];
-        let sign = through.side.inwards();
-        columns.extend([(rate, sign * through.state.rate), (gradient, sign * through.state.gradient)]);
+    for (side, given) in flow.given_flows() {
+        let (rate, gradient) = names[side.axis()];
+        let sign = side.inwards();
+        columns.extend([(rate, sign * given.rate), (gradient, sign * given.gradient)]);
     }
     columns
 }
 
 /// Areas in m² of the wetting and the non-wetting phase that came in less those that left.
 pub fn net(flow: &Flow) -> [f64; 2] {
-    let (came, left) = flow.open.ledger.totals();
-    [0, 1].map(|i| (came[i] as f64 - left[i] as f64) * flow.method.volume)
+    let (came, left) = flow.state.ledger.totals();
+    [0, 1].map(|i| (came[i] as f64 - left[i] as f64) * flow.setting.method.volume)
 }
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
@@ -65,9 +65,9 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     if !is_open(flow) {
         return vec![];
     }
-    let (ledger, fluids) = (&flow.open.ledger, flow.particles.fluids);
+    let (ledger, fluids) = (&flow.state.ledger, flow.state.particles.fluids);
     let (came, left) = ledger.totals();
-    let inside = Ledger::count(&flow.particles.phase[..fluids]);
+    let inside = Ledger::count(&flow.state.particles.phase[..fluids]);
     let start: u64 = ledger.at_start.iter().sum();
     let missing = |i: usize| (ledger.at_start[i] as f64 + came[i] as f64 - left[i] as f64 - inside[i] as f64).abs();
     let error = [0, 1].map(missing).into_iter().fold(0.0, f64::max) / start as f64;
@@ -91,7 +91,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
             "change of the area of both phases less that of what passed through the sides, over the area at time zero",
         ),
     ];
-    if flow.time > 0.0 {
+    if flow.state.time > 0.0 {
         found.extend(flow_rates(flow));
     }
     found.extend(burst(s));
@@ -127,20 +127,20 @@ fn burst(s: &Subject) -> Option<Measure> {
 
 /// Rates since time zero beside those that were asked for.
 fn flow_rates(flow: &Flow) -> Vec<Measure> {
-    let (open, time) = (&flow.open, flow.time);
+    let (open, ledger, time) = (&flow.setting.open, &flow.state.ledger, flow.state.time);
     let count = |counts: &[[u64; 2]; 4], number: usize| counts[number].iter().sum::<u64>() as f64;
     let through_open_side = |side: &OpenSide| {
-        let (came, left) = (count(&open.ledger.came, side.number), count(&open.ledger.left, side.number));
+        let (came, left) = (count(&ledger.came, side.number), count(&ledger.left, side.number));
         let asked = match &side.drive {
             Drive::Velocity(profile) => Some(profile.flow_rate()),
             Drive::Pressure(_) => None,
         };
         // Particles come in one by one as cells of the lattice, which are what the flow rate is in at an inlet.
-        let area = if asked.is_some() { open.cell } else { flow.method.volume };
+        let area = if asked.is_some() { open.cell } else { flow.setting.method.volume };
         ((came - left) * area / time, asked)
     };
-    let through_period = |through: &Through| (through.state.passed / time, Some(through.flow_rate()));
-    let rates = open.sides.iter().map(through_open_side).chain(open.through.iter().map(through_period));
+    let through_period = |(side, given): (&OpenSide, &GivenFlow)| (given.passed / time, Some(side.flow_rate()));
+    let rates = open.sides.iter().map(through_open_side).chain(flow.given_flows().map(through_period));
     let (mut came_in, mut asked_in, mut given_in) = (0.0, 0.0, 0.0);
     for (rate, asked) in rates {
         came_in += f64::max(rate, 0.0);
@@ -156,11 +156,11 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
             "area that came in through the sides with a given velocity or flow rate, over that which was asked for";
         found.push(measure("inflow-ratio", given_in / asked_in, "", None, method));
     }
-    for through in &open.through {
-        let drop = through.state.gradient * flow.domain.bounds.size()[through.side.axis()];
+    for (side, given) in flow.given_flows() {
+        let drop = given.gradient * flow.setting.domain.bounds.size()[side.axis()];
         let method =
             "largest relative error of the flow rate through the periodic side in a step, by the ways of all particles";
-        found.push(measure("largest-flow-rate-error", through.state.largest_error, "", None, method));
+        found.push(measure("largest-flow-rate-error", given.largest_error, "", None, method));
         let method = "mean pressure gradient that drives the given flow at the end, times the period";
         found.push(measure("driving-pressure-drop-Pa", drop, "Pa", None, method));
     }

@@ -3,7 +3,7 @@
 use super::subject::{Columns, Subject, measure};
 use crate::math::Vec2;
 use crate::solver::{Measure, Series};
-use crate::sph::projection::Flow;
+use crate::sph::flow::Flow;
 use crate::sph::stages::Stages;
 
 /// Off-diagonal entries may differ by this share of the diagonal ones before anyone is told: the particles are no symmetric scheme.
@@ -21,9 +21,9 @@ const MOMENTA: [&str; 2] = ["momentum_x_kg_per_m_s", "momentum_y_kg_per_m_s"];
 
 /// The velocity averaged over the whole cell, solids at rest, in m/s.
 pub fn columns(flow: &Flow) -> Columns {
-    let p = &flow.particles;
+    let p = &flow.state.particles;
     let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.volume[a] * p.velocity[a]).sum();
-    let mean = flux / flow.domain.bounds.area();
+    let mean = flux / flow.setting.domain.bounds.area();
     MEANS.into_iter().zip([mean.x, mean.y]).collect()
 }
 
@@ -41,7 +41,7 @@ struct Column {
 
 /// The response to each force whose stage has two rows; `fluid_area` in m².
 fn response(flow: &Flow, stages: &Stages, series: &Series, fluid_area: f64) -> Vec<Column> {
-    let fluid = &flow.method.wetting_fluid;
+    let fluid = &flow.setting.method.wetting_fluid;
     let read = |row: &[f64], names: [&str; 2]| {
         let value = |name: &str| series.columns.iter().position(|column| column == name).map_or(f64::NAN, |i| row[i]);
         Vec2::from(names.map(value))

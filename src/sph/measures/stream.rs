@@ -10,9 +10,9 @@ use nalgebra::{Matrix3, Vector3};
 use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
 use crate::sph::cells::Cells;
+use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
-use crate::sph::projection::Flow;
 
 /// The constant in the pressure does nothing only where the interface ends as far out across the force as it begins: by so much of its
 /// length it may not.
@@ -33,19 +33,19 @@ pub struct StreamForce {
 /// between plates), where no particle of the other fluid is in reach of it, and with the continuum surface force.
 #[must_use]
 pub fn along(flow: &Flow, seen: &Observation, ahead: Vec2) -> StreamForce {
-    let is_wetting = |a: usize| a < flow.particles.fluids && flow.particles.phase[a] == Phase::Wetting;
+    let is_wetting = |a: usize| a < flow.state.particles.fluids && flow.state.particles.phase[a] == Phase::Wetting;
     let friction = flow.viscous_force(is_wetting) + flow.friction(|a, _| is_wetting(a));
     let pressure = if flow.fields.jump.is_some() { by_pressure(flow, &seen.interface, ahead) } else { None };
     StreamForce { pressure: pressure.unwrap_or(f64::NAN), friction: friction.dot(&ahead) }
 }
 
 fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> {
-    let p = &flow.particles;
+    let p = &flow.state.particles;
     let other: Vec<usize> = (0..p.fluids).filter(|&a| p.phase[a] == Phase::NonWetting).collect();
     let points: Vec<Vec2> = other.iter().map(|&a| p.position[a]).collect();
-    let cells = Cells::build(&points, &flow.domain, flow.method.kernel.support());
+    let cells = Cells::build(&points, &flow.setting.domain, flow.setting.method.kernel.support());
     // Without the weight of the fluid displaced, and with the mean gradient that drives a given flow.
-    let even = flow.method.other_fluid.density * flow.method.gravity + flow.driving_gradient();
+    let even = flow.setting.method.other_fluid.density * flow.setting.method.gravity + flow.driving_gradient();
     let (mut force, mut gained, mut length) = (0.0, 0.0, 0.0);
     for line in interface {
         let from = line.points.first()?;
@@ -64,9 +64,9 @@ fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> 
 
 /// The pressure in Pa of the particles `other`, sorted into `cells`, at `x` (m): a plane through them, or their mean where they do not hold one.
 fn pressure_at(flow: &Flow, (cells, other): (&Cells, &[usize]), x: Vec2) -> Option<f64> {
-    let (kernel, pressure) = (&flow.method.kernel, &flow.particles.pressure);
+    let (kernel, pressure) = (&flow.setting.method.kernel, &flow.state.particles.pressure);
     let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
-    cells.visit_near(flow.domain.wrapped(x), |i, from_particle| {
+    cells.visit_near(flow.setting.domain.wrapped(x), |i, from_particle| {
         let a = other[i as usize];
         let r = -from_particle / kernel.h;
         let row = Vector3::new(1.0, r.x, r.y);

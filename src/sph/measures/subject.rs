@@ -3,8 +3,8 @@
 use crate::analysis::phases::PhaseAreas;
 use crate::math::{Bounds, Vec2};
 use crate::solver::{Measure, Series};
+use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
-use crate::sph::projection::Flow;
 use crate::sph::stages::Stages;
 
 /// A disc of the geometry, for measures that compare with closed forms.

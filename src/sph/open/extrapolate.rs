@@ -58,6 +58,19 @@ impl InteriorPoints {
         let terms = &self.terms[self.start[i]..self.start[i + 1]];
         (!terms.is_empty()).then(|| terms.iter().map(|&(a, w)| w * field[a as usize]).sum())
     }
+
+    /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
+    /// given pressure the normal part of that at the interior point, so that it goes on along the normal.
+    pub fn set_buffer_velocity(&self, particles: &Particles, sides: &[OpenSide], velocity: &mut [Vec2]) {
+        for (i, b) in particles.buffer().enumerate() {
+            let x = particles.position[b];
+            let Some(side) = sides.iter().find(|side| side.beyond(x) >= 0.0) else { continue };
+            velocity[b] = side.given_velocity(x).unwrap_or_else(|| {
+                let inside = self.value(i, velocity).unwrap_or_default();
+                side.velocity(side.inwards() * inside[side.axis()])
+            });
+        }
+    }
 }
 
 /// Weights that give fields exactly that are linear along the normal and quadratic along the side: a plain or linear average would

@@ -19,17 +19,15 @@ pub use ledger::Ledger;
 pub use pressure::Prescribed;
 pub use profile::{Opening, Profile, Shape, openings};
 pub use side::{DEPTH, Drive, OpenSide, Staircase};
-pub use through::{GivenFlow, Moved, Through};
+pub use through::{GivenFlow, Moved};
 
-/// The open sides of a run with what passed through them.
+/// The sides of a run that fluid comes in or leaves through.
 #[derive(Debug, Clone, Default)]
 pub struct Open {
     /// Inlets and outlets.
     pub sides: Vec<OpenSide>,
     /// Periodic sides with a given flow rate.
-    pub through: Vec<Through>,
-    /// What passed through the sides.
-    pub ledger: Ledger,
+    pub through: Vec<OpenSide>,
     /// Area of a cell of the lattice in m², of which a file of particles brings one per spacing.
     pub cell: f64,
 }

@@ -9,16 +9,7 @@ use crate::sph::domain::Domain;
 use crate::sph::open::{Drive, Ledger, OpenSide, Shape};
 use crate::sph::particles::Phase;
 
-/// A periodic side that fluid comes in through at a given rate.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Through {
-    /// Place, flow rate and what comes in.
-    pub side: OpenSide,
-    /// What a resumed run needs.
-    pub state: GivenFlow,
-}
-
-/// How a given flow goes on.
+/// How the given flow through a periodic side goes on.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct GivenFlow {
     /// The mean pressure gradient that drives it, in Pa/m along the way in.
@@ -43,23 +34,17 @@ pub struct Moved<'a> {
     pub dt: f64,
 }
 
-impl Through {
-    /// A side through which nothing has come in yet.
-    #[must_use]
-    pub fn new(side: OpenSide) -> Self {
-        Self { side, state: GivenFlow::default() }
-    }
-
+impl OpenSide {
     /// The unit vector inwards.
     #[must_use]
     pub fn way(&self) -> Vec2 {
-        self.side.velocity(1.0)
+        self.velocity(1.0)
     }
 
     /// The rate asked for in m²/s.
     #[must_use]
     pub fn flow_rate(&self) -> f64 {
-        match &self.side.drive {
+        match &self.drive {
             Drive::Velocity(profile) => profile.flow_rate(),
             Drive::Pressure(_) => 0.0,
         }
@@ -68,16 +53,17 @@ impl Through {
     /// The velocity in m/s at `x` (m) of the parabola that is given, if one is.
     #[must_use]
     pub fn parabola(&self, x: Vec2) -> Option<Vec2> {
-        match &self.side.drive {
-            Drive::Velocity(profile) if profile.shape != Shape::Plug => self.side.given_velocity(x),
+        match &self.drive {
+            Drive::Velocity(profile) if profile.shape != Shape::Plug => self.given_velocity(x),
             _ => None,
         }
     }
+}
 
-    /// Counts what comes in as particles move, and changes the phase of those that come through the side.
-    pub fn pass(&mut self, domain: &Domain, moved: &Moved, phase: &mut [Phase], ledger: &mut Ledger) {
-        let (way, period) = (self.way(), domain.bounds.size()[self.side.axis()]);
-        let side = &self.side;
+impl GivenFlow {
+    /// Counts what comes in through `side` as particles move, and changes the phase of those that come through it.
+    pub fn pass(&mut self, side: &OpenSide, domain: &Domain, moved: &Moved, phase: &mut [Phase], ledger: &mut Ledger) {
+        let (way, period) = (side.way(), domain.bounds.size()[side.axis()]);
         let mut gone = 0.0;
         for (a, (&from, &to)) in moved.from.iter().zip(moved.to).enumerate() {
             gone += domain.separation(to, from).dot(&way);
@@ -92,9 +78,9 @@ impl Through {
             }
         }
         let passed = moved.volume * gone / period;
-        let asked = self.flow_rate();
-        self.state.passed += passed;
-        self.state.rate = passed / moved.dt;
-        self.state.largest_error = self.state.largest_error.max((self.state.rate / asked - 1.0).abs());
+        let asked = side.flow_rate();
+        self.passed += passed;
+        self.rate = passed / moved.dt;
+        self.largest_error = self.largest_error.max((self.rate / asked - 1.0).abs());
     }
 }

@@ -1,9 +1,10 @@
 //! The corrector: the velocity at the end of a step [Huber2013, Eq. 26].
 
-use super::given_flow::add_responses;
+use super::given_flow::{add_responses, gradient_changes};
 use super::pressure::Projected;
-use super::{Corrected, Flow, Predicted};
+use super::{Corrected, Predicted};
 use crate::math::Vec2;
+use crate::sph::flow::Flow;
 use crate::sph::method::PressureGradient;
 use crate::sph::terms::pressure_gradient;
 
@@ -15,31 +16,31 @@ impl Flow {
         let acceleration = self.pressure_acceleration(&pressure);
         let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);
         let mut velocity: Vec<Vec2> = corrected.collect();
-        let gradient_changes = self.gradient_changes(&velocity, &responses, predicted.dt);
+        let gradient_changes = gradient_changes(&self.setting, &velocity, &responses, predicted.dt);
         add_responses(&mut velocity, &responses, &gradient_changes, predicted.dt);
         for (response, change) in responses.iter().zip(&gradient_changes) {
             pressure.iter_mut().zip(&response.potential).for_each(|(p, by)| *p += change * by);
         }
-        velocity.extend(std::iter::repeat_n(Vec2::zeros(), self.particles.open));
-        self.set_buffer_velocity(&predicted.interior, &mut velocity);
+        velocity.extend(std::iter::repeat_n(Vec2::zeros(), self.state.particles.open));
+        predicted.interior.set_buffer_velocity(&self.state.particles, &self.setting.open.sides, &mut velocity);
         Corrected { velocity, pressure, drift, gradient_changes, responses }
     }
 
     /// The acceleration of the fluid particles in m/s² by the gradient of a `pressure` (Pa), with the gravity that goes with it and the jump
     /// across the interface.
     pub(super) fn pressure_acceleration(&self, pressure: &[f64]) -> Vec<Vec2> {
-        let (fluids, f) = (self.particles.fluids, &self.fields);
+        let (fluids, f) = (self.state.particles.fluids, &self.fields);
         let mut p = pressure.to_vec();
         let mut acceleration = vec![Vec2::zeros(); fluids];
-        let form = self.method.pressure_gradient();
+        let form = self.setting.method.pressure_gradient();
         if form != PressureGradient::Difference {
             // The constant matters in these forms: all pressures at or above the background order the particles.
             let lowest = p.iter().fold(f64::INFINITY, |m, p| m.min(*p));
-            let shift = self.background_pressure(self.fluid_speed()) - lowest;
+            let shift = self.setting.method.background_pressure_at(self.state.particles.fluid_speed()) - lowest;
             p.iter_mut().for_each(|p| *p += shift);
         }
-        self.images.extend(&mut p);
-        let (pairs, volume, density) = (&self.pairs, &f.volume, &f.density);
+        self.neighborhood.images.extend(&mut p);
+        let (pairs, volume, density) = (&self.neighborhood.pairs, &f.volume, &f.density);
         match form {
             PressureGradient::Symmetric => pressure_gradient::symmetric(pairs, volume, density, &p, &mut acceleration),
             PressureGradient::Weighted => pressure_gradient::weighted(pairs, volume, density, &p, &mut acceleration),

@@ -6,12 +6,13 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::Flow;
 use crate::math::Vec2;
 use crate::solver::SolverError;
-use crate::sph::open::Through;
+use crate::sph::flow::Flow;
+use crate::sph::open::OpenSide;
 use crate::sph::pairs::{each, total};
 use crate::sph::poisson::Matrix;
+use crate::sph::setting::Setting;
 use crate::sph::terms::pressure_gradient;
 
 /// Largest relative residual of a response: the change of G in a step is small, and so is the divergence that this leaves of it.
@@ -29,37 +30,26 @@ pub(in crate::sph) struct Response {
 }
 
 impl Flow {
-    /// The mean pressure gradient −∇P in Pa/m that drives the given flows.
-    #[must_use]
-    pub fn driving_gradient(&self) -> Vec2 {
-        self.open.through.iter().map(|through| through.state.gradient * through.way()).sum()
-    }
-
     /// Whether differences of pressure have the mean gradient in them; else it is a body force: sums that do not divide by their moment
     /// are not exact for linear pressures.
     pub(super) fn gradient_in_pressure(&self) -> bool {
         self.fields.jump.is_some()
     }
 
-    /// The rate in m²/s at which particles of the given velocities pass the side of `through` inwards, on the mean over the period.
-    pub(super) fn flow_rate(&self, through: &Through, velocity: &[Vec2]) -> f64 {
-        let (way, period) = (through.way(), self.domain.bounds.size()[through.side.axis()]);
-        self.method.volume / period * total(self.particles.fluids, |a| velocity[a].dot(&way))
-    }
-
     /// The right side of the pressure equation for the unit gradient along `way`; `matrix` as assembled.
     pub(super) fn right_side_of_gradient(&self, way: Vec2, matrix: &Matrix) -> Vec<f64> {
-        let n = self.particles.len();
+        let n = self.state.particles.len();
         if !self.gradient_in_pressure() {
             let mut by = vec![Vec2::zeros(); n];
-            (0..self.particles.moving()).for_each(|a| by[a] = way / self.fields.density[a]);
-            self.images.extend_velocity(&mut by);
+            (0..self.state.particles.moving()).for_each(|a| by[a] = way / self.fields.density[a]);
+            self.neighborhood.images.extend_velocity(&mut by);
             return self.minus_outflow(&by);
         }
         let mut right = vec![0.0; n];
         each(&mut right, |a| {
-            let coupling = &matrix.coupling[self.pairs.row(a)];
-            self.pairs
+            let coupling = &matrix.coupling[self.neighborhood.pairs.row(a)];
+            self.neighborhood
+                .pairs
                 .of(a)
                 .zip(coupling)
                 .map(|(ab, coupling)| f64::from(*coupling) * way.dot(&self.separation(a, ab.b)))
@@ -70,9 +60,9 @@ impl Flow {
 
     /// What the unit gradient along `way` does, with the periodic part of its pressure.
     pub(super) fn response(&self, way: Vec2, potential: Vec<f64>) -> Response {
-        let (pairs, f, fluids) = (&self.pairs, &self.fields, self.particles.fluids);
+        let (pairs, f, fluids) = (&self.neighborhood.pairs, &self.fields, self.state.particles.fluids);
         let mut extended = potential.clone();
-        self.images.extend(&mut extended);
+        self.neighborhood.images.extend(&mut extended);
         let mut acceleration = vec![Vec2::zeros(); fluids];
         if self.gradient_in_pressure() {
             let rise = |a: usize, b: usize| -way.dot(&self.separation(a, b));
@@ -87,33 +77,14 @@ impl Flow {
 
     /// x_a − x_b in m, of a particle and a particle or image.
     pub(super) fn separation(&self, a: usize, b: usize) -> Vec2 {
-        let x = &self.particles.position;
-        self.domain.separation(x[a], self.images.position(b, x))
+        self.neighborhood.separation(a, b, &self.state.particles.position, &self.setting.domain)
     }
 
-    /// The changes in Pa/m of the mean pressure gradients after which the fluid, now at the given `velocity` (m/s), has the given flow rates at
-    /// the end of a step of length `dt` (s).
-    pub(super) fn gradient_changes(&self, velocity: &[Vec2], responses: &[Response], dt: f64) -> Vec<f64> {
-        let through = &self.open.through;
-        let missing = |i: usize| through[i].flow_rate() - self.flow_rate(&through[i], velocity);
-        let rate = |i: usize, j: usize| dt * self.flow_rate(&through[i], &responses[j].acceleration);
-        match through.len() {
-            0 => vec![],
-            1 => vec![missing(0) / rate(0, 0)],
-            // One along each axis, coupled where solids lead the fluid aside.
-            _ => {
-                let rates = Matrix2::from_fn(rate);
-                let changes = rates.lu().solve(&Vector2::new(missing(0), missing(1))).unwrap_or_default();
-                vec![changes[0], changes[1]]
-            }
-        }
-    }
-
-    /// Whether fluid that goes on from particle to particle along the axis of `through` comes back to itself.
-    fn is_open(&self, through: &Through) -> bool {
-        let (way, fluids) = (through.way(), self.particles.fluids);
-        let half = 0.5 * self.domain.bounds.size()[through.side.axis()];
-        let reach = NEXT * self.method.spacing;
+    /// Whether fluid that goes on from particle to particle along the axis of the side comes back to itself.
+    fn is_open(&self, side: &OpenSide) -> bool {
+        let (way, fluids) = (side.way(), self.state.particles.fluids);
+        let half = 0.5 * self.setting.domain.bounds.size()[side.axis()];
+        let reach = NEXT * self.setting.method.spacing;
         // How far along the axis each particle stands from the first of its part, by the particles between.
         let mut along = vec![f64::NAN; fluids];
         let mut waiting = Vec::new();
@@ -123,7 +94,7 @@ impl Flow {
                 waiting.push(first);
             }
             while let Some(a) = waiting.pop() {
-                for b in self.pairs.of(a).map(|ab| ab.b).filter(|&b| b < fluids) {
+                for b in self.neighborhood.pairs.of(a).map(|ab| ab.b).filter(|&b| b < fluids) {
                     let r = self.separation(b, a);
                     if r.norm() > reach {
                         continue;
@@ -141,44 +112,73 @@ impl Flow {
         false
     }
 
-    /// Sets the places `new` (m) of the fluid particles anew, so that what went through the sides in a step of length `dt` (s) from the places at
-    /// its beginning is what is asked for: shifting and the density-error correction carry some along.
-    pub(in crate::sph) fn keep_flow_rates(&self, responses: &[Response], dt: f64, new: &mut [Vec2]) {
-        if responses.is_empty() {
-            return;
-        }
-        let old = &self.particles.position;
-        let mut mean: Vec<Vec2> =
-            new.iter().zip(old).map(|(&to, &from)| self.domain.separation(to, from) / dt).collect();
-        let changes = self.gradient_changes(&mean, responses, dt);
-        add_responses(&mut mean, responses, &changes, dt);
-        new.iter_mut().zip(old).zip(mean).for_each(|((to, from), mean)| *to = self.domain.wrapped(from + dt * mean));
-    }
-
     /// Gives the fluid at time zero the flow rates that are asked for: what it has is made free of divergence, and what is missing is added as
     /// a pressure gradient that sets in at once does.
     ///
     /// # Errors
     /// [`SolverError::Blocked`] where solids close the way along a side, and what the pressure solve returns.
     pub(super) fn start_given_flow(&mut self) -> Result<(), SolverError> {
-        if self.open.through.is_empty() {
+        if self.setting.open.through.is_empty() {
             return Ok(());
         }
-        if let Some(through) = self.open.through.iter().find(|through| !self.is_open(through)) {
-            return Err(SolverError::Blocked { side: through.side.name(), time: self.time, step: self.steps });
+        if let Some(side) = self.setting.open.through.iter().find(|side| !self.is_open(side)) {
+            return Err(SolverError::Blocked { side: side.name(), time: self.state.time, step: self.state.steps });
         }
-        let mut velocity = self.particles.velocity.clone();
-        velocity[self.particles.moving()..].fill(Vec2::zeros());
-        self.images.extend_velocity(&mut velocity);
+        let mut velocity = self.state.particles.velocity.clone();
+        velocity[self.state.particles.moving()..].fill(Vec2::zeros());
+        self.neighborhood.images.extend_velocity(&mut velocity);
         let (by_walls, responses) = self.project_kinematically(&velocity)?;
-        let fluids = self.particles.fluids;
+        let fluids = self.state.particles.fluids;
         velocity.truncate(fluids);
         velocity.iter_mut().zip(&by_walls).for_each(|(v, by)| *v += by);
-        let changes = self.gradient_changes(&velocity, &responses, 1.0);
+        let changes = gradient_changes(&self.setting, &velocity, &responses, 1.0);
         add_responses(&mut velocity, &responses, &changes, 1.0);
-        self.particles.velocity[..fluids].copy_from_slice(&velocity);
+        self.state.particles.velocity[..fluids].copy_from_slice(&velocity);
         Ok(())
     }
+}
+
+/// The rate in m²/s at which fluid particles of the given velocities (m/s) pass the side inwards, on the mean over the period.
+fn flow_rate(setting: &Setting, side: &OpenSide, velocity: &[Vec2]) -> f64 {
+    let (way, period) = (side.way(), setting.domain.bounds.size()[side.axis()]);
+    setting.method.volume / period * total(velocity.len(), |a| velocity[a].dot(&way))
+}
+
+/// The changes in Pa/m of the mean pressure gradients after which the fluid, now at the given `velocity` (m/s), has the given flow rates at
+/// the end of a step of length `dt` (s).
+pub(super) fn gradient_changes(setting: &Setting, velocity: &[Vec2], responses: &[Response], dt: f64) -> Vec<f64> {
+    let through = &setting.open.through;
+    let missing = |i: usize| through[i].flow_rate() - flow_rate(setting, &through[i], velocity);
+    let rate = |i: usize, j: usize| dt * flow_rate(setting, &through[i], &responses[j].acceleration);
+    match through.len() {
+        0 => vec![],
+        1 => vec![missing(0) / rate(0, 0)],
+        // One along each axis, coupled where solids lead the fluid aside.
+        _ => {
+            let rates = Matrix2::from_fn(rate);
+            let changes = rates.lu().solve(&Vector2::new(missing(0), missing(1))).unwrap_or_default();
+            vec![changes[0], changes[1]]
+        }
+    }
+}
+
+/// Sets the places `new` (m) of the fluid particles anew, so that what went through the sides in a step of length `dt` (s) from the `old`
+/// places (m) is what is asked for: shifting and the density-error correction carry some along.
+pub(in crate::sph) fn keep_flow_rates(
+    setting: &Setting,
+    responses: &[Response],
+    dt: f64,
+    old: &[Vec2],
+    new: &mut [Vec2],
+) {
+    if responses.is_empty() {
+        return;
+    }
+    let domain = &setting.domain;
+    let mut mean: Vec<Vec2> = new.iter().zip(old).map(|(&to, &from)| domain.separation(to, from) / dt).collect();
+    let changes = gradient_changes(setting, &mean, responses, dt);
+    add_responses(&mut mean, responses, &changes, dt);
+    new.iter_mut().zip(old).zip(mean).for_each(|((to, from), mean)| *to = domain.wrapped(from + dt * mean));
 }
 
 /// Adds to the `velocity` (m/s) of the fluid what the changes (Pa/m) of the mean gradients do in `dt` (s).

@@ -6,10 +6,9 @@
 
 use rayon::prelude::*;
 
-use super::Flow;
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
-use crate::sph::method::PressureGradient;
+use crate::sph::flow::Flow;
 use crate::sph::pairs::{GRAIN, Pairs};
 use crate::sph::poisson::Matrix;
 use crate::sph::surface_force::jump::Jump;
@@ -29,22 +28,22 @@ pub(super) struct HydrostaticDifference<'a> {
 impl Flow {
     /// The fluid at its present places, at rest.
     pub(super) fn hydrostatic(&self) -> HydrostaticDifference<'_> {
-        let gravity = self.balanced_gravity();
+        let gravity = self.setting.balanced_gravity();
         let mut potential = Vec::new();
         if gravity != Vec2::zeros() {
-            potential.extend(self.particles.position.iter().map(|x| gravity.dot(x)));
-            self.images.extend(&mut potential);
+            potential.extend(self.state.particles.position.iter().map(|x| gravity.dot(x)));
+            self.neighborhood.images.extend(&mut potential);
         }
         let jump = self.fields.jump.as_ref();
         let density = if potential.is_empty() { Vec::new() } else { self.density_at_rest() };
         let driving = self.driving_gradient();
         let driven = (driving != Vec2::zeros() && self.gradient_in_pressure()).then_some((driving, self));
-        HydrostaticDifference { jump, tension: self.method.tension, density, potential, driven }
+        HydrostaticDifference { jump, tension: self.setting.method.tension, density, potential, driven }
     }
 
     /// The density in kg/m³ of the phase, over particles and images; walls have that of the side they take, or of the fluid nearby.
     fn density_at_rest(&self) -> Vec<f64> {
-        let (particles, moving, method) = (&self.particles, self.particles.moving(), &self.method);
+        let (particles, moving, method) = (&self.state.particles, self.state.particles.moving(), &self.setting.method);
         if let Some(jump) = &self.fields.jump {
             let (wetting, other) = (method.wetting_fluid.density, method.other_fluid.density);
             return jump.side.iter().map(|&side| if side == 1.0 { wetting } else { other }).collect();
@@ -52,21 +51,10 @@ impl Flow {
         let of_phase = particles.phase[..moving].iter().map(|&phase| method.fluid(phase).density);
         let mut density: Vec<f64> = of_phase.collect();
         density.resize(particles.len(), method.mean_density());
-        self.images.extend(&mut density);
-        shepard::into_walls(&self.pairs, &self.fields.fluid_volume, moving, &mut density);
-        self.images.extend(&mut density);
+        self.neighborhood.images.extend(&mut density);
+        shepard::into_walls(&self.neighborhood.pairs, &self.fields.fluid_volume, moving, &mut density);
+        self.neighborhood.images.extend(&mut density);
         density
-    }
-
-    /// The part of gravity in m/s² that the pressure can balance: not along periods, where it drives the flow.
-    ///
-    /// The forms of the gradient with the sum of pressures do not have it: their sums differ from those of the pressure equation.
-    pub(super) fn balanced_gravity(&self) -> Vec2 {
-        if self.method.pressure_gradient() != PressureGradient::Difference {
-            return Vec2::zeros();
-        }
-        let [x, y] = self.domain.periodic.map(|periodic| if periodic { 0.0 } else { 1.0 });
-        self.method.gravity.component_mul(&Vec2::new(x, y))
     }
 }
 

@@ -9,9 +9,9 @@
 
 use rayon::prelude::*;
 
-use super::Flow;
 use crate::math::{Mat2, Vec2};
 use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, Tolerance, conjugate_gradients};
+use crate::sph::flow::Flow;
 use crate::sph::images::Images;
 use crate::sph::method::ViscousTerm;
 use crate::sph::pairs::{GRAIN, Pair, Pairs, each, largest, split_rows};
@@ -53,9 +53,10 @@ pub(super) struct ViscousMatrix<'a> {
 impl Flow {
     /// The viscous matrix at the present positions.
     pub(super) fn viscous_matrix(&self) -> ViscousMatrix<'_> {
-        let (pairs, images, fluids, f) = (&self.pairs, &self.images, self.particles.fluids, &self.fields);
+        let (pairs, images, fluids, f) =
+            (&self.neighborhood.pairs, &self.neighborhood.images, self.state.particles.fluids, &self.fields);
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
-        let is_central = self.method.viscous_term == ViscousTerm::Szewc;
+        let is_central = self.setting.method.viscous_term == ViscousTerm::Szewc;
         let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
         let inverse_root: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();
         let strength = |a: usize, ab: &Pair| {
@@ -69,7 +70,7 @@ impl Flow {
             if !is_central {
                 return strength * self.stretch_matrix(a, ab.b, |stretch| stretch);
             }
-            let for_image = if ab.b < self.particles.len() { 1.0 } else { 2.0 };
+            let for_image = if ab.b < self.state.particles.len() { 1.0 } else { 2.0 };
             // With the same stretch along and across the wall this is what acts, and symmetric in any case.
             let along = self.stretch_matrix(a, ab.b, f64::sqrt) * ab.grad_w;
             for_image * strength * along * along.transpose()
@@ -105,7 +106,7 @@ impl Flow {
             }
         });
         let mut explicit = vec![0.0; fluids];
-        if self.method.viscous_term == ViscousTerm::Stress {
+        if self.setting.method.viscous_term == ViscousTerm::Stress {
             each(&mut explicit, |a| viscous.weight_of_transposed(pairs, a) / (root_mass[a] * root_mass[a]));
         }
         let rate = |a: usize| 2.0 * diagonal[a].symmetric_eigenvalues().max();

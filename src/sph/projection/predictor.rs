@@ -1,8 +1,9 @@
 //! The predictor: all forces but the pressure [Huber2013, Eq. 25].
 
-use super::{Damped, Flow, Predicted, implicit_viscosity};
+use super::{Damped, Predicted, implicit_viscosity};
 use crate::math::Vec2;
 use crate::solver::SolverError;
+use crate::sph::flow::Flow;
 use crate::sph::method::{PressureGradient, ViscousStep};
 use crate::sph::motion::relative_speed;
 use crate::sph::open::InteriorPoints;
@@ -20,19 +21,20 @@ impl Flow {
         longest: f64,
         viscous_step: ViscousStep,
     ) -> Result<Predicted, SolverError> {
-        let (particles, fluids, moving) = (&self.particles, self.particles.fluids, self.particles.moving());
+        let (particles, fluids, moving) =
+            (&self.state.particles, self.state.particles.fluids, self.state.particles.moving());
         let mut velocity = particles.velocity.clone();
-        self.images.extend_velocity(&mut velocity);
+        self.neighborhood.images.extend_velocity(&mut velocity);
         let viscous = self.viscous_acceleration(&velocity);
-        let is_limited = self.method.viscous_step == ViscousStep::Explicit;
+        let is_limited = self.setting.method.viscous_step == ViscousStep::Explicit;
         let rate = if is_limited { self.viscous_rate() } else { 0.0 };
         // Walls count: what they drag along has their velocity at the end of the step.
         let (place, speed) = largest(particles.len(), |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
-        let step = self.method.time_step(speed, rate).tighter(longest, "acceleration");
-        let smallest = self.method.smallest_time_step(rate);
+        let step = self.setting.method.time_step(speed, rate).tighter(longest, "acceleration");
+        let smallest = self.setting.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
             let place = particles.position.get(place).copied().unwrap_or_default();
-            let (time, step_number) = (self.time, self.steps);
+            let (time, step_number) = (self.state.time, self.state.steps);
             return Err(SolverError::TimeStep {
                 dt: step.dt,
                 smallest,
@@ -42,11 +44,11 @@ impl Flow {
                 place,
             });
         }
-        let step = landing(step, self.time, until);
+        let step = landing(step, self.state.time, until);
         let fastest = relative_speed(&particles.velocity[..fluids]);
         let background = self.background_acceleration();
         let f = &self.fields;
-        let body = self.method.gravity - self.balanced_gravity();
+        let body = self.setting.method.gravity - self.setting.balanced_gravity();
         let driving = if self.gradient_in_pressure() { Vec2::zeros() } else { self.driving_gradient() };
         let mut acceleration = vec![Vec2::zeros(); fluids];
         each(&mut acceleration, |a| {
@@ -58,11 +60,12 @@ impl Flow {
             ViscousStep::Explicit => Damped::default(),
         };
         each(&mut velocity[..fluids], |a| particles.velocity[a] + step.dt * acceleration[a]);
-        let interior = InteriorPoints::new(particles, &self.open.sides, &self.domain, &self.method.kernel);
-        self.set_buffer_velocity(&interior, &mut velocity);
+        let interior =
+            InteriorPoints::new(particles, &self.setting.open.sides, &self.setting.domain, &self.setting.method.kernel);
+        interior.set_buffer_velocity(particles, &self.setting.open.sides, &mut velocity);
         // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
         velocity[moving..particles.len()].fill(Vec2::zeros());
-        self.images.extend_velocity(&mut velocity);
+        self.neighborhood.images.extend_velocity(&mut velocity);
         Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, interior, damped })
     }
 
@@ -77,7 +80,7 @@ impl Flow {
         if excess == 0.0 {
             return Ok(Damped::default());
         }
-        let by_pressure = self.pressure_acceleration(&self.particles.pressure);
+        let by_pressure = self.pressure_acceleration(&self.state.particles.pressure);
         let mut net = vec![Vec2::zeros(); acceleration.len()];
         each(&mut net, |a| acceleration[a] + by_pressure[a]);
         let (change, found) = matrix.change(&net, dt);
@@ -87,44 +90,26 @@ impl Flow {
                 residual: found.residual,
                 tolerance: implicit_viscosity::RESIDUAL,
                 iterations: found.iterations,
-                time: self.time,
-                step: self.steps,
+                time: self.state.time,
+                step: self.state.steps,
             });
         }
         each(acceleration, |a| change[a] / dt - by_pressure[a]);
         Ok(Damped { by_pressure, excess, iterations: found.iterations })
     }
 
-    /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
-    /// given pressure the normal part of that at the interior point, so that it goes on along the normal.
-    pub(super) fn set_buffer_velocity(&self, interior: &InteriorPoints, velocity: &mut [Vec2]) {
-        for (i, b) in self.particles.buffer().enumerate() {
-            let x = self.particles.position[b];
-            let Some(side) = self.open.sides.iter().find(|side| side.beyond(x) >= 0.0) else { continue };
-            velocity[b] = side.given_velocity(x).unwrap_or_else(|| {
-                let inside = interior.value(i, velocity).unwrap_or_default();
-                side.velocity(side.inwards() * inside[side.axis()])
-            });
-        }
-    }
-
-    /// The background pressure p_0 in Pa for a flow of the given `speed` (m/s).
-    pub(super) fn background_pressure(&self, speed: f64) -> f64 {
-        let m = &self.method;
-        let scale = if m.tension > 0.0 { m.tension / m.kernel.h } else { m.mean_density() * speed * speed };
-        m.background_pressure * scale
-    }
-
-    /// The largest speed of the fluid in m/s.
-    pub(super) fn fluid_speed(&self) -> f64 {
-        largest(self.particles.fluids, |a| self.particles.velocity[a].norm()).map_or(0.0, |l| l.1)
-    }
-
     fn background_acceleration(&self) -> Vec<Vec2> {
-        let mut acceleration = vec![Vec2::zeros(); self.particles.fluids];
-        if self.method.pressure_gradient() == PressureGradient::Difference && self.method.background_pressure > 0.0 {
-            let over_density = self.background_pressure(self.fluid_speed()) / self.method.mean_density();
-            pressure_gradient::background(&self.pairs, &self.fields.volume, over_density, &mut acceleration);
+        let mut acceleration = vec![Vec2::zeros(); self.state.particles.fluids];
+        let method = &self.setting.method;
+        if method.pressure_gradient() == PressureGradient::Difference && method.background_pressure > 0.0 {
+            let over_density =
+                method.background_pressure_at(self.state.particles.fluid_speed()) / method.mean_density();
+            pressure_gradient::background(
+                &self.neighborhood.pairs,
+                &self.fields.volume,
+                over_density,
+                &mut acceleration,
+            );
         }
         acceleration
     }

@@ -3,11 +3,15 @@
 use rayon::prelude::*;
 
 use super::given_flow::{RESPONSE_RESIDUAL, Response};
-use super::{Damped, Flow, Predicted};
+use super::{Damped, Predicted};
 use crate::math::Vec2;
 use crate::solver::SolverError;
-use crate::sph::open::{Prescribed, Through};
+use crate::sph::flow::Flow;
+use crate::sph::method::Method;
+use crate::sph::neighborhood::Neighborhood;
+use crate::sph::open::{OpenSide, Prescribed};
 use crate::sph::pairs::{GRAIN, each};
+use crate::sph::particles::Particles;
 use crate::sph::poisson::{Matrix, System, Tolerance, Unknowns, assemble, impose};
 use crate::sph::terms::divergence::divergence;
 use crate::sph::terms::pressure_gradient;
@@ -34,9 +38,23 @@ pub(super) struct Projected {
     pub(super) responses: Vec<Response>,
 }
 
+/// The pressure equation of a step.
+struct PressureEquation {
+    /// As assembled, without the prescribed pressures.
+    matrix: Matrix,
+    /// Right side.
+    b: Vec<f64>,
+    /// Pressures that are given.
+    prescribed: Prescribed,
+    /// First guess of the pressure in Pa.
+    guess: Vec<f64>,
+    /// Further right sides, which have zero in place of the prescribed pressures.
+    others: Vec<(Vec<f64>, Tolerance)>,
+}
+
 /// Whether the pressures of two particles that are `facing` so are coupled: all but those of wall particles that belong to opposite sides of a thin
 /// solid, through which the pressure of one side would reach the other.
-pub(super) fn joined(facing: Vec2, other: Vec2) -> bool {
+pub(in crate::sph) fn joined(facing: Vec2, other: Vec2) -> bool {
     facing.dot(&other) > OPPOSITE
 }
 
@@ -46,39 +64,44 @@ impl Flow {
     ///
     /// The right side gives a share of the density error back (the density-error correction, which the paper lacks).
     pub(super) fn project(&mut self, predicted: &Predicted) -> Result<Projected, SolverError> {
-        let (n, dt) = (self.particles.len(), predicted.dt);
-        let (method, f) = (&self.method, &self.fields);
+        let matrix = self.assembled();
+        let (n, dt, position) = (self.state.particles.len(), predicted.dt, &self.state.particles.position);
+        let (method, f) = (&self.setting.method, &self.fields);
         let mut source = vec![0.0; n];
-        divergence(&self.pairs, &f.volume, &predicted.velocity, &mut source);
+        divergence(&self.neighborhood.pairs, &f.volume, &predicted.velocity, &mut source);
         // A long step takes back all there is, and no more.
         let drift = method.density_correction_rate(predicted.fastest).min(1.0 / dt) / dt;
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
-            if self.sees_the_fluid(a) { -f.volume[a] * (source[a] / dt - drift * self.density_error(a)) } else { 0.0 }
+            if self.setting.sees_the_fluid(position[a]) {
+                -f.volume[a] * (source[a] / dt - drift * self.density_error(a))
+            } else {
+                0.0
+            }
         });
-        let matrix = self.assembled();
-        let (method, f) = (&self.method, &self.fields);
-        self.hydrostatic().subtract_from(&mut b, &matrix, &self.pairs);
+        self.hydrostatic().subtract_from(&mut b, &matrix, &self.neighborhood.pairs);
         self.subtract_divergence_error(&predicted.damped, &matrix, &mut b);
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
-        let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
+        let prescribed = Prescribed::new(&self.state.particles, &self.setting.open.sides, jump, method.kernel.h);
         let mut others = Vec::new();
         if method.density_error_shifting > 0.0 {
             let mut error = vec![0.0; n];
             each(&mut error, |a| {
-                let seen = if self.sees_the_fluid(a) { self.density_error(a) } else { 0.0 };
+                let seen = if self.setting.sees_the_fluid(position[a]) { self.density_error(a) } else { 0.0 };
                 method.density_error_shifting * f.volume[a] * seen
             });
             others.push((error, Tolerance { residual: CORRECTION_RESIDUAL, ..method.tolerance }));
         }
         let tolerance = Tolerance { residual: RESPONSE_RESIDUAL, ..method.tolerance };
-        let ways: Vec<Vec2> = self.open.through.iter().map(Through::way).collect();
+        let ways: Vec<Vec2> = self.setting.open.through.iter().map(OpenSide::way).collect();
         others.extend(ways.iter().map(|&way| (self.right_side_of_gradient(way, &matrix), tolerance)));
-        let guess = self.particles.pressure.clone();
-        let (pressure, mut found) = self.solve((matrix, b), (&prescribed, guess), others)?;
+        let guess = self.state.particles.pressure.clone();
+        let (pressure, mut found) = self.solve(PressureEquation { matrix, b, prescribed, guess, others })?;
         let potentials = found.split_off(found.len() - ways.len());
         let responses = ways.iter().zip(potentials).map(|(&way, potential)| self.response(way, potential)).collect();
-        Ok(Projected { pressure, drift: self.density_error_shifting(found.pop().unwrap_or_default()), responses })
+        // −∇ψ/ρ with the potential ψ in kg/m: the same on both sides of an interface.
+        let drift = found.pop().map_or_else(Vec::new, |potential| self.down(potential));
+        Ok(Projected { pressure, drift, responses })
     }
 
     /// The change of the velocity of the fluid particles in m/s that makes `velocity` (m/s) over particles and images free of divergence, and
@@ -89,13 +112,21 @@ impl Flow {
     ) -> Result<(Vec<Vec2>, Vec<Response>), SolverError> {
         let b = self.minus_outflow(velocity);
         let matrix = self.assembled();
-        let ways: Vec<Vec2> = self.open.through.iter().map(Through::way).collect();
-        let others =
-            ways.iter().map(|&way| (self.right_side_of_gradient(way, &matrix), self.method.tolerance)).collect();
-        let given = Prescribed::new(&self.particles, &self.open.sides, |_| f64::NAN, self.method.kernel.h);
+        let ways: Vec<Vec2> = self.setting.open.through.iter().map(OpenSide::way).collect();
+        let others = ways
+            .iter()
+            .map(|&way| (self.right_side_of_gradient(way, &matrix), self.setting.method.tolerance))
+            .collect();
+        let given = Prescribed::new(
+            &self.state.particles,
+            &self.setting.open.sides,
+            |_| f64::NAN,
+            self.setting.method.kernel.h,
+        );
         let value = given.value.iter().map(|value| 0.0 * value).collect();
-        let at_zero = Prescribed { value, reference: 0.0 };
-        let (potential, found) = self.solve((matrix, b), (&at_zero, vec![0.0; self.particles.len()]), others)?;
+        let prescribed = Prescribed { value, reference: 0.0 };
+        let guess = vec![0.0; self.state.particles.len()];
+        let (potential, found) = self.solve(PressureEquation { matrix, b, prescribed, guess, others })?;
         let responses = ways.iter().zip(found).map(|(&way, potential)| self.response(way, potential)).collect();
         Ok((self.down(potential), responses))
     }
@@ -103,34 +134,36 @@ impl Flow {
     /// The matrix of the pressure equation at the present positions.
     fn assembled(&mut self) -> Matrix {
         let mut matrix = std::mem::take(&mut self.pressure.matrix);
-        let (facing, f) = (self.facing(), &self.fields);
-        assemble(&mut matrix, &self.pairs, &self.images, &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
+        let (Neighborhood { pairs, images }, f) = (&self.neighborhood, &self.fields);
+        let facing = f.facing(self.state.particles.moving(), images);
+        assemble(&mut matrix, pairs, images, &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
         matrix
     }
 
-    /// Solves the pressure equation from the first guess (Pa) with the `prescribed` pressures, and for each right side of `others` with zero in
-    /// their place.
-    fn solve(
-        &mut self,
-        (mut matrix, mut b): (Matrix, Vec<f64>),
-        (prescribed, mut p): (&Prescribed, Vec<f64>),
-        mut others: Vec<(Vec<f64>, Tolerance)>,
-    ) -> Result<(Vec<f64>, Vec<Vec<f64>>), SolverError> {
-        let (fluids, tolerance) = (self.particles.fluids, self.method.tolerance);
+    /// The pressure (Pa), and what solves the equation for each of its further right sides.
+    fn solve(&mut self, equation: PressureEquation) -> Result<(Vec<f64>, Vec<Vec<f64>>), SolverError> {
+        let PressureEquation { mut matrix, mut b, prescribed, guess: mut p, mut others } = equation;
+        let (fluids, tolerance) = (self.state.particles.fluids, self.setting.method.tolerance);
         let given = |a: usize| prescribed.of(a, fluids);
-        let mut kind = self.kinds();
-        let mut has_dirichlet = vec![false; self.particles.part.iter().max().map_or(0, |last| *last as usize + 1)];
-        for a in self.particles.buffer().filter(|&a| given(a).is_some()) {
-            has_dirichlet[self.particles.part[a] as usize] = true;
+        let mut kind = kinds(&self.setting.method, &self.fields.density[..self.state.particles.len()]);
+        let mut has_dirichlet =
+            vec![false; self.state.particles.part.iter().max().map_or(0, |last| *last as usize + 1)];
+        for a in self.state.particles.buffer().filter(|&a| given(a).is_some()) {
+            has_dirichlet[self.state.particles.part[a] as usize] = true;
             kind[a] = DIRICHLET;
             others.iter_mut().for_each(|(right, _)| right[a] = 0.0);
         }
         impose(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
         self.pressure.matrix = matrix;
-        let part = &self.particles.part;
-        let position = &self.particles.position;
-        let unknowns =
-            Unknowns { position, kind: &kind, part, has_dirichlet: &has_dirichlet, spacing: self.method.spacing };
+        let part = &self.state.particles.part;
+        let position = &self.state.particles.position;
+        let unknowns = Unknowns {
+            position,
+            kind: &kind,
+            part,
+            has_dirichlet: &has_dirichlet,
+            spacing: self.setting.method.spacing,
+        };
         let offset = |a: usize| if has_dirichlet[part[a] as usize] { prescribed.reference } else { 0.0 };
         p.iter_mut().enumerate().for_each(|(a, p)| *p = if given(a).is_some() { 0.0 } else { *p - offset(a) });
         let volume = &self.fields.volume[..p.len()];
@@ -153,8 +186,8 @@ impl Flow {
                 residual: convergence.residual,
                 tolerance: tolerance.residual,
                 iterations: convergence.iterations,
-                time: self.time,
-                step: self.steps,
+                time: self.state.time,
+                step: self.state.steps,
             });
         }
         Ok((p, found))
@@ -162,10 +195,11 @@ impl Flow {
 
     /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s) over particles and images, where there is fluid to see.
     pub(super) fn minus_outflow(&self, velocity: &[Vec2]) -> Vec<f64> {
-        let mut outflow = vec![0.0; self.particles.len()];
-        divergence(&self.pairs, &self.fields.volume, velocity, &mut outflow);
+        let position = &self.state.particles.position;
+        let mut outflow = vec![0.0; position.len()];
+        divergence(&self.neighborhood.pairs, &self.fields.volume, velocity, &mut outflow);
         outflow.iter_mut().zip(&self.fields.volume).enumerate().for_each(|(a, (outflow, volume))| {
-            *outflow = if self.sees_the_fluid(a) { -volume * *outflow } else { 0.0 };
+            *outflow = if self.setting.sees_the_fluid(position[a]) { -volume * *outflow } else { 0.0 };
         });
         outflow
     }
@@ -178,59 +212,46 @@ impl Flow {
         if damped.excess == 0.0 {
             return;
         }
-        let (n, f) = (self.particles.len(), &self.fields);
+        let (n, f) = (self.state.particles.len(), &self.fields);
         let mut acceleration = damped.by_pressure.clone();
         acceleration.resize(n, Vec2::zeros());
-        self.images.extend_velocity(&mut acceleration);
+        self.neighborhood.images.extend_velocity(&mut acceleration);
         let mut of_gradient = vec![0.0; n];
-        divergence(&self.pairs, &f.volume, &acceleration, &mut of_gradient);
+        divergence(&self.neighborhood.pairs, &f.volume, &acceleration, &mut of_gradient);
         let mut hydrostatic = vec![0.0; n];
-        self.hydrostatic().subtract_from(&mut hydrostatic, matrix, &self.pairs);
-        let pressure = &self.particles.pressure;
+        self.hydrostatic().subtract_from(&mut hydrostatic, matrix, &self.neighborhood.pairs);
+        let Particles { position, pressure, .. } = &self.state.particles;
         b.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, b)| {
-            if self.sees_the_fluid(a) {
+            if self.setting.sees_the_fluid(position[a]) {
                 let laplacian = matrix.diagonal[a] * pressure[a] - matrix.coupled(a, pressure) - hydrostatic[a];
                 *b += damped.excess * (laplacian - f.volume[a] * of_gradient[a]);
             }
         });
     }
 
-    /// Where each wall particle and its images face; zero on other particles.
-    pub(super) fn facing(&self) -> Vec<Vec2> {
-        let mut facing = vec![Vec2::zeros(); self.particles.moving()];
-        facing.extend_from_slice(&self.wall_facing);
-        self.images.extend_reflected(&mut facing);
-        facing
-    }
-
     /// V_0/V_a − 1, the density error of a fluid particle; 0 on others.
     fn density_error(&self, a: usize) -> f64 {
-        if a < self.particles.fluids { self.method.volume / self.fields.volume[a] - 1.0 } else { 0.0 }
-    }
-
-    /// The way −(∇ψ/ρ)_a in m down the gradient of the `potential` ψ (kg/m) of the density-error correction by shifting, the same on both sides of an interface.
-    fn density_error_shifting(&self, potential: Vec<f64>) -> Vec<Vec2> {
-        if potential.is_empty() { Vec::new() } else { self.down(potential) }
+        if a < self.state.particles.fluids { self.setting.method.volume / self.fields.volume[a] - 1.0 } else { 0.0 }
     }
 
     /// −∇φ/ρ of the fluid particles.
     fn down(&self, mut potential: Vec<f64>) -> Vec<Vec2> {
-        self.images.extend(&mut potential);
+        self.neighborhood.images.extend(&mut potential);
         let f = &self.fields;
-        pressure_gradient::down(&self.pairs, &f.volume, &f.density, &potential, self.particles.fluids)
+        pressure_gradient::down(
+            &self.neighborhood.pairs,
+            &f.volume,
+            &f.density,
+            &potential,
+            self.state.particles.fluids,
+        )
     }
+}
 
-    /// Whether the divergence at particle `a` counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.
-    fn sees_the_fluid(&self, a: usize) -> bool {
-        let (x, support) = (self.particles.position[a], self.method.kernel.support());
-        self.open.sides.iter().all(|side| side.beyond(x) < support)
-    }
-
-    /// 0 in and near the heavy fluid, 1 in and near the light one, so that the multigrid keeps them apart.
-    fn kinds(&self) -> Vec<u8> {
-        let (w, o) = (self.method.wetting_fluid.density, self.method.other_fluid.density);
-        let is_jump = self.method.density_ratio() > LARGEST_SMOOTH_RATIO;
-        let between = if is_jump { (w * o).sqrt() } else { 0.0 };
-        self.fields.density[..self.particles.len()].iter().map(|&rho| u8::from(rho < between)).collect()
-    }
+/// 0 in and near the heavy fluid, 1 in and near the light one, so that the multigrid keeps them apart; `density` in kg/m³.
+fn kinds(method: &Method, density: &[f64]) -> Vec<u8> {
+    let (w, o) = (method.wetting_fluid.density, method.other_fluid.density);
+    let is_jump = method.density_ratio() > LARGEST_SMOOTH_RATIO;
+    let between = if is_jump { (w * o).sqrt() } else { 0.0 };
+    density.iter().map(|&rho| u8::from(rho < between)).collect()
 }

@@ -1,25 +1,25 @@
 //! Viscous forces between the particles of a flow, and on its walls.
 
-use super::Flow;
 use crate::math::{Mat2, Vec2};
 use crate::sph::boundary::no_slip::WallDepth;
+use crate::sph::flow::Flow;
 use crate::sph::method::ViscousTerm;
 use crate::sph::terms::viscosity::Viscous;
 
 impl Flow {
     /// The viscous acceleration of the fluid particles in m/s².
     pub(super) fn viscous_acceleration(&self, velocity: &[Vec2]) -> Vec<Vec2> {
-        let (fluids, f) = (self.particles.fluids, &self.fields);
+        let (fluids, f) = (self.state.particles.fluids, &self.fields);
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let v_ab = |a: usize, b: usize| self.velocity_difference(velocity, a, b);
         let mut acceleration = vec![Vec2::zeros(); fluids];
-        match self.method.viscous_term {
+        match self.setting.method.viscous_term {
             ViscousTerm::Stress => {
-                viscous.morris(&self.pairs, v_ab, &mut acceleration);
-                viscous.transposed(&self.pairs, v_ab, &mut acceleration);
+                viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration);
+                viscous.transposed(&self.neighborhood.pairs, v_ab, &mut acceleration);
             }
-            ViscousTerm::Morris => viscous.morris(&self.pairs, v_ab, &mut acceleration),
-            ViscousTerm::Szewc => viscous.szewc(&self.pairs, v_ab, &mut acceleration),
+            ViscousTerm::Morris => viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration),
+            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, &mut acceleration),
         }
         acceleration
     }
@@ -29,8 +29,8 @@ impl Flow {
     pub fn viscous_rate(&self) -> f64 {
         let f = &self.fields;
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
-        let mut rate = vec![0.0; self.particles.fluids];
-        viscous.rate(&self.pairs, |a, b| self.stretch(a, b), &mut rate);
+        let mut rate = vec![0.0; self.state.particles.fluids];
+        viscous.rate(&self.neighborhood.pairs, |a, b| self.stretch(a, b), &mut rate);
         rate.iter().fold(0.0, |m: f64, r| m.max(*r))
     }
 
@@ -38,21 +38,23 @@ impl Flow {
     /// `is_meant` takes by the index and by the place (m).
     #[must_use]
     pub fn friction(&self, is_meant: impl Fn(usize, Vec2) -> bool + Sync) -> Vec2 {
-        let (particles, fluids, f) = (&self.particles, self.particles.fluids, &self.fields);
+        let (particles, fluids, f) = (&self.state.particles, self.state.particles.fluids, &self.fields);
         let moving = particles.moving();
         let mut velocity = particles.velocity.clone();
-        self.images.extend_velocity(&mut velocity);
+        self.neighborhood.images.extend_velocity(&mut velocity);
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let v_ab = |a: usize, b: usize| {
-            let source = self.images.source(b);
+            let source = self.neighborhood.images.source(b);
             let counts = source >= moving && is_meant(a, particles.position[source]);
             if counts { self.velocity_difference(&velocity, a, b) } else { Vec2::zeros() }
         };
         let mut acceleration = vec![Vec2::zeros(); fluids];
-        match self.method.viscous_term {
+        match self.setting.method.viscous_term {
             // Walls take the viscosity of the fluid that sees them, so that the transposed part does not act there.
-            ViscousTerm::Morris | ViscousTerm::Stress => viscous.morris(&self.pairs, v_ab, &mut acceleration),
-            ViscousTerm::Szewc => viscous.szewc(&self.pairs, v_ab, &mut acceleration),
+            ViscousTerm::Morris | ViscousTerm::Stress => {
+                viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration)
+            }
+            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, &mut acceleration),
         }
         -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
     }
@@ -60,8 +62,8 @@ impl Flow {
     /// The viscous force in N per m of depth on the fluid particles that `is_meant` takes, by fluid and walls around them.
     #[must_use]
     pub fn viscous_force(&self, is_meant: impl Fn(usize) -> bool) -> Vec2 {
-        let mut velocity = self.particles.velocity.clone();
-        self.images.extend_velocity(&mut velocity);
+        let mut velocity = self.state.particles.velocity.clone();
+        self.neighborhood.images.extend_velocity(&mut velocity);
         let acceleration = self.viscous_acceleration(&velocity);
         let f = &self.fields;
         let meant = acceleration.iter().enumerate().filter(|(a, _)| is_meant(*a));
@@ -76,13 +78,14 @@ impl Flow {
             return v_ab;
         }
         let wall = (f.wall_distance[a], f.wall_normal[a]);
-        self.wall_depth(b).map_or(v_ab, |depth| self.method.no_slip.difference(v_ab, wall, depth, f.slip_length[a]))
+        self.wall_depth(b)
+            .map_or(v_ab, |depth| self.setting.method.no_slip.difference(v_ab, wall, depth, f.slip_length[a]))
     }
 
     /// The matrix that stretches v_a − v_b as [`Self::velocity_difference`] does, with `of` each stretch in place of the stretch.
     pub(super) fn stretch_matrix(&self, a: usize, b: usize, of: impl Fn(f64) -> f64) -> Mat2 {
         let Some(depth) = self.wall_depth(b) else { return Mat2::identity() };
-        let (f, no_slip) = (&self.fields, &self.method.no_slip);
+        let (f, no_slip) = (&self.fields, &self.setting.method.no_slip);
         let [along, across] = no_slip.stretches(f.wall_distance[a], depth, f.slip_length[a]).map(of);
         let normal = f.wall_normal[a];
         Mat2::from_diagonal_element(along) + (across - along) * normal * normal.transpose()
@@ -90,12 +93,12 @@ impl Flow {
 
     /// The largest |v_ab| over the velocity difference: β at walls, 1 between fluid particles.
     fn stretch(&self, a: usize, b: usize) -> f64 {
-        self.wall_depth(b).map_or(1.0, |depth| self.method.no_slip.stretch(self.fields.wall_distance[a], depth))
+        self.wall_depth(b).map_or(1.0, |depth| self.setting.method.no_slip.stretch(self.fields.wall_distance[a], depth))
     }
 
     /// Where a wall particle or its image stands, none for fluid.
     fn wall_depth(&self, b: usize) -> Option<WallDepth> {
-        let wall = self.images.source(b).checked_sub(self.particles.moving())?;
-        Some(WallDepth { depth: self.wall_depth[wall], curvature: self.wall_curvature[wall] })
+        let wall = self.neighborhood.images.source(b).checked_sub(self.state.particles.moving())?;
+        Some(WallDepth { depth: self.state.wall_depth[wall], curvature: self.fields.wall_curvature[wall] })
     }
 }

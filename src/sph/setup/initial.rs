@@ -29,7 +29,7 @@ pub(super) fn set(
         let x = particles.position[a];
         let given = sides.iter().filter(|side| side.beyond(x) > 0.0).find_map(|side| side.given_velocity(x));
         let begins = || match sph.initial.velocity {
-            InitialVelocity::Rest => through.iter().filter_map(|through| through.parabola(x)).sum(),
+            InitialVelocity::Rest => through.iter().filter_map(|side| side.parabola(x)).sum(),
             moving => velocity(&moving, inside(x), bounds),
         };
         particles.velocity[a] = given.unwrap_or_else(begins);

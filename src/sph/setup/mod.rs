@@ -25,10 +25,11 @@ use crate::geometry::Geometry;
 use crate::math::Vec2;
 use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::fill::{self, Lattice, Region};
+use crate::sph::flow::Flow;
 use crate::sph::method::Method;
-use crate::sph::open::{self, Around, Ledger, Open};
+use crate::sph::open::{self, Around, Open};
 use crate::sph::particles::Phase;
-use crate::sph::projection::Flow;
+use crate::sph::setting::Setting;
 use crate::sph::solver::SphSolver;
 
 /// The solids of a case as its solver sees them: periodic sides joined, wall sides closed.
@@ -155,17 +156,13 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
     if let Some(start) = &sph.initial.network {
         handed_over::set_pressures(&mut particles, sph, &open, start);
     }
-    let ledger = Ledger::new(&particles.phase[..particles.fluids], u32::try_from(particles.len()).unwrap_or(u32::MAX));
-    let open = Open { ledger, cell: lattice.step.x * lattice.step.y, ..open };
+    let open = Open { cell: lattice.step.x * lattice.step.y, ..open };
     let surroundings = surroundings(case, sph, &geometry);
-    let spots = wall_spots(sph, &geometry);
-    let query: WallQuery = Box::new(move |x| {
+    let spots = wall_spots(sph, &geometry).unwrap_or_default();
+    let wall: WallQuery = Box::new(move |x| {
         let wall = geometry.wall(inside(x));
         (wall.distance, wall.normal)
     });
-    let mut flow = Flow::new(method, domain, query, particles, depth, open);
-    if let Some(spots) = spots {
-        flow = flow.with_walls(spots);
-    }
-    Ok(SphSolver::new(flow, surroundings))
+    let setting = Setting { method, domain, wall, spots, open };
+    Ok(SphSolver::new(Flow::new(setting, particles, depth), surroundings))
 }

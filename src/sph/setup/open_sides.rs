@@ -69,7 +69,7 @@ pub(super) fn open_sides(
             checked::Drive::FlowRate(rate, form) => profile(rate / width, form)?,
         };
         if kinds[number] == Side::Periodic {
-            open.through.push(open::Through::new(side));
+            open.through.push(side);
         } else {
             open.sides.push(side);
         }

@@ -1,7 +1,7 @@
 //! The volume forces that the pressure jump stands for, to look at: the jump itself acts on pairs and has no place of its own.
 
 use crate::math::Vec2;
-use crate::sph::projection::Flow;
+use crate::sph::flow::Flow;
 use crate::sph::terms::{curvature, surface_tension};
 use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
 use crate::sph::wetting::lines::{DetectedLine, LINE_REACH, nearest};
@@ -10,7 +10,7 @@ use crate::sph::wetting::lines::{DetectedLine, LINE_REACH, nearest};
 /// that the jump uses; the forces of the flow itself where they are volume forces.
 #[must_use]
 pub fn volume_forces(flow: &Flow) -> (Vec<Vec2>, Vec<Vec2>) {
-    let (f, m, p) = (&flow.fields, &flow.method, &flow.particles);
+    let (f, m, p) = (&flow.fields, &flow.setting.method, &flow.state.particles);
     if f.jump.is_none() {
         return (f.surface_force.clone(), f.line_force.clone());
     }
@@ -30,13 +30,15 @@ pub fn volume_forces(flow: &Flow) -> (Vec<Vec2>, Vec<Vec2>) {
             volume: &f.volume,
             weight: &weight,
         };
-        let found = LineParticles::find((&flow.pairs, &flow.images), &fields, &m.kernel, p.fluids);
+        let found =
+            LineParticles::find((&flow.neighborhood.pairs, &flow.neighborhood.images), &fields, &m.kernel, p.fluids);
         // A line that the jump does not know is not driven: its angle is that which is there.
         let angle = |seen: &dyn DetectedLine| {
-            nearest(&f.lines, &flow.domain, seen.place(), seen.outward(), LINE_REACH * m.kernel.h)
+            nearest(&f.lines, &flow.setting.domain, seen.place(), seen.outward(), LINE_REACH * m.kernel.h)
                 .map_or_else(|| seen.present(None), |line| line.angle)
         };
-        let angles: Vec<f64> = found.detected_lines(&fields, &flow.domain).iter().map(|seen| angle(seen)).collect();
+        let angles: Vec<f64> =
+            found.detected_lines(&fields, &flow.setting.domain).iter().map(|seen| angle(seen)).collect();
         found.line_force(&fields, LineDelta::Normalized, (&angles, m.tension), &mut line);
     }
     (surface, line)

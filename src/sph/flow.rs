@@ -1,0 +1,147 @@
+//! A flow by its parts: what is given, what a step goes on from, what follows from that, and what solves for the pressure.
+//!
+//! [`Flow::step`](crate::sph::projection) takes it from one time to the next.
+
+use std::time::Instant;
+
+use crate::math::Vec2;
+use crate::solver::PartTime;
+use crate::sph::cells::Cells;
+use crate::sph::fields::Fields;
+use crate::sph::neighborhood::Neighborhood;
+use crate::sph::open::{GivenFlow, OpenSide};
+use crate::sph::particles::Particles;
+use crate::sph::poisson::{PressureSolve, parts};
+use crate::sph::projection::joined;
+use crate::sph::setting::Setting;
+use crate::sph::state::FlowState;
+
+/// The particles are put in the order of their cells every so many steps, so that neighbors are near in memory.
+const REORDER_EVERY: u64 = 20;
+
+/// Names of the parts that `Work::seconds` counts.
+pub const PARTS: [&str; 4] = ["neighbors", "forces", "pressure", "move"];
+
+/// A flow at one time.
+pub struct Flow {
+    /// What is given, and no step changes.
+    pub setting: Setting,
+    /// What a step goes on from: what restart saves.
+    pub state: FlowState,
+    /// Pairs and images at the present positions; they follow from the state.
+    pub neighborhood: Neighborhood,
+    /// Volumes, densities, normals and forces at the present positions; they follow from the state.
+    pub fields: Fields,
+    /// Matrix and memory of the pressure solve. No step depends on what the one before left in it.
+    pub pressure: PressureSolve,
+    /// Counts, for reports only.
+    pub work: Work,
+}
+
+/// Counts of the solver's work.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Work {
+    /// Steps done by this process.
+    pub steps: u64,
+    /// Iterations of the last pressure solve.
+    pub last_iterations: usize,
+    /// Iterations of all pressure solves.
+    pub iterations: u64,
+    /// Relative residual of the last pressure solve.
+    pub residual: f64,
+    /// Iterations of all viscous solves.
+    pub viscous_iterations: u64,
+    /// Steps that were taken again, since a particle would have gone too far.
+    pub repeats: u64,
+    /// Particles set back from a wall.
+    pub set_back: u64,
+    /// Wall time of neighbors, forces, pressure matrix and solve, move in s.
+    pub seconds: [f64; 4],
+}
+
+impl Flow {
+    /// The flow at time zero. `wall_depth` in m as `fill` returns it.
+    #[must_use]
+    pub fn new(setting: Setting, particles: Particles, wall_depth: Vec<f64>) -> Self {
+        let mut state = FlowState::new(particles, wall_depth, setting.open.through.len());
+        order_walls(&mut state, &setting);
+        let mut flow = Self {
+            setting,
+            state,
+            neighborhood: Neighborhood::default(),
+            fields: Fields::default(),
+            pressure: PressureSolve::default(),
+            work: Work::default(),
+        };
+        flow.fields.face_walls(&flow.setting, &flow.state.particles);
+        flow.prepare();
+        let Neighborhood { pairs, images } = &flow.neighborhood;
+        let facing = flow.fields.facing(flow.state.particles.moving(), images);
+        flow.state.particles.part = parts(pairs, images, |a, b| joined(facing[a], facing[b]));
+        flow
+    }
+
+    /// The flow that goes on from `state`, with all that follows from it.
+    pub(in crate::sph) fn take_up(&mut self, state: FlowState) {
+        self.state = state;
+        self.fields.face_walls(&self.setting, &self.state.particles);
+        self.prepare();
+    }
+
+    /// All that follows from the state: neighbors, volumes, normals, forces of interface and lines.
+    pub fn prepare(&mut self) {
+        let start = Instant::now();
+        let Self { setting, state, neighborhood, fields, .. } = self;
+        if state.steps.is_multiple_of(REORDER_EVERY) {
+            order_fluid(&mut state.particles, setting);
+        }
+        neighborhood.find_anew(&state.particles.position, &setting.domain, &setting.method.kernel);
+        let after = Instant::now();
+        fields.update(setting, state, neighborhood);
+        self.work.seconds[0] += (after - start).as_secs_f64();
+        self.work.seconds[1] += after.elapsed().as_secs_f64();
+    }
+
+    /// The periodic sides with a given flow rate, each with how its flow goes on.
+    pub fn given_flows(&self) -> impl Iterator<Item = (&OpenSide, &GivenFlow)> {
+        self.setting.open.through.iter().zip(&self.state.given_flows)
+    }
+
+    /// The mean pressure gradient −∇P in Pa/m that drives the given flows.
+    #[must_use]
+    pub fn driving_gradient(&self) -> Vec2 {
+        self.given_flows().map(|(side, given)| given.gradient * side.way()).sum()
+    }
+
+    /// Wall time by part in s.
+    #[must_use]
+    pub fn part_times(&self) -> Vec<PartTime> {
+        PARTS.iter().zip(self.work.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
+    }
+
+    /// Bytes held per particle by pairs, matrix, hierarchy and fields.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        // Sixteen numbers of fields and particles, and ten of work space in step and solve, of 8 bytes or a pair of them.
+        let fields = self.state.particles.len() * (16 + 10) * 8 * 3 / 2;
+        self.neighborhood.pairs.bytes() + self.pressure.bytes() + fields
+    }
+}
+
+/// Puts the fluid particles in the order of their cells.
+fn order_fluid(particles: &mut Particles, setting: &Setting) {
+    let fluids = &particles.position[..particles.fluids];
+    let order = Cells::build(fluids, &setting.domain, setting.method.kernel.support()).order().to_vec();
+    let order: Vec<usize> = order.iter().map(|&i| i as usize).chain(particles.fluids..particles.len()).collect();
+    particles.reorder(&order);
+}
+
+/// Puts the wall particles in the order of their cells.
+fn order_walls(state: &mut FlowState, setting: &Setting) {
+    let moving = state.particles.moving();
+    let walls = &state.particles.position[moving..];
+    let order = Cells::build(walls, &setting.domain, setting.method.kernel.support()).order().to_vec();
+    state.wall_depth = order.iter().map(|&i| state.wall_depth[i as usize]).collect();
+    let order: Vec<usize> = (0..moving).chain(order.iter().map(|&i| i as usize + moving)).collect();
+    state.particles.reorder(&order);
+}

@@ -1,0 +1,36 @@
+//! What lies around each particle at its present place: its neighbors, and the images of particles behind mirror sides.
+//!
+//! Found anew whenever particles have moved.
+
+use crate::math::Vec2;
+use crate::sph::cells::Cells;
+use crate::sph::domain::Domain;
+use crate::sph::images::Images;
+use crate::sph::kernel::WendlandC2;
+use crate::sph::pairs::Pairs;
+
+/// Pairs and images at the present positions.
+#[derive(Debug, Clone, Default)]
+pub struct Neighborhood {
+    /// Pairs within the support of the kernel.
+    pub pairs: Pairs,
+    /// Images of the particles behind mirror sides.
+    pub images: Images,
+}
+
+impl Neighborhood {
+    /// Finds both for particles at `position` (m).
+    pub fn find_anew(&mut self, position: &[Vec2], domain: &Domain, kernel: &WendlandC2) {
+        let mut points = position.to_vec();
+        self.images = Images::append(&mut points, domain, kernel.support());
+        let cells = Cells::build(&points, domain, kernel.support());
+        self.pairs.find_anew(&cells, &points, position.len(), domain, kernel);
+    }
+
+    /// x_a − x_b in m of a particle and a particle or image, from the `position` (m) of the particles.
+    #[inline]
+    #[must_use]
+    pub fn separation(&self, a: usize, b: usize, position: &[Vec2], domain: &Domain) -> Vec2 {
+        domain.separation(position[a], self.images.position(b, position))
+    }
+}

@@ -1,0 +1,59 @@
+//! What is given to a flow: the method, the box, its walls and its sides.
+
+use crate::math::{Vec2, perpendicular};
+use crate::sph::domain::{Domain, WallQuery};
+use crate::sph::method::{Method, PressureGradient};
+use crate::sph::open::Open;
+use crate::sph::wetting::wall::WallSpots;
+
+/// The curvature of a wall is the turn of its normal this far to both sides, over dx.
+const TURN_OVER: f64 = 0.25;
+
+/// Walls with more curvature than this, over 1/h, count as edges.
+const TIGHTEST: f64 = 0.5;
+
+/// What no step changes. Body forces that take turns and pressures that rise follow from the time alone.
+pub struct Setting {
+    /// Constants.
+    pub method: Method,
+    /// Box and sides.
+    pub domain: Domain,
+    /// Wall distance and normal.
+    pub wall: WallQuery,
+    /// Wetting models and velocities of the walls.
+    pub spots: WallSpots,
+    /// Open sides, and periodic ones with a given flow rate.
+    pub open: Open,
+}
+
+impl Setting {
+    /// The part of gravity in m/s² that the pressure can balance: not along periods, where it drives the flow.
+    ///
+    /// The forms of the gradient with the sum of pressures do not have it: their sums differ from those of the pressure equation.
+    #[must_use]
+    pub fn balanced_gravity(&self) -> Vec2 {
+        if self.method.pressure_gradient() != PressureGradient::Difference {
+            return Vec2::zeros();
+        }
+        let [x, y] = self.domain.periodic.map(|periodic| if periodic { 0.0 } else { 1.0 });
+        self.method.gravity.component_mul(&Vec2::new(x, y))
+    }
+
+    /// The turn of the normal along the wall nearest to `x` (m) over its length, in 1/m; positive where the solid is convex, 0 at edges.
+    #[must_use]
+    pub fn curvature_of_wall(&self, x: Vec2) -> f64 {
+        let (distance, normal) = (self.wall)(x);
+        let (inside, along) = (x - distance * normal, perpendicular(normal));
+        let normal_at = |way: f64| (self.wall)(inside + way * along).1;
+        let step = TURN_OVER * self.method.spacing;
+        let curvature = (normal_at(step) - normal_at(-step)).dot(&along) / (2.0 * step);
+        if curvature.abs() * self.method.kernel.h < TIGHTEST { curvature } else { 0.0 }
+    }
+
+    /// Whether the divergence at the place `x` (m) counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.
+    #[must_use]
+    pub fn sees_the_fluid(&self, x: Vec2) -> bool {
+        let support = self.method.kernel.support();
+        self.open.sides.iter().all(|side| side.beyond(x) < support)
+    }
+}
