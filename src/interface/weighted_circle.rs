@@ -94,19 +94,24 @@ impl WeightedCircle {
     }
 }
 
+/// Directions at a point of a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallFrame {
+    /// ν: unit vector along the wall, from the wetting to the other phase.
+    pub outward: Vec2,
+    /// Unit normal into the fluid.
+    pub normal: Vec2,
+}
+
 /// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.
 ///
-/// `contact` in m from the point that `near` is relative to; ν along the wall and its normal. With the contact point right, the circle
+/// `contact` in m from the point that `near` is relative to. With the contact point right, the circle
 /// v = k (u² + v²)/2 passes through it; a fit of v = a + k (u² + v²)/2 misses it by a, and Newton's method moves it until a = 0. At 0 and
 /// 180 degrees the circle touches the wall: moved along the wall by δ the circle then moves by k u δ alone, which is what the points
 /// farther from the wall tell. None where the points do not determine the fit.
 #[must_use]
-pub fn fit_from_contact(
-    near: &[WeightedPoint],
-    contact: Vec2,
-    (outwards, normal): (Vec2, Vec2),
-    angle: f64,
-) -> Option<(f64, f64)> {
+pub fn fit_from_contact(near: &[WeightedPoint], contact: Vec2, wall: WallFrame, angle: f64) -> Option<(f64, f64)> {
+    let WallFrame { outward, normal } = wall;
     let (sin, cos) = angle.clamp(0.0, PI).sin_cos();
     let extent = near.iter().map(|q| (q.x - contact).norm()).fold(0.0, f64::max);
     let mut delta = 0.0;
@@ -115,7 +120,7 @@ pub fn fit_from_contact(
         let (mut matrix, mut missed, mut moved) = (Matrix2::zeros(), Vector2::zeros(), Vector2::zeros());
         for q in near {
             let x = q.x - contact;
-            let (along, above) = (x.dot(&outwards) - delta, x.dot(&normal));
+            let (along, above) = (x.dot(&outward) - delta, x.dot(&normal));
             let row = Vector2::new(1.0, 0.5 * (along * along + above * above));
             matrix += q.weight * row * row.transpose();
             missed -= q.weight * (sin * along + cos * above) * row;

@@ -14,8 +14,8 @@ use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;
 use crate::sph::surface_force::SurfaceForce;
 use crate::sph::surface_force::fit::InterfaceFit;
-use crate::sph::surface_force::jump::Jump;
-use crate::sph::surface_force::points::{PointFields, interface_points};
+use crate::sph::surface_force::jump::{InterfaceCurvature, Jump};
+use crate::sph::surface_force::points::{PointFields, Resolution, interface_points};
 use crate::sph::surface_force::stencils::Interface;
 use crate::sph::terms::{color, curvature, density, pressure_gradient, surface_tension};
 use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
@@ -213,12 +213,12 @@ impl Fields {
             volume: &self.volume,
             weight: &weight,
         };
-        let found = LineParticles::find((pairs, images), &fields, &method.kernel, fluids);
+        let found = LineParticles::find(neighborhood, &fields, &method.kernel, fluids);
         let seen = found.detected_lines(&fields, domain);
         self.contact_lines = found.count();
         self.lines = follow(setting, state, &seen);
         let angles: Vec<f64> = self.lines.iter().map(|line| line.angle).collect();
-        found.line_force(&fields, delta, (&angles, method.tension), &mut self.line_force);
+        found.line_force(&fields, delta, &angles, method.tension, &mut self.line_force);
     }
 
     /// Sides and curvatures for the pressure jump, fitted where none is `given` (1/m); the normal is the consistent gradient of the smoothed color.
@@ -257,9 +257,9 @@ impl Fields {
             wall_normal: &self.wall_normal,
             near: &near,
         };
-        let lengths = (method.spacing, method.kernel.h);
-        let points = interface_points((pairs, images), domain, &fields, moving, lengths);
-        let interface = Interface::new(&points, domain, lengths, &setting.wall).under(method.curvature_gradient());
+        let resolution = Resolution { spacing: method.spacing, h: method.kernel.h };
+        let points = interface_points(neighborhood, domain, &fields, moving, resolution);
+        let interface = Interface::new(&points, domain, resolution, &setting.wall).under(method.curvature_gradient());
         let mut pinned = Vec::new();
         if method.wetting.is_some() {
             let seen = interface.lines();
@@ -272,7 +272,7 @@ impl Fields {
             // Without a model this is not asked for.
             let Some(model) = setting.spots.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
             let line =
-                if model.is_static() { None } else { nearest(lines, domain, x, outward, LINE_REACH * lengths.1) };
+                if model.is_static() { None } else { nearest(lines, domain, x, outward, LINE_REACH * resolution.h) };
             line.map_or_else(|| model.static_angle(), |line| line.angle)
         };
         let mut fit = InterfaceFit::free(&interface);
@@ -283,8 +283,8 @@ impl Fields {
         shepard::into_walls(pairs, &self.fluid_volume, moving, &mut side);
         let mut jump = Jump::default();
         let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
-        let curvature_at = |x: Vec2| given.or_else(|| fit.curvature(x));
-        jump.update((pairs, images, moving), &side, (position, r_ab), (curvature_at, gradient));
+        let curvature = InterfaceCurvature { at: |x: Vec2| given.or_else(|| fit.curvature(x)), gradient };
+        jump.update(particles, neighborhood, domain, &side, &curvature);
         for (kappa, found) in self.curvature.iter_mut().zip(&jump.curvature) {
             *kappa = if found.is_nan() { 0.0 } else { *found };
         }

@@ -2,6 +2,7 @@
 
 use crate::support::cloud::{Cloud, Dice};
 use meniscus::math::Vec2;
+use meniscus::sph::neighborhood::Neighborhood;
 use meniscus::sph::terms::viscosity::Viscous;
 use meniscus::sph::terms::{color, curvature, divergence, pressure_gradient, surface_tension};
 use meniscus::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
@@ -287,10 +288,11 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
         h: cloud.kernel.h,
         mean_over: 1.0,
     };
-    let found = LineParticles::find((&cloud.pairs, &cloud.images), &fields, &cloud.kernel, n);
+    let neighborhood = Neighborhood { pairs: cloud.pairs.clone(), images: cloud.images.clone() };
+    let found = LineParticles::find(&neighborhood, &fields, &cloud.kernel, n);
     let lines = following.follow(&[], &found.detected_lines(&fields, &cloud.domain), 0.0);
     let angles: Vec<f64> = lines.iter().map(|line| line.angle).collect();
-    found.line_force(&fields, delta, (&angles, 0.03), &mut force);
+    found.line_force(&fields, delta, &angles, 0.03, &mut force);
     let lines = found.count();
     let half = |right: bool| {
         let near = |a: &usize| (0.25..0.75).contains(&cloud.points[*a].x) == right;

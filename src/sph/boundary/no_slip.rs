@@ -68,9 +68,9 @@ impl NoSlip {
     }
 
     /// The stretched difference of the velocity `v_ab` = v_a − v_wall: with a slip length b (m), the part along the wall is stretched by
-    /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `normal` is that of the wall.
+    /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `distance` (m) and `normal` are those of the wall.
     #[must_use]
-    pub fn difference(&self, v_ab: Vec2, (distance, normal): (f64, Vec2), wall: WallDepth, b: f64) -> Vec2 {
+    pub fn difference(&self, v_ab: Vec2, distance: f64, normal: Vec2, wall: WallDepth, b: f64) -> Vec2 {
         let [along, beta] = self.stretches(distance, wall, b);
         if b == 0.0 {
             return beta * v_ab;
@@ -90,7 +90,7 @@ mod tests {
         // u = y + b over the wall y = 0, which rises at 3: at the depth d it is b − d, and v_y = 3 (1 + d/y) less 3.
         for (y, depth) in [(0.5, 0.5), (1.5, 2.5), (0.7, 1.5)] {
             let flat = WallDepth { depth, curvature: 0.0 };
-            let v_ab = wall.difference(Vec2::new(y + 2.0, 3.0), (y, Vec2::y()), flat, 2.0);
+            let v_ab = wall.difference(Vec2::new(y + 2.0, 3.0), y, Vec2::y(), flat, 2.0);
             assert!((v_ab - Vec2::new(y + depth, 3.0 * (1.0 + depth / y))).norm() < 1e-14, "{v_ab:?}");
         }
     }
@@ -99,7 +99,7 @@ mod tests {
     fn without_slip_length_the_whole_difference_is_stretched() {
         let wall = NoSlip { spacing: 1.0, largest_stretch: 1.5, slip_length: 0.0, line_slip_length: 0.0 };
         let flat = WallDepth { depth: 0.5, curvature: 0.0 };
-        assert_eq!(wall.difference(Vec2::new(2.0, 4.0), (0.5, Vec2::y()), flat, 0.0), Vec2::new(3.0, 6.0));
+        assert_eq!(wall.difference(Vec2::new(2.0, 4.0), 0.5, Vec2::y(), flat, 0.0), Vec2::new(3.0, 6.0));
     }
 
     #[test]

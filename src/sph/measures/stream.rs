@@ -53,7 +53,7 @@ fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> 
             // The wetting phase is on the left.
             let outwards = Vec2::new(b.y - a.y, a.x - b.x);
             let middle = 0.5 * (a + b);
-            let pressure = pressure_at(flow, (&cells, &other), middle)? - even.dot(&(middle - from));
+            let pressure = pressure_at(flow, &cells, &other, middle)? - even.dot(&(middle - from));
             force -= pressure * outwards.dot(&ahead);
             gained += outwards.dot(&ahead);
             length += outwards.norm();
@@ -63,7 +63,7 @@ fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> 
 }
 
 /// The pressure in Pa of the particles `other`, sorted into `cells`, at `x` (m): a plane through them, or their mean where they do not hold one.
-fn pressure_at(flow: &Flow, (cells, other): (&Cells, &[usize]), x: Vec2) -> Option<f64> {
+fn pressure_at(flow: &Flow, cells: &Cells, other: &[usize], x: Vec2) -> Option<f64> {
     let (kernel, pressure) = (&flow.setting.method.kernel, &flow.state.particles.pressure);
     let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
     cells.visit_near(flow.setting.domain.wrapped(x), |i, from_particle| {

@@ -77,9 +77,10 @@ impl Flow {
         if f.wall_distance[a].is_infinite() {
             return v_ab;
         }
-        let wall = (f.wall_distance[a], f.wall_normal[a]);
-        self.wall_depth(b)
-            .map_or(v_ab, |depth| self.setting.method.no_slip.difference(v_ab, wall, depth, f.slip_length[a]))
+        let (distance, normal) = (f.wall_distance[a], f.wall_normal[a]);
+        self.wall_depth(b).map_or(v_ab, |depth| {
+            self.setting.method.no_slip.difference(v_ab, distance, normal, depth, f.slip_length[a])
+        })
     }
 
     /// The matrix that stretches v_a − v_b as [`Self::velocity_difference`] does, with `of` each stretch in place of the stretch.

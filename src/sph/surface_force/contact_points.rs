@@ -1,5 +1,6 @@
 //! Where the interface, continued straight, meets the wall, and how far its angle there is pulled to the contact angle at once.
 
+use crate::interface::weighted_circle::WallFrame;
 use crate::math::{Vec2, perpendicular};
 use crate::sph::surface_force::points::InterfacePoint;
 use crate::sph::surface_force::stencils::Interface;
@@ -46,9 +47,9 @@ impl Interface<'_> {
     }
 }
 
-/// The contact angle in rad as far as an interface with the unit `normal` is pulled towards it at once, at the wall (ν, normal).
-pub(super) fn angle_pulled(normal: Vec2, (outwards, wall): (Vec2, Vec2), angle: f64) -> f64 {
-    let present = (-normal.dot(&outwards)).atan2(-normal.dot(&wall));
+/// The contact angle in rad as far as an interface with the unit `normal` is pulled towards it at once, at the `wall`.
+pub(super) fn angle_pulled(normal: Vec2, wall: WallFrame, angle: f64) -> f64 {
+    let present = (-normal.dot(&wall.outward)).atan2(-normal.dot(&wall.normal));
     angle.clamp(present - LARGEST_PULL, present + LARGEST_PULL)
 }
 

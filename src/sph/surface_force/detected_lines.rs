@@ -4,7 +4,7 @@
 //! stencil of a fit tell its speed and its angle. Leaves out lines with fewer points than a fit needs.
 
 use crate::interface::weighted_circle::{
-    FEWEST_FROM_CONTACT, WeightedCircle, WeightedPoint, angle_through, fit_from_contact,
+    FEWEST_FROM_CONTACT, WallFrame, WeightedCircle, WeightedPoint, angle_through, fit_from_contact,
 };
 use crate::math::{Vec2, perpendicular};
 use crate::sph::domain::Domain;
@@ -142,7 +142,8 @@ impl DetectedLine for InterfaceLine<'_> {
     }
 
     fn meets(&self, angle: f64) -> Vec2 {
-        let shift = fit_from_contact(&self.near, Vec2::zeros(), (self.outward, self.normal), angle);
+        let wall = WallFrame { outward: self.outward, normal: self.normal };
+        let shift = fit_from_contact(&self.near, Vec2::zeros(), wall, angle);
         // A fit that runs away along the wall is no better than the straight continuation.
         let shift =
             shift.map(|(_, shift)| shift).filter(|shift| shift.abs() < ONE_LINE * self.interface.h).unwrap_or(0.0);
@@ -156,9 +157,10 @@ impl DetectedLine for InterfaceLine<'_> {
 mod tests {
     use super::*;
     use crate::math::{Bounds, LINE_MOMENT};
-    use crate::sph::surface_force::points::InterfacePoint;
+    use crate::sph::surface_force::points::{InterfacePoint, Resolution};
 
     const H: f64 = 0.15;
+    const RESOLUTION: Resolution = Resolution { spacing: 0.1, h: H };
 
     fn domain() -> Domain {
         Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![])
@@ -196,7 +198,7 @@ mod tests {
     fn a_drop_has_two_lines_with_their_place_angle_and_speed() {
         for degrees in [40.0_f64, 60.0, 90.0, 120.0, 140.0] {
             let (points, domain) = (drop(degrees, 0.3), domain());
-            let interface = Interface::new(&points, &domain, (0.1, H), &floor);
+            let interface = Interface::new(&points, &domain, RESOLUTION, &floor);
             let lines = interface.lines();
             assert_eq!(lines.len(), 2, "{degrees}");
             for line in lines {
@@ -215,7 +217,7 @@ mod tests {
     #[test]
     fn an_interface_that_stands_out_over_its_anchor_looks_steeper() {
         let (points, domain) = (drop(90.0, 0.0), domain());
-        let interface = Interface::new(&points, &domain, (0.1, H), &floor);
+        let interface = Interface::new(&points, &domain, RESOLUTION, &floor);
         for line in interface.lines() {
             let inside = line.present(Some(Vec2::new(0.97 * line.outward().x, 0.0))).to_degrees();
             let outside = line.present(Some(Vec2::new(1.03 * line.outward().x, 0.0))).to_degrees();

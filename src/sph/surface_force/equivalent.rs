@@ -30,8 +30,7 @@ pub fn volume_forces(flow: &Flow) -> (Vec<Vec2>, Vec<Vec2>) {
             volume: &f.volume,
             weight: &weight,
         };
-        let found =
-            LineParticles::find((&flow.neighborhood.pairs, &flow.neighborhood.images), &fields, &m.kernel, p.fluids);
+        let found = LineParticles::find(&flow.neighborhood, &fields, &m.kernel, p.fluids);
         // A line that the jump does not know is not driven: its angle is that which is there.
         let angle = |seen: &dyn DetectedLine| {
             nearest(&f.lines, &flow.setting.domain, seen.place(), seen.outward(), LINE_REACH * m.kernel.h)
@@ -39,7 +38,7 @@ pub fn volume_forces(flow: &Flow) -> (Vec<Vec2>, Vec<Vec2>) {
         };
         let angles: Vec<f64> =
             found.detected_lines(&fields, &flow.setting.domain).iter().map(|seen| angle(seen)).collect();
-        found.line_force(&fields, LineDelta::Normalized, (&angles, m.tension), &mut line);
+        found.line_force(&fields, LineDelta::Normalized, &angles, m.tension, &mut line);
     }
     (surface, line)
 }

@@ -7,7 +7,9 @@
 //! The points lie on the level 1/2 of the smoothed color, which is drawn towards the center of curvature by h²κ/7. So a stencil is
 //! fitted more than once: for the curvature that moves its points to the interface, and there.
 
-use crate::interface::weighted_circle::{FEWEST_FROM_CONTACT, WeightedCircle, WeightedPoint, fit_from_contact};
+use crate::interface::weighted_circle::{
+    FEWEST_FROM_CONTACT, WallFrame, WeightedCircle, WeightedPoint, fit_from_contact,
+};
 use crate::math::{Vec2, perpendicular};
 use crate::sph::surface_force::contact_points::{ContactPoint, angle_pulled};
 use crate::sph::surface_force::pinned_lines::PinnedLine;
@@ -109,16 +111,16 @@ impl<'a> InterfaceFit<'a> {
         }
         if let Some(line) = self.pinned_line_at(point.x + contact, side) {
             let contact = self.interface.domain.separation(line.place, point.x);
-            let wall = (side * perpendicular(line.normal), line.normal);
+            let wall = WallFrame { outward: side * perpendicular(line.normal), normal: line.normal };
             return Some((self.fit_at(point, near, contact, wall)?.0, share));
         }
         let mut kappa = None;
         for _ in 0..PROJECTIONS {
-            let outwards = side * perpendicular(normal);
-            let (found, delta) = self.fit_at(point, near, contact, (outwards, normal))?;
+            let wall = WallFrame { outward: side * perpendicular(normal), normal };
+            let (found, delta) = self.fit_at(point, near, contact, wall)?;
             kappa = Some(found);
             // The contact point found lies on the tangent of the wall; a curved wall is looked at again there.
-            let place = point.x + contact + delta.clamp(-self.interface.h, self.interface.h) * outwards;
+            let place = point.x + contact + delta.clamp(-self.interface.h, self.interface.h) * wall.outward;
             let (distance, there) = (self.interface.wall)(place);
             if (there - normal).norm() < SAME_NORMAL {
                 break;
@@ -128,19 +130,19 @@ impl<'a> InterfaceFit<'a> {
         kappa.map(|kappa| (kappa, share))
     }
 
-    /// Curvature in 1/m at `point` of the circle that meets the straight wall (ν, normal) through `contact` (m from `point`) at the
+    /// Curvature in 1/m at `point` of the circle that meets the straight `wall` through `contact` (m from `point`) at the
     /// contact angle, and the way in m along ν from there to where it does.
     fn fit_at(
         &self,
         point: &InterfacePoint,
         near: &[WeightedPoint],
         contact: Vec2,
-        wall: (Vec2, Vec2),
+        wall: WallFrame,
     ) -> Option<(f64, f64)> {
-        let angle = angle_pulled(point.normal, wall, (self.angle?)(point.x + contact, wall.0));
+        let angle = angle_pulled(point.normal, wall, (self.angle?)(point.x + contact, wall.outward));
         let at_contact = self.interface.of_one_curvature(near, contact);
         let (kappa, delta) = fit_from_contact(&at_contact, contact, wall, angle)?;
-        Some((kappa - self.interface.gradient.dot(&(contact + delta * wall.0)), delta))
+        Some((kappa - self.interface.gradient.dot(&(contact + delta * wall.outward)), delta))
     }
 
     /// The line at a bend to which an interface belongs that meets the wall about `x` (m), on the given side.
@@ -159,9 +161,11 @@ mod tests {
     use super::*;
     use crate::math::{Bounds, LINE_MOMENT};
     use crate::sph::domain::Domain;
+    use crate::sph::surface_force::points::Resolution;
     use crate::sph::surface_force::stencils::Wall;
 
     const H: f64 = 0.15;
+    const RESOLUTION: Resolution = Resolution { spacing: 0.1, h: H };
 
     static DOMAIN: LazyLock<Domain> =
         LazyLock::new(|| Domain::new(Bounds { min: Vec2::repeat(-3.0), max: Vec2::repeat(3.0) }, [false; 2], vec![]));
@@ -205,7 +209,7 @@ mod tests {
     #[test]
     fn the_curvature_of_a_circle_is_one_over_its_radius() {
         let points = circle(2.0);
-        let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor);
+        let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
         let fit = InterfaceFit::free(&interface);
         for t in [0.0_f64, 0.7, 2.0, 4.0] {
             let x = Vec2::new(0.0, 2.0) + 1.1 * Vec2::new(t.cos(), t.sin());
@@ -221,7 +225,7 @@ mod tests {
         let bump = |n: &Vec2| (27.0 * n.y.atan2(n.x)).cos();
         let rough = directions().map(|n| ((level() + 0.01 * bump(&n)) * n, -n));
         let points = interface(rough, &|_| (f64::INFINITY, Vec2::zeros()));
-        let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor);
+        let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
         let fit = InterfaceFit::free(&interface);
         for n in directions().take(30) {
             let [inside, outside] = [0.75, 1.25].map(|r| fit.curvature(r * n).unwrap());
@@ -237,7 +241,7 @@ mod tests {
             let angle = degrees.to_radians();
             let points = circle(-angle.cos());
             let law = |_, _| angle;
-            let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor);
+            let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
             let fit = InterfaceFit::free(&interface).held_to(&law);
             // From .1 up at 30 degrees the tangent misses the contact point by so much that the steps end 1e-3 off.
             let tolerance = if degrees == 30.0 { 2e-3 } else { 1e-5 };
@@ -263,7 +267,7 @@ mod tests {
             };
             let points = interface(directions().map(|n| (level() * n, -n)), &wall);
             let law = |_, _| angle;
-            let interface = Interface::new(&points, &DOMAIN, (0.1, H), &wall);
+            let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &wall);
             let fit = InterfaceFit::free(&interface).held_to(&law);
             for point in points.iter().filter(|p| p.x.x > 0.0 && p.wall_distance < 0.3) {
                 let kappa = fit.curvature(point.x).unwrap();
@@ -304,7 +308,7 @@ mod tests {
             );
             let law = |_, _| angle;
             let at = |gradient: f64| {
-                let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor).under(Vec2::new(0.0, gradient));
+                let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor).under(Vec2::new(0.0, gradient));
                 let fit = InterfaceFit::free(&interface).held_to(&law);
                 let near_wall = profile.iter().filter(|(_, z, ..)| depth - z < 0.3);
                 let error = |x: f64, z: f64, exact: f64| fit.curvature(Vec2::new(x, depth - z)).unwrap() - exact;
@@ -320,7 +324,7 @@ mod tests {
     #[test]
     fn a_cap_that_is_too_steep_bends_outwards_at_the_wall() {
         let points = circle(0.0);
-        let interface = Interface::new(&points, &DOMAIN, (0.1, H), &floor);
+        let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
         let fit =
             |angle: f64| InterfaceFit::free(&interface).held_to(&|_, _| angle).curvature(Vec2::new(1.0, 0.02)).unwrap();
         assert!(fit(60_f64.to_radians()) < fit(90_f64.to_radians()));

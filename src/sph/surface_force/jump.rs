@@ -3,8 +3,10 @@
 use rayon::prelude::*;
 
 use crate::math::{LINE_MOMENT, Vec2};
-use crate::sph::images::Images;
+use crate::sph::domain::Domain;
+use crate::sph::neighborhood::Neighborhood;
 use crate::sph::pairs::{GRAIN, Pairs, each};
+use crate::sph::particles::Particles;
 use crate::sph::surface_force::stencils::{SMOOTHNESS, STENCIL_RADIUS};
 
 /// Passes of the smoothing of the curvature along the interface.
@@ -30,17 +32,26 @@ pub struct Jump {
     pub is_across: Vec<bool>,
 }
 
+/// The curvature of an interface.
+pub struct InterfaceCurvature<F: Fn(Vec2) -> Option<f64> + Sync> {
+    /// That near a place (m) in 1/m, none where there is no interface.
+    pub at: F,
+    /// Its gradient at rest in 1/m².
+    pub gradient: Vec2,
+}
+
 impl Jump {
-    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls, `r_ab(a, b)` in m, the curvature of the
-    /// interface near a place in 1/m, its `gradient` at rest in 1/m².
+    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls.
     pub fn update(
         &mut self,
-        (pairs, images, fluids): (&Pairs, &Images, usize),
+        particles: &Particles,
+        neighborhood: &Neighborhood,
+        domain: &Domain,
         color: &[f64],
-        (position, r_ab): (&[Vec2], impl Fn(usize, usize) -> Vec2 + Sync),
-        (curvature_at, gradient): (impl Fn(Vec2) -> Option<f64> + Sync, Vec2),
+        curvature: &InterfaceCurvature<impl Fn(Vec2) -> Option<f64> + Sync>,
     ) {
-        let n = pairs.rows();
+        let (Neighborhood { pairs, images }, position) = (neighborhood, &particles.position);
+        let (n, fluids) = (pairs.rows(), particles.moving());
         self.side.clear();
         self.side.extend(color[..n].iter().map(|&c| if c > 0.5 { 1.0 } else { 0.0 }));
         images.extend(&mut self.side);
@@ -51,11 +62,12 @@ impl Jump {
         let on_fluid: Vec<f64> = (0..fluids)
             .into_par_iter()
             .with_min_len(GRAIN / 8)
-            .map(|a| if is_across[a] { curvature_at(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
+            .map(|a| if is_across[a] { (curvature.at)(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
             .collect();
         self.curvature.clear();
-        let rest = |a: usize, b: usize| gradient.dot(&r_ab(a, images.source(b)));
-        self.curvature.extend(smoothed(on_fluid, (pairs, images), &rest));
+        let rest =
+            |a: usize, b: usize| curvature.gradient.dot(&domain.separation(position[a], position[images.source(b)]));
+        self.curvature.extend(smoothed(on_fluid, neighborhood, &rest));
         self.curvature.resize(n, f64::NAN);
         // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
         images.extend(&mut self.curvature);
@@ -63,7 +75,7 @@ impl Jump {
             let known = self.curvature.clone();
             each(&mut self.curvature[fluids..n], |i| {
                 let a = fluids + i;
-                if known[a].is_nan() { average_at(a, pairs, (0.0, 0.0), |b| known[b] + rest(a, b)) } else { known[a] }
+                if known[a].is_nan() { average_at(a, pairs, None, |b| known[b] + rest(a, b)) } else { known[a] }
             });
             images.extend(&mut self.curvature);
         }
@@ -98,7 +110,7 @@ impl Jump {
 /// it is greater by at a than at b.
 fn smoothed(
     curvature: Vec<f64>,
-    (pairs, images): (&Pairs, &Images),
+    Neighborhood { pairs, images }: &Neighborhood,
     rest: &(impl Fn(usize, usize) -> f64 + Sync),
 ) -> Vec<f64> {
     let average = |mut field: Vec<f64>| {
@@ -109,7 +121,7 @@ fn smoothed(
                 if known[a].is_nan() {
                     return f64::NAN;
                 }
-                average_at(a, pairs, (pairs.w_self * known[a], pairs.w_self), |b| at(a, b))
+                average_at(a, pairs, Some(known[a]), |b| at(a, b))
             });
         }
         field
@@ -119,8 +131,9 @@ fn smoothed(
     once.iter().zip(&twice).map(|(once, twice)| once + DECONVOLUTION * (once - twice)).collect()
 }
 
-/// Σ_b W κ_b/Σ_b W over the neighbors of a that have a curvature, and what a has `own`: its κ W and W. NaN where there is none.
-fn average_at(a: usize, pairs: &Pairs, own: (f64, f64), curvature: impl Fn(usize) -> f64) -> f64 {
+/// Σ_b W κ_b/Σ_b W over the neighbors of a that have a curvature, and over a itself where it has its `own` κ (1/m). NaN where there is none.
+fn average_at(a: usize, pairs: &Pairs, own: Option<f64>, curvature: impl Fn(usize) -> f64) -> f64 {
+    let own = own.map_or((0.0, 0.0), |kappa| (pairs.w_self * kappa, pairs.w_self));
     let (sum, norm) = pairs.of(a).fold(own, |(sum, norm), ab| {
         let kappa = curvature(ab.b);
         if kappa.is_nan() { (sum, norm) } else { (sum + ab.w * kappa, norm + ab.w) }

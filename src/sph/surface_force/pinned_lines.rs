@@ -5,7 +5,7 @@
 //! look up the wall each for itself find now this face and now that one. So each line near a bend is placed once, by all of its points:
 //! where on the wall, and to which normal, does the interface have its angle? The fits around it meet that tangent.
 
-use crate::interface::weighted_circle::fit_from_contact;
+use crate::interface::weighted_circle::{WallFrame, fit_from_contact};
 use crate::math::{Vec2, perpendicular};
 use crate::sph::surface_force::contact_points::angle_pulled;
 use crate::sph::surface_force::detected_lines::InterfaceLine;
@@ -56,9 +56,9 @@ impl InterfaceLine<'_> {
         // The nearest places from which the line would go on outwards, and from which it would come back, with how far.
         let mut between: [Option<(End, f64)>; 2] = [None; 2];
         for _ in 0..STEPS {
-            let outwards = self.side * perpendicular(end.normal);
-            let pulled = angle_pulled(self.into_wetting, (outwards, end.normal), angle);
-            let (_, way) = fit_from_contact(&self.near, end.contact, (outwards, end.normal), pulled)?;
+            let wall = WallFrame { outward: self.side * perpendicular(end.normal), normal: end.normal };
+            let pulled = angle_pulled(self.into_wetting, wall, angle);
+            let (_, way) = fit_from_contact(&self.near, end.contact, wall, pulled)?;
             if way.abs() < SAME_PLACE * interface.h {
                 break;
             }
@@ -68,7 +68,7 @@ impl InterfaceLine<'_> {
                     let share = (out / (out + back)).clamp(0.1, 0.9);
                     (1.0 - share) * self.above(&inner) + share * self.above(&outer)
                 }
-                _ => end.contact + way.clamp(-interface.h, interface.h) * outwards,
+                _ => end.contact + way.clamp(-interface.h, interface.h) * wall.outward,
             };
             let (distance, normal) = (interface.wall)(place + next);
             end = End { contact: next - distance * normal, normal };
@@ -90,10 +90,11 @@ mod tests {
     use crate::math::{Bounds, LINE_MOMENT};
     use crate::sph::domain::Domain;
     use crate::sph::surface_force::fit::InterfaceFit;
-    use crate::sph::surface_force::points::InterfacePoint;
+    use crate::sph::surface_force::points::{InterfacePoint, Resolution};
     use crate::sph::surface_force::stencils::Interface;
 
     const H: f64 = 0.15;
+    const RESOLUTION: Resolution = Resolution { spacing: 0.1, h: H };
 
     /// A quarter of the plane is solid, its edge at the origin.
     fn wall(x: Vec2) -> (f64, Vec2) {
@@ -128,7 +129,7 @@ mod tests {
         let law = |_, _| 60_f64.to_radians();
         for degrees in [62.0_f64, 80.0, 112.0, 130.0, 148.0] {
             let points = drop(degrees.to_radians());
-            let interface = Interface::new(&points, &domain, (0.1, H), &wall);
+            let interface = Interface::new(&points, &domain, RESOLUTION, &wall);
             let pinned_lines: Vec<PinnedLine> =
                 interface.lines().iter().filter_map(|line| line.pinned(60_f64.to_radians())).collect();
             let fit = InterfaceFit::free(&interface).held_to(&law).with_pinned_lines(&pinned_lines);

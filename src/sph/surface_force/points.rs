@@ -2,8 +2,7 @@
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::images::Images;
-use crate::sph::pairs::Pairs;
+use crate::sph::neighborhood::Neighborhood;
 
 /// Pairs nearer than this, in units of dx, are looked at: nearest and diagonal neighbors of the lattice. Their weight falls to zero there.
 const LINK: f64 = 1.8;
@@ -54,15 +53,25 @@ pub struct PointFields<'a> {
     pub near: &'a [bool],
 }
 
-/// All interface points between the first `fluids` particles, with images near mirrors. `(spacing, h)` in m.
+/// Lengths of the discretization.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolution {
+    /// Spacing of the particles dx in m.
+    pub spacing: f64,
+    /// Smoothing length in m.
+    pub h: f64,
+}
+
+/// All interface points between the first `fluids` particles, with images near mirrors.
 #[must_use]
 pub fn interface_points(
-    (pairs, images): (&Pairs, &Images),
+    neighborhood: &Neighborhood,
     domain: &Domain,
     fields: &PointFields,
     fluids: usize,
-    (spacing, h): (f64, f64),
+    Resolution { spacing, h }: Resolution,
 ) -> Vec<InterfacePoint> {
+    let Neighborhood { pairs, images } = neighborhood;
     let mut points = Vec::new();
     let link2 = (LINK * spacing).powi(2);
     for a in (0..fluids).filter(|&a| fields.near[a]) {
@@ -87,7 +96,7 @@ pub fn interface_points(
                 let (wall_distance, wall_normal) = wall_between(fields, a, source, f);
                 let velocity = (1.0 - f) * fields.velocity[a] + f * fields.velocity[ab.b];
                 let (x, normal) = (x_a + f * r_ba, g.normalize());
-                let touches = wall_distance.is_finite() && both_touch(pairs, images, fields, (a, source), spacing);
+                let touches = wall_distance.is_finite() && both_touch(neighborhood, fields, a, source, spacing);
                 let weight = closeness.powi(2);
                 points.push(InterfacePoint { x, normal, velocity, wall_distance, wall_normal, touches, weight });
             }
@@ -98,7 +107,8 @@ pub fn interface_points(
 }
 
 /// Whether particles of both phases, by the smoothed color, which is blind to single strays, touch the wall around `a` or `b`.
-fn both_touch(pairs: &Pairs, images: &Images, fields: &PointFields, (a, b): (usize, usize), spacing: f64) -> bool {
+fn both_touch(neighborhood: &Neighborhood, fields: &PointFields, a: usize, b: usize, spacing: f64) -> bool {
+    let Neighborhood { pairs, images } = neighborhood;
     let phase = |i: usize| {
         let touches = fields.wall_distance.get(i).is_some_and(|d| *d < TOUCHING * spacing);
         touches.then(|| fields.color[i] > LEVEL)

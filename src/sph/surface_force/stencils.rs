@@ -7,7 +7,7 @@ use crate::interface::weighted_circle::{WeightedCircle, WeightedPoint};
 use crate::math::{LINE_MOMENT, Vec2};
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
-use crate::sph::surface_force::points::InterfacePoint;
+use crate::sph::surface_force::points::{InterfacePoint, Resolution};
 
 /// Radius r of the stencil of a fit over h.
 pub const STENCIL_RADIUS: f64 = 3.0;
@@ -44,9 +44,14 @@ pub struct Interface<'a> {
 }
 
 impl<'a> Interface<'a> {
-    /// Sorts the points; `spacing` and the smoothing length `h` in m.
+    /// Sorts the points.
     #[must_use]
-    pub fn new(points: &'a [InterfacePoint], domain: &'a Domain, (spacing, h): (f64, f64), wall: &'a Wall<'a>) -> Self {
+    pub fn new(
+        points: &'a [InterfacePoint],
+        domain: &'a Domain,
+        Resolution { spacing, h }: Resolution,
+        wall: &'a Wall<'a>,
+    ) -> Self {
         let places: Vec<Vec2> = points.iter().map(|p| p.x).collect();
         let cells = Cells::build(&places, domain, STENCIL_RADIUS * h);
         Self { points, cells, h, spacing, gradient: Vec2::zeros(), wall, domain }

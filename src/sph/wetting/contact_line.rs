@@ -6,9 +6,8 @@
 use crate::math::Vec2;
 use crate::sph::components::components;
 use crate::sph::domain::Domain;
-use crate::sph::images::Images;
 use crate::sph::kernel::WendlandC2;
-use crate::sph::pairs::Pairs;
+use crate::sph::neighborhood::Neighborhood;
 use crate::sph::wetting::driving_force;
 use crate::sph::wetting::lines::DetectedLine;
 
@@ -102,9 +101,9 @@ impl DetectedLine for MeanLine {
 impl LineParticles {
     /// The particles near walls at which the interface stands, sorted into lines.
     #[must_use]
-    pub fn find((pairs, images): (&Pairs, &Images), fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Self {
+    pub fn find(neighborhood: &Neighborhood, fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Self {
         let particles = line_particles(fields, kernel, fluids);
-        let line_of = line_of(&particles, pairs, images, fluids);
+        let line_of = line_of(&particles, neighborhood, fluids);
         let mut lines = vec![Vec::new(); line_of.iter().max().map_or(0, |last| *last as usize + 1)];
         for (p, &line) in particles.iter().zip(&line_of) {
             lines[line as usize].push(*p);
@@ -123,13 +122,7 @@ impl LineParticles {
     /// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eq. 23].
     ///
     /// `angles` in rad are those of the wetting law at each line, in the order of detection; `tension` is σ_wn in N/m.
-    pub fn line_force(
-        &self,
-        fields: &LineFields,
-        delta: LineDelta,
-        (angles, tension): (&[f64], f64),
-        force: &mut [Vec2],
-    ) {
+    pub fn line_force(&self, fields: &LineFields, delta: LineDelta, angles: &[f64], tension: f64, force: &mut [Vec2]) {
         force.fill(Vec2::zeros());
         for ((particles, norm), angle) in self.lines.iter().zip(&self.norm).zip(angles) {
             let share: f64 = particles.iter().map(|p| fields.volume[p.a] * p.delta * fields.weight[p.a]).sum();
@@ -195,7 +188,8 @@ fn line_particles(fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Ve
 }
 
 /// The number of the contact line of each particle: neighbors whose ν_ns point the same way share a line.
-fn line_of(particles: &[LineParticle], pairs: &Pairs, images: &Images, fluids: usize) -> Vec<u32> {
+fn line_of(particles: &[LineParticle], neighborhood: &Neighborhood, fluids: usize) -> Vec<u32> {
+    let Neighborhood { pairs, images } = neighborhood;
     let mut place = vec![None; fluids];
     for (i, p) in particles.iter().enumerate() {
         place[p.a] = Some(i);
