@@ -42,7 +42,9 @@ import io
 import json
 import math
 import re
+import shutil
 import subprocess
+import tempfile
 import tomllib
 import zlib
 from pathlib import Path
@@ -141,26 +143,26 @@ def store(root: Path, name: str, directory: Path, picture: dict) -> None:
     pages = "".join(page.read_text(encoding="utf-8") for page in (root / "docs").rglob("*.md"))
     figures = []
     if f"figures/{name}-" in pages:
-        for figure in gallery_figures.write(directory, root / FIGURES, picture.get("run"), picture.get("field")):
-            if f"figures/{figure.name}" in pages:
-                figures.append((FIGURES / figure.name).as_posix())
-            else:
-                figure.unlink()
-    text = io.StringIO()
-    print(f"# meniscus study run {study}", file=text)
+        with tempfile.TemporaryDirectory() as folder:
+            for figure in gallery_figures.write(directory, Path(folder), picture.get("run"), picture.get("field")):
+                if f"figures/{figure.name}" in pages:
+                    shutil.copyfile(figure, root / FIGURES / figure.name)
+                    figures.append((FIGURES / figure.name).as_posix())
+    rows_text = io.StringIO()
+    measures = head.index("status") + 1
+    writer = csv.writer(rows_text, lineterminator="\n")
+    writer.writerow(head)
+    writer.writerows([row[:measures] + [shortened(text) for text in row[measures:]] for row in complete])
     version = " and ".join(sorted({report["version"] for report in reports}))
     seconds = sum(report["cpu-s"] for report in reports)
-    print(
-        f"# version {version}, {len(complete)} of {len(rows)} runs, {seconds:.{1 if seconds < 10 else 0}f} s", file=text
-    )
-    for path in [*inputs(root, study), *figures]:
-        print(stamp(root, path), file=text)
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(head)
-    measures = head.index("status") + 1
-    writer.writerows([row[:measures] + [shortened(text) for text in row[measures:]] for row in complete])
+    lines = [
+        f"# meniscus study run {study}",
+        f"# version {version}, {len(complete)} of {len(rows)} runs, {seconds:.{1 if seconds < 10 else 0}f} s",
+        *[stamp(root, path) for path in [*inputs(root, study), *figures]],
+        f"# {checksum(rows_text.getvalue().encode())} rows",
+    ]
     (root / RESULTS).mkdir(parents=True, exist_ok=True)
-    (root / RESULTS / f"{name}.csv").write_text(text.getvalue(), encoding="utf-8")
+    (root / RESULTS / f"{name}.csv").write_text("\n".join(lines) + "\n" + rows_text.getvalue(), encoding="utf-8")
 
 
 def stamp_again(root: Path, name: str) -> None:
@@ -168,7 +170,7 @@ def stamp_again(root: Path, name: str) -> None:
     path = root / RESULTS / f"{name}.csv"
     lines = path.read_text(encoding="utf-8").splitlines()
     figures = [line.split()[-1] for line in lines if line.startswith("#") and line.split()[-1].startswith("docs/")]
-    body = [line for line in lines if not line.startswith("#")]
+    body = lines[next(index for index, line in enumerate(lines) if line.endswith(" rows")) :]
     stamps = [stamp(root, file) for file in [*inputs(root, study_file(root, name)), *figures]]
     path.write_text("\n".join([*lines[:2], *stamps, *body]) + "\n", encoding="utf-8")
 

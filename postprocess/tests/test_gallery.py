@@ -84,8 +84,8 @@ class Gallery(unittest.TestCase):
         self.assertEqual(lines[1], "# version 0.1.0, 3 of 4 runs, 6.0 s")
         names = [line.split()[-1] for line in lines[2:5]]
         self.assertEqual(names, ["studies/drop.toml", "cases/drop.toml", "cases/disc.toml"])
-        self.assertEqual(lines[6], "a,60,8e-5,done,59.87654,0.12,0.99")
-        self.assertEqual(len(lines), 9)
+        self.assertEqual(lines[7], "a,60,8e-5,done,59.87654,0.12,0.99")
+        self.assertEqual(len(lines), 10)
 
     def test_a_table_has_error_bars_signs_and_cells_without_a_measure(self):
         """A second write changes nothing, and a changed number is put right."""
