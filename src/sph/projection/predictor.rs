@@ -108,6 +108,18 @@ impl Flow {
         }
     }
 
+    /// Sets the accelerations of buffer particles from those of the fluid in `acceleration` (m/s²), as their velocities follow: at sides with
+    /// a given pressure the normal part of that at the interior point, at inlets none.
+    pub(super) fn extend_to_buffers(&self, interior: &InteriorPoints, acceleration: &mut [Vec2]) {
+        for (i, b) in self.particles.buffer().enumerate() {
+            let x = self.particles.position[b];
+            let side = self.open.sides.iter().find(|side| side.beyond(x) >= 0.0 && side.given_pressure().is_some());
+            if let (Some(side), Some(inside)) = (side, interior.value(i, acceleration)) {
+                acceleration[b] = side.velocity(side.inwards() * inside[side.axis()]);
+            }
+        }
+    }
+
     /// The background pressure p_0 in Pa for a flow of the given `speed` (m/s).
     pub(super) fn background_pressure(&self, speed: f64) -> f64 {
         let m = &self.method;

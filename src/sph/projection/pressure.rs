@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::given_flow::{RESPONSE_RESIDUAL, Response};
-use super::{Damped, Flow, Predicted};
+use super::{Flow, Predicted};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::open::{Prescribed, Through};
@@ -59,7 +59,7 @@ impl Flow {
         let matrix = self.assembled();
         let (method, f) = (&self.method, &self.fields);
         self.hydrostatic().subtract_from(&mut b, &matrix, &self.pairs);
-        self.subtract_divergence_error(&predicted.damped, &matrix, &mut b);
+        self.subtract_divergence_error(predicted, &matrix, &mut b);
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.particles, &self.open.sides, jump, method.kernel.h);
         let mut others = Vec::new();
@@ -174,13 +174,15 @@ impl Flow {
     ///
     /// The divergence of the gradient is not quite the Laplacian, so that a pressure leaves the divergence Δt (Laplacian − divergence of the
     /// gradient): in a steady flow as much in any step, and through walls. So no step leaks more than an explicit one.
-    fn subtract_divergence_error(&self, damped: &Damped, matrix: &Matrix, b: &mut [f64]) {
+    fn subtract_divergence_error(&self, predicted: &Predicted, matrix: &Matrix, b: &mut [f64]) {
+        let damped = &predicted.damped;
         if damped.excess == 0.0 {
             return;
         }
         let (n, f) = (self.particles.len(), &self.fields);
         let mut acceleration = damped.by_pressure.clone();
         acceleration.resize(n, Vec2::zeros());
+        self.extend_to_buffers(&predicted.interior, &mut acceleration);
         self.images.extend_velocity(&mut acceleration);
         let mut of_gradient = vec![0.0; n];
         divergence(&self.pairs, &f.volume, &acceleration, &mut of_gradient);
