@@ -2,6 +2,8 @@
 //!
 //! Reads the sources as text: comments are cut off, every path that begins with `crate::` counts.
 
+mod picture;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -207,7 +209,7 @@ fn low_layers_do_not_import_high_ones() {
     for source in sources().iter().filter(|source| !matches!(source.path.as_str(), "main.rs" | "lib.rs")) {
         let module = source.module();
         let Some((_, allowed)) = MAY_IMPORT.iter().find(|(name, _)| *name == module) else {
-            violations.push(format!("src/{}: the module `{module}` has no layer in tests/layers.rs", source.path));
+            violations.push(format!("src/{}: the module `{module}` has no layer in tests/layers/main.rs", source.path));
             continue;
         };
         for (line, import) in imports(source) {
@@ -217,6 +219,40 @@ fn low_layers_do_not_import_high_ones() {
         }
     }
     assert_none(&violations);
+}
+
+/// What each module imports from others outside of its tests.
+fn imports_of_modules() -> picture::Imports {
+    let mut found = picture::Imports::new();
+    let is_module = |source: &&Source| !matches!(source.path.as_str(), "main.rs" | "lib.rs");
+    for source in sources().iter().filter(is_module) {
+        let of_module = found.entry(source.module().to_owned()).or_default();
+        if source.path.ends_with("/tests.rs") || source.path.contains("/tests/") {
+            continue;
+        }
+        let text = source.lines.join("\n");
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        of_module.extend(heads_behind(code, "crate::").into_iter().map(|(_, head)| head));
+        of_module.remove(source.module());
+    }
+    let modules: BTreeSet<String> = found.keys().cloned().collect();
+    found.values_mut().for_each(|imported| imported.retain(|import| modules.contains(import)));
+    found
+}
+
+/// `MENISCUS_BLESS=1 cargo test --release --test layers` draws it anew.
+#[test]
+fn the_picture_of_the_structure_is_that_of_the_source() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/figures/structure.svg");
+    let drawn = picture::svg(&imports_of_modules());
+    if std::env::var_os("MENISCUS_BLESS").is_some() {
+        std::fs::write(&file, &drawn).unwrap();
+    }
+    let shown = std::fs::read_to_string(&file).unwrap_or_default();
+    assert!(
+        shown == drawn,
+        "docs/figures/structure.svg is not of this source: MENISCUS_BLESS=1 cargo test --release --test layers"
+    );
 }
 
 /// The files and folders of a folder by name, each with those that it imports outside of its tests; `mod` is the folder itself.
