@@ -63,7 +63,7 @@ const CHAINS: [&str; 6] =
     ["wetting", "interface", "interface/menisci", "sph/surface_force", "sph/measures", "benchmarks"];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
-const ONE_PLACE: [(&str, &[&str]); 19] = [
+const ONE_PLACE: [(&str, &[&str]); 18] = [
     ("parry2d_f64", &["geometry/"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/"]),
@@ -83,7 +83,6 @@ const ONE_PLACE: [(&str, &[&str]); 19] = [
     ("flate2", &["io/vtk/"]),
     ("lz4_flex", &["io/vtk/"]),
     ("base64", &["io/vtk/"]),
-    ("OdeBuilder", &["thin_film/diffsol/"]),
     ("plotters", &["study/curve.rs", "io/axes.rs", "io/diagram.rs"]),
 ];
 

@@ -1,6 +1,6 @@
 //! The system as operators of the library: F with its Jacobian, M, and the start.
 
-use diffsol::{
+use ::diffsol::{
     ConstantOp, FaerContext, FaerSparseMat, FaerVec, LinearOp, Matrix, NonLinearOp, NonLinearOpJacobian, OdeEquations,
     OdeEquationsRef, Op, ParameterisedOp, UnitCallable, Vector,
 };

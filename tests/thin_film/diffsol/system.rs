@@ -3,9 +3,9 @@
 //! Five rows a particle, seven in partial wetting, where the overlap ⟨h, h̄⟩ is summed from the left and handed back from the right, so
 //! that every row has a few entries.
 
-use diffsol::FaerContext;
+use ::diffsol::FaerContext;
 
-use super::super::particles::ParticleMethod;
+use meniscus::thin_film::particles::ParticleMethod;
 
 /// Places of a particle's unknowns in its block.
 const PLACE: usize = 0;
