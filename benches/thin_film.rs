@@ -1,4 +1,8 @@
-//! Time of the sums over particles, of a stiff step, and of a step of finite differences of a thin film, all O(N). `cargo bench --bench thin_film`.
+//! Time of the sums over particles, of a stiff step, and of a step of finite differences of a thin film, all O(N); time of a whole film
+//! by our integrators and by those of the library diffsol. `cargo bench --bench thin_film`.
+
+#[path = "../tests/thin_film/diffsol/mod.rs"]
+mod diffsol;
 
 use std::hint::black_box;
 
@@ -11,6 +15,10 @@ use meniscus::thin_film::ode::{Implicit, Integrator, Method, Tolerance};
 use meniscus::thin_film::particles::{LatticeEnergy, ParticleMethod, Pull};
 use meniscus::thin_film::ring::{Line, Ring};
 use meniscus::thin_film::sums::{FastSums, Smoothed, direct_sums};
+
+use diffsol::{Reached, esdirk34, tsit45};
+
+type Oracle = fn(&ParticleMethod, &[f64], f64, f64, &[f64]) -> Vec<Reached>;
 
 const ALPHA: f64 = 0.05;
 const DROPLET: Droplet = Droplet { area: 0.25, half_width: 0.5, center: 0.0 };
@@ -56,6 +64,38 @@ fn stiff_steps(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// The film of `cases/thin-film/complete-wetting.toml` without records, stiff to t = 50 and explicit to t = 1.
+fn whole_films(criterion: &mut Criterion) {
+    const TOLERANCE: f64 = 1.0e-7;
+    const FIRST_STEP: f64 = 1.0e-6;
+    let masses = particles(&[DROPLET], 0.00125, WeightRule::Cell);
+    let method = ParticleMethod::new(Kernel::new(ALPHA), &masses, Pull::default(), LatticeEnergy::Kept);
+    let ours = |kind: Method, end: f64| {
+        let tolerance = Tolerance { absolute: TOLERANCE, relative: 0.0 };
+        let mut state = Integrator::new(kind, tolerance, masses.x.clone(), FIRST_STEP);
+        let (mut method, mut steps) = (method.clone(), 0);
+        while state.time < end {
+            state.step(&mut method, end).unwrap();
+            steps += 1;
+        }
+        Reached { x: state.x, steps }
+    };
+    let oracle =
+        |integrate: Oracle, end: f64| integrate(&method, &masses.x, TOLERANCE, FIRST_STEP, &[end]).pop().unwrap();
+    let mut group = criterion.benchmark_group("whole-film");
+    group.sample_size(10);
+    let mut time = |name: &str, film: &dyn Fn() -> Reached| {
+        let Reached { x, steps } = film();
+        println!("{name}: {steps} steps, last particle at {:.8}", x[x.len() - 1]);
+        group.bench_function(name, |bencher| bencher.iter(film));
+    };
+    time("rodas", &|| ours(Method::Stiff, 50.0));
+    time("esdirk34", &|| oracle(esdirk34, 50.0));
+    time("dormand-prince", &|| ours(Method::Explicit, 1.0));
+    time("tsit45", &|| oracle(tsit45, 1.0));
+    group.finish();
+}
+
 fn grid_steps(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("grid-step");
     group.sample_size(10);
@@ -72,5 +112,5 @@ fn grid_steps(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, sums, stiff_steps, grid_steps);
+criterion_group!(benches, sums, stiff_steps, whole_films, grid_steps);
 criterion_main!(benches);

@@ -46,6 +46,25 @@ def shrink(picture: Path, target: Path, width: int) -> None:
     plt.close(figure)
 
 
+def write(directory: Path, figures: Path, run: str | None = None, field: str | None = None, width: int = 560) -> list:
+    """Writes the curves of a study folder and the picture of a run, and returns their paths."""
+    found = measure(directory, run)
+    if found["picture"] is None:
+        raise SystemExit(f"{directory} has no complete run {run or ''}: do the study first")
+    figures.mkdir(parents=True, exist_ok=True)
+    written = [figures / f"{found['name']}-{index}.svg" for index in range(1, len(found["curves"]) + 1)]
+    for curve, target in zip(found["curves"], written, strict=True):
+        shutil.copyfile(curve, target)
+    target = figures / f"{found['name']}-picture.webp"
+    with tempfile.TemporaryDirectory() as folder:
+        picture = found["picture"]
+        if field:
+            output, picture = picture.parent, Path(folder) / "field.png"
+            field_picture.draw(output, field_picture.measure(output, field), picture)
+        shrink(picture, target, width)
+    return [*written, target]
+
+
 def main() -> None:
     """Writes the figures and prints their names."""
     parser = argparse.ArgumentParser(description="figures of the documentation from study folders")
@@ -55,23 +74,9 @@ def main() -> None:
     parser.add_argument("--field", help="array of the grid that is drawn in place of the particles")
     parser.add_argument("--width", type=int, default=560, help="pixels of the picture")
     asked = parser.parse_args()
-    asked.figures.mkdir(parents=True, exist_ok=True)
     for directory in asked.directories:
-        found = measure(directory, asked.run)
-        if found["picture"] is None:
-            raise SystemExit(f"{directory} has no complete run {asked.run or ''}: do the study first")
-        for index, curve in enumerate(found["curves"], 1):
-            target = asked.figures / f"{found['name']}-{index}.svg"
-            shutil.copyfile(curve, target)
-            print(target)
-        target = asked.figures / f"{found['name']}-picture.webp"
-        with tempfile.TemporaryDirectory() as folder:
-            picture = found["picture"]
-            if asked.field:
-                run, picture = picture.parent, Path(folder) / "field.png"
-                field_picture.draw(run, field_picture.measure(run, asked.field), picture)
-            shrink(picture, target, asked.width)
-        print(target)
+        for figure in write(directory, asked.figures, asked.run, asked.field, asked.width):
+            print(figure)
 
 
 if __name__ == "__main__":

@@ -99,8 +99,8 @@ impl Bounds {
     }
 }
 
-/// Lets faer work in one thread from now on: what it sums in parts would depend on the number of threads. The library diffsol builds it
-/// with threads.
+/// Lets faer work in one thread from now on: what it sums in parts would depend on the number of threads. We build it without threads,
+/// but a program that uses this library may have it with them.
 pub fn factor_in_one_thread() {
     faer::set_global_parallelism(faer::Par::Seq);
 }

@@ -15,6 +15,8 @@ mod keys;
 mod page;
 #[path = "docs/reference.rs"]
 mod reference;
+#[path = "docs/results.rs"]
+mod results;
 
 use page::{Page, code, files, page, pages, root, text, words};
 

@@ -15,8 +15,6 @@ pub enum Film {
         method: Box<ParticleMethod>,
         /// The state.
         state: Integrator,
-        /// Whether the library diffsol does the steps.
-        by_library: bool,
     },
     /// Nodes of a grid.
     Grid(Box<GridFilm>),
@@ -53,16 +51,7 @@ impl Film {
     #[must_use]
     pub fn particles(method: ParticleMethod, masses: &PointMasses, state: Integrator) -> Self {
         debug_assert_eq!(masses.x.len(), state.x.len());
-        Self::Particles { method: Box::new(method), state, by_library: false }
-    }
-
-    /// The same film with its steps done by the library diffsol, where there are particles.
-    #[must_use]
-    pub fn by_library(mut self) -> Self {
-        if let Self::Particles { by_library, .. } = &mut self {
-            *by_library = true;
-        }
-        self
+        Self::Particles { method: Box::new(method), state }
     }
 
     /// Scaled time.
@@ -80,10 +69,7 @@ impl Film {
     /// [`Stuck`]; the state is kept.
     pub fn step(&mut self, until: f64) -> Result<f64, Stuck> {
         match self {
-            Self::Particles { method, state, by_library: true } => {
-                super::diffsol::step(method, state, until).map_err(|error| Stuck::Inaccurate(error.0))
-            }
-            Self::Particles { method, state, .. } => {
+            Self::Particles { method, state } => {
                 if method.corrects() && widest_gap(&state.x) > WIDEST_GAP * method.kernel().alpha() {
                     method.keep_lattice_energy();
                 }
@@ -99,7 +85,7 @@ impl Film {
     #[must_use]
     pub fn seen(&self) -> Seen {
         match self {
-            Self::Particles { method, state, .. } => {
+            Self::Particles { method, state } => {
                 // The sums need room to work in; this one is thrown away.
                 let mut method = method.clone();
                 let mut velocity = vec![0.0; state.x.len()];
@@ -122,7 +108,7 @@ impl Film {
     #[must_use]
     pub fn profile(&self, places: &[f64]) -> Profile {
         match self {
-            Self::Particles { method, state, .. } => {
+            Self::Particles { method, state } => {
                 let s = method.profile(&state.x, places);
                 Profile { x: places.to_vec(), height: s.height, slope: s.slope, curvature: s.curvature }
             }
@@ -138,7 +124,7 @@ impl Film {
     #[must_use]
     pub fn heights(&self, places: &[f64]) -> Vec<f64> {
         match self {
-            Self::Particles { method, state, .. } => method.profile(&state.x, places).height,
+            Self::Particles { method, state } => method.profile(&state.x, places).height,
             Self::Grid(film) => {
                 let (x, height) = (film.grid().nodes(), &film.state.height);
                 let at = |&place: &f64| {
@@ -171,7 +157,7 @@ impl Film {
     #[must_use]
     pub fn center_height(&self) -> f64 {
         match self {
-            Self::Particles { method, state, .. } => method.profile(&state.x, &[0.0]).height[0],
+            Self::Particles { method, state } => method.profile(&state.x, &[0.0]).height[0],
             Self::Grid(grid) => grid.center_height(),
         }
     }
@@ -189,7 +175,7 @@ impl Film {
     #[must_use]
     pub fn energy(&self) -> f64 {
         match self {
-            Self::Particles { method, state, .. } => method.clone().energy(&state.x),
+            Self::Particles { method, state } => method.clone().energy(&state.x),
             Self::Grid(grid) => grid.energy(),
         }
     }

@@ -7,7 +7,6 @@
 pub mod backward_euler;
 pub mod cells;
 mod diagrams;
-pub mod diffsol;
 pub mod droplet;
 pub mod equilibrium;
 pub mod film;

@@ -70,8 +70,8 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
                 LatticeEnergy::TakenOff => particles::LatticeEnergy::TakenOff,
             };
             let method = match integrator {
-                FilmIntegrator::Stiff | FilmIntegrator::DiffsolStiff => Method::Stiff,
-                FilmIntegrator::Explicit | FilmIntegrator::DiffsolExplicit => Method::Explicit,
+                FilmIntegrator::Stiff => Method::Stiff,
+                FilmIntegrator::Explicit => Method::Explicit,
             };
             let width = droplets.iter().map(|droplet| 2.0 * droplet.half_width).fold(0.0, f64::max);
             let tolerance = Tolerance { absolute: tolerance * width, relative: 0.0 };
@@ -80,11 +80,7 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
             if sums == FilmSums::Direct {
                 equation.sum_directly();
             }
-            let film = Film::particles(equation, &masses, state);
-            match integrator {
-                FilmIntegrator::DiffsolStiff | FilmIntegrator::DiffsolExplicit => film.by_library(),
-                FilmIntegrator::Stiff | FilmIntegrator::Explicit => film,
-            }
+            Film::particles(equation, &masses, state)
         }
         FilmMethod::FiniteDifferences { step_share } => {
             let rule = StepRule { first: FIRST_STEP, share: step_share, ..StepRule::ADAPTIVE };

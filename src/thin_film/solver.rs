@@ -293,7 +293,7 @@ impl Solver for ThinFilmSolver {
 
     fn state(&self) -> Vec<u8> {
         let (scaled_time, next, corrects, values) = match &self.film {
-            Film::Particles { method, state, .. } => (state.time, state.next, method.corrects(), state.x.clone()),
+            Film::Particles { method, state } => (state.time, state.next, method.corrects(), state.x.clone()),
             Film::Grid(grid) => (grid.state.time, grid.state.next, false, grid.state.height.clone()),
         };
         let (time, dt, steps) = (self.time, self.dt, self.steps);
@@ -314,7 +314,7 @@ impl Solver for ThinFilmSolver {
         (self.time, self.dt, self.steps) = (saved.time, saved.dt, saved.steps);
         self.history = saved.history;
         match &mut self.film {
-            Film::Particles { method, state, .. } => {
+            Film::Particles { method, state } => {
                 (state.time, state.next, state.x) = (saved.scaled_time, saved.next, saved.values);
                 if !saved.corrects {
                     method.keep_lattice_energy();

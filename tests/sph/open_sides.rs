@@ -2,6 +2,7 @@
 
 use crate::support::flow::flow;
 use meniscus::sph::flow::Flow;
+use meniscus::sph::method::ViscousStep;
 use meniscus::sph::open::Ledger;
 use meniscus::sph::particles::Phase;
 
@@ -87,6 +88,24 @@ fn a_large_common_pressure_changes_nothing() {
     // 1e5 Pa have digits of 1e-11 Pa, and the solve leaves 1e-6 of the right side.
     assert!((speeds[0] / speeds[1] - 1.0).abs() < 1e-6, "{speeds:?}");
     assert!(speeds[0] > 0.0);
+}
+
+/// With the pressure before seen as acting on the fluid and not on the buffers, long steps press the files at the sides together by 3 %.
+#[test]
+fn long_steps_between_two_pressures_leave_the_flow_as_short_ones_do() {
+    let walls = "[sph.sides]\nleft = \"inlet\"\nright = \"outlet\"\n[sph.sides.open.left]\npressure = 0.024\n";
+    let [long, short] = [ViscousStep::Implicit, ViscousStep::Explicit].map(|viscous_step| {
+        let mut flow = flow(&channel(walls));
+        flow.setting.method.viscous_step = viscous_step;
+        run(&mut flow, 1.0);
+        let fluids = flow.state.particles.fluids;
+        let flux = flow.state.particles.velocity[..fluids].iter().map(|v| v.x).sum::<f64>() / fluids as f64;
+        let density_error = |volume: &f64| (flow.setting.method.volume / volume - 1.0).abs();
+        (flow.state.steps, flux, flow.fields.volume[..fluids].iter().map(density_error).fold(0.0, f64::max))
+    });
+    assert!(2 * long.0 < short.0, "{long:?} and {short:?}");
+    assert!((long.1 / short.1 - 1.0).abs() < 5e-3, "{long:?} and {short:?}");
+    assert!(long.2 < 6e-3, "{long:?} and {short:?}");
 }
 
 #[test]

@@ -22,6 +22,57 @@ fn run(folder: &Path, arguments: &[&str]) -> impl Fn(&str) -> f64 + use<> {
     move |measure| report["measures"][measure]["value"].as_f64().unwrap_or_else(|| panic!("no {measure} in {report:#}"))
 }
 
+/// Study, runs of it that take a second or two, and measures of its page. The expectations of the study judge them against exact solutions.
+const FAST_ROWS: [(&str, &[usize], &[&str]); 16] = [
+    ("poiseuille", &[1, 2, 3], &["velocity-l2-error"]),
+    ("navier-slip", &[1, 2], &["slip-length-m", "velocity-l2-error"]),
+    ("validation/taylor-green", &[1], &["decay-rate-error"]),
+    ("validation/layered-poiseuille", &[1, 2, 4, 5], &["layered-velocity-l2-error", "wetting-flow-rate-ratio"]),
+    ("validation/cylinder-array", &[1, 4, 7], &["drag-over-mu-u", "permeability-m2"]),
+    ("validation/cylinder-morris", &[1], &["mean-velocity-m-per-s"]),
+    ("validation/capillary-wave", &[1], &["wave-rms-error"]),
+    ("validation/shear-drop", &[1], &["deformation-ratio"]),
+    ("validation/square-drop", &[1], &["laplace-jump-ratio", "radius-scatter-ratio"]),
+    ("validation/drop-on-disc", &[1, 5, 7], &["contact-angle-deg", "half-angle-ratio", "height-ratio"]),
+    ("moving-meniscus", &[1, 5, 9], &["advancing-angle-deg", "advancing-capillary-number"]),
+    ("wetting-laws", &[1, 4, 5, 8], &["advancing-wall-angle-deg", "advancing-angle-deg"]),
+    ("validation/network-angles", &[1, 6, 11, 17], &["breakthrough-pressure-Pa", "residual-saturation"]),
+    ("thin-film/equilibrium-grid", &[1, 2, 3], &["equilibrium-l1-error"]),
+    ("thin-film/equilibrium-particles", &[1, 2, 5, 6], &["equilibrium-l1-error", "contact-line-position"]),
+    ("thin-film/filter-spreading", &[1, 2, 3], &["contact-line-position", "contact-line-exponent"]),
+];
+
+/// Two percent, or the stored error bar if that is wider. Both allow for other rounding of another machine, no more.
+#[test]
+fn the_fast_rows_of_the_gallery_are_those_of_its_pages() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (study, rows, names) in FAST_ROWS {
+        let name = study.rsplit('/').next().unwrap();
+        let file = root.join(format!("docs/validation/results/{name}.csv"));
+        let mut stored = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(file).unwrap();
+        let head = stored.headers().unwrap().clone();
+        let column = |name: &str| head.iter().position(|head| head == name);
+        let stored: Vec<_> = stored.records().map(Result::unwrap).collect();
+        let folder = tempfile::tempdir().unwrap();
+        for row in rows {
+            let (study, index) = (root.join(format!("studies/{study}.toml")), row.to_string());
+            let arguments =
+                ["study", "run", study.to_str().unwrap(), "--out", "out", "--threads", "1", "--index", &index];
+            assert_code(&meniscus(folder.path(), &arguments), 0);
+            let stored = &stored[row - 1];
+            let report = report(&folder.path().join("out/runs").join(&stored[0]));
+            for measure in names {
+                let number = |name: &str| column(name).and_then(|at| stored[at].parse::<f64>().ok());
+                let told = number(measure).unwrap_or_else(|| panic!("{name} has no {measure}"));
+                let bar = number(&format!("{measure}-uncertainty")).unwrap_or_default();
+                let found = report["measures"][measure]["value"].as_f64().unwrap();
+                let place = format!("{measure} of {name}, {}", &stored[0]);
+                assert!((found - told).abs() <= bar.max(0.02 * told.abs()), "{place}: {found}, the page says {told}");
+            }
+        }
+    }
+}
+
 /// A sessile drop at 12.5 spacings per square root of its area; `expect` in degrees.
 fn sessile(angle: f64, tolerance: f64, more: &[&str]) -> impl Fn(&str) -> f64 + use<> {
     let set = [
@@ -131,12 +182,6 @@ fn a_drop_of_the_other_phase_has_the_supplementary_angle() {
 }
 
 #[test]
-fn a_capillary_wave_swings_and_decays_as_it_should() {
-    let found = measures("capillary-wave.toml", &[]);
-    assert!(found("wave-rms-error") < 0.03, "{}", found("wave-rms-error"));
-}
-
-#[test]
 fn two_drops_that_touch_become_one_round_drop() {
     let drops =
         "sph.initial.wetting=[{disc={center=[-1.7e-4,0.0],radius=1.8e-4}},{disc={center=[1.7e-4,0.0],radius=1.8e-4}}]";
@@ -173,23 +218,6 @@ fn a_drop_within_its_hysteresis_window_does_not_creep() {
 }
 
 #[test]
-fn a_drop_on_a_coarse_disc_comes_to_rest_at_its_angle() {
-    let set = ["sph.spacing=8.0e-5", "sph.wetting.young.contact-angle-deg=90.0", "time.end=0.04", "expect=[]"];
-    let found = measures("drop-on-disc.toml", &set.map(str::to_owned));
-    assert!((found("contact-angle-deg") - 90.0).abs() < 1.5, "{}", found("contact-angle-deg"));
-    assert!((found("half-angle-ratio") - 1.0).abs() < 0.015, "{}", found("half-angle-ratio"));
-    assert!(found("area-drift") < 2e-3, "{}", found("area-drift"));
-}
-
-#[test]
-fn a_wall_slips_by_the_length_that_the_case_gives() {
-    let found = measures("poiseuille.toml", &["sph.walls.slip-length=1.0e-4".to_owned()]);
-    // Two spacings; what the method slips by itself is .02 of one.
-    assert!((found("slip-length-m") / 1.0e-4 - 1.0).abs() < 0.02, "{}", found("slip-length-m"));
-    assert!(found("velocity-l2-error") < 0.01, "{}", found("velocity-l2-error"));
-}
-
-#[test]
 fn the_angle_on_a_wall_turned_by_27_degrees_is_that_on_a_level_one() {
     let found = measures("sessile-drop-turned.toml", &["sph.spacing=8.0e-5".to_owned()]);
     assert!((found("base-ratio") - 1.0).abs() < 0.02, "{}", found("base-ratio"));
@@ -202,14 +230,6 @@ fn a_drop_stops_at_the_edges_of_a_pillar() {
     assert!((found("contact-angle-deg") - 112.22).abs() < 1.0, "{}", found("contact-angle-deg"));
     assert!((found("capillary-pressure-Pa") / -46.29 - 1.0).abs() < 0.01, "{}", found("capillary-pressure-Pa"));
     assert!(found("wetting-blobs") == 1.0);
-}
-
-#[test]
-fn the_drag_on_an_array_of_cylinders_is_low_by_what_25_spacings_per_cell_leave_out() {
-    let found = measures("cylinder-array.toml", &["sph.spacing=4.0e-5".to_owned(), "expect=[]".to_owned()]);
-    assert!(found("unsteady-share").abs() < 1e-3, "{}", found("unsteady-share"));
-    // Of the second order in the spacing: 1 % at 50 spacings.
-    assert!((found("drag-over-mu-u") / 51.527 + 0.043 - 1.0).abs() < 0.01, "{}", found("drag-over-mu-u"));
 }
 
 /// Exact are the principal permeabilities of the array by postprocess/stokes_permeability.py at `--across 14`, turned.

@@ -155,6 +155,20 @@ fn a_steady_flow_does_not_hang_on_the_step() {
     assert!((long / short - 1.0).abs() < 1e-5, "{short} and, with steps 50 times as long, {long} m/s");
 }
 
+/// Neighbors on a lattice lie on the edge of the support but for rounding, where ∇W is next to nothing, and its square less.
+#[test]
+fn pairs_on_the_edge_of_the_support_do_not_stop_the_viscous_step() {
+    for spacing in ["0.025", "0.1"] {
+        let mut flow = flow(&format!(
+            "format = 1\ntitle = \"A lattice\"\n[geometry]\nmin = [0.0, 0.0]\nmax = [1.0, 1.0]\n[time]\nend = 1.0\n\
+             [sph]\nspacing = {spacing}\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 100.0\n\
+             [sph.sides]\nspeed = {{ top = 1.0 }}\n[sph.numerics]\nviscous-term = \"szewc\"\n"
+        ));
+        flow.setting.method.viscous_step = ViscousStep::Implicit;
+        steps(&mut flow, 2, 1.0e-4);
+    }
+}
+
 #[test]
 fn a_flow_around_a_cylinder_hardly_hangs_on_the_step() {
     let mean = |dt: f64| {

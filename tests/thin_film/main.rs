@@ -7,4 +7,5 @@ mod cases;
 mod diffsol;
 mod models;
 mod numerics;
+mod oracle;
 mod range;

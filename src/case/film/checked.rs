@@ -136,10 +136,6 @@ pub enum FilmIntegrator {
     Stiff,
     /// Dormand and Prince, order 5.
     Explicit,
-    /// ESDIRK34 of the library diffsol.
-    DiffsolStiff,
-    /// Tsit45 of the library diffsol.
-    DiffsolExplicit,
 }
 
 /// What is done about the energy of the particle lattice.

@@ -40,24 +40,7 @@ pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_b
     let integrator = match raw.integrator {
         None | Some(RawFilmIntegrator::Stiff) => FilmIntegrator::Stiff,
         Some(RawFilmIntegrator::Explicit) => FilmIntegrator::Explicit,
-        Some(RawFilmIntegrator::DiffsolStiff) => FilmIntegrator::DiffsolStiff,
-        Some(RawFilmIntegrator::DiffsolExplicit) => FilmIntegrator::DiffsolExplicit,
     };
-    let is_of_library = matches!(integrator, FilmIntegrator::DiffsolStiff | FilmIntegrator::DiffsolExplicit);
-    if is_of_library && raw.lattice_energy == Some(RawLatticeEnergy::TakenOff) {
-        checker.refuse(
-            "thin-film.method.particles.lattice-energy",
-            "the integrators of diffsol leave the lattice energy as it is",
-            "take `stiff` or `explicit`",
-        );
-    }
-    if integrator == FilmIntegrator::DiffsolStiff && raw.sums == Some(RawFilmSums::Direct) {
-        checker.refuse(
-            "thin-film.method.particles.sums",
-            "the implicit integrator of diffsol solves for the recursive sums and takes no others",
-            "take another integrator",
-        );
-    }
     Some(FilmMethod::Particles {
         integrator,
         tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE),

@@ -98,7 +98,7 @@ tables! {
 
     /// The particle method.
     pub struct RawFilmParticles {
-        /// Implicit of order 4; Dormand and Prince of order 5; ESDIRK34 or Tsit45 of diffsol (default `stiff`).
+        /// Implicit of order 4, or Dormand and Prince of order 5 (default `stiff`).
         pub integrator: RawFilmIntegrator,
         /// Largest error of a step over the initial width (default 1e-7).
         pub tolerance: f64,
@@ -143,10 +143,6 @@ pub enum RawFilmIntegrator {
     Stiff,
     /// Dormand and Prince, order 5: steps as short as stability wants.
     Explicit,
-    /// ESDIRK34 of the library diffsol.
-    DiffsolStiff,
-    /// Tsit45 of the library diffsol.
-    DiffsolExplicit,
 }
 
 /// What is done about the energy of the particle lattice.

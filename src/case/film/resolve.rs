@@ -82,8 +82,6 @@ fn method(method: FilmMethod) -> RawFilmMethod {
                 integrator: Some(match integrator {
                     FilmIntegrator::Stiff => RawFilmIntegrator::Stiff,
                     FilmIntegrator::Explicit => RawFilmIntegrator::Explicit,
-                    FilmIntegrator::DiffsolStiff => RawFilmIntegrator::DiffsolStiff,
-                    FilmIntegrator::DiffsolExplicit => RawFilmIntegrator::DiffsolExplicit,
                 }),
                 tolerance: Some(tolerance),
                 lattice_energy: Some(match lattice_energy {

@@ -71,6 +71,18 @@ impl InteriorPoints {
             });
         }
     }
+
+    /// Sets the accelerations of buffer particles from those of the fluid in `acceleration` (m/s²), as their velocities follow: at sides with
+    /// a given pressure the normal part of that at the interior point, at inlets with a given velocity none.
+    pub fn extend_acceleration(&self, particles: &Particles, sides: &[OpenSide], acceleration: &mut [Vec2]) {
+        for (i, b) in particles.buffer().enumerate() {
+            let x = particles.position[b];
+            let side = sides.iter().find(|side| side.beyond(x) >= 0.0 && side.given_pressure().is_some());
+            if let (Some(side), Some(inside)) = (side, self.value(i, acceleration)) {
+                acceleration[b] = side.velocity(side.inwards() * inside[side.axis()]);
+            }
+        }
+    }
 }
 
 /// Weights that give fields exactly that are linear along the normal and quadratic along the side: a plain or linear average would

@@ -64,7 +64,9 @@ impl Flow {
                 return viscous.coupling(a, ab);
             }
             let steepness = ab.grad_w.norm_squared();
-            if steepness > 0.0 { viscous.central_coupling(a, ab) / steepness } else { 0.0 }
+            // At the edge of the support the quotient exceeds single precision; the force of such a pair is nothing.
+            let has_direction = steepness > f64::from(f32::MIN_POSITIVE);
+            if has_direction { viscous.central_coupling(a, ab) / steepness } else { 0.0 }
         };
         let block = |a: usize, ab: &Pair, strength: f64| {
             if !is_central {

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::Predicted;
 use super::given_flow::{RESPONSE_RESIDUAL, Response};
-use super::{Damped, Predicted};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::flow::Flow;
@@ -80,7 +80,7 @@ impl Flow {
             }
         });
         self.hydrostatic().subtract_from(&mut b, &matrix, &self.neighborhood.pairs);
-        self.subtract_divergence_error(&predicted.damped, &matrix, &mut b);
+        self.subtract_divergence_error(predicted, &matrix, &mut b);
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.state.particles, &self.setting.open.sides, jump, method.kernel.h);
         let mut others = Vec::new();
@@ -208,13 +208,15 @@ impl Flow {
     ///
     /// The divergence of the gradient is not quite the Laplacian, so that a pressure leaves the divergence Δt (Laplacian − divergence of the
     /// gradient): in a steady flow as much in any step, and through walls. So no step leaks more than an explicit one.
-    fn subtract_divergence_error(&self, damped: &Damped, matrix: &Matrix, b: &mut [f64]) {
+    fn subtract_divergence_error(&self, predicted: &Predicted, matrix: &Matrix, b: &mut [f64]) {
+        let damped = &predicted.damped;
         if damped.excess == 0.0 {
             return;
         }
         let (n, f) = (self.state.particles.len(), &self.fields);
         let mut acceleration = damped.by_pressure.clone();
         acceleration.resize(n, Vec2::zeros());
+        predicted.interior.extend_acceleration(&self.state.particles, &self.setting.open.sides, &mut acceleration);
         self.neighborhood.images.extend_velocity(&mut acceleration);
         let mut of_gradient = vec![0.0; n];
         divergence(&self.neighborhood.pairs, &f.volume, &acceleration, &mut of_gradient);

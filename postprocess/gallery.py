@@ -1,0 +1,322 @@
+"""Runs the studies of the validation pages, stores their results and writes the tables of the pages from them.
+
+Usage: gallery.py run [NAME ...] [--program meniscus] [--out out/gallery]
+       gallery.py store [NAME ...] [--out out/gallery]
+       gallery.py write [--check]
+       gallery.py stamp NAME [NAME ...]
+
+`run` does the studies and what `store` does: it stores their results in `docs/validation/results` and writes their
+figures and tables. `write` writes all tables from the stored results. `stamp` takes over an edit of a study or case
+that changes no number. A name is that of a study file; without names it is every study of a page.
+
+The layout of a table is TOML in a comment above it:
+
+    <!-- results: STUDY [STUDY ...]
+    rows = "angle"
+    cell = "{contact-angle-deg:.2f ±} ({height-ratio:.3f})"
+    columns = [
+        { head = "angle", cell = "{angle}" },
+        { head = "12.5 spacings", spacing = 8e-5 },
+    ]
+    -->
+    <!-- end of results -->
+
+| key | meaning |
+|---|---|
+| `rows` | parameters whose values make a row each; a row per run without it |
+| `where` | parameter values of the runs that count, as far as they have these parameters |
+| `columns` | `head`, `cell`, the study `of` several, and parameter values of the runs that the column shows |
+| `cell` | the cell of columns without one |
+| `names` | what stands for a value of a parameter: `names.PARAMETER.VALUE = "text"` |
+| `more` | further rows at the end, as text |
+| `picture` | the `run` whose picture is taken and the `field` that it shows |
+
+A cell is text with fields `{NAME}`, `{NAME:.3f}` or `{NAME / 2e-4 - 1:+.1%}`, where a name is that of a parameter or
+of a column of the study's table, and arithmetic goes from left to right. ` ±` at the end of the format adds the error
+bar. A column without a head is named by its field.
+"""
+
+import argparse
+import csv
+import io
+import json
+import math
+import re
+import shutil
+import subprocess
+import tempfile
+import tomllib
+import zlib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+RESULTS = Path("docs/validation/results")
+FIGURES = Path("docs/figures")
+BLOCK = re.compile(
+    r"^(<!-- results: ([^\n]+)\n(.*?)-->\n)(.*?)^<!-- end of results ?(\w*) ?-->", re.DOTALL | re.MULTILINE
+)
+FIELD = re.compile(r"\{([^{}:]+)(?::([^{}]*))?\}")
+# Parts of a study or case that change no run.
+REMARKS = ("[[expect", "[[trend", "[report", "[[report")
+DIGITS = 7
+# Keys of a column that are no parameters.
+RESERVED = ("head", "cell", "of")
+
+
+def checksum(data: bytes) -> str:
+    """CRC-32 in hexadecimal digits."""
+    return f"{zlib.crc32(data):08x}"
+
+
+def essence(text: str) -> str:
+    """What of a study, case or shape file can change a run: no comments, title, expectations and report."""
+    kept, counts = [], True
+    for line in (line.split("#")[0].strip() for line in text.splitlines()):
+        if line.startswith("["):
+            counts = not line.startswith(REMARKS)
+        if line and counts and not line.startswith("title"):
+            kept.append(line)
+    return "\n".join(kept)
+
+
+def stamp(root: Path, path: str) -> str:
+    """The line of a stored result that tells the content of a file."""
+    data = (root / path).read_bytes()
+    is_text = path.endswith((".toml", ".csv"))
+    return f"# {checksum(essence(data.decode()).encode() if is_text else data)} {path}"
+
+
+def inputs(root: Path, path: str) -> list[str]:
+    """A study or case file and the files that it names, and so on."""
+    found = [path]
+    if path.endswith(".toml"):
+        for name in re.findall(r'"([^"\n]+\.\w+)"', (root / path).read_text(encoding="utf-8")):
+            named = (root / path).parent / name
+            if named.is_file():
+                found += inputs(root, named.resolve().relative_to(root.resolve()).as_posix())
+    return list(dict.fromkeys(found))
+
+
+def study_file(root: Path, name: str) -> str:
+    """Path of the study of a name."""
+    found = [path.relative_to(root).as_posix() for path in sorted((root / "studies").rglob(f"{name}.toml"))]
+    if len(found) != 1:
+        raise SystemExit(f"studies has {len(found)} files {name}.toml")
+    return found[0]
+
+
+def blocks(root: Path) -> list[tuple[Path, re.Match]]:
+    """The blocks of all pages."""
+    pages = sorted((root / "docs").rglob("*.md"))
+    return [(page, block) for page in pages for block in BLOCK.finditer(page.read_text(encoding="utf-8"))]
+
+
+def used(root: Path) -> dict[str, dict]:
+    """The studies of the pages, each with the keys of its picture."""
+    pictures: dict[str, dict] = {}
+    for _, block in blocks(root):
+        names, picture = block[2].split(), tomllib.loads(block[3]).get("picture", {})
+        for name in names:
+            pictures.setdefault(name, {}).update(picture if name == names[0] else {})
+    return pictures
+
+
+def shortened(text: str) -> str:
+    """A number with as many digits as are stored; anything else as it is."""
+    try:
+        return f"{float(text):.{DIGITS}g}"
+    except ValueError:
+        return text
+
+
+def store(root: Path, name: str, directory: Path, picture: dict) -> None:
+    """Stores the complete runs of a study folder and the figures of it that a page shows."""
+    import gallery_figures  # matplotlib is needed here only
+
+    with (directory / "table.csv").open(newline="", encoding="utf-8") as file:
+        head, *rows = list(csv.reader(file))
+    complete = [row for row in rows if row[head.index("status")] == "done"]
+    reports = [json.loads((directory / "runs" / row[0] / "report.json").read_text("utf-8")) for row in complete]
+    if not reports:
+        raise SystemExit(f"{directory} has no complete run")
+    study = study_file(root, name)
+    pages = "".join(page.read_text(encoding="utf-8") for page in (root / "docs").rglob("*.md"))
+    figures = []
+    if f"figures/{name}-" in pages:
+        with tempfile.TemporaryDirectory() as folder:
+            for figure in gallery_figures.write(directory, Path(folder), picture.get("run"), picture.get("field")):
+                if f"figures/{figure.name}" in pages:
+                    shutil.copyfile(figure, root / FIGURES / figure.name)
+                    figures.append((FIGURES / figure.name).as_posix())
+    rows_text = io.StringIO()
+    measures = head.index("status") + 1
+    writer = csv.writer(rows_text, lineterminator="\n")
+    writer.writerow(head)
+    writer.writerows([row[:measures] + [shortened(text) for text in row[measures:]] for row in complete])
+    version = " and ".join(sorted({report["version"] for report in reports}))
+    seconds = sum(report["cpu-s"] for report in reports)
+    lines = [
+        f"# meniscus study run {study}",
+        f"# version {version}, {len(complete)} of {len(rows)} runs, {seconds:.{1 if seconds < 10 else 0}f} s",
+        *[stamp(root, path) for path in [*inputs(root, study), *figures]],
+        f"# {checksum(rows_text.getvalue().encode())} rows",
+    ]
+    (root / RESULTS).mkdir(parents=True, exist_ok=True)
+    (root / RESULTS / f"{name}.csv").write_text("\n".join(lines) + "\n" + rows_text.getvalue(), encoding="utf-8")
+
+
+def stamp_again(root: Path, name: str) -> None:
+    """Takes over edits of the files of a stored result that change no number."""
+    path = root / RESULTS / f"{name}.csv"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    figures = [line.split()[-1] for line in lines if line.startswith("#") and line.split()[-1].startswith("docs/")]
+    body = lines[next(index for index, line in enumerate(lines) if line.endswith(" rows")) :]
+    stamps = [stamp(root, file) for file in [*inputs(root, study_file(root, name)), *figures]]
+    path.write_text("\n".join([*lines[:2], *stamps, *body]) + "\n", encoding="utf-8")
+
+
+def measure(path: Path) -> list[dict[str, str]]:
+    """The runs of a stored result."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def same(a: str, b: str) -> bool:
+    """Whether two values are the same text or, to three digits, the same number."""
+    try:
+        return a == b or math.isclose(float(a), float(b), rel_tol=1e-3)
+    except ValueError:
+        return False
+
+
+def matches(run: dict[str, str], values: dict) -> bool:
+    """Whether a run has these values of those of its parameters that they name."""
+    return all(same(run.get(key, str(value)), str(value)) for key, value in values.items())
+
+
+def value(expression: str, run: dict[str, str]) -> float | None:
+    """The value of an expression, from left to right; none where the run lacks a measure."""
+    first, *rest = [run.get(word, word) for word in expression.split()]
+    if "" in [first, *rest]:
+        return None
+    result = float(first)
+    for sign, word in zip(rest[::2], rest[1::2], strict=True):
+        number = float(word)
+        result = {"+": result + number, "-": result - number, "*": result * number, "/": result / number}[sign]
+    return result
+
+
+def cell(template: str, run: dict[str, str], names: dict) -> str:
+    """A cell of a table."""
+
+    def field(match: re.Match) -> str:
+        expression, form = match[1].strip(), match[2]
+        if form is None:
+            text = run.get(expression, "")
+            return names.get(expression, {}).get(text, text)
+        found = value(expression, run)
+        if found is None:
+            return "none"
+        text = format(found, form.removesuffix("±").strip())
+        bar = run.get(f"{expression.split()[0]}-uncertainty")
+        if form.endswith("±") and bar:
+            text += f" ± {format(float(bar), form.removesuffix('±').strip())}"
+        return re.sub(r"^-|(?<=[ (])-", "\u2212", text).replace("%", " %")
+
+    return FIELD.sub(field, template)
+
+
+def table(layout: dict, results: dict[str, list[dict[str, str]]]) -> list[str]:
+    """The lines of a table; none without columns."""
+    keys = layout.get("rows", [])
+    keys = [keys] if isinstance(keys, str) else keys
+    heads, lines = [], []
+    for column in layout.get("columns", []):
+        named = FIELD.search(column.get("cell", ""))
+        heads.append(column.get("head", f"`{named[1].split()[0]}`" if named else ""))
+    runs = [run for found in results.values() for run in found if matches(run, layout.get("where", {}))]
+    rows: dict[tuple, list] = {}
+    for index, run in enumerate(runs):
+        rows.setdefault(tuple(run.get(key) for key in keys) if keys else (index,), []).append(run)
+    for row in rows.values():
+        cells = []
+        for column in layout.get("columns", []):
+            among = [run for run in row if "of" not in column or run in results[column["of"]]]
+            found = [run for run in among if matches(run, {k: v for k, v in column.items() if k not in RESERVED})]
+            template = column.get("cell", layout.get("cell", ""))
+            texts = list(dict.fromkeys(cell(template, run, layout.get("names", {})) for run in found))
+            if len(texts) > 1:
+                raise SystemExit(f"{', '.join(results)}: {len(found)} runs for {column}: {texts}")
+            cells += texts or [""]
+        lines.append(cells)
+    lines = [heads, ["---"] * len(heads), *lines, *layout.get("more", [])] if heads else []
+    return ["|" + "".join(f" {text} |" if text != "---" else "---|" for text in line) for line in lines]
+
+
+def sources(paths: list[Path]) -> str:
+    """What stands below a table: versions, commands and processor times of its results."""
+    commands: dict[str, list[str]] = {}
+    for path in paths:
+        command, about = [line.lstrip("# ") for line in path.read_text(encoding="utf-8").splitlines()[:2]]
+        version, runs, seconds = about.split(", ")
+        part = "" if runs.split()[0] == runs.split()[2] else f"{runs}, "
+        commands.setdefault(version, []).append(f"`{command}` ({part}{seconds} of processor time)")
+    return "; ".join(f"{version}: {', '.join(told)}" for version, told in commands.items()).capitalize() + "."
+
+
+def written(root: Path, block: re.Match) -> str:
+    """A block with its table, the commands and versions of its results, and the checksum of all."""
+    names = block[2].split()
+    paths = [root / RESULTS / f"{name}.csv" for name in names]
+    if not all(path.is_file() for path in paths):
+        return block[0]
+    lines = table(tomllib.loads(block[3]), {path.stem: measure(path) for path in paths})
+    lines += ["", sources(paths)]
+    body = "\n" + "\n".join(lines).lstrip() + "\n\n"
+    stored = "".join(path.read_text(encoding="utf-8") for path in paths)
+    return f"{block[1]}{body}<!-- end of results {checksum((block[1] + body + stored).encode())} -->"
+
+
+def write(root: Path, check: bool = False) -> list[Path]:
+    """Writes the tables of all pages, or only looks; returns the pages that change."""
+    changed = []
+    for page in sorted({page for page, _ in blocks(root)}):
+        text = page.read_text(encoding="utf-8")
+        renewed = BLOCK.sub(lambda block: written(root, block), text)
+        if renewed != text:
+            changed.append(page)
+            if not check:
+                page.write_text(renewed, encoding="utf-8")
+    return changed
+
+
+def main() -> None:
+    """Runs, stores, writes or stamps."""
+    parser = argparse.ArgumentParser(description="tables and figures of the validation pages")
+    parser.add_argument("what", choices=["run", "store", "write", "stamp"])
+    parser.add_argument("names", nargs="*", help="names of studies; all by default")
+    parser.add_argument("--program", default="meniscus", help="the program that runs the studies")
+    parser.add_argument("--out", type=Path, default=Path("out/gallery"), help="folder of the study folders")
+    parser.add_argument("--check", action="store_true", help="write nothing, but fail if a table would change")
+    asked = parser.parse_intermixed_args()
+    pictures = used(ROOT)
+    if asked.what == "stamp" and not asked.names:
+        parser.error("name the studies whose edits change no number")
+    for name in asked.names or pictures:
+        directory = asked.out / f"study-{name}"
+        if asked.what == "run":
+            command = [asked.program, "study", "run", study_file(ROOT, name), "--out", str(directory.resolve())]
+            subprocess.run(command, cwd=ROOT, check=False)  # expectations that miss are for the page to tell
+        if asked.what in ("run", "store"):
+            store(ROOT, name, directory, pictures.get(name, {}))
+        if asked.what == "stamp":
+            stamp_again(ROOT, name)
+    changed = write(ROOT, asked.check)
+    for page in changed:
+        print(page.relative_to(ROOT))
+    if asked.check and changed:
+        raise SystemExit("these tables are not those of their stored results")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,387 @@
+//! The layers of the source tree: low may not import high, and each foreign library has its one place.
+//!
+//! Reads the sources as text: comments are cut off, every path that begins with `crate::` counts.
+
+mod picture;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// What each module of the crate may import besides itself. Output code sees snapshots, so `io` sees neither case nor solver
+/// modules; `interface` and `analysis` are pure.
+const MAY_IMPORT: [(&str, &[&str]); 20] = [
+    ("math", &[]),
+    ("input", &["math"]),
+    ("snapshot", &["math"]),
+    ("diagram", &[]),
+    ("table", &[]),
+    ("solver", &["math", "snapshot", "diagram", "table"]),
+    ("geometry", &["math", "input", "snapshot"]),
+    ("interface", &["math", "snapshot", "geometry"]),
+    ("analysis", &["math", "snapshot", "interface"]),
+    ("wetting", &["input"]),
+    ("case", &["math", "input", "geometry", "wetting"]),
+    (
+        "network",
+        &["math", "geometry", "snapshot", "diagram", "table", "solver", "wetting", "case", "interface", "analysis"],
+    ),
+    ("sph", &["math", "geometry", "snapshot", "table", "solver", "wetting", "case", "interface", "analysis"]),
+    ("benchmarks", &["math", "solver", "case", "interface", "analysis", "sph"]),
+    ("thin_film", &["math", "snapshot", "diagram", "solver", "case", "analysis"]),
+    ("io", &["math", "snapshot", "diagram", "table", "solver"]),
+    (
+        "run",
+        &[
+            "math",
+            "input",
+            "geometry",
+            "snapshot",
+            "diagram",
+            "solver",
+            "case",
+            "analysis",
+            "network",
+            "sph",
+            "benchmarks",
+            "thin_film",
+            "io",
+        ],
+    ),
+    ("study", &["input", "case", "analysis", "io", "run"]),
+    ("verify", &["math", "input", "geometry", "case", "interface", "network", "io", "study"]),
+    (
+        "cli",
+        &[
+            "math", "input", "geometry", "snapshot", "solver", "wetting", "case", "analysis", "io", "run", "study",
+            "verify",
+        ],
+    ),
+];
+
+/// Folders whose files form a chain: none imports a file that leads back to it.
+const CHAINS: [&str; 6] =
+    ["wetting", "interface", "interface/menisci", "sph/surface_force", "sph/measures", "benchmarks"];
+
+/// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
+const ONE_PLACE: [(&str, &[&str]); 18] = [
+    ("parry2d_f64", &["geometry/"]),
+    ("clap", &["cli/"]),
+    ("clap_complete", &["cli/"]),
+    ("indicatif", &["cli/"]),
+    ("ctrlc", &["cli/"]),
+    ("signal_hook", &["cli/"]),
+    // Errors in input carry their place as `miette` wants it; only the command line prints them.
+    ("miette", &["cli/", "input/error.rs", "input/excerpt.rs"]),
+    ("println!", &["cli/"]),
+    ("eprintln!", &["cli/"]),
+    ("print!", &["cli/"]),
+    ("eprint!", &["cli/"]),
+    ("dbg!", &[]),
+    // Pipes of other processes are called so too.
+    ("stdout", &["cli/", "study/child.rs"]),
+    ("stderr", &["cli/", "study/child.rs"]),
+    ("flate2", &["io/vtk/"]),
+    ("lz4_flex", &["io/vtk/"]),
+    ("base64", &["io/vtk/"]),
+    ("plotters", &["study/curve.rs", "io/axes.rs", "io/diagram.rs"]),
+];
+
+/// A source file: its path below `src` and its lines without comments.
+struct Source {
+    path: String,
+    lines: Vec<String>,
+}
+
+impl Source {
+    /// The module of the crate it belongs to: `sph` for `sph/poisson/solve.rs`, `math` for `math.rs`.
+    fn module(&self) -> &str {
+        self.path.split('/').next().unwrap_or_default().trim_end_matches(".rs")
+    }
+
+    fn place(&self, line: usize) -> String {
+        format!("src/{}:{}", self.path, line + 1)
+    }
+}
+
+fn sources() -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    collect(&root, &mut files);
+    files.sort();
+    let source = |file: PathBuf| Source {
+        path: file.strip_prefix(&root).unwrap().to_string_lossy().replace('\\', "/"),
+        lines: std::fs::read_to_string(&file).unwrap().lines().map(|line| without_comment(line).to_owned()).collect(),
+    };
+    files.into_iter().map(source).collect()
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+}
+
+/// The line up to `//` outside of a string literal.
+fn without_comment(line: &str) -> &str {
+    let (mut in_string, mut escaped) = (false, false);
+    for (i, c) in line.char_indices() {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' if in_string => escaped = true,
+            '"' => in_string = !in_string,
+            '/' if !in_string && line[i..].starts_with("//") => return &line[..i],
+            _ => {}
+        }
+    }
+    line
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_' || c == '!'
+}
+
+/// Whether `line` holds `word` with no letter beside it.
+fn holds(line: &str, word: &str) -> bool {
+    line.match_indices(word).any(|(at, _)| {
+        !line[..at].ends_with(is_word)
+            && !line[at + word.len()..].starts_with(|c: char| c.is_alphanumeric() || c == '_')
+    })
+}
+
+/// The first parts of the paths behind each `crate::` of a file with their lines; `crate::{a::B, c}` has two.
+fn imports(source: &Source) -> Vec<(usize, String)> {
+    heads_behind(&source.lines.join("\n"), "crate::")
+}
+
+/// The first parts of the paths behind each `prefix` of a text with their lines.
+fn heads_behind(text: &str, prefix: &str) -> Vec<(usize, String)> {
+    let mut found = Vec::new();
+    for (at, path) in text.match_indices(prefix) {
+        let line = text[..at].matches('\n').count();
+        let rest = &text[at + path.len()..];
+        if let Some(group) = rest.strip_prefix('{') {
+            found.extend(group_heads(group).into_iter().map(|head| (line, head)));
+        } else {
+            found.push((line, rest.chars().take_while(|&c| is_word(c)).collect()));
+        }
+    }
+    found
+}
+
+/// The first part of each path of an import group, given what follows its opening brace.
+fn group_heads(group: &str) -> Vec<String> {
+    let (mut depth, mut heads, mut head, mut taking) = (1, Vec::new(), String::new(), true);
+    for c in group.chars() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 || (depth == 1 && c == ',') {
+            heads.push(std::mem::take(&mut head));
+            taking = true;
+        } else if depth == 1 && taking && is_word(c) {
+            head.push(c);
+        } else if !c.is_whitespace() {
+            taking = false;
+        }
+        if depth == 0 {
+            break;
+        }
+    }
+    heads.retain(|head| !head.is_empty());
+    heads
+}
+
+fn assert_none(violations: &[String]) {
+    assert!(violations.is_empty(), "\n{}", violations.join("\n"));
+}
+
+#[test]
+fn low_layers_do_not_import_high_ones() {
+    let mut violations = Vec::new();
+    for source in sources().iter().filter(|source| !matches!(source.path.as_str(), "main.rs" | "lib.rs")) {
+        let module = source.module();
+        let Some((_, allowed)) = MAY_IMPORT.iter().find(|(name, _)| *name == module) else {
+            violations.push(format!("src/{}: the module `{module}` has no layer in tests/layers/main.rs", source.path));
+            continue;
+        };
+        for (line, import) in imports(source) {
+            if import != module && !allowed.contains(&import.as_str()) {
+                violations.push(format!("{}: `{module}` may not import `{import}`", source.place(line)));
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+/// What each module imports from others outside of its tests.
+fn imports_of_modules() -> picture::Imports {
+    let mut found = picture::Imports::new();
+    let is_module = |source: &&Source| !matches!(source.path.as_str(), "main.rs" | "lib.rs");
+    for source in sources().iter().filter(is_module) {
+        let of_module = found.entry(source.module().to_owned()).or_default();
+        if source.path.ends_with("/tests.rs") || source.path.contains("/tests/") {
+            continue;
+        }
+        let text = source.lines.join("\n");
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        of_module.extend(heads_behind(code, "crate::").into_iter().map(|(_, head)| head));
+        of_module.remove(source.module());
+    }
+    let modules: BTreeSet<String> = found.keys().cloned().collect();
+    found.values_mut().for_each(|imported| imported.retain(|import| modules.contains(import)));
+    found
+}
+
+/// `MENISCUS_BLESS=1 cargo test --release --test layers` draws it anew.
+#[test]
+fn the_picture_of_the_structure_is_that_of_the_source() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/figures/structure.svg");
+    let drawn = picture::svg(&imports_of_modules());
+    if std::env::var_os("MENISCUS_BLESS").is_some() {
+        std::fs::write(&file, &drawn).unwrap();
+    }
+    let shown = std::fs::read_to_string(&file).unwrap_or_default();
+    assert!(
+        shown == drawn,
+        "docs/figures/structure.svg is not of this source: MENISCUS_BLESS=1 cargo test --release --test layers"
+    );
+}
+
+/// The files and folders of a folder by name, each with those that it imports outside of its tests; `mod` is the folder itself.
+fn imports_within(folder: &str) -> BTreeMap<String, BTreeSet<String>> {
+    let sources: Vec<Source> = sources()
+        .into_iter()
+        .filter(|source| source.path.starts_with(&format!("{folder}/")))
+        .filter(|source| !source.path.ends_with("/tests.rs") && !source.path.contains("/tests/"))
+        .collect();
+    let inner = |source: &Source| source.path[folder.len() + 1..].to_owned();
+    let name = |source: &Source| inner(source).split('/').next().unwrap_or_default().trim_end_matches(".rs").to_owned();
+    let names: BTreeSet<String> = sources.iter().map(name).collect();
+    let mut found = BTreeMap::<String, BTreeSet<String>>::new();
+    for source in &sources {
+        let text = source.lines.join("\n");
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let mut heads = heads_behind(code, &format!("crate::{}::", folder.replace('/', "::")));
+        if !inner(source).contains('/') {
+            heads.extend(heads_behind(code, "super::"));
+        }
+        let importer = name(source);
+        let of_file = found.entry(importer.clone()).or_default();
+        for (_, head) in heads {
+            of_file.insert(if names.contains(&head) { head } else { "mod".to_owned() });
+        }
+        if importer == "mod" {
+            of_file.clear();
+            let leads_to = |child: &&String| {
+                let path = format!("{child}::");
+                code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(is_word))
+            };
+            of_file.extend(names.iter().filter(leads_to).cloned());
+        }
+        of_file.remove(&importer);
+    }
+    found
+}
+
+#[test]
+fn the_files_of_a_chain_import_each_other_in_one_direction() {
+    let mut violations = Vec::new();
+    for folder in CHAINS {
+        let mut left = imports_within(folder);
+        assert!(left.len() > 4, "{folder}: {left:?}");
+        // Files that import none of those left are the end of the chain.
+        while let Some(end) = left.iter().find(|(_, imported)| imported.is_empty()).map(|(name, _)| name.clone()) {
+            left.remove(&end);
+            left.values_mut().for_each(|imported| _ = imported.remove(&end));
+        }
+        violations
+            .extend(left.iter().map(|(name, imported)| format!("src/{folder}/{name}: in a circle by {imported:?}")));
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn no_file_climbs_out_of_its_module_by_super() {
+    let mut violations = Vec::new();
+    for source in sources() {
+        let folders = source.path.matches('/').count();
+        let own = if source.path.ends_with("mod.rs") { folders - 1 } else { folders };
+        let mut inner = 0;
+        for (number, line) in source.lines.iter().enumerate() {
+            inner += usize::from(line.trim_start().starts_with("mod ") && line.trim_end().ends_with('{'));
+            let longest = (1..=8).rev().find(|&n| line.contains(&"super::".repeat(n))).unwrap_or(0);
+            if longest > own + inner {
+                violations.push(format!("{}: `super` leads to the root of the crate", source.place(number)));
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn only_setup_sees_the_case() {
+    let mut violations = Vec::new();
+    for source in sources().iter().filter(|source| source.module() == "sph" && !source.path.starts_with("sph/setup/")) {
+        for (number, line) in source.lines.iter().enumerate() {
+            if line.contains("crate::case") {
+                violations.push(format!("{}: only src/sph/setup sees the case: {}", source.place(number), line.trim()));
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn foreign_libraries_and_printing_keep_to_their_place() {
+    let mut violations = Vec::new();
+    for source in sources() {
+        for (number, line) in source.lines.iter().enumerate() {
+            for (word, places) in ONE_PLACE {
+                if holds(line, word) && !places.iter().any(|place| source.path.starts_with(place)) {
+                    violations.push(format!("{}: `{word}` belongs to {places:?}", source.place(number)));
+                }
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn the_physics_touches_no_file() {
+    let mut violations = Vec::new();
+    for source in sources()
+        .iter()
+        .filter(|source| matches!(source.module(), "math" | "interface" | "analysis" | "sph" | "benchmarks"))
+    {
+        for (number, line) in source.lines.iter().enumerate() {
+            if ["std::fs", "std::io", "std::env", "std::process"].iter().any(|name| line.contains(name)) {
+                violations.push(format!("{}: {}", source.place(number), line.trim()));
+            }
+        }
+    }
+    assert_none(&violations);
+}
+
+#[test]
+fn the_reader_of_imports_reads_what_rust_reads() {
+    let lines = [
+        "use crate::math::Vec2; // crate::cli",
+        "use crate::{io::{atomic, vtk}, run,",
+        "    solver};",
+        "let a = \"//\"; crate::sph::x()",
+    ];
+    let source =
+        Source { path: "a.rs".into(), lines: lines.iter().map(|line| without_comment(line).to_owned()).collect() };
+    let found: Vec<_> = imports(&source).into_iter().map(|(line, head)| format!("{line} {head}")).collect();
+    assert_eq!(found, ["0 math", "1 io", "1 run", "1 solver", "3 sph"]);
+    assert!(
+        holds("    println!(\"a\")", "println!") && !holds("eprintln!()", "println!") && !holds("overclap", "clap")
+    );
+}
