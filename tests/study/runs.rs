@@ -371,7 +371,8 @@ fn every_shipped_study_can_be_planned() {
     for study in folders.into_iter().flat_map(|folder| crate::support::program::shipped(folder, &["toml"])) {
         let study = meniscus::study::load::load(&study).unwrap_or_else(|error| panic!("{}", error.render()));
         let runs = meniscus::study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
-        assert!(runs.len() >= 3, "{}", study.name);
+        // Two where a study holds two methods or two lengths against each other; a single run is a case.
+        assert!(runs.len() >= 2, "{}", study.name);
     }
 }
 
