@@ -59,6 +59,15 @@ fn the_starter_case_never_overwrites_a_file() {
 }
 
 #[test]
+fn the_starter_case_meets_its_expectation() {
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(meniscus(&["new", "mine.toml"], folder.path()).status.code(), Some(0));
+    // Twice the spacing, for time.
+    let output = meniscus(&["run", "mine.toml", "--set", "sph.spacing=5.0e-5", "--out", "out"], folder.path());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stdout));
+}
+
+#[test]
 fn the_list_names_the_paper_and_completions_are_a_script() {
     let folder = tempfile::tempdir().unwrap();
     assert!(text(&meniscus(&["list"], folder.path()).stdout).contains("Huber et al. 2013"));
