@@ -41,6 +41,7 @@ import csv
 import io
 import json
 import math
+import operator
 import re
 import shutil
 import subprocess
@@ -52,13 +53,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = Path("docs/validation/results")
 FIGURES = Path("docs/figures")
-BLOCK = re.compile(
-    r"^(<!-- results: ([^\n]+)\n(.*?)-->\n)(.*?)^<!-- end of results ?(\w*) ?-->", re.DOTALL | re.MULTILINE
-)
+BLOCK = re.compile(r"^(<!-- results: ([^\n]+)\n(.*?)-->\n)(.*?)^<!-- end of results -->", re.DOTALL | re.MULTILINE)
 FIELD = re.compile(r"\{([^{}:]+)(?::([^{}]*))?\}")
 # Parts of a study or case that change no run.
 REMARKS = ("[[expect", "[[trend", "[report", "[[report")
 DIGITS = 7
+OPERATIONS = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
 # Keys of a column that are no parameters.
 RESERVED = ("head", "cell", "of")
 
@@ -202,7 +202,7 @@ def value(expression: str, run: dict[str, str]) -> float | None:
     result = float(first)
     for sign, word in zip(rest[::2], rest[1::2], strict=True):
         number = float(word)
-        result = {"+": result + number, "-": result - number, "*": result * number, "/": result / number}[sign]
+        result = OPERATIONS[sign](result, number)
     return result
 
 
@@ -265,7 +265,7 @@ def sources(paths: list[Path]) -> str:
 
 
 def written(root: Path, block: re.Match) -> str:
-    """A block with its table, the commands and versions of its results, and the checksum of all."""
+    """A block with its table, and the commands and versions of its results."""
     names = block[2].split()
     paths = [root / RESULTS / f"{name}.csv" for name in names]
     if not all(path.is_file() for path in paths):
@@ -273,8 +273,7 @@ def written(root: Path, block: re.Match) -> str:
     lines = table(tomllib.loads(block[3]), {path.stem: measure(path) for path in paths})
     lines += ["", sources(paths)]
     body = "\n" + "\n".join(lines).lstrip() + "\n\n"
-    stored = "".join(path.read_text(encoding="utf-8") for path in paths)
-    return f"{block[1]}{body}<!-- end of results {checksum((block[1] + body + stored).encode())} -->"
+    return f"{block[1]}{body}<!-- end of results -->"
 
 
 def write(root: Path, check: bool = False) -> list[Path]:
@@ -290,6 +289,27 @@ def write(root: Path, check: bool = False) -> list[Path]:
     return changed
 
 
+def stale(root: Path) -> list[str]:
+    """What of the stored results is not of the present files, version and pages."""
+    version = tomllib.loads((root / "Cargo.toml").read_text(encoding="utf-8"))["package"]["version"]
+    shown = set(used(root))
+    stored = {
+        path.stem: path.read_text(encoding="utf-8").splitlines(keepends=True) for path in (root / RESULTS).glob("*.csv")
+    }
+    found = [f"{name}: on no page, or not stored" for name in sorted(shown ^ stored.keys())]
+    for name, lines in sorted(stored.items()):
+        head = [line.strip() for line in lines if line.startswith("#")]
+        if not head[1].startswith(f"# version {version},"):
+            found.append(f"{name}: {head[1]} is not {version}")
+        rows = "".join(lines[len(head) :])
+        kept = [f"# {checksum(rows.encode())} rows"]
+        kept += [stamp(root, path) for path in inputs(root, study_file(root, name))]
+        told = [line for line in head[2:] if line.split()[-1].startswith("docs/figures/")]
+        kept += [stamp(root, line.split()[-1]) for line in told]
+        found += [f"{name}: {line}" for line in sorted(set(kept) ^ set(head[2:]))]
+    return found
+
+
 def main() -> None:
     """Runs, stores, writes or stamps."""
     parser = argparse.ArgumentParser(description="tables and figures of the validation pages")
@@ -297,7 +317,11 @@ def main() -> None:
     parser.add_argument("names", nargs="*", help="names of studies; all by default")
     parser.add_argument("--program", default="meniscus", help="the program that runs the studies")
     parser.add_argument("--out", type=Path, default=Path("out/gallery"), help="folder of the study folders")
-    parser.add_argument("--check", action="store_true", help="write nothing, but fail if a table would change")
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="write nothing, but fail if a table would change or a stored result is of other files",
+    )
     asked = parser.parse_intermixed_args()
     pictures = used(ROOT)
     if asked.what == "stamp" and not asked.names:
@@ -314,8 +338,13 @@ def main() -> None:
     changed = write(ROOT, asked.check)
     for page in changed:
         print(page.relative_to(ROOT))
-    if asked.check and changed:
-        raise SystemExit("these tables are not those of their stored results")
+    if asked.check:
+        found = stale(ROOT)
+        print(*found, sep="\n", end="\n" if found else "")
+        if changed or found:
+            raise SystemExit(
+                "not the tables of stored results, or not results of the present files: gallery.py run NAME"
+            )
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ def measure(path: str | Path, above: float) -> dict:
     is_film = results.is_film(directory)
     times, bases, angles = [], [], []
     for frame in results.frames(directory / "interface.pvd"):
-        # A particle that strayed has a line of its own around it.
+        # An isolated particle has a line of its own around it.
         drop = results.read(frame.file).connectivity("largest")
         points = np.asarray(drop.points)[:, :2]
         points = points[points[:, 1] > above]

@@ -15,8 +15,6 @@ mod keys;
 mod page;
 #[path = "docs/reference.rs"]
 mod reference;
-#[path = "docs/results.rs"]
-mod results;
 
 use page::{Page, code, files, page, pages, root, text, words};
 

@@ -22,6 +22,14 @@ fn the_scripts_pass_their_own_tests() {
 }
 
 #[test]
+fn the_tables_of_the_validation_pages_are_those_of_stored_results_of_the_present_files() {
+    run(
+        script("gallery.py").args(["write", "--check"]),
+        "no number is edited by hand, and no result is of another case",
+    );
+}
+
+#[test]
 fn openpnm_and_porespy_find_the_network_of_the_reference_pack() {
     let mut command = Command::new(network_interpreter());
     command.args(["-m", "unittest", "discover", "-s"]).arg(root().join("postprocess/tests/network"));

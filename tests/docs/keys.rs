@@ -14,6 +14,14 @@ use crate::page::{files, root, text};
 const BEGIN: &str = "<!-- keys:";
 const END: &str = "<!-- end of keys -->";
 
+/// A schema with its reference followed, and the name of the type that it refers to.
+pub fn followed<'s>(schema: &'s Value, whole: &'s Value) -> (Option<&'s str>, &'s Value) {
+    let one = schema["anyOf"].as_array().and_then(|any| any.iter().find(|one| one["type"] != "null"));
+    let inner = one.unwrap_or(schema);
+    let name = inner["$ref"].as_str().and_then(|reference| reference.strip_prefix("#/$defs/"));
+    (name, name.map_or(inner, |name| &whole["$defs"][name]))
+}
+
 /// A page with tables of keys.
 struct Keys<'s> {
     schema: &'s Value,
@@ -28,12 +36,9 @@ struct Keys<'s> {
 impl Keys<'_> {
     /// The name of the type that a value or the items of an array have, and its schema.
     fn followed<'v>(&'v self, value: &'v Value) -> (Option<&'v str>, &'v Value) {
-        let one = value["anyOf"].as_array().and_then(|any| any.iter().find(|one| one["type"] != "null"));
-        let value = one.unwrap_or(value);
-        match value["$ref"].as_str().and_then(|reference| reference.strip_prefix("#/$defs/")) {
-            Some(name) => (Some(name), &self.schema["$defs"][name]),
-            None if value["items"].is_object() => self.followed(&value["items"]),
-            None => (None, value),
+        match followed(value, self.schema) {
+            (None, inner) if inner["items"].is_object() => self.followed(&inner["items"]),
+            found => found,
         }
     }
 

@@ -11,8 +11,8 @@ use meniscus::input::Overrides;
 use meniscus::run::setup;
 use meniscus::snapshot::Field;
 use meniscus::solver::Solver;
-use serde_json::Value;
 
+use crate::keys::followed;
 use crate::page::{Page, code, files, page, root, text};
 
 /// The codes of the first cells, in their order.
@@ -37,14 +37,6 @@ fn section(page: &Page, title: &str) -> Vec<Vec<String>> {
     let rows = Page { path: page.path.clone(), text }.rows();
     assert!(!rows.is_empty(), "{} has no table below {title}", page.name());
     rows
-}
-
-/// A schema with its reference followed.
-fn followed<'s>(schema: &'s Value, whole: &'s Value) -> &'s Value {
-    let inner =
-        schema["anyOf"].as_array().and_then(|any| any.iter().find(|one| one["type"] != "null")).unwrap_or(schema);
-    let name = inner["$ref"].as_str().and_then(|reference| reference.strip_prefix("#/$defs/"));
-    name.map_or(inner, |name| &whole["$defs"][name])
 }
 
 #[test]
@@ -112,7 +104,7 @@ fn every_shape_and_its_keys_are_described() {
         rows.iter().map(|row| (code(&row[0]).remove(0), code(&row[1]))).collect();
     let mut count = 0;
     for (shape, inner) in shapes.iter().filter_map(|one| one["properties"].as_object()).flatten() {
-        let keys = followed(inner, &schema)["properties"].as_object().unwrap();
+        let keys = followed(inner, &schema).1["properties"].as_object().unwrap();
         let told = described.get(shape).unwrap_or_else(|| panic!("{shape} is missing"));
         for key in keys.keys() {
             assert!(told.contains(key), "{key} of {shape} is missing");
