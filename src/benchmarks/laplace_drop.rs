@@ -1,6 +1,7 @@
 //! Laplace jump and parasitic currents of a free drop (B1 of the benchmarks).
 
 use super::moments::Moments;
+use super::series::last;
 use crate::analysis::phases::{PressureSamples, laplace_jump, resolution_error};
 use crate::math::Vec2;
 use crate::solver::Measure;
@@ -26,9 +27,8 @@ fn measures(s: &Subject) -> Vec<Measure> {
     };
     let jump = laplace_jump(&samples, center(s), radius);
     let scale = flow.setting.method.tension / radius;
-    let from = flow.state.time * (1.0 - LAST);
-    let speeds = s.series.column("time_s").zip(s.series.column("max_speed_m_per_s"));
-    let speed = speeds.filter(|(time, _)| *time >= from).map(|(_, speed)| speed).fold(f64::NAN, f64::max);
+    let speeds = last(s.series, "max_speed_m_per_s", LAST);
+    let speed = speeds.into_iter().map(|(_, speed)| speed).fold(f64::NAN, f64::max);
     let capillary = flow.setting.method.wetting_fluid.viscosity * speed / flow.setting.method.tension;
     vec![
         measure(

@@ -2,7 +2,7 @@
 
 use super::checked::{Side, Sides, Walls};
 use super::raw::{RawSide, RawSides, RawWalls};
-use crate::input::Checker;
+use crate::input::{Checker, Range};
 
 pub(super) fn sides(checker: &mut Checker, raw: &RawSides) -> Sides {
     let given = [("left", raw.left), ("right", raw.right), ("bottom", raw.bottom), ("top", raw.top)];
@@ -55,8 +55,10 @@ pub(super) fn wall_speeds(checker: &mut Checker, raw: &RawSides) -> [f64; 4] {
 /// Slip lengths; `has_lines` where contact lines can stand on the walls, `spacing` in m.
 pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spacing: Option<f64>) -> Walls {
     const LINE: &str = "sph.walls.line-slip-length";
-    let slip_length = length(checker, "sph.walls.slip-length", raw.slip_length);
-    let of_lines = length(checker, LINE, raw.line_slip_length);
+    let mut length =
+        |path: &str, given: Option<f64>| checker.in_range(path, given, Range::AtLeast(0.0), "a slip length in m");
+    let slip_length = length("sph.walls.slip-length", raw.slip_length);
+    let of_lines = length(LINE, raw.line_slip_length);
     if of_lines.is_some() && !has_lines {
         checker.refuse(
             LINE,
@@ -67,13 +69,4 @@ pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spac
     // A contact line on walls of which nothing is said slips by a spacing, so that it does not run over the particles next to them.
     let unsaid = if has_lines { spacing.unwrap_or_default() } else { 0.0 };
     Walls { slip_length: slip_length.unwrap_or_default(), line_slip_length: of_lines.or(slip_length).unwrap_or(unsaid) }
-}
-
-fn length(checker: &mut Checker, path: &str, given: Option<f64>) -> Option<f64> {
-    let length = given?;
-    if !(length >= 0.0 && length.is_finite()) {
-        checker.refuse(path, format!("expected a slip length in m of at least 0, found {length:?}"), "");
-        return None;
-    }
-    Some(length)
 }

@@ -7,7 +7,7 @@ use super::raw::{RawCsf, RawFluid, RawLineDelta, RawSph};
 use super::sides::{sides, wall_speeds, walls};
 use super::{initial, numerics, wetting};
 use crate::geometry::spec::GeometrySpec;
-use crate::input::Checker;
+use crate::input::{Checker, Range};
 use crate::math::Vec2;
 
 /// Most particles that a run may have: their pairs then fill the memory of a large machine.
@@ -173,12 +173,7 @@ fn density_ratio(checker: &mut Checker, wetting: &Fluid, other: &Fluid) {
 fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<SurfaceForce>) {
     const PATH: &str = "sph.interface.tension";
     let tension = checker.require(PATH, raw.interface.as_ref().and_then(|i| i.tension), "tension = 0.0276 # N/m");
-    let tension = tension.filter(|tension| {
-        if *tension < 0.0 {
-            checker.refuse(PATH, format!("expected a tension in N/m of at least 0, found {tension:?}"), "");
-        }
-        *tension >= 0.0
-    });
+    let tension = checker.in_range(PATH, tension, Range::AtLeast(0.0), "a tension in N/m");
     let force = raw.surface_force.as_ref();
     let chosen = match force.map(|force| (force.csf.is_some(), force.pressure_jump.is_some())) {
         None => DEFAULT_SURFACE_FORCE,

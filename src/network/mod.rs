@@ -1,4 +1,4 @@
-//! Pore networks: extraction from the exact geometry, menisci in throats, displacement, conductance and permeability.
+//! Pore networks: extraction from the exact geometry, displacement with the menisci of `interface`, conductance and permeability.
 
 mod channel;
 pub mod conductance;

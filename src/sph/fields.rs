@@ -281,10 +281,9 @@ impl Fields {
         }
         let mut side = sharp.to_vec();
         shepard::into_walls(pairs, &self.fluid_volume, moving, &mut side);
-        let mut jump = Jump::default();
         let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
         let curvature = InterfaceCurvature { at: |x: Vec2| given.or_else(|| fit.curvature(x)), gradient };
-        jump.update(particles, neighborhood, domain, &side, &curvature);
+        let jump = Jump::new(particles, neighborhood, domain, &side, &curvature);
         for (kappa, found) in self.curvature.iter_mut().zip(&jump.curvature) {
             *kappa = if found.is_nan() { 0.0 } else { *found };
         }

@@ -24,7 +24,7 @@ pub const PARTS: [&str; 4] = ["neighbors", "forces", "pressure", "move"];
 
 /// A flow at one time.
 pub struct Flow {
-    /// What is given, and no step changes.
+    /// What is given. It changes with the time of the case alone: body forces that take turns, pressures that rise.
     pub setting: Setting,
     /// What a step goes on from: what restart saves.
     pub state: FlowState,

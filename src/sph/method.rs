@@ -155,13 +155,13 @@ impl Method {
     }
 
     /// The rate in 1/s at which the pressure takes back the density error: γ/τ min(1, v τ/(.005 dx)) with the time τ of the correction
-    /// ([`Method::drift_time`]). `fastest` is the largest velocity in m/s relative to the mean of all.
+    /// ([`Method::density_correction_time`]). `fastest` is the largest velocity in m/s relative to the mean of all.
     ///
     /// Density errors come with motion. Where hardly anything moves, to push for errors that are there would be what moves the particles.
     /// And they come in time, not in steps: a light gas, whose viscosity asks for short steps, must not be pushed in every one as hard.
     #[must_use]
     pub fn density_correction_rate(&self, fastest: f64) -> f64 {
-        let tau = self.drift_time(fastest);
+        let tau = self.density_correction_time(fastest);
         self.density_error_correction / tau * (fastest * tau / (FULL_CORRECTION_WAY * self.spacing)).min(1.0)
     }
 

@@ -36,13 +36,13 @@ pub(super) struct Motion {
 }
 
 impl Flow {
-    /// Moves the particles with the new velocity, and by the drift, if there is any, which takes density errors back and leaves velocities
+    /// Moves the particles with the new velocity, and by the density-error shift, if there is any, which takes density errors back and leaves velocities
     /// alone. The mean of old and new velocity [Huber2013, Eq. 27] would feed every swing that viscosity does not damp (docs/numerics/forces.md).
     ///
     /// # Errors
     /// [`SolverError::BlowUp`] where a particle would go too far.
     pub(super) fn moved(&self, predicted: &Predicted, corrected: &Corrected) -> Result<Motion, SolverError> {
-        let Corrected { drift, responses, .. } = corrected;
+        let Corrected { density_error_shift, responses, .. } = corrected;
         let (setting, old) = (&self.setting, &self.state.particles.position);
         let mut velocity = corrected.velocity.clone();
         let (fluids, moving, dt) = (self.state.particles.fluids, self.state.particles.moving(), predicted.dt);
@@ -61,7 +61,7 @@ impl Flow {
             position.push(self.setting.domain.wrapped(self.state.particles.position[a] + by));
         }
         self.shift(dt, &mut position[..fluids], &mut velocity);
-        for (x, by) in position.iter_mut().zip(drift) {
+        for (x, by) in position.iter_mut().zip(density_error_shift) {
             *x = self.setting.domain.wrapped(*x + by);
         }
         keep_flow_rates(setting, responses, dt, &old[..fluids], &mut position[..fluids]);
@@ -70,7 +70,7 @@ impl Flow {
         Ok(Motion { position, velocity, set_back })
     }
 
-    /// Shifts crowded particles apart, and strays back across the interface; they carry their velocity along.
+    /// Shifts particles that lie close apart, and isolated ones back across the interface; they carry their velocity along.
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
         let (fluids, m, f) = (self.state.particles.fluids, &self.setting.method, &self.fields);
         let diffusion = m.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
@@ -79,7 +79,7 @@ impl Flow {
             shifting::shift(&self.uneven(), diffusion, m.kernel.h, &mut by);
         }
         if let Some(jump) = &f.jump {
-            let strays = Sharpening {
+            let sharpening = Sharpening {
                 side: &jump.side,
                 normal: &f.normal,
                 fluid_volume: &f.fluid_volume,
@@ -88,7 +88,7 @@ impl Flow {
                 weight: (m.wetting_fluid.density - m.other_fluid.density) / m.mean_density() * m.gravity,
                 wall_hysteresis: &f.wall_hysteresis,
             };
-            strays.displace(&self.neighborhood.pairs, m.kernel.h, m.capillary_speed(), dt, &mut by);
+            sharpening.displace(&self.neighborhood.pairs, m.kernel.h, m.capillary_speed(), dt, &mut by);
         } else if diffusion == 0.0 {
             return;
         }

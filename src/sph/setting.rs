@@ -12,7 +12,7 @@ const TURN_OVER: f64 = 0.25;
 /// Walls with more curvature than this, over 1/h, count as edges.
 const TIGHTEST: f64 = 0.5;
 
-/// What no step changes. Body forces that take turns and pressures that rise follow from the time alone.
+/// What is given. It changes with the time of the case alone: body forces that take turns, pressures that rise.
 pub struct Setting {
     /// Constants.
     pub method: Method,

@@ -124,7 +124,7 @@ impl Solver for SphSolver {
         let (flow, seen) = (&self.flow, self.observe());
         let fluids = flow.state.particles.fluids;
         let [error, _] = density_error(&flow.fields.volume[..fluids], flow.setting.method.volume);
-        let speed = flow.state.particles.velocity[..fluids].iter().map(|v| v.norm()).fold(0.0, f64::max);
+        let speed = flow.state.particles.fluid_speed();
         let momentum = self.momentum();
         let row = [
             ("time_s", flow.state.time),

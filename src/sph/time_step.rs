@@ -73,7 +73,7 @@ impl Method {
 
     /// The time in s in which the pressure takes its share of the density error back, whatever the step.
     #[must_use]
-    pub fn drift_time(&self, speed: f64) -> f64 {
+    pub fn density_correction_time(&self, speed: f64) -> f64 {
         self.bounded(speed, COURANT, CAPILLARY).dt
     }
 

@@ -17,9 +17,7 @@ law! {
 impl Law for Bracke {
     /// Dynamic angle θ_d in rad \[Bracke1989\].
     fn angle(&self, line: &LineState) -> f64 {
-        let (cos_e, capillary) = (self.static_angle().cos(), line.capillary_number());
-        let change = 2.0 * (cos_e + 1.0) * capillary.abs().sqrt();
-        (cos_e - change.copysign(capillary)).clamp(-1.0, 1.0).acos()
+        line.angle_by_change_of_cosine(self.static_angle(), 2.0 * line.capillary_number().abs().sqrt())
     }
 
     fn static_angle(&self) -> f64 {

@@ -16,9 +16,8 @@ law! {
 impl Law for Jiang {
     /// Dynamic angle θ_d in rad [Jiang1979, Eq. 7].
     fn angle(&self, line: &LineState) -> f64 {
-        let (cos_e, capillary) = (self.static_angle().cos(), line.capillary_number());
-        let change = (cos_e + 1.0) * (4.96 * capillary.abs().powf(0.702)).tanh();
-        (cos_e - change.copysign(capillary)).clamp(-1.0, 1.0).acos()
+        let change = (4.96 * line.capillary_number().abs().powf(0.702)).tanh();
+        line.angle_by_change_of_cosine(self.static_angle(), change)
     }
 
     fn static_angle(&self) -> f64 {

@@ -28,6 +28,14 @@ impl LineState {
     pub fn capillary_number(&self) -> f64 {
         self.viscosity * self.speed / self.tension
     }
+
+    /// The angle in rad with (cos θ_e − cos θ_d)/(cos θ_e + 1) = `change` on a line that advances from the `static_angle` θ_e, and minus that
+    /// on one that recedes.
+    #[must_use]
+    pub fn angle_by_change_of_cosine(&self, static_angle: f64, change: f64) -> f64 {
+        let cos_e = static_angle.cos();
+        (cos_e - ((cos_e + 1.0) * change).copysign(self.speed)).clamp(-1.0, 1.0).acos()
+    }
 }
 
 /// A wetting law. Angles are in rad, through the wetting phase.
@@ -132,11 +140,8 @@ pub trait Parameters: Sized {
     /// The table that says the same.
     fn raw(&self) -> Self::Raw;
 
-    /// Sets the value of a key of the table.
-    fn set(raw: &mut Self::Raw, key: &str, value: Option<f64>);
-
-    /// The value of a key.
-    fn value(&self, key: &str) -> Option<f64>;
+    /// Keys and values of the table.
+    fn entries(raw: &mut Self::Raw) -> Vec<(String, &mut Option<f64>)>;
 }
 
 /// A key of a case file, from the name of its field.
@@ -163,11 +168,16 @@ pub(super) fn with_angles<L: Law>(
     angles: &[(&str, Option<f64>)],
 ) -> Option<L> {
     let mut raw = law.raw();
-    for key in L::QUANTITIES.iter().map(|(field, _)| key(field)).filter(|key| is_angle(key)) {
-        let given = angles.iter().find(|(name, _)| *name == key);
-        L::set(&mut raw, &key, given.and_then(|(_, value)| *value));
+    for (key, value) in L::entries(&mut raw).into_iter().filter(|(key, _)| is_angle(key)) {
+        *value = angles.iter().find(|(name, _)| *name == key).and_then(|(_, given)| *given);
     }
     checked(&raw, checker, at)
+}
+
+/// The parameter of a key, in the unit of that key.
+pub(super) fn parameter<L: Law>(law: &L, key: &str) -> Option<f64> {
+    let mut raw = law.raw();
+    L::entries(&mut raw).into_iter().find(|(name, _)| name == key).and_then(|(_, value)| *value)
 }
 
 /// Whether a key is an angle: patches of walls have angles of their own, and the other parameters of the model.
@@ -228,18 +238,8 @@ macro_rules! law {
                 raw::$law { $($field: Some(self.$field),)+ }
             }
 
-            fn set(raw: &mut Self::Raw, key: &str, value: Option<f64>) {
-                match key.replace('-', "_").as_str() {
-                    $(stringify!($field) => raw.$field = value,)+
-                    _ => {}
-                }
-            }
-
-            fn value(&self, key: &str) -> Option<f64> {
-                match key.replace('-', "_").as_str() {
-                    $(stringify!($field) => Some(self.$field),)+
-                    _ => None,
-                }
+            fn entries(raw: &mut Self::Raw) -> Vec<(String, &mut Option<f64>)> {
+                vec![$(($crate::wetting::law::key(stringify!($field)), &mut raw.$field),)+]
             }
         }
     };

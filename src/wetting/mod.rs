@@ -31,7 +31,7 @@ pub use tadmor::Tadmor;
 pub use young::Young;
 
 use crate::input::Checker;
-use law::{Law, LineState, Parameters, Quantity, checked, is_angle, key, with_angles};
+use law::{Law, LineState, Parameters, Quantity, checked, is_angle, key, parameter, with_angles};
 
 /// Makes the models from the list of their tables.
 macro_rules! laws {
@@ -105,7 +105,7 @@ macro_rules! laws {
             /// The parameter of a key, in the unit of that key; none where the model has no such key.
             #[must_use]
             pub fn parameter(&self, key: &str) -> Option<f64> {
-                match self { $(Self::$law(law) => law.value(key),)+ }
+                match self { $(Self::$law(law) => parameter(law, key),)+ }
             }
 
             /// The same model with other angles, by key, which stand in the table at the key path `at`; none where these are missing

@@ -19,17 +19,17 @@ fn within(x: Vec2) -> bool {
     x.amax() < 2.0
 }
 
-fn assert_one(shells: &[OffsetCurve], length: f64, closed: bool) {
+fn assert_one(curves: &[OffsetCurve], length: f64, closed: bool) {
     assert_eq!(
-        shells.len(),
+        curves.len(),
         1,
         "{} lines of lengths {:?}",
-        shells.len(),
-        shells.iter().map(OffsetCurve::length).collect::<Vec<_>>()
+        curves.len(),
+        curves.iter().map(OffsetCurve::length).collect::<Vec<_>>()
     );
-    assert_eq!(shells[0].closed, closed);
+    assert_eq!(curves[0].closed, closed);
     // Chords of arcs, and ends of lines that are found to a share of a step.
-    assert!((shells[0].length() - length).abs() < 0.2 * STEP, "{} in place of {length}", shells[0].length());
+    assert!((curves[0].length() - length).abs() < 0.2 * STEP, "{} in place of {length}", curves[0].length());
 }
 
 #[test]
@@ -77,9 +77,9 @@ fn a_line_in_overlapping_discs_goes_around_both() {
     let meet = 0.6_f64.acos();
     let arcs = 2.0 * (2.0 * PI - 2.0 * meet) * 0.8;
     let fans = 2.0 * (2.0 * (PI / 2.0 - meet)) * 0.2;
-    let shells = all(&geometry).offset_curves(0.2, STEP, within);
-    let length: f64 = shells.iter().map(OffsetCurve::length).sum();
-    assert!(shells.len() == 1 && shells[0].closed);
+    let curves = all(&geometry).offset_curves(0.2, STEP, within);
+    let length: f64 = curves.iter().map(OffsetCurve::length).sum();
+    assert!(curves.len() == 1 && curves[0].closed);
     assert!((length - arcs - fans).abs() < 1.0 * STEP, "{length} in place of {}", arcs + fans);
 }
 
@@ -101,9 +101,9 @@ fn a_line_ends_on_the_sides_of_the_box_and_at_walls_that_are_left_out() {
 fn every_point_of_every_line_has_its_depth() {
     for geometry in [solid(zoo()), solid(zoo()).with_periodic([true, true]), solid(zoo()).with_wall_sides([true; 4])] {
         for depth in [0.01, 0.05, 0.12] {
-            let shells = all(&geometry).offset_curves(depth, 0.01, within);
-            assert!(shells.len() > 3);
-            for x in shells.iter().flat_map(|shell| shell.divided((shell.length() / 0.02).round() as usize)) {
+            let curves = all(&geometry).offset_curves(depth, 0.01, within);
+            assert!(curves.len() > 3);
+            for x in curves.iter().flat_map(|curve| curve.divided((curve.length() / 0.02).round() as usize)) {
                 let found = -geometry.signed_distance(x);
                 // Between two samples of an arc of radius 0.15, and across a cut.
                 assert!((found - depth).abs() < 1e-3, "{found} in place of {depth} at {x:?}");
@@ -114,8 +114,8 @@ fn every_point_of_every_line_has_its_depth() {
 
 #[test]
 fn points_along_a_line_are_evenly_apart() {
-    let shell = OffsetCurve { points: vec![v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0)], closed: false };
-    assert_eq!(shell.divided(2), [v(0.5, 0.0), v(1.0, 0.5)]);
+    let curve = OffsetCurve { points: vec![v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0)], closed: false };
+    assert_eq!(curve.divided(2), [v(0.5, 0.0), v(1.0, 0.5)]);
     let ring = OffsetCurve { points: vec![v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0), v(0.0, 1.0)], closed: true };
     assert_eq!(ring.divided(4), [v(0.5, 0.0), v(1.0, 0.5), v(0.5, 1.0), v(0.0, 0.5)]);
 }

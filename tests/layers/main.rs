@@ -98,6 +98,12 @@ impl Source {
         self.path.split('/').next().unwrap_or_default().trim_end_matches(".rs")
     }
 
+    /// The text up to its tests.
+    fn code(&self) -> String {
+        let text = self.lines.join("\n");
+        text.split("#[cfg(test)]").next().unwrap_or_default().to_owned()
+    }
+
     fn place(&self, line: usize) -> String {
         format!("src/{}:{}", self.path, line + 1)
     }
@@ -229,9 +235,8 @@ fn imports_of_modules() -> picture::Imports {
         if source.path.ends_with("/tests.rs") || source.path.contains("/tests/") {
             continue;
         }
-        let text = source.lines.join("\n");
-        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-        of_module.extend(heads_behind(code, "crate::").into_iter().map(|(_, head)| head));
+        let code = source.code();
+        of_module.extend(heads_behind(&code, "crate::").into_iter().map(|(_, head)| head));
         of_module.remove(source.module());
     }
     let modules: BTreeSet<String> = found.keys().cloned().collect();
@@ -266,11 +271,10 @@ fn imports_within(folder: &str) -> BTreeMap<String, BTreeSet<String>> {
     let names: BTreeSet<String> = sources.iter().map(name).collect();
     let mut found = BTreeMap::<String, BTreeSet<String>>::new();
     for source in &sources {
-        let text = source.lines.join("\n");
-        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-        let mut heads = heads_behind(code, &format!("crate::{}::", folder.replace('/', "::")));
+        let code = source.code();
+        let mut heads = heads_behind(&code, &format!("crate::{}::", folder.replace('/', "::")));
         if !inner(source).contains('/') {
-            heads.extend(heads_behind(code, "super::"));
+            heads.extend(heads_behind(&code, "super::"));
         }
         let importer = name(source);
         let of_file = found.entry(importer.clone()).or_default();

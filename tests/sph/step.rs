@@ -322,8 +322,8 @@ fn the_density_error_correction_rests_where_the_fluid_does() {
     let mut method = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump")).setting.method;
     // Share of the density error taken back in its time, where the fastest particle goes so many spacings in one that it does not shorten.
     let share = |ways: f64| {
-        let speed = ways * method.spacing / method.drift_time(0.0);
-        method.density_correction_rate(speed) * method.drift_time(speed)
+        let speed = ways * method.spacing / method.density_correction_time(0.0);
+        method.density_correction_rate(speed) * method.density_correction_time(speed)
     };
     assert_eq!(
         (share(0.0), share(0.02), share(1.0)),

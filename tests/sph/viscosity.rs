@@ -200,13 +200,9 @@ fn no_particle_goes_farther_in_a_step_than_its_limit_allows() {
         flow.setting.method.viscous_step = ViscousStep::Implicit;
         for _ in 0..20 {
             flow.step(1.0).unwrap();
-            let way = fastest_of_fluid(&flow) * flow.state.last_dt / flow.setting.method.kernel.h;
+            let way = flow.state.particles.fluid_speed() * flow.state.last_dt / flow.setting.method.kernel.h;
             // What shifted particles take along of the velocity around them comes on top.
             assert!(way < 1.1 * 1.5 * 0.125 * factor, "{name}: {way} h in step {}", flow.state.steps);
         }
     }
-}
-
-fn fastest_of_fluid(flow: &Flow) -> f64 {
-    flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.norm()).fold(0.0, f64::max)
 }

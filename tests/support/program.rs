@@ -1,5 +1,4 @@
 //! Runs the program as a user does, in a folder of its own.
-#![allow(dead_code, reason = "each test file uses its own part")]
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

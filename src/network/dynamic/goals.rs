@@ -149,12 +149,6 @@ impl Dynamic {
         goals
     }
 
-    /// The bodies in elements that are being filled.
-    pub(super) fn bodies_now(&self) -> Vec<Body> {
-        let fillings = self.state.filling.iter().enumerate().filter(|(element, _)| !self.is_outlet[*element]);
-        fillings.filter_map(|(element, filling)| Some(self.body(element, filling.as_ref()?))).collect()
-    }
-
     /// The elements being filled from which the defending phase has a way to an outlet.
     pub(super) fn open_fillings(&self) -> Vec<usize> {
         let trapped = self.trapped();
@@ -162,7 +156,8 @@ impl Dynamic {
         (0..trapped.len()).filter(fills).collect()
     }
 
-    fn body(&self, element: usize, filling: &super::Filling) -> Body {
+    /// The body in an element that is being filled.
+    pub(super) fn body(&self, element: usize, filling: &super::Filling) -> Body {
         let own = self.displacement.elements()[element].area;
         let bulges: f64 = self.bulges(element).iter().map(|(_, area)| area).sum();
         let ahead = self.to_come(element);

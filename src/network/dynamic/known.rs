@@ -79,18 +79,19 @@ impl Dynamic {
         Known { goals: self.ends_of_step(&bodies), fills, bodies, laws, law_of, law_of_body, drops, sources }
     }
 
-    /// The bodies that menisci flow into. A step may go on beyond a full element where that one alone is being filled, and quickly.
+    /// The bodies that menisci flow into, in the order of their links. A step may go on beyond a full element where that one alone is being filled, and quickly.
     fn bodies_with_links(&self, graph: &Graph, drops: &[(f64, f64)], open: &[usize]) -> Vec<Body> {
-        let link_of = |element: usize| graph.links.iter().position(|link| link.way == Way::Body(element));
         let only = open.first().copied().filter(|&e| open.len() == 1 && self.entering(e).next().is_none());
-        let complete = |body: Body| {
-            let rate = self.filling_rate(graph, &body, drops[link_of(body.element)?].0);
+        let with_link = |(link, &(resistance, _)): (&Link, &(f64, f64))| {
+            let Way::Body(element) = link.way else { return None };
+            let body = self.body(element, self.state.filling[element].as_ref()?);
+            let rate = self.filling_rate(graph, &body, resistance);
             let is_quick = rate * self.state.last_steps[0] * QUICK > body.full - body.area;
-            let passes = is_quick && only == Some(body.element);
+            let passes = is_quick && only == Some(element);
             let constant = || Arc::new(Rise::constant(body.rise.curvature(body.area).0));
             Some(Body { passes, rise: if passes { Arc::clone(&body.rise) } else { constant() }, ..body })
         };
-        self.bodies_now().into_iter().filter_map(complete).collect()
+        graph.links.iter().zip(drops).filter_map(with_link).collect()
     }
 
     /// The law of a link that resists by a curvature.

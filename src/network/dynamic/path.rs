@@ -5,7 +5,6 @@
 //! from the areas at these pressures. Each round linearizes about the areas that menisci have in equilibrium with the pressures at the event.
 
 use super::Dynamic;
-use super::goals::REACHED;
 use super::graph::Graph;
 use super::known::{Known, Law};
 use super::step::{MATCHED, Trial};
@@ -183,7 +182,8 @@ impl Dynamic {
         area: impl Fn(usize, f64) -> f64,
     ) -> f64 {
         let gap = |goal: usize, dt: f64| {
-            let at = self.areas(graph, known, |law| area(law, dt));
+            let area = |law| area(law, dt);
+            let at = self.areas(graph, known, &area);
             self.gap(&known.bodies, &known.goals[goal], &at)
         };
         let mut first = most;
@@ -234,9 +234,8 @@ impl Dynamic {
         };
         path.factored.balance(&mut flow, &known.sources)?;
         let gaps = self.gaps(graph, known, |law| known.laws[law].area + flow.through[known.laws[law].link] * dt);
-        let least = gaps.iter().copied().fold(f64::INFINITY, f64::min);
-        let ends = least >= -REACHED && (least <= REACHED || dt >= longest);
-        Ok(ends.then_some(Trial { dt, flow, gaps }))
+        let trial = Trial { dt, flow, gaps };
+        Ok(trial.ends(longest).then_some(trial))
     }
 }
 

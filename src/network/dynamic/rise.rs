@@ -1,4 +1,5 @@
-//! The curvature of a meniscus over the area that it has swept in its gate, up to its event.
+//! The curvature over the area: of a meniscus over what it has swept in its gate, up to its event, and of the body in an element over what
+//! fills it.
 
 use crate::interface::menisci::Passage;
 

@@ -16,9 +16,21 @@ pub(super) struct Trial {
     pub gaps: Vec<f64>,
 }
 
+impl Trial {
+    fn least_gap(&self) -> f64 {
+        self.gaps.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether it reaches a goal and passes none, or is as long as a step may be, `longest` in s.
+    pub(super) fn ends(&self, longest: f64) -> bool {
+        let least = self.least_gap();
+        least >= -REACHED && (least <= REACHED || self.dt >= longest)
+    }
+}
+
 /// Least length that is taken for that of the next step, over that of the last one.
 const SHORTER: f64 = 0.1;
-/// Largest difference between the curvature of a meniscus at the end of a step and that which the step took, as a share of its range.
+/// Largest difference between a curvature, or a pressure, at the end of a step and that which the step took, as a share of its range.
 pub(super) const MATCHED: f64 = 5e-3;
 /// Most rounds of Newton's method.
 const ROUNDS: usize = 40;
@@ -88,18 +100,12 @@ impl Dynamic {
         if longest.is_finite() { longest } else { f64::INFINITY }
     }
 
-    /// Resistance in Pa s/m² of a link, and the pressure drop along it in Pa without flow, but for a meniscus that waits.
+    /// Resistance in Pa s/m² of a link, and the pressure drop along it in Pa without flow, but for what a law adds.
     pub(super) fn drop_without_rise(&self, link: &Link) -> (f64, f64) {
         let [a, b] = link.elements;
         let resistance = self.viscosity(a) * link.halves[0] + self.viscosity(b) * link.halves[1];
         let drop = match (link.way, self.terms.drive) {
             (Way::Inlet, Drive::Pressure(pressure)) => pressure,
-            (Way::Meniscus((gate, end)), _) if self.state.menisci[gate][end].is_some_and(|it| it.has_burst) => {
-                // A body in an element that fills has a link of its own.
-                let bends = self.is_outlet[b];
-                let filling = self.state.filling[b].as_ref().filter(|_| bends);
-                self.terms.tension * filling.map_or(0.0, |filling| filling.curvature)
-            }
             _ => 0.0,
         };
         (resistance, drop)
@@ -120,7 +126,7 @@ impl Dynamic {
 
     /// What is missing until each goal where links hold areas, by law.
     pub(super) fn gaps(&self, graph: &Graph, known: &Known, area: impl Fn(usize) -> f64) -> Vec<f64> {
-        let at = self.areas(graph, known, area);
+        let at = self.areas(graph, known, &area);
         known.goals.iter().map(|goal| self.gap(&known.bodies, goal, &at)).collect()
     }
 
@@ -129,14 +135,12 @@ impl Dynamic {
         &'a self,
         graph: &'a Graph,
         known: &'a Known,
-        area: A,
+        area: &'a A,
     ) -> Areas<impl Fn(FrontId) -> f64 + 'a, impl Fn(usize) -> f64 + 'a> {
-        let area = std::rc::Rc::new(area);
-        let of_body = std::rc::Rc::clone(&area);
         let law = |front: FrontId| graph.link_of[front.0].and_then(|link| known.law_of[link]);
         Areas {
-            front: move |front: FrontId| law(front).map_or_else(|| self.area_now(front), |law| area(law)),
-            body: move |body: usize| of_body(known.law_of_body[body]) + known.swept(known.law_of_body[body], &*of_body),
+            front: move |front: FrontId| law(front).map_or_else(|| self.area_now(front), area),
+            body: move |body: usize| area(known.law_of_body[body]) + known.swept(known.law_of_body[body], area),
         }
     }
 
@@ -229,11 +233,10 @@ impl Dynamic {
         let mut dt = self.first_length(known, longest);
         for _ in 0..MOST_TRIALS {
             let trial = self.trial(graph, known, before.as_ref(), dt)?;
-            let least = trial.gaps.iter().copied().fold(f64::INFINITY, f64::min);
-            if least >= -REACHED && (least <= REACHED || dt >= longest) {
+            if trial.ends(longest) {
                 return Ok(trial);
             }
-            if least < -REACHED {
+            if trial.least_gap() < -REACHED {
                 high = dt;
             } else {
                 low = dt;

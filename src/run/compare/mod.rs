@@ -111,7 +111,7 @@ impl Grid {
 }
 
 /// What came out of one of both.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Side {
     /// Saturations of the wetting phase.
     pub saturation: Vec<f64>,
@@ -262,22 +262,10 @@ fn compared(network: &Track, direct: &Track, grid: &Grid) -> Comparison {
         .filter(in_range)
         .map(|record| rank::overlap(&network.records[nearest(network, record.saturation)].invaded, &record.invaded))
         .collect();
-    let none = Side {
-        saturation: Vec::new(),
-        capillary_pressure_pa: Vec::new(),
-        breakthrough_pressure_pa: None,
-        saturation_at_breakthrough: None,
-        permeability_m2: None,
-        wall_time_s: 0.0,
-        processor_time_s: None,
-        unknowns: 0,
-        steps: 0,
-        warnings: Vec::new(),
-    };
     Comparison {
         titles: Default::default(),
-        network: none.clone(),
-        direct: none,
+        network: Side::default(),
+        direct: Side::default(),
         rank_correlation: rank::correlation(&both),
         elements_in_both: both.len(),
         mean_overlap: (!overlaps.is_empty()).then(|| overlaps.iter().sum::<f64>() / overlaps.len() as f64),

@@ -39,9 +39,7 @@ fn smallest_distance(flow: &Flow) -> f64 {
     let among_fluids =
         |a: usize| flow.neighborhood.pairs.of(a).filter(|ab| flow.neighborhood.images.source(ab.b) < fluids);
     let distances = (0..fluids).flat_map(|a| {
-        among_fluids(a).map(move |ab| {
-            flow.setting.domain.separation(position[a], flow.neighborhood.images.position(ab.b, position)).norm()
-        })
+        among_fluids(a).map(move |ab| flow.neighborhood.separation(a, ab.b, position, &flow.setting.domain).norm())
     });
     distances.fold(f64::INFINITY, f64::min) / flow.setting.method.spacing
 }

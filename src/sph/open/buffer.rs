@@ -4,7 +4,7 @@ use crate::math::{Bounds, Vec2};
 use crate::sph::open::{Ledger, OpenSide};
 use crate::sph::particles::{Particles, Phase};
 
-/// A new particle needs so much room, in units of dx: less would crowd a file that came back in after a stray move outwards.
+/// A new particle needs so much room, in units of dx: less would crowd a file that came back in after a single move outwards.
 const ROOM: f64 = 0.5;
 
 /// What stands around the buffers at time zero.

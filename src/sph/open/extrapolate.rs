@@ -62,25 +62,29 @@ impl InteriorPoints {
     /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
     /// given pressure the normal part of that at the interior point, so that it goes on along the normal.
     pub fn set_buffer_velocity(&self, particles: &Particles, sides: &[OpenSide], velocity: &mut [Vec2]) {
+        self.set_buffers(particles, sides, velocity, OpenSide::given_velocity);
+    }
+
+    /// Sets the accelerations of buffer particles from those of the fluid in `acceleration` (m/s²), as their velocities follow: none where
+    /// the velocity is given.
+    pub fn set_buffer_acceleration(&self, particles: &Particles, sides: &[OpenSide], acceleration: &mut [Vec2]) {
+        self.set_buffers(particles, sides, acceleration, |side, x| side.given_velocity(x).map(|_| Vec2::zeros()));
+    }
+
+    fn set_buffers(
+        &self,
+        particles: &Particles,
+        sides: &[OpenSide],
+        field: &mut [Vec2],
+        given: impl Fn(&OpenSide, Vec2) -> Option<Vec2>,
+    ) {
         for (i, b) in particles.buffer().enumerate() {
             let x = particles.position[b];
             let Some(side) = sides.iter().find(|side| side.beyond(x) >= 0.0) else { continue };
-            velocity[b] = side.given_velocity(x).unwrap_or_else(|| {
-                let inside = self.value(i, velocity).unwrap_or_default();
+            field[b] = given(side, x).unwrap_or_else(|| {
+                let inside = self.value(i, field).unwrap_or_default();
                 side.velocity(side.inwards() * inside[side.axis()])
             });
-        }
-    }
-
-    /// Sets the accelerations of buffer particles from those of the fluid in `acceleration` (m/s²), as their velocities follow: at sides with
-    /// a given pressure the normal part of that at the interior point, at inlets with a given velocity none.
-    pub fn extend_acceleration(&self, particles: &Particles, sides: &[OpenSide], acceleration: &mut [Vec2]) {
-        for (i, b) in particles.buffer().enumerate() {
-            let x = particles.position[b];
-            let side = sides.iter().find(|side| side.beyond(x) >= 0.0 && side.given_pressure().is_some());
-            if let (Some(side), Some(inside)) = (side, self.value(i, acceleration)) {
-                acceleration[b] = side.velocity(side.inwards() * inside[side.axis()]);
-            }
         }
     }
 }
@@ -120,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_parabola_along_the_side_keeps_its_value_at_the_foot() {
+    fn a_parabola_along_the_side_keeps_its_value_at_the_interior_point() {
         // Scattered points on one side of a wall at r.y = -0.3.
         let points = (0..40_u32).map(|i| {
             let t = f64::from(i);

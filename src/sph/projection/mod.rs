@@ -52,7 +52,7 @@ pub(in crate::sph) struct Corrected {
     /// Pressure in Pa, without the mean gradients that drive given flows.
     pressure: Vec<f64>,
     /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
-    pub(in crate::sph) drift: Vec<Vec2>,
+    pub(in crate::sph) density_error_shift: Vec<Vec2>,
     /// By how much the mean gradients that drive given flows change, in Pa/m.
     gradient_changes: Vec<f64>,
     /// What unit gradients do.

@@ -33,7 +33,7 @@ pub(super) struct Projected {
     /// Pressure in Pa.
     pub(super) pressure: Vec<f64>,
     /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
-    pub(super) drift: Vec<Vec2>,
+    pub(super) density_error_shift: Vec<Vec2>,
     /// What unit gradients along the periodic sides with a given flow do.
     pub(super) responses: Vec<Response>,
 }
@@ -70,17 +70,19 @@ impl Flow {
         let mut source = vec![0.0; n];
         divergence(&self.neighborhood.pairs, &f.volume, &predicted.velocity, &mut source);
         // A long step takes back all there is, and no more.
-        let drift = method.density_correction_rate(predicted.fastest).min(1.0 / dt) / dt;
+        let correction = method.density_correction_rate(predicted.fastest).min(1.0 / dt) / dt;
         let mut b = vec![0.0; n];
         each(&mut b, |a| {
             if self.setting.sees_the_fluid(position[a]) {
-                -f.volume[a] * (source[a] / dt - drift * self.density_error(a))
+                -f.volume[a] * (source[a] / dt - correction * self.density_error(a))
             } else {
                 0.0
             }
         });
-        self.hydrostatic().subtract_from(&mut b, &matrix, &self.neighborhood.pairs);
-        self.subtract_divergence_error(predicted, &matrix, &mut b);
+        let mut hydrostatic = vec![0.0; n];
+        self.hydrostatic().subtract_from(&mut hydrostatic, &matrix, &self.neighborhood.pairs);
+        b.iter_mut().zip(&hydrostatic).for_each(|(b, hydrostatic)| *b += hydrostatic);
+        self.subtract_divergence_error(predicted, &matrix, &hydrostatic, &mut b);
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.state.particles, &self.setting.open.sides, jump, method.kernel.h);
         let mut others = Vec::new();
@@ -100,8 +102,8 @@ impl Flow {
         let potentials = found.split_off(found.len() - ways.len());
         let responses = ways.iter().zip(potentials).map(|(&way, potential)| self.response(way, potential)).collect();
         // −∇ψ/ρ with the potential ψ in kg/m: the same on both sides of an interface.
-        let drift = found.pop().map_or_else(Vec::new, |potential| self.down(potential));
-        Ok(Projected { pressure, drift, responses })
+        let density_error_shift = found.pop().map_or_else(Vec::new, |potential| self.down(potential));
+        Ok(Projected { pressure, density_error_shift, responses })
     }
 
     /// The change of the velocity of the fluid particles in m/s that makes `velocity` (m/s) over particles and images free of divergence, and
@@ -208,7 +210,7 @@ impl Flow {
     ///
     /// The divergence of the gradient is not quite the Laplacian, so that a pressure leaves the divergence Δt (Laplacian − divergence of the
     /// gradient): in a steady flow as much in any step, and through walls. So no step leaks more than an explicit one.
-    fn subtract_divergence_error(&self, predicted: &Predicted, matrix: &Matrix, b: &mut [f64]) {
+    fn subtract_divergence_error(&self, predicted: &Predicted, matrix: &Matrix, hydrostatic: &[f64], b: &mut [f64]) {
         let damped = &predicted.damped;
         if damped.excess == 0.0 {
             return;
@@ -216,12 +218,10 @@ impl Flow {
         let (n, f) = (self.state.particles.len(), &self.fields);
         let mut acceleration = damped.by_pressure.clone();
         acceleration.resize(n, Vec2::zeros());
-        predicted.interior.extend_acceleration(&self.state.particles, &self.setting.open.sides, &mut acceleration);
+        predicted.interior.set_buffer_acceleration(&self.state.particles, &self.setting.open.sides, &mut acceleration);
         self.neighborhood.images.extend_velocity(&mut acceleration);
         let mut of_gradient = vec![0.0; n];
         divergence(&self.neighborhood.pairs, &f.volume, &acceleration, &mut of_gradient);
-        let mut hydrostatic = vec![0.0; n];
-        self.hydrostatic().subtract_from(&mut hydrostatic, matrix, &self.neighborhood.pairs);
         let Particles { position, pressure, .. } = &self.state.particles;
         b.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, b)| {
             if self.setting.sees_the_fluid(position[a]) {

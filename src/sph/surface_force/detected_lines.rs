@@ -4,7 +4,7 @@
 //! stencil of a fit tell its speed and its angle. Leaves out lines with fewer points than a fit needs.
 
 use crate::interface::weighted_circle::{
-    FEWEST_FROM_CONTACT, WallFrame, WeightedCircle, WeightedPoint, angle_through, fit_from_contact,
+    FEWEST_FROM_CONTACT, WallFrame, WeightedPoint, angle_through, fit_from_contact,
 };
 use crate::math::{Vec2, perpendicular};
 use crate::sph::domain::Domain;
@@ -45,9 +45,9 @@ impl Interface<'_> {
             .filter(|&i| is_inside(self.domain, self.points[i].x))
             .filter_map(|i| Some((i, self.contact_point(&self.points[i])?)))
             .collect();
-        let mut foot_of = vec![NONE; self.points.len()];
+        let mut end_of = vec![NONE; self.points.len()];
         for (k, (i, _)) in ends.iter().enumerate() {
-            foot_of[*i] = k;
+            end_of[*i] = k;
         }
         let mut taken = vec![false; ends.len()];
         let mut lines = Vec::new();
@@ -60,7 +60,7 @@ impl Interface<'_> {
                 next += 1;
                 let (i, end) = &ends[k];
                 self.cells.visit_near(self.points[*i].x, |j, r| {
-                    let other = foot_of[j as usize];
+                    let other = end_of[j as usize];
                     if other == NONE || taken[other] {
                         return;
                     }
@@ -96,8 +96,7 @@ impl Interface<'_> {
         let side = ends[group[0]].1.side;
         let outward = side * perpendicular(normal);
         let level = self.stencil(into_wetting, place);
-        let circle = WeightedCircle::through(&self.of_one_curvature(&level, Vec2::zeros()), into_wetting);
-        let kappa = circle.and_then(|circle| circle.curvature()).unwrap_or(0.0);
+        let kappa = self.circle(&level, into_wetting).and_then(|circle| circle.curvature()).unwrap_or(0.0);
         let near = self.of_one_curvature(&self.on_interface(&level, kappa), Vec2::zeros());
         (near.len() >= FEWEST_FROM_CONTACT).then_some(InterfaceLine {
             interface: self,

@@ -7,9 +7,7 @@
 //! The points lie on the level 1/2 of the smoothed color, which is drawn towards the center of curvature by h²κ/7. So a stencil is
 //! fitted more than once: for the curvature that moves its points to the interface, and there.
 
-use crate::interface::weighted_circle::{
-    FEWEST_FROM_CONTACT, WallFrame, WeightedCircle, WeightedPoint, fit_from_contact,
-};
+use crate::interface::weighted_circle::{FEWEST_FROM_CONTACT, WallFrame, WeightedPoint, fit_from_contact};
 use crate::math::{Vec2, perpendicular};
 use crate::sph::surface_force::contact_points::{ContactPoint, angle_pulled};
 use crate::sph::surface_force::pinned_lines::PinnedLine;
@@ -89,8 +87,7 @@ impl<'a> InterfaceFit<'a> {
 
     /// Curvature in 1/m of the stencil `near` at `point`: held to the angle at a wall, free far from one.
     fn fitted(&self, point: &InterfacePoint, near: &[WeightedPoint]) -> Option<f64> {
-        let free = WeightedCircle::through(&self.interface.of_one_curvature(near, Vec2::zeros()), point.normal);
-        let free = free.and_then(|circle| circle.curvature());
+        let free = self.interface.circle(near, point.normal).and_then(|circle| circle.curvature());
         match (self.held_fit(point, near), free) {
             (Some((held, share)), Some(free)) => Some(share * held + (1.0 - share) * free),
             (Some((held, _)), None) => Some(held),

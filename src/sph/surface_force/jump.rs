@@ -22,7 +22,7 @@ const LOSS_OF_THE_FIT: f64 = STENCIL_RADIUS * STENCIL_RADIUS / (4 * SMOOTHNESS +
 const DECONVOLUTION: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 * LOSS_OF_A_PASS);
 
 /// What decides the jump of each pair; slices over particles and images.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Jump {
     /// Side of the interface: 1 in the wetting phase, 0 in the other; wall particles take that of the fluid nearby.
     pub side: Vec<f64>,
@@ -42,43 +42,40 @@ pub struct InterfaceCurvature<F: Fn(Vec2) -> Option<f64> + Sync> {
 
 impl Jump {
     /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls.
-    pub fn update(
-        &mut self,
+    #[must_use]
+    pub fn new(
         particles: &Particles,
         neighborhood: &Neighborhood,
         domain: &Domain,
         color: &[f64],
-        curvature: &InterfaceCurvature<impl Fn(Vec2) -> Option<f64> + Sync>,
-    ) {
+        interface: &InterfaceCurvature<impl Fn(Vec2) -> Option<f64> + Sync>,
+    ) -> Self {
         let (Neighborhood { pairs, images }, position) = (neighborhood, &particles.position);
         let (n, fluids) = (pairs.rows(), particles.moving());
-        self.side.clear();
-        self.side.extend(color[..n].iter().map(|&c| if c > 0.5 { 1.0 } else { 0.0 }));
-        images.extend(&mut self.side);
-        let side = &self.side;
-        self.is_across.resize(n, false);
-        each(&mut self.is_across, |a| pairs.of(a).any(|ab| side[ab.b] != side[a]));
-        let is_across = &self.is_across;
+        let mut side: Vec<f64> = color[..n].iter().map(|&c| if c > 0.5 { 1.0 } else { 0.0 }).collect();
+        images.extend(&mut side);
+        let mut is_across = vec![false; n];
+        each(&mut is_across, |a| pairs.of(a).any(|ab| side[ab.b] != side[a]));
         let on_fluid: Vec<f64> = (0..fluids)
             .into_par_iter()
             .with_min_len(GRAIN / 8)
-            .map(|a| if is_across[a] { (curvature.at)(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
+            .map(|a| if is_across[a] { (interface.at)(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
             .collect();
-        self.curvature.clear();
         let rest =
-            |a: usize, b: usize| curvature.gradient.dot(&domain.separation(position[a], position[images.source(b)]));
-        self.curvature.extend(smoothed(on_fluid, neighborhood, &rest));
-        self.curvature.resize(n, f64::NAN);
+            |a: usize, b: usize| interface.gradient.dot(&domain.separation(position[a], position[images.source(b)]));
+        let mut curvature = smoothed(on_fluid, neighborhood, &rest);
+        curvature.resize(n, f64::NAN);
         // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
-        images.extend(&mut self.curvature);
+        images.extend(&mut curvature);
         for _ in 0..2 {
-            let known = self.curvature.clone();
-            each(&mut self.curvature[fluids..n], |i| {
+            let known = curvature.clone();
+            each(&mut curvature[fluids..n], |i| {
                 let a = fluids + i;
                 if known[a].is_nan() { average_at(a, pairs, None, |b| known[b] + rest(a, b)) } else { known[a] }
             });
-            images.extend(&mut self.curvature);
+            images.extend(&mut curvature);
         }
+        Self { side, curvature, is_across }
     }
 
     /// J_ab in units of the tension: κ̄_ab (c_b − c_a) in 1/m, κ̄ the mean of the curvatures that exist.

@@ -88,7 +88,7 @@ pub fn interface_points(
                 continue;
             }
             let x_a = fields.position[a];
-            let r_ba = -domain.separation(x_a, images.position(ab.b, fields.position));
+            let r_ba = -neighborhood.separation(a, ab.b, fields.position, domain);
             let f = c_a / (c_a - c_b);
             let g = (1.0 - f) * fields.gradient[a] + f * fields.gradient[ab.b];
             let closeness = 1.0 - r_ba.norm_squared() / link2;
@@ -106,7 +106,7 @@ pub fn interface_points(
     points
 }
 
-/// Whether particles of both phases, by the smoothed color, which is blind to single strays, touch the wall around `a` or `b`.
+/// Whether particles of both phases, by the smoothed color, which is blind to isolated particles, touch the wall around `a` or `b`.
 fn both_touch(neighborhood: &Neighborhood, fields: &PointFields, a: usize, b: usize, spacing: f64) -> bool {
     let Neighborhood { pairs, images } = neighborhood;
     let phase = |i: usize| {

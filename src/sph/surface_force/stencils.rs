@@ -93,7 +93,7 @@ impl<'a> Interface<'a> {
             return (point, near);
         }
         for _ in 0..CLOSEST_POINT_PASSES {
-            let circle = WeightedCircle::through(&self.of_one_curvature(&near, Vec2::zeros()), point.normal);
+            let circle = self.circle(&near, point.normal);
             let Some((closest, normal)) = circle.and_then(|circle| circle.closest_point(x - point.x)) else { break };
             point.x += closest * (self.h / closest.norm()).min(1.0);
             point.normal = normal;
@@ -118,6 +118,11 @@ impl<'a> Interface<'a> {
             }
         });
         near
+    }
+
+    /// The circle through a stencil with about the unit `normal`, free of walls.
+    pub(super) fn circle(&self, near: &[WeightedPoint], normal: Vec2) -> Option<WeightedCircle> {
+        WeightedCircle::through(&self.of_one_curvature(near, Vec2::zeros()), normal)
     }
 
     /// The points of a stencil moved from the level 1/2 of the smoothed color to the interface, which has the curvature `kappa` (1/m)

@@ -13,11 +13,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use crate::math::Vec2;
 use crate::sph::pairs::{Pairs, each};
 
-/// A particle with a smaller share of its own kind among its neighbors is a stray. The first layer of a flat interface
+/// A particle with a smaller share of its own kind among its neighbors is isolated. The first layer of a flat interface
 /// has one half, a particle that stands out of it by dx about a quarter.
 const FEW: f64 = 0.2;
 
-/// Largest speed of strays over the capillary speed: a few times that of the contact lines which leave them.
+/// Largest speed of isolated particles over the capillary speed: a few times that of the contact lines which leave them.
 const SPEED: f64 = 0.2;
 
 /// Where the body force pulls a phase out through its interface, a particle with a smaller share than this goes back: a little
@@ -30,7 +30,7 @@ const SAG: f64 = 2.0;
 /// Below this color gradient, in units of 1/h, no interface is in reach to go back to.
 const SMALLEST_GRADIENT: f64 = 0.02;
 
-/// What decides which particles are strays; slices over particles and images, the wall distance over fluid particles.
+/// What decides which particles are isolated; slices over particles and images, the wall distance over fluid particles.
 pub struct Sharpening<'a> {
     /// Side of the interface: 1 in the wetting phase, 0 in the other.
     pub side: &'a [f64],
@@ -49,7 +49,7 @@ pub struct Sharpening<'a> {
 }
 
 impl Sharpening<'_> {
-    /// Adds to `shift` (m) the way of strays across the interface. `h` in m, capillary `speed` in m/s, `dt` in s.
+    /// Adds to `shift` (m) the way of isolated particles across the interface. `h` in m, capillary `speed` in m/s, `dt` in s.
     pub fn displace(&self, pairs: &Pairs, h: f64, speed: f64, dt: f64, shift: &mut [Vec2]) {
         let mut back = vec![Vec2::zeros(); shift.len()];
         each(&mut back, |a| {
@@ -61,16 +61,16 @@ impl Sharpening<'_> {
             let share = self.share_of_own_kind(pairs, a) / wedge;
             let n_hat = n.normalize();
             let into_own_phase = if self.side[a] > 0.5 { n_hat } else { -n_hat };
-            let stray = SPEED * speed * (1.0 - share / FEW).max(0.0);
+            let isolated = SPEED * speed * (1.0 - share / FEW).max(0.0);
             // Both phases are pulled across the interface by the same force: the heavy one out, the light one in.
             let pull = -self.weight.dot(&n_hat);
             let sag = SAG * (pull.max(0.0) * h).sqrt() * (1.0 - share / FIRST_LAYER).max(0.0);
-            dt * stray.max(sag) * self.off_the_wall(a, h, into_own_phase)
+            dt * isolated.max(sag) * self.off_the_wall(a, h, into_own_phase)
         });
         shift.iter_mut().zip(&back).for_each(|(shift, back)| *shift += back);
     }
 
-    /// `direction` without its part into a wall nearer than `h` (m): a stray that is pressed against it comes back on no way.
+    /// `direction` without its part into a wall nearer than `h` (m): a particle that is pressed against it comes back on no way.
     fn off_the_wall(&self, a: usize, h: f64, direction: Vec2) -> Vec2 {
         if self.wall_distance[a] < h {
             direction - direction.dot(&self.wall_normal[a]).min(0.0) * self.wall_normal[a]
@@ -115,7 +115,7 @@ mod tests {
         let pairs = Pairs::find(&points, points.len(), &domain, &WendlandC2::new(H));
         let normal = vec![Vec2::new(-0.5 / H, 0.0); points.len()];
         let (ones, far, zeros) = (vec![1.0; 256], vec![f64::INFINITY; 256], vec![Vec2::zeros(); 256]);
-        let strays = Sharpening {
+        let sharpening = Sharpening {
             side: &side,
             normal: &normal,
             fluid_volume: &ones,
@@ -125,7 +125,7 @@ mod tests {
             wall_hysteresis: &vec![[f64::NAN; 2]; 256],
         };
         let mut shift = vec![Vec2::zeros(); points.len()];
-        strays.displace(&pairs, H, 1.0, 0.1, &mut shift);
+        sharpening.displace(&pairs, H, 1.0, 0.1, &mut shift);
         points.into_iter().zip(shift).collect()
     }
 
@@ -138,9 +138,9 @@ mod tests {
 
     #[test]
     fn a_particle_alone_in_the_other_phase_goes_back_across_the_interface() {
-        let stray = Vec2::new(2.5, 0.5);
-        for (x, by) in shifts(Some(stray), Vec2::zeros()) {
-            if x == stray {
+        let isolated = Vec2::new(2.5, 0.5);
+        for (x, by) in shifts(Some(isolated), Vec2::zeros()) {
+            if x == isolated {
                 assert!(by.x < 0.0 && by.y == 0.0, "{by:?}");
             } else {
                 assert_eq!(by, Vec2::zeros(), "at {x:?}");
