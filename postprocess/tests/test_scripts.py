@@ -14,6 +14,7 @@ import pyvista as pv  # noqa: E402
 
 import angle_and_saturation  # noqa: E402
 import check_output  # noqa: E402
+import compare_picture  # noqa: E402
 import field_picture  # noqa: E402
 import movie  # noqa: E402
 import results  # noqa: E402
@@ -130,6 +131,15 @@ class Scripts(unittest.TestCase):
         self.assertTrue(np.isnan(spreading.passing(times, np.array([1.0, 2.0, 2.5]), 3.0)))
         asked = ["--through-base", "1.0", "--through-angle", "30", "--at", "0.001"]
         self.draws("spreading.py", "--picture", "spreading.png", "--above", "0.0", *asked)
+
+    def test_pictures_are_taken_out_of_the_page_of_a_comparison(self):
+        """Those in figures, not the diagram before them."""
+        page = "<svg>diagram</svg><figure><svg>one</svg></figure>\n<figure><svg>two\n</svg></figure>"
+        (self.directory / "compare.html").write_text(page)
+        self.assertEqual(compare_picture.measure(self.directory)["pictures"], ["<svg>one</svg>", "<svg>two\n</svg>"])
+        (self.directory / "compare.html").write_text("<svg>diagram</svg>")
+        with self.assertRaises(ValueError):
+            compare_picture.measure(self.directory)
 
     def test_movies_are_made(self):
         """One range for all frames, all formats."""
