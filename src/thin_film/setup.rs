@@ -15,11 +15,14 @@ use super::solver::{Surroundings, ThinFilmSolver};
 use super::sparse::TooLarge;
 use crate::case::checked::Case;
 use crate::case::film::checked::{
-    FilmEquation, FilmIntegrator, FilmMethod, FilmSums, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
+    FilmDroplet, FilmEquation, FilmIntegrator, FilmMethod, FilmSums, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
 };
 
 /// Scaled first step: a droplet that starts far from rest changes fast.
 const FIRST_STEP: f64 = 1.0e-6;
+/// Longest first step on a grid over the time in which a droplet moves as it begins. Where a small contact angle makes the scale of time
+/// longer than that by far, the scaled first step alone leads to spurious roots.
+const SHARE_OF_DROPLET: f64 = 1.0e-4;
 
 /// A film that cannot be set up.
 #[derive(Debug, thiserror::Error)]
@@ -83,7 +86,7 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
             Film::particles(equation, &masses, state)
         }
         FilmMethod::FiniteDifferences { step_share } => {
-            let rule = StepRule { first: FIRST_STEP, share: step_share, ..StepRule::ADAPTIVE };
+            let rule = StepRule { first: first_step(film, &scales), share: step_share, ..StepRule::ADAPTIVE };
             let (equation, height) = grid(film, &scales, &droplets, wall, pull)?;
             Film::Grid(Box::new(GridFilm::new(equation, height, rule)))
         }
@@ -102,23 +105,25 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
         about_axis: film.symmetry == FilmSymmetry::Axis,
         rest: film.contact_angle.map(|_| 1.0),
         cap_sides: cap_sides(film),
-        is_self_similar: film.contact_angle.is_none()
-            && film.symmetry == FilmSymmetry::Plane
-            && film.gravity == 0.0
-            && film.droplets.len() == 1
-            && right == 0.0,
+        is_self_similar: film.is_self_similar(),
         equilibrium,
     };
     Ok(ThinFilmSolver::new(moving, surroundings))
 }
 
-/// A droplet on a precursor film without gravity rests as a parabola; that of the geometric equation is a cosine.
+/// Scaled first step on a grid: droplets of half width r and height H first move in times of (3μr/γ)(r/H)³.
+fn first_step(film: &ThinFilm, scales: &Scales) -> f64 {
+    let time = |droplet: &FilmDroplet| {
+        let ratio = droplet.half_width / droplet.height;
+        3.0 * film.viscosity * droplet.half_width / film.tension * ratio.powi(3)
+    };
+    let shortest = film.droplets.iter().map(time).fold(f64::INFINITY, f64::min);
+    FIRST_STEP.min(SHARE_OF_DROPLET * shortest / scales.time)
+}
+
+/// Sides of the parabola as which a droplet rests, where it does.
 fn cap_sides(film: &ThinFilm) -> Option<f64> {
-    let is_cap = matches!(film.equation, FilmEquation::Precursor { .. })
-        && film.contact_angle.is_some()
-        && film.gravity == 0.0
-        && film.droplets.len() == 1;
-    is_cap.then_some(match film.symmetry {
+    film.rests_as_cap().then_some(match film.symmetry {
         FilmSymmetry::Plane => 1.0,
         FilmSymmetry::Axis => 2.0,
     })

@@ -27,6 +27,9 @@ const FRAME_PLACES: u32 = 240;
 /// Particles whose ways are kept.
 const WAYS: usize = 12;
 
+/// Scaled time after which a partially wetting film is at rest.
+const LONG: f64 = 100.0;
+
 /// What stands still around the film.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surroundings {
@@ -152,6 +155,16 @@ impl ThinFilmSolver {
         pairs.map(|(v, x)| (v.abs(), *x)).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a })
     }
 
+    /// Why heights fall below 0, and what would help.
+    fn why_negative(&self) -> &'static str {
+        if self.surroundings.rest.is_some() && self.film.time() > LONG {
+            "as films long at rest do (end the run earlier, or take a smaller spacing and a domain that the film does not fill)"
+        } else {
+            "although it still moves: its steps or its spacing are too long for it (take a smaller \
+             thin-film.method.finite-differences.step-share or thin-film.spacing, and a domain that the film does not fill)"
+        }
+    }
+
     fn stuck(&self, stuck: Stuck) -> SolverError {
         let (time, step) = (self.time, self.steps);
         match stuck {
@@ -161,9 +174,10 @@ impl ThinFilmSolver {
                 SolverError::TimeStep { dt, smallest: dt, limit: "accuracy", time, step, place }
             }
             Stuck::Negative => SolverError::BlowUp {
-                what: "the thin film falls below height 0 in all but the shortest steps, as films long at rest do (end the run earlier, \
-                       or take a smaller spacing and a domain that the film does not fill)"
-                    .to_owned(),
+                what: format!(
+                    "the thin film falls below height 0 in all but the shortest steps, {}",
+                    self.why_negative()
+                ),
                 time,
                 step,
                 place: Vec2::new(self.fastest().1 * self.surroundings.scales.length, 0.0),

@@ -32,6 +32,24 @@ fn the_cases_load_and_their_resolved_form_is_the_same_case() {
     }
 }
 
+#[test]
+fn a_film_of_a_tiny_angle_spreads_from_its_first_steps_on_and_its_early_end_is_told() {
+    let wide = [
+        "geometry={ min = [-1.0e-2, 0.0], max = [1.0e-2, 2.0e-4] }",
+        "thin-film.wetting.partial.contact-angle-deg=0.1",
+        "thin-film.spacing=1e-5",
+        "time.end=1.0",
+    ];
+    let case = loaded(&named("partial-wetting"), &wide).case;
+    let mut solver = setup::build(&case).unwrap();
+    advance(solver.as_mut(), &[1.0]);
+    // With steps of 1/200 of the time and a spacing of half the size: 1.2746 mm.
+    let found = solver.sample().into_iter().find(|sample| sample.name == "contact_line_position_m").unwrap();
+    near(found.value, 1.2746e-3, 1.0e-5);
+    let notes = setup::warnings(&case, solver.as_ref(), &Series::default());
+    assert!(notes.iter().any(|note| note.contains("comes to its contact angle")), "{notes:?}");
+}
+
 /// Overrides for each method and option.
 const VARIANTS: [&[&str]; 4] = [
     &["thin-film.method={ particles = {} }", "thin-film.spacing=5e-6"],

@@ -37,6 +37,22 @@ impl ThinFilm {
         (self.viscosity, self.tension, self.density) == SCALED
     }
 
+    /// Whether the droplet rests as a parabola: on a precursor film without gravity. That of the geometric equation is a cosine.
+    #[must_use]
+    pub fn rests_as_cap(&self) -> bool {
+        matches!(self.equation, FilmEquation::Precursor { .. })
+            && self.contact_angle.is_some()
+            && self.gravity == 0.0
+            && self.droplets.len() == 1
+    }
+
+    /// Whether the droplet spreads by the similarity solution about x = 0: one in the plane, completely wetting and without gravity.
+    #[must_use]
+    pub fn is_self_similar(&self) -> bool {
+        let is_alone = matches!(&self.droplets[..], [droplet] if droplet.center == 0.0);
+        self.contact_angle.is_none() && self.symmetry == FilmSymmetry::Plane && self.gravity == 0.0 && is_alone
+    }
+
     /// One unit of each scaled quantity: length along the wall and height in m, time in s. `src/thin_film/scales.rs` tells what they stand for.
     #[must_use]
     pub fn scales(&self) -> [f64; 3] {

@@ -18,6 +18,8 @@ const RATIOS: (f64, f64) = (1e-6, 1e3);
 const FEWEST_IN_RIM: f64 = 2.0;
 /// Times of its own scale that a film moves for; it was at rest long before.
 const MOVES: f64 = 1000.0;
+/// A film that runs for a smaller share of the same time is still far from its contact angle at the end.
+const FAR_FROM_REST: f64 = 0.01;
 /// A usual end in the same times.
 const USUAL_END: f64 = 100.0;
 
@@ -102,6 +104,13 @@ impl ThinFilm {
                  and shorter steps; end = {:.1e} would do",
                 end / time,
                 USUAL_END * time
+            ));
+        }
+        if self.contact_angle.is_some() && end < FAR_FROM_REST * time {
+            notes.push(format!(
+                "the end is {:.1e} of the {time:.1e} s in which this film comes to its contact angle, expected at least {FAR_FROM_REST}: it \
+                 still moves at the end, and angles and shapes are not those at rest; a larger angle or a later end would do",
+                end / time
             ));
         }
         notes
