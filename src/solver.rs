@@ -218,6 +218,24 @@ pub enum Quantity {
     },
 }
 
+impl Quantity {
+    /// Smallest and largest possible value, in the unit of the quantity.
+    #[must_use]
+    pub fn range(self) -> [f64; 2] {
+        match self {
+            Self::Angle => [0.0, 180.0],
+            Self::Saturation => [0.0, 1.0],
+            Self::Pressure { .. } | Self::Energy { .. } => [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
+    /// A change that counts as none, where the quantity is measured without an error bar: of a saturation that of a hundredth.
+    #[must_use]
+    pub fn small(self) -> Option<f64> {
+        matches!(self, Self::Saturation).then_some(0.01)
+    }
+}
+
 /// A solver that the simulation loop can run. It does no I/O and prints nothing; time advances in `step` only.
 pub trait Solver {
     /// Where the run stands on its [`clock`](Self::clock): the time in s, for most solvers.

@@ -11,7 +11,7 @@ use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 
 /// Columns and measures of its table `[sph.measure.capillary-wave]`.
-pub const GROUP: Group = Group { columns, measures };
+pub const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// Amplitude in m of the first Fourier mode along x of the area of the wetting phase, crest in the middle of the box.
 fn columns(flow: &Flow, _: &Observation) -> Columns {

@@ -12,20 +12,65 @@ use crate::sph::measures::{Subject, measure};
 /// liquid swings: the longer the better.
 const BALANCED: f64 = 0.75;
 
+/// Share of the tension that the balance of momentum may miss before a reader must know: the drag is then known no better.
+const LARGEST_ERROR: f64 = 0.01;
+
+/// Mean forces along the wall in N/m over the last three quarters of the time.
+struct Balance {
+    /// Tension times the difference of the cosines of the apparent angles.
+    retention: f64,
+    /// The same with the angles at the wall.
+    wall_retention: f64,
+    /// Pressure and friction of the other fluid.
+    stream: f64,
+    /// All forces but the retention, less the change of momentum.
+    net_drag: f64,
+    tension: f64,
+}
+
+impl Balance {
+    fn of(s: &Subject) -> Self {
+        let (tension, series) = (s.flow.setting.method.tension, s.series);
+        // A mean of cosines: a line that lets go now and then has not the cosine of its mean angle.
+        let cosine = |column: &str| average(series, column, |angle| angle.to_radians().cos());
+        let pull = |advancing: &str, receding: &str| tension * (cosine(receding) - cosine(advancing));
+        let force = |column: &str| average(series, column, |force| force);
+        let stream = force("stream_pressure_N_per_m") + force("stream_friction_N_per_m");
+        let others = force("drive_N_per_m") + force("wall_friction_N_per_m");
+        Self {
+            retention: pull("advancing_angle_deg", "receding_angle_deg"),
+            wall_retention: pull("advancing_wall_angle_deg", "receding_wall_angle_deg"),
+            stream,
+            net_drag: others + stream - rise(series, "drop_momentum_kg_per_m_s"),
+            tension,
+        }
+    }
+
+    /// What the balance misses, over the tension.
+    fn error(&self) -> f64 {
+        (self.net_drag - self.wall_retention) / self.tension
+    }
+}
+
+/// Warns where the forces on the drop do not balance.
+pub fn warnings(s: &Subject) -> Vec<String> {
+    let error = Balance::of(s).error();
+    let told = (error.abs() > LARGEST_ERROR).then(|| {
+        format!(
+            "the forces on the drop along its wall miss the change of its momentum by {error:.3} of the tension: drag and retention are \
+             known no better (momentum-balance-error)"
+        )
+    });
+    told.into_iter().collect()
+}
+
 /// The angles at the wall and the balance of the forces along it.
 pub fn measures(s: &Subject) -> Vec<Measure> {
     let (tension, series) = (s.flow.setting.method.tension, s.series);
+    let balance = Balance::of(s);
+    let (seen, at_wall, drag) = (balance.retention, balance.wall_retention, balance.net_drag);
     let model = "angle at which the wetting model asks the interface to meet the wall; mean over the last quarter of the records";
     let angles = ["advancing_wall_angle_deg", "receding_wall_angle_deg"].map(|column| last_mean(series, column));
-    // A mean of cosines: a line that lets go now and then has not the cosine of its mean angle.
-    let cosine = |column: &str| average(series, column, |angle| angle.to_radians().cos());
-    let pull = |advancing: &str, receding: &str| tension * (cosine(receding) - cosine(advancing));
-    let seen = pull("advancing_angle_deg", "receding_angle_deg");
-    let at_wall = pull("advancing_wall_angle_deg", "receding_wall_angle_deg");
-    let force = |column: &str| average(series, column, |force| force);
-    let stream = force("stream_pressure_N_per_m") + force("stream_friction_N_per_m");
-    let drag =
-        force("drive_N_per_m") + force("wall_friction_N_per_m") + stream - rise(series, "drop_momentum_kg_per_m_s");
     let static_angle = s.flow.setting.method.wetting.map_or(f64::NAN, |model| model.static_angle());
     let retention = "tension times (cosine of the receding less that of the advancing angle), mean over the last three quarters of the time";
     vec![
@@ -42,7 +87,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
         measure("wall-retention-N-per-m", at_wall, "N/m", None, "the same with the angles at the wall"),
         measure(
             "stream-drag-N-per-m",
-            stream,
+            balance.stream,
             "N/m",
             None,
             "pressure of the other fluid on the interface less buoyancy, and its friction, ahead; mean over the last three quarters of the time",
@@ -62,6 +107,13 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
             "",
             None,
             "net drag over the retention by the angles at the wall",
+        ),
+        measure(
+            "momentum-balance-error",
+            balance.error(),
+            "",
+            None,
+            "net drag less the retention by the angles at the wall, over the tension",
         ),
     ]
 }

@@ -14,7 +14,7 @@ use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 
 /// Columns and measures of its table `[sph.measure.oscillating-drop]`.
-pub const GROUP: Group = Group { columns, measures };
+pub const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// The fit begins after this part of the inviscid period: until then the vorticity of the start spreads.
 const LEFT_OUT: f64 = 0.25;

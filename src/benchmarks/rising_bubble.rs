@@ -3,16 +3,17 @@
 use std::f64::consts::PI;
 
 use super::moments::Moments;
+use super::series::{Extremum, extremum, pairs};
 use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
-use crate::solver::Measure;
+use crate::solver::{Measure, Series};
 use crate::sph::flow::Flow;
 use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 
 /// Columns and measures of its table `[sph.measure.rising-bubble]`.
-pub const GROUP: Group = Group { columns, measures };
+pub const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// Height of the center, mean speed against gravity, and circularity.
 fn columns(flow: &Flow, seen: &Observation) -> Columns {
@@ -42,7 +43,19 @@ fn circularity(interface: &[Polyline]) -> f64 {
     largest.map_or(f64::NAN, |line| 2.0 * (PI * line.signed_area().abs()).sqrt() / line.length())
 }
 
+/// The largest (`sign` = 1) or smallest (−1) value of a column, between records.
+fn turn(series: &Series, column: &str, sign: f64) -> Extremum {
+    let (times, values) = pairs(series, column);
+    let known = values.iter().enumerate().filter(|(_, value)| value.is_finite());
+    let row = known.max_by(|a, b| (sign * a.1).total_cmp(&(sign * b.1))).map(|(row, _)| row);
+    // No record has a value: there is no such row either.
+    extremum(&times, &values, row.unwrap_or(values.len()))
+}
+
 fn measures(s: &Subject) -> Vec<Measure> {
+    let fastest = turn(s.series, "bubble_speed_m_per_s", 1.0);
+    let least = turn(s.series, "bubble_circularity", -1.0);
+    let between = "over all records, by the parabola through the three records there";
     vec![
         measure(
             "rise-center-m",
@@ -53,17 +66,19 @@ fn measures(s: &Subject) -> Vec<Measure> {
         ),
         measure(
             "max-rise-velocity",
-            s.series.column("bubble_speed_m_per_s").fold(f64::NAN, f64::max),
+            fastest.value,
             "m/s",
-            None,
-            "largest mean speed of the wetting particles against gravity over the records",
+            Some(fastest.value_error),
+            &format!("largest mean speed of the wetting particles against gravity {between}"),
         ),
         measure(
             "min-circularity",
-            s.series.column("bubble_circularity").fold(f64::NAN, f64::min),
+            least.value,
             "",
-            None,
-            "least circumference of the circle of equal area over the length of the c = 0.5 contour",
+            Some(least.value_error),
+            &format!(
+                "least circumference of the circle of equal area over the length of the c = 0.5 contour {between}"
+            ),
         ),
     ]
 }

@@ -11,7 +11,7 @@ use crate::sph::open::OpenSide;
 use crate::sph::particles::Phase;
 
 /// Columns and measures of its table `[sph.measure.slit-filling]`.
-pub const GROUP: Group = Group { columns, measures };
+pub const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// The side that the wetting phase comes in through: the first open one that it stands at or that it enters through.
 pub(super) fn entry(flow: &Flow) -> Option<&OpenSide> {

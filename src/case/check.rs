@@ -3,6 +3,7 @@
 use super::checked::{Compression, Expectation, Model, Output};
 use super::measures::{Offer, offers, unmeasured};
 use super::raw::{RawCase, RawCompression, RawEvery, RawExpectation};
+use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 
 /// Most records of one kind: more files than a folder should hold.
@@ -159,10 +160,15 @@ fn every(
     interval
 }
 
-/// The expectations that are whole.
-pub(super) fn expectations(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -> Vec<Expectation> {
+/// The expectations that are whole; `model` and `geometry` are missing where they were wrong.
+pub(super) fn expectations(
+    checker: &mut Checker,
+    raw: &RawCase,
+    model: Option<&Model>,
+    geometry: Option<&GeometrySpec>,
+) -> Vec<Expectation> {
     let is_steady = raw.time.as_ref().is_some_and(|time| time.steady.is_some());
-    let offers = model.map(|model| offers(model, is_steady));
+    let offers = model.map(|model| offers(model, geometry, is_steady));
     let raw = raw.expect.iter().flatten().enumerate();
     let one = |(index, raw)| expectation(checker, &format!("expect[{index}]"), raw, offers.as_deref());
     raw.filter_map(one).collect()

@@ -133,7 +133,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     let output = check::output(&mut checker, raw, end, in_spacings(geometry.as_ref(), model.as_ref()));
     let steady = steady::steady(&mut checker, raw, end, &output);
     permeability::records(&mut checker, model.as_ref(), (end, steady.is_some()), &output);
-    let expect = check::expectations(&mut checker, raw, model.as_ref());
+    let expect = check::expectations(&mut checker, raw, model.as_ref(), geometry.as_ref());
     magnitudes(&mut checker, "sph", raw.sph.as_ref());
     magnitudes(&mut checker, "thin-film", raw.thin_film.as_ref());
     magnitudes(&mut checker, "network", raw.network.as_ref());

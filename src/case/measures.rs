@@ -1,12 +1,15 @@
 //! The measures of each solver by name, and the groups of them that a case can ask for; each is a table `[sph.measure.NAME]`.
 
-use super::checked::Model;
+use super::checked::{Drive, Model, Side, Sph};
+use super::film::checked::{FilmEquation, FilmMethod, ThinFilm};
 use super::raw::{Empty, RawMeasures};
+use crate::geometry::spec::GeometrySpec;
 use crate::input::nearest;
 
 /// Measures of every direct simulation.
-const EVERY_RUN: &[&str] =
-    &["density-error", "largest-density-error", "smallest-wall-distance-m", "smallest-particle-distance-ratio"];
+const EVERY_RUN: &[&str] = &["density-error", "largest-density-error", "smallest-particle-distance-ratio"];
+/// That of one with a wall.
+const WITH_WALLS: &[&str] = &["smallest-wall-distance-m"];
 /// Those of one with a tension.
 const WITH_TENSION: &[&str] = &[
     "saturation",
@@ -17,20 +20,22 @@ const WITH_TENSION: &[&str] = &[
     "wetting-blobs",
     "below-resolution-share",
     "small-pieces",
+    "most-small-pieces",
 ];
 /// Those of one with a wetting model too.
 const WITH_WETTING: &[&str] = &["contact-angle-deg", "requested-angle-deg"];
 /// Those of one with open sides, or with a given flow through periodic ones.
-const OPEN_SIDES: &[&str] = &[
-    "balance-error",
-    "open-area-drift",
-    "inflow-m2-per-s",
-    "asked-inflow-m2-per-s",
-    "inflow-ratio",
-    "largest-flow-rate-error",
-    "driving-pressure-drop-Pa",
-    "burst-pressure-Pa",
-];
+const OPEN_SIDES: &[&str] = &["balance-error", "open-area-drift", "inflow-m2-per-s"];
+/// Those of one with a given velocity or flow rate, at an inlet or through periodic sides.
+const GIVEN_FLOW: &[&str] = &["asked-inflow-m2-per-s", "inflow-ratio"];
+/// Those of one with a given flow through periodic sides.
+const PERIODIC_FLOW: &[&str] = &["largest-flow-rate-error", "driving-pressure-drop-Pa"];
+/// That of one with a pressure that rises in steps.
+const PRESSURE_STEPS: &[&str] = &["burst-pressure-Pa"];
+/// Those of the permeability tensor by the force along x.
+const PERMEABILITY_X: &[&str] = &["permeability-xx-m2", "permeability-yx-m2", "unsteady-share-x"];
+/// The same along y.
+const PERMEABILITY_Y: &[&str] = &["permeability-xy-m2", "permeability-yy-m2", "unsteady-share-y"];
 /// Those of every pore network.
 const NETWORK: &[&str] = &[
     "porosity",
@@ -72,25 +77,21 @@ const NETWORK_IN_TIME: &[&str] = &[
     "balance-error",
     "solves-per-event",
 ];
-/// Those of a thin film.
-const THIN_FILM: &[&str] = &[
-    "contact-line-position",
-    "center-height",
-    "contact-angle-deg",
-    "droplet-count",
-    "contact-line-exponent",
-    "last-particle-position",
-    "last-particle-exponent",
-    "contact-angle-ratio",
-    "cap-angle-ratio",
-    "equilibrium-l1-error",
-    "cox-voinov-ratio",
-    "cox-voinov-length-m",
-    "cox-voinov-error",
-    "similarity-curvature",
-    "similarity-error",
-    "lattice-slope-ratio",
-];
+/// Those of every thin film.
+const THIN_FILM: &[&str] =
+    &["contact-line-position", "center-height", "contact-angle-deg", "droplet-count", "contact-line-exponent"];
+/// Those of one of particles.
+const FILM_PARTICLES: &[&str] = &["last-particle-position", "last-particle-exponent", "lattice-slope-ratio"];
+/// That of one with an angle of rest.
+const FILM_ANGLE: &[&str] = &["contact-angle-ratio"];
+/// That of a droplet that rests as a parabola.
+const FILM_CAP: &[&str] = &["cap-angle-ratio"];
+/// That of a droplet whose form at rest is known.
+const FILM_REST: &[&str] = &["equilibrium-l1-error"];
+/// Those of one with an angle of rest that is no parabola.
+const FILM_COX_VOINOV: &[&str] = &["cox-voinov-ratio", "cox-voinov-length-m", "cox-voinov-error"];
+/// Those of a droplet that spreads by the similarity solution.
+const FILM_SIMILARITY: &[&str] = &["similarity-curvature", "similarity-error"];
 /// That of a run with an end by a criterion.
 const STEADY: &[&str] = &["steady-at-s"];
 
@@ -111,30 +112,84 @@ impl Offer {
     }
 }
 
-/// All measures that the solver of a model knows; `is_steady` where the case has `[time.steady]`.
+/// All measures that the solver of a model knows, those that the case does not have among them; `geometry` is missing where it was wrong,
+/// `is_steady` where the case has `[time.steady]`.
 #[must_use]
-pub fn offers(model: &Model, is_steady: bool) -> Vec<Offer> {
+pub fn offers(model: &Model, geometry: Option<&GeometrySpec>, is_steady: bool) -> Vec<Offer> {
     let steady = Offer::new(STEADY, "[time.steady]", is_steady);
     match model {
         Model::Sph(sph) => {
-            let has_wetting = sph.wetting_model.is_some();
-            let mut all = vec![
-                steady,
-                Offer::new(EVERY_RUN, "every run", true),
-                Offer::new(WITH_TENSION, "two phases with a tension above 0", sph.tension > 0.0),
-                Offer::new(WITH_WETTING, "a wetting model, such as [sph.wetting.young]", has_wetting),
-                Offer::new(OPEN_SIDES, "open sides or a given flow", true),
-            ];
-            all.extend(sph.measure.offers());
-            all
+            let has_shapes = geometry.is_none_or(|geometry| !geometry.shapes.is_empty());
+            let of_flow = of_flow(sph, has_shapes).into_iter().chain(of_open_sides(sph)).chain(of_permeability(sph));
+            std::iter::once(steady).chain(of_flow).chain(sph.measure.offers()).collect()
         }
-        Model::ThinFilm(_) => vec![steady, Offer::new(THIN_FILM, "a thin film", true)],
+        Model::ThinFilm(film) => std::iter::once(steady).chain(of_film(film)).collect(),
         Model::Network(network) => vec![
             Offer::new(NETWORK, "a network", true),
             Offer::new(NETWORK_QUASI_STATIC, "quasi-static displacement", !network.is_dynamic()),
             Offer::new(NETWORK_IN_TIME, "[network.dynamic]", network.is_dynamic()),
         ],
     }
+}
+
+/// The measures of every direct simulation and those of its walls, tension and wetting.
+fn of_flow(sph: &Sph, has_shapes: bool) -> [Offer; 4] {
+    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let has_walls = has_shapes || sides.contains(&Side::Wall);
+    [
+        Offer::new(EVERY_RUN, "every run", true),
+        Offer::new(WITH_WALLS, "a solid or a side that is a wall", has_walls),
+        Offer::new(WITH_TENSION, "two phases with a tension above 0", sph.tension > 0.0),
+        Offer::new(WITH_WETTING, "a wetting model, such as [sph.wetting.young]", sph.wetting_model.is_some()),
+    ]
+}
+
+/// The measures of what passes through the sides.
+fn of_open_sides(sph: &Sph) -> [Offer; 4] {
+    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let open = || sides.iter().zip(&sph.open).filter_map(|(side, open)| Some((*side, (*open)?)));
+    let is_given = open().any(|(_, open)| !matches!(open.drive, Drive::Pressure(_)));
+    let has_steps = open().any(|(_, open)| open.pressure_steps.is_some());
+    let is_periodic = open().any(|(side, _)| side == Side::Periodic);
+    [
+        Offer::new(OPEN_SIDES, "open sides or a given flow through periodic ones", open().next().is_some()),
+        Offer::new(GIVEN_FLOW, "a velocity or a flow-rate in [sph.sides.open]", is_given),
+        Offer::new(PERIODIC_FLOW, "a given flow through periodic sides", is_periodic),
+        Offer::new(PRESSURE_STEPS, "pressure-steps in [sph.sides.open]", has_steps),
+    ]
+}
+
+/// The entries of the permeability tensor: a column for each axis with a force.
+fn of_permeability(sph: &Sph) -> [Offer; 2] {
+    let is_measured = |axis: usize| sph.measure.permeability && sph.gravity[axis] != 0.0;
+    [
+        Offer::new(PERMEABILITY_X, "[sph.measure.permeability] and an sph.gravity along x", is_measured(0)),
+        Offer::new(PERMEABILITY_Y, "[sph.measure.permeability] and an sph.gravity along y", is_measured(1)),
+    ]
+}
+
+/// The measures of a thin film.
+fn of_film(film: &ThinFilm) -> [Offer; 7] {
+    let has_angle = film.contact_angle.is_some();
+    let is_particles = matches!(film.method, FilmMethod::Particles { .. });
+    let is_known = has_angle && matches!(film.equation, FilmEquation::Geometric { .. }) && film.droplets.len() == 1;
+    [
+        Offer::new(THIN_FILM, "a thin film", true),
+        Offer::new(FILM_PARTICLES, "[thin-film.method.particles]", is_particles),
+        Offer::new(FILM_ANGLE, "[thin-film.wetting.partial]", has_angle),
+        Offer::new(FILM_CAP, "one partially wetting droplet on a precursor film without gravity", film.rests_as_cap()),
+        Offer::new(FILM_REST, "one partially wetting droplet of the geometric equation", is_known),
+        Offer::new(
+            FILM_COX_VOINOV,
+            "[thin-film.wetting.partial] where no droplet rests as a parabola",
+            has_angle && !film.rests_as_cap(),
+        ),
+        Offer::new(
+            FILM_SIMILARITY,
+            "one completely wetting droplet about x = 0 in the plane without gravity",
+            film.is_self_similar(),
+        ),
+    ]
 }
 
 /// What is wrong with the name of a measure that the case does not have, and a way out; none where the case has it.
@@ -217,14 +272,14 @@ groups! {
     cavity: ["u-min", "v-max", "v-min"],
     /// Drag on the solids of a periodic cell that a body force drives fluid through.
     cylinder_array: ["drag-over-mu-u", "mean-velocity-m-per-s", "permeability-m2", "unsteady-share"],
-    /// Permeability tensor of a periodic cell by a body force along each axis in turn.
-    permeability: ["permeability-xx-m2", "permeability-xy-m2", "permeability-yx-m2", "permeability-yy-m2", "unsteady-share-x", "unsteady-share-y"],
+    /// Permeability tensor of a periodic cell by a body force along each axis in turn: see `of_permeability`.
+    permeability: [],
     /// Capillary pressure of a meniscus in the throat between two bodies; between discs over the exact entry pressure.
     throat_entry: ["entry-pressure-Pa", "entry-pressure-ratio", "entry-curvature-ratio"],
     /// Difference of the mean levels on both sides of a plate.
     jurin: ["rise-difference-m", "rise-ratio"],
     /// Angles, speeds and forces of a drop that moves or is held on a wall.
-    moving_drop: ["advancing-angle-deg", "receding-angle-deg", "advancing-speed-m-per-s", "receding-speed-m-per-s", "advancing-way-m-per-s", "receding-way-m-per-s", "advancing-capillary-number", "receding-capillary-number", "advancing-wall-angle-deg", "receding-wall-angle-deg", "adhesion-tension-N-per-m", "retention-N-per-m", "wall-retention-N-per-m", "stream-drag-N-per-m", "net-drag-N-per-m", "drag-over-retention", "drag-over-wall-retention", "detachment-time-s"],
+    moving_drop: ["advancing-angle-deg", "receding-angle-deg", "advancing-speed-m-per-s", "receding-speed-m-per-s", "advancing-way-m-per-s", "receding-way-m-per-s", "advancing-capillary-number", "receding-capillary-number", "advancing-wall-angle-deg", "receding-wall-angle-deg", "adhesion-tension-N-per-m", "retention-N-per-m", "wall-retention-N-per-m", "stream-drag-N-per-m", "net-drag-N-per-m", "drag-over-retention", "drag-over-wall-retention", "momentum-balance-error", "detachment-time-s"],
     /// Exponent of a drop that spreads.
     spreading: ["spreading-exponent"],
     /// Filled length of a slit between two open sides.

@@ -48,8 +48,11 @@ pub fn schema() -> Value {
     let models = branches(&schema["properties"], &MODELS);
     schema["oneOf"] = models;
     for (table, key, range) in RANGES {
+        let key = &mut schema["$defs"][table]["properties"][key];
+        // Of several numbers each has the range.
+        let number = if key["type"] == "array" { &mut key["items"] } else { key };
         for (keyword, limit) in range.keywords() {
-            schema["$defs"][table]["properties"][key][keyword] = limit;
+            number[keyword] = limit;
         }
     }
     for (table, required) in REQUIRED {

@@ -11,10 +11,11 @@ use super::source::Source;
 use super::summary::summary;
 use super::threads::pool;
 use super::{interrupt, source};
+use crate::case::checked::Case;
 use crate::run::execute::{Finished, Job, Mode, RunError, execute};
 use crate::run::report::Status;
 use crate::run::{folder, setup};
-use crate::solver::Solver;
+use crate::solver::{Series, Solver};
 
 /// Runs a case; the exit code says how it ended.
 pub fn run(arguments: &RunArguments) -> Result<u8, Failure> {
@@ -46,6 +47,9 @@ pub(super) fn finish(
     let finished = pool(threads)?.install(|| -> Result<Finished, Failure> {
         let mut solver = built(source, mode)?;
         tell(format_args!("{} -> {}", job.case.title, job.folder.display()));
+        if mode == Mode::New {
+            tell_warnings(&source.case, solver.as_ref());
+        }
         let flag = interrupt::flag();
         let mut display = ProgressDisplay::new();
         let finished = execute(&job, solver.as_mut(), &flag, &mut display);
@@ -68,6 +72,13 @@ pub(super) fn built(source: &Source, mode: Mode) -> Result<Box<dyn Solver>, Fail
     };
     display.finish();
     solver.map_err(|error| source.refused(&error))
+}
+
+/// Tells what a reader should know before a long run rather than after it.
+fn tell_warnings(case: &Case, solver: &dyn Solver) {
+    for warning in setup::warnings(case, solver, &Series::default()) {
+        tell(format_args!("  WARNING     {warning}"));
+    }
 }
 
 fn failure(error: &RunError) -> Failure {

@@ -77,6 +77,18 @@ fn requested_angle(case: &Case) -> Option<String> {
     Some(if smallest == largest { format!("{smallest:.1}") } else { format!("{smallest:.1} to {largest:.1}") })
 }
 
+/// Beginnings of the methods by which angles are measured, and their short names.
+const METHODS: [(&str, &str); 3] = [
+    ("circles fitted", " by circles"),
+    ("arcs of Young and Laplace fitted", " by Young-Laplace arcs"),
+    ("angle of the tangent", " by the steepest tangent"),
+];
+
+/// A short name of the method of a contact angle; empty where it has none.
+fn short_method(method: &str) -> &'static str {
+    METHODS.iter().find(|(start, _)| method.starts_with(start)).map_or("", |(_, name)| name)
+}
+
 fn with_uncertainty(reading: &Reading) -> String {
     let Some(value) = reading.value else { return format!("not measured ({})", reading.method) };
     // A count, such as that of blobs.
@@ -86,7 +98,8 @@ fn with_uncertainty(reading: &Reading) -> String {
     let uncertainty = reading.uncertainty.map_or(String::new(), |u| format!(" +- {}", readable(u)));
     let motion = reading.not_at_rest.as_ref();
     let motion = motion.map_or(String::new(), |m| format!(", not at rest: {} {}", readable(m.rate), m.unit));
-    format!("{}{uncertainty} {}", readable(value), reading.unit).trim_end().to_owned() + &motion
+    let found = format!("{}{uncertainty} {}", readable(value), reading.unit);
+    found.trim_end().to_owned() + short_method(&reading.method) + &motion
 }
 
 fn push_angles(text: &mut String, report: &Report) {
@@ -159,7 +172,7 @@ mod tests {
             value: Some(41.3),
             unit: "deg".into(),
             uncertainty: Some(1.2),
-            method: "circle fit".into(),
+            method: "circles fitted to the contour".into(),
             not_at_rest: Some(Motion { rate: -7.0, unit: "deg/s".into() }),
         };
         finished.report.warnings.push("three particles fly alone".into());
@@ -175,7 +188,7 @@ mod tests {
         let text = summary(&finished);
         for words in [
             "Particles on circles\ndone at t = 1.000 s, step 50",
-            "requested 40.0 deg, measured 41.30 +- 1.200 deg, not at rest: -7.000 deg/s",
+            "requested 40.0 deg, measured 41.30 +- 1.200 deg by circles, not at rest: -7.000 deg/s",
             "  WARNING     three particles fly alone\n",
             "radius-m           0.3333 +- 1.000e-9 m",
             "blobs              2\n",

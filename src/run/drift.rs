@@ -31,6 +31,12 @@ impl Drift {
         let rate = slope(windows[2], index);
         (left.is_finite() && rate.is_finite()).then_some(Self { left, rate })
     }
+
+    /// The same for a quantity that cannot leave the range `[least, most]`, and has come to `value`.
+    #[must_use]
+    pub fn within(self, [least, most]: [f64; 2], value: f64) -> Self {
+        Self { left: self.left.min((value - least).max(most - value)), ..self }
+    }
 }
 
 /// Slope of the straight line of least squares through a column of `rows` over the time in their first column.
@@ -67,6 +73,14 @@ mod tests {
         let swing = Drift::of(&series(|t| 60.0 + (40.0 * t).sin()), "angle").unwrap();
         assert!(swing.left > 0.9, "{swing:?}");
         assert_eq!(Drift::of(&series(|_| 60.0), "angle"), Some(Drift { left: 0.0, rate: 0.0 }));
+    }
+
+    #[test]
+    fn what_is_left_does_not_exceed_what_is_possible() {
+        let emptying = Drift::of(&series(|t| 1.0 - 0.8 * t), "angle").unwrap();
+        assert!(emptying.left > 1.0, "{emptying:?}");
+        assert_eq!(emptying.within([0.0, 1.0], 0.2).left, 0.8);
+        assert_eq!(emptying.within([f64::NEG_INFINITY, f64::INFINITY], 0.2), emptying);
     }
 
     #[test]

@@ -178,15 +178,18 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
     }
 }
 
+/// The picture of the present state as PNG.
+pub(super) fn drawn(title: &str, solver: &dyn Solver, results: &Results<'_>) -> Result<Vec<u8>, PictureError> {
+    match results.mosaics.first() {
+        Some(mosaic) => mosaic_picture(mosaic, title),
+        None => picture(&solver.snapshot(), &solver.outline(), title),
+    }
+}
+
 /// Draws the state at the end. A picture that cannot be drawn does not spoil a run; one that cannot be written does.
 fn draw(job: &Job<'_>, solver: &dyn Solver, results: &Results<'_>) -> Result<Result<PathBuf, PictureError>, FileError> {
     let path: &Path = &job.folder.join("picture.png");
-    let title = &job.case.title;
-    let drawn = match results.mosaics.first() {
-        Some(mosaic) => mosaic_picture(mosaic, title),
-        None => picture(&solver.snapshot(), &solver.outline(), title),
-    };
-    match drawn {
+    match drawn(&job.case.title, solver, results) {
         Ok(png) => atomic::write(path, &png).map(|()| Ok(path.to_path_buf())),
         Err(error) => Ok(Err(error)),
     }

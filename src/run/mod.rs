@@ -11,6 +11,7 @@ pub mod compare;
 pub mod drift;
 pub mod execute;
 pub mod folder;
+pub mod memory;
 #[cfg(test)]
 pub(crate) mod mock;
 pub mod numbers;

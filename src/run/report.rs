@@ -10,7 +10,7 @@ use super::numbers::{Length, Number};
 use super::steady::Steadiness;
 use crate::case::checked::{Case, Expectation};
 use crate::io::{FileError, atomic};
-use crate::solver::{Clock, Measure, PartTime, Series, Statistics, Watched};
+use crate::solver::{Clock, Measure, PartTime, Quantity, Series, Statistics, Watched};
 
 /// Name of the file.
 pub const REPORT: &str = "report.json";
@@ -196,9 +196,11 @@ pub fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) ->
         .map(|m| {
             let at_one_time = m.uncertainty.and_then(finite);
             let column = m.name.replace('-', "_");
-            let drift = watched.iter().any(|one| one.column == column).then(|| Drift::of(series, &column)).flatten();
+            let kind = watched.iter().find(|one| one.column == column).map(|one| one.kind);
+            let drift = kind.and_then(|kind| Some(Drift::of(series, &column)?.within(kind.range(), m.value)));
+            let known = at_one_time.or(kind.and_then(Quantity::small));
             let uncertainty = drift.map_or(at_one_time, |drift| Some(at_one_time.unwrap_or(0.0).hypot(drift.left)));
-            let moves = drift.filter(|drift| at_one_time.is_some_and(|known| drift.left > known));
+            let moves = drift.filter(|drift| known.is_some_and(|known| drift.left > known));
             let not_at_rest = moves.map(|drift| Motion { rate: drift.rate, unit: format!("{}/s", m.unit) });
             (m.name, Reading { value: finite(m.value), unit: m.unit, uncertainty, method: m.method, not_at_rest })
         })

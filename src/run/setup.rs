@@ -1,5 +1,6 @@
 //! From a checked case to its solver: the one place that knows both.
 
+use super::memory::{self, NoRoom};
 use crate::case::checked::{Case, Model, Sph};
 use crate::case::{Facts, check_against};
 use crate::geometry::Geometry;
@@ -20,6 +21,9 @@ pub enum SetupError {
     /// The network cannot be set up.
     #[error("{0}")]
     Network(#[from] network::setup::SetupError),
+    /// The direct simulation needs more memory than there is.
+    #[error("{0}")]
+    Memory(#[from] NoRoom),
 }
 
 impl SetupError {
@@ -32,6 +36,7 @@ impl SetupError {
             Self::Sph(error) => error.key(),
             Self::ThinFilm(error) => error.key(),
             Self::Network(error) => error.key(),
+            Self::Memory(_) => "sph.spacing".to_owned(),
         };
         vec![Problem::of_text(key, &self.to_string())]
     }
@@ -52,6 +57,7 @@ pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
 pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => {
+            memory(case, sph)?;
             let solver = sph::setup::build_watched(case, sph, packed)?;
             Ok(Box::new(solver.measuring(benchmarks::asked_for(&sph.measure))))
         }
@@ -67,11 +73,25 @@ pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn
 pub fn build_to_resume(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => {
+            memory(case, sph)?;
             let solver = sph::setup::build_to_resume(case, sph)?;
             Ok(Box::new(solver.measuring(benchmarks::asked_for(&sph.measure))))
         }
         Model::ThinFilm(_) | Model::Network(_) => build(case),
     }
+}
+
+/// Whether there is memory for the particles of a case, as far as the system tells.
+fn memory(case: &Case, sph: &Sph) -> Result<(), SetupError> {
+    let Some(available) = memory::available() else { return Ok(()) };
+    let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
+    let area = size.x * size.y;
+    // The pore is measured where the domain would not fit.
+    if memory::holds(area, sph.spacing, available).is_err() {
+        let porosity = sph::setup::geometry(case, sph)?.porosity().value;
+        memory::holds(porosity * area, sph.spacing, available)?;
+    }
+    Ok(())
 }
 
 /// What is wrong with a case on its real geometry: throats that are not resolved, phases inside the solid, open sides without an opening.

@@ -4,8 +4,11 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use super::execute::drawn;
 use super::schedule::Schedule;
+use super::sink::compression;
 use crate::case::checked::Case;
+use crate::io::vtk;
 use crate::solver::{Solver, SolverError};
 
 /// Steps that are tried; the first ones set up what later ones reuse.
@@ -73,8 +76,12 @@ fn trial_within(
     let per_step = if more == 0 { first_s } else { (clock.elapsed().as_secs_f64() - first_s) / more as f64 };
     // What a record takes, in time and memory.
     let before_record = clock.elapsed().as_secs_f64();
-    drop((solver.sample(), solver.snapshot().time, solver.state().len()));
+    let record = (solver.sample(), solver.snapshot(), solver.state());
     let per_record = clock.elapsed().as_secs_f64() - before_record;
+    // A run needs most memory where it draws its picture while a record is on its way into files.
+    let content = vtk::points(&record.1.particles, record.1.time, compression(&case.output));
+    let picture = drawn(&case.title, solver, &solver.results());
+    drop((record, content, picture));
     // Steps that grow with the time are cut at every record, most of them late in the run.
     let records = case.end / case.output.series_every.min(case.output.vtk_every).min(case.output.restart_every);
     let known = solver.steps_to(case.end).map(|left| (left + solver.steps() as f64 + records).ceil());

@@ -33,5 +33,6 @@ pub mod state;
 pub mod surface_force;
 pub mod terms;
 pub mod time_step;
+pub mod unresolved;
 pub mod warnings;
 pub mod wetting;

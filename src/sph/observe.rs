@@ -14,6 +14,7 @@ use crate::interface::wall::clip;
 use crate::math::Vec2;
 use crate::sph::flow::Flow;
 use crate::sph::particles::Phase;
+use crate::sph::unresolved::Unresolved;
 
 /// Grid nodes beyond a wall side, so that the contour reaches the wall before it is cut off there.
 const MARGIN: usize = 2;
@@ -33,6 +34,8 @@ pub struct Observation {
     pub wetted_length: f64,
     /// Connected parts of the wetting phase, the largest first.
     pub wetting_blobs: Vec<Blob>,
+    /// Parts of both phases that the particles do not resolve.
+    pub unresolved: Unresolved,
 }
 
 impl Observation {
@@ -64,12 +67,14 @@ impl Observation {
         };
         let is_wetting: Vec<bool> = color.iter().map(|c| *c > 0.5).collect();
         let link = LINK * flow.setting.method.spacing;
+        let wetting_blobs = blobs(samples.points, volumes, &is_wetting, link, samples.period);
         Self {
             contact_lines: contact_lines(&interface, &wall_point, &settings),
             areas,
             capillary_pressure: capillary_pressure(&samples, &interface, &wall_point),
             wetted_length: wetted_length(wall, &wall_color).wetting,
-            wetting_blobs: blobs(samples.points, volumes, &is_wetting, link, samples.period),
+            unresolved: Unresolved::of(flow, &wetting_blobs),
+            wetting_blobs,
             interface,
         }
     }

@@ -90,6 +90,20 @@ impl SphSolver {
         (0..p.fluids).map(energy).sum()
     }
 
+    fn subject<'a>(&'a self, series: &'a Series) -> Subject<'a> {
+        let around = &self.surroundings;
+        Subject {
+            flow: &self.flow,
+            seen: self.observe(),
+            start: self.start,
+            series,
+            discs: &around.discs,
+            plates: &around.plates,
+            wall_speeds: around.wall_speeds,
+            stages: around.stages.as_ref(),
+        }
+    }
+
     fn momentum(&self) -> Vec2 {
         let (p, m) = (&self.flow.state.particles, &self.flow.setting.method);
         (0..p.fluids).map(|a| m.fluid(p.phase[a]).density * m.volume * p.velocity[a]).sum()
@@ -143,6 +157,7 @@ impl Solver for SphSolver {
             ("non_wetting_area_m2", seen.areas.non_wetting),
             ("contact_lines", seen.contact_lines.len() as f64),
             ("wetting_blobs", seen.wetting_blobs.len() as f64),
+            ("small_pieces", seen.unresolved.small_pieces as f64),
             ("momentum_x_kg_per_m_s", momentum.x),
             ("momentum_y_kg_per_m_s", momentum.y),
         ];
@@ -167,25 +182,17 @@ impl Solver for SphSolver {
     }
 
     fn measures(&self, series: &Series) -> Vec<Measure> {
-        let (seen, around) = (self.observe(), &self.surroundings);
-        let subject = Subject {
-            flow: &self.flow,
-            seen,
-            start: self.start,
-            series,
-            discs: &around.discs,
-            plates: &around.plates,
-            wall_speeds: around.wall_speeds,
-            stages: around.stages.as_ref(),
-        };
-        all(&subject, &self.groups)
+        all(&self.subject(series), &self.groups)
     }
 
     fn warnings(&self, series: &Series) -> Vec<String> {
         let area = self.observe().areas.wetting;
         let of_permeability = |stages| permeability::warnings(&self.flow, stages, series, area);
         let of_tensor = self.surroundings.stages.as_ref().map(of_permeability);
-        warnings(&self.flow, self.observe()).into_iter().chain(of_tensor.into_iter().flatten()).collect()
+        let subject = self.subject(series);
+        let of_groups = self.groups.iter().flat_map(|group| (group.warnings)(&subject));
+        let of_flow = warnings(&self.flow, self.observe(), series);
+        of_flow.into_iter().chain(of_tensor.into_iter().flatten()).chain(of_groups).collect()
     }
 
     fn results(&self) -> Results<'_> {

@@ -13,6 +13,7 @@ use super::folder::StudyFolder;
 use super::results::{Standing, standing};
 use super::runs::{PlannedRun, Run};
 use crate::io::{FileError, atomic};
+use crate::run::memory;
 
 /// Exit codes of a process that does one run.
 pub mod code {
@@ -85,16 +86,10 @@ struct Worker {
     begun: Instant,
 }
 
-/// Memory that runs may take in bytes, where the system tells: a share of what is free, within the limit of the group of
-/// processes that this one belongs to.
+/// Memory that runs may take in bytes, where the system tells: a share of what is free.
 #[must_use]
 pub fn free_memory() -> Option<u64> {
-    const BYTES_PER_KIBIBYTE: u64 = 1024;
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let free = line.split_whitespace().next()?.parse::<u64>().ok()? * BYTES_PER_KIBIBYTE;
-    let limit = std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok().and_then(|text| text.trim().parse().ok());
-    Some((free.min(limit.unwrap_or(u64::MAX)) as f64 * MEMORY_SHARE) as u64)
+    memory::free().map(|free| (free as f64 * MEMORY_SHARE) as u64)
 }
 
 /// Memory that is kept for a run in bytes; 0 where it is not known.

@@ -33,7 +33,11 @@ impl Names<'_> {
     fn wrong(&self, name: &str, planned: &PlannedRun) -> Option<(String, String)> {
         let is_known = RUN_NUMBERS.contains(&name) || self.study.parameters().any(|column| column.name == name);
         let case = &planned.case;
-        if is_known { None } else { unmeasured(name, &offers(&case.model, case.steady.is_some())) }
+        if is_known {
+            None
+        } else {
+            unmeasured(name, &offers(&case.model, Some(&case.geometry), case.steady.is_some()))
+        }
     }
 
     /// The problem of a measure that one of the chosen runs does not have.

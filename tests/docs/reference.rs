@@ -258,7 +258,7 @@ fn every_measure_is_described() {
     let cases = ["sessile-drop", "network/drainage", "network/dynamic", "thin-film/spreading-drop"];
     let known = cases.iter().flat_map(|case| {
         let loaded = load(&root().join(format!("cases/{case}.toml")), &Overrides::default()).unwrap();
-        offers(&loaded.case.model, false)
+        offers(&loaded.case.model, None, false)
             .into_iter()
             .flat_map(|offer| offer.names.iter().map(|name| (*name).to_owned()))
     });

@@ -24,6 +24,9 @@ enum Kind {
     Case,
     Shapes,
     Study,
+    /// The state of a network that a case begins with.
+    Start,
+    /// A saved state of a run.
     State,
 }
 
@@ -60,10 +63,12 @@ impl Bench {
             ("cases", Kind::Case),
             ("cases/network", Kind::Case),
             ("cases/thin-film", Kind::Case),
+            ("cases/states", Kind::Start),
             ("geometries", Kind::Shapes),
             ("tests/drawings", Kind::Shapes),
             ("studies", Kind::Study),
             ("studies/thin-film", Kind::Study),
+            ("studies/validation", Kind::Study),
         ] {
             bench.copy(project, Path::new(folder), kind);
         }
@@ -125,7 +130,8 @@ impl Bench {
                 Err(_) => Outcome::Refused,
             },
             Kind::Study => study(&path),
-            Kind::Case => case(&path),
+            Kind::Start => start(&path),
+            Kind::Case => case(&path, &Overrides::default()),
             Kind::Shapes => shapes(&path, input.unit),
         };
         drop(back);
@@ -170,8 +176,20 @@ fn study(path: &Path) -> Outcome {
     }
 }
 
-fn case(path: &Path) -> Outcome {
-    match case::load(path, &Overrides::default()) {
+/// The state of a network, as the direct simulation of its geometry that begins with it reads it.
+fn start(path: &Path) -> Outcome {
+    let name = path.file_name().unwrap().to_string_lossy();
+    let file = match &*name {
+        "couple.json" => "couple.toml",
+        "hand-over.json" => "from-network.toml",
+        _ => "breakthrough.toml",
+    };
+    let set = Overrides::parse(&[format!("sph.initial.network=\"states/{name}\"")]).unwrap();
+    case(&path.parent().unwrap().with_file_name(file), &set)
+}
+
+fn case(path: &Path, overrides: &Overrides) -> Outcome {
+    match case::load(path, overrides) {
         Err(error) => refused(error),
         Ok(loaded) => checked(&loaded, path),
     }

@@ -8,6 +8,7 @@ use std::process::Command;
 use crate::support::program::SMALL;
 use crate::support::python::{interpreter, root, run};
 use meniscus::case::{load, schema};
+use meniscus::geometry::spec::ShapeSpec;
 use meniscus::input::Overrides;
 use serde_json::Value;
 
@@ -163,4 +164,48 @@ fn the_checks_refuse_what_is_out_of_the_ranges_of_the_schema() {
     unchecked.retain(|path| !path.starts_with("sph.sides.open.") || path.starts_with("sph.sides.open.left."));
     assert!(checked > 90, "{checked}");
     assert_eq!(unchecked, ["thin-film.method.particles.tolerance"]);
+}
+
+/// A sound shape of each kind that has sizes.
+fn shapes() -> Value {
+    serde_json::json!({
+        "disc": { "center": [0.0, 0.0], "radius": 1.0 },
+        "rectangle": { "center": [0.0, 0.0], "size": [1.0, 1.0] },
+        "capsule": { "ends": [[0.0, 0.0], [1.0, 0.0]], "radius": 1.0 },
+        "channel": { "center": [0.0, 0.0], "width": 1.0 },
+        "throat-discs": { "center": [0.0, 0.0], "radii": [1.0, 1.0], "gap": 1.0 },
+        "throat-cosine": { "center": [0.0, 0.0], "width": 2.0, "throat": 1.0, "length": 1.0 },
+        "random-pack": {
+            "porosity": 0.8, "radius": 1.0, "radius-deviation": 0.1, "gap": 0.5, "region": [[0.0, 0.0], [20.0, 20.0]]
+        },
+        "array": { "arrangement": "square", "radius": 1.0, "gap": 1.0, "region": [[0.0, 0.0], [9.0, 9.0]] }
+    })
+}
+
+#[test]
+fn the_checks_of_shapes_refuse_what_is_out_of_the_ranges_of_the_schema() {
+    let (whole, mut checked) = (schema(), 0);
+    let kinds = whole["$defs"]["ShapeSpec"]["oneOf"].as_array().unwrap();
+    for (kind, inner) in kinds.iter().filter_map(|one| one["properties"].as_object()).flatten() {
+        let name = inner["$ref"].as_str().and_then(|name| name.strip_prefix("#/$defs/")).unwrap();
+        for (key, value) in whole["$defs"][name]["properties"].as_object().unwrap() {
+            let is_array = value["type"] == "array";
+            let limits = if is_array { &value["items"] } else { value };
+            for (keyword, beyond) in
+                [("exclusiveMinimum", 0.0), ("exclusiveMaximum", 0.0), ("minimum", -1e-3), ("maximum", 1e-3)]
+            {
+                let Some(limit) = limits[keyword].as_f64().filter(|_| limits["type"] == "number") else { continue };
+                let mut shape = serde_json::json!({ kind: shapes()[kind] });
+                let sound: ShapeSpec = serde_json::from_value(shape.clone()).unwrap();
+                assert!(sound.problems("shape").is_empty(), "{kind}: {:?}", sound.problems("shape"));
+                let place = &mut shape[kind][key];
+                *if is_array { &mut place[1] } else { place } = (limit + beyond).into();
+                let bad: ShapeSpec = serde_json::from_value(shape).unwrap();
+                let told = bad.problems("shape");
+                assert!(told.iter().any(|problem| problem.path.ends_with(key)), "{key} of {kind}: {told:?}");
+                checked += 1;
+            }
+        }
+    }
+    assert_eq!(checked, 17);
 }

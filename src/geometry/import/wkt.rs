@@ -21,12 +21,17 @@ const DEEPEST: i64 = 32;
 pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
     let (mut drawing, mut lines) = (Drawing::default(), Lines::default());
     let (mut chunk, mut first, mut depth, mut deepest) = (String::new(), 1, 0_i64, 0_i64);
+    let mut is_finite = true;
     for (line, row) in (1..).zip(text.lines().map(str::trim)) {
         if lines.take_comment(line, row) || row.is_empty() {
             continue;
         }
         if chunk.is_empty() {
-            (first, depth, deepest) = (line, 0, 0);
+            (first, depth, deepest, is_finite) = (line, 0, 0, true);
+        }
+        if let Some(word) = not_finite(row) {
+            lines.refuse(line, word, "finite numbers as coordinates".to_owned());
+            is_finite = false;
         }
         chunk.push_str(row);
         chunk.push(' ');
@@ -37,11 +42,13 @@ pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
         // A geometry ends where its parentheses close; a bare keyword goes on on the next line.
         let is_empty = row.split_whitespace().next_back().is_some_and(|word| word.eq_ignore_ascii_case("empty"));
         if depth <= 0 && (chunk.contains('(') || is_empty) {
-            take(&chunk, (first, deepest), &mut drawing, &mut lines);
+            if is_finite {
+                take(&chunk, (first, deepest), &mut drawing, &mut lines);
+            }
             chunk.clear();
         }
     }
-    if !chunk.is_empty() {
+    if !chunk.is_empty() && is_finite {
         take(&chunk, (first, deepest), &mut drawing, &mut lines);
     }
     if lines.bad.is_empty() && drawing.entities.is_empty() {
@@ -49,6 +56,12 @@ pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
     }
     drawing.frame = lines.domain;
     if lines.bad.is_empty() { Ok(drawing) } else { Err(lines.bad) }
+}
+
+/// The first number of a row that is not finite and looks like a word, such as `nan`.
+fn not_finite(row: &str) -> Option<&str> {
+    let mut words = row.split(|c: char| c.is_whitespace() || "(),".contains(c));
+    words.find(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()) && word.parse::<f64>().is_ok())
 }
 
 fn take(chunk: &str, (line, depth): (usize, i64), drawing: &mut Drawing, lines: &mut Lines) {
@@ -116,6 +129,7 @@ mod tests {
         let bad = read("\nPOLYGON ((0 0, 1 0, 0 1))\nPOLYGON ((0 0, 1 0, nan 1, 0 0))\nPOLYGON 3\n").unwrap_err();
         assert_eq!(bad.iter().map(|b| b.place.as_str()).collect::<Vec<_>>(), ["line 2", "line 3", "line 4"]);
         assert!(bad[0].expected.contains("first point"), "{}", bad[0]);
+        assert_eq!((bad[1].found.as_str(), bad[1].expected.as_str()), ("`nan`", "finite numbers as coordinates"));
         assert_eq!(read("POINT (1 2)").unwrap_err()[0].found, "no polygon at all");
     }
 

@@ -6,7 +6,7 @@ use crate::analysis::phases::{PhaseAreas, density_error};
 use crate::math::Vec2;
 use crate::solver::Measure;
 use crate::sph::flow::Flow;
-use crate::sph::warnings::Unresolved;
+use crate::sph::warnings::most_small_pieces;
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
     let fluids = s.flow.state.particles.fluids;
@@ -77,21 +77,22 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
         ),
         measure("wetting-blobs", s.seen.wetting_blobs.len() as f64, "", None, "connected parts, links up to 1.6 dx"),
     ];
-    let unresolved = Unresolved::of(s.flow);
     found.push(measure(
         "below-resolution-share",
-        unresolved.share,
+        s.seen.unresolved.share,
         "",
         None,
         "particles where their phase is thinner than about three of them, over the particles of the smaller phase",
     ));
     found.push(measure(
         "small-pieces",
-        unresolved.small_pieces as f64,
+        s.seen.unresolved.small_pieces as f64,
         "",
         None,
         "connected parts of either phase with fewer than 20 particles",
     ));
+    let most = most_small_pieces(s.series).map_or(f64::NAN, |(most, _)| most);
+    found.push(measure("most-small-pieces", most, "", None, "largest number of small pieces at any record"));
     if s.flow.setting.method.wetting.is_some() {
         let angle = s.seen.angle();
         let method = how_the_angle_was_measured(s);

@@ -46,13 +46,15 @@ pub struct Group {
     pub columns: fn(&Flow, &Observation) -> Columns,
     /// Measures at the end, from the flow, the time series or both.
     pub measures: fn(&Subject) -> Vec<Measure>,
+    /// What a reader must know before trusting the measures.
+    pub warnings: fn(&Subject) -> Vec<String>,
 }
 
 impl Group {
     /// A group without columns of its own.
     #[must_use]
     pub const fn of(measures: fn(&Subject) -> Vec<Measure>) -> Self {
-        Self { columns: |_, _| Vec::new(), measures }
+        Self { columns: |_, _| Vec::new(), measures, warnings: |_| Vec::new() }
     }
 }
 

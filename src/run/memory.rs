@@ -1,0 +1,108 @@
+//! The memory that there is, and what a direct simulation takes of it.
+
+/// Bytes of a kibibyte and of a mebibyte.
+const KIBIBYTE: u64 = 1024;
+const MEBIBYTE: f64 = 1_048_576.0;
+
+/// Bytes that a run takes for each particle: pairs, matrices and fields, and a record with its picture (1.6 kB were measured from 66,000 to 261,000
+/// particles of two fluids).
+const BYTES_PER_PARTICLE: f64 = 1500.0;
+
+/// A direct simulation that the memory does not hold.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "a spacing of {spacing:e} m gives {particles:.2e} particles, which need about {:.0} MiB of memory, and {:.0} MiB are available; a spacing of \
+     {enough:.1e} m or more would do", needed / MEBIBYTE, available / MEBIBYTE
+)]
+pub struct NoRoom {
+    /// Spacing in m.
+    spacing: f64,
+    /// Number of particles.
+    particles: f64,
+    /// Memory in bytes that they need.
+    needed: f64,
+    /// Memory in bytes that is available.
+    available: f64,
+    /// Spacing in m that fits.
+    enough: f64,
+}
+
+/// Whether the memory (bytes) is too small for a pore of an area (m²) at a spacing (m).
+///
+/// # Errors
+/// [`NoRoom`] where it is.
+pub fn holds(area: f64, spacing: f64, available: u64) -> Result<(), NoRoom> {
+    let (particles, available) = (area / (spacing * spacing), available as f64);
+    let needed = BYTES_PER_PARTICLE * particles;
+    if needed <= available {
+        return Ok(());
+    }
+    let enough = rounded_up((area * BYTES_PER_PARTICLE / available).sqrt());
+    Err(NoRoom { spacing, particles, needed, available, enough })
+}
+
+/// The next number of two digits.
+fn rounded_up(value: f64) -> f64 {
+    let unit = 10.0_f64.powf(value.log10().floor() - 1.0);
+    (value / unit).ceil() * unit
+}
+
+/// Memory in bytes that this process can still take, where the system tells.
+#[must_use]
+pub fn available() -> Option<u64> {
+    [free(), address_space()].into_iter().flatten().min()
+}
+
+/// Free memory in bytes, where the system tells, within the limit of the group of processes that this one belongs to.
+#[must_use]
+pub fn free() -> Option<u64> {
+    let free = kibibytes(&std::fs::read_to_string("/proc/meminfo").ok()?, "MemAvailable:")?;
+    let limit = std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok().and_then(|text| text.trim().parse().ok());
+    Some(free.min(limit.unwrap_or(u64::MAX)))
+}
+
+/// What is left of the address space of this process in bytes; none where it has no limit or the system does not tell.
+fn address_space() -> Option<u64> {
+    let limit = address_space_limit(&std::fs::read_to_string("/proc/self/limits").ok()?)?;
+    let taken = kibibytes(&std::fs::read_to_string("/proc/self/status").ok()?, "VmSize:")?;
+    Some(limit.saturating_sub(taken))
+}
+
+/// The soft limit in bytes, of the text of `/proc/self/limits`.
+fn address_space_limit(text: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix("Max address space"))?;
+    line.split_whitespace().next()?.parse().ok()
+}
+
+/// The value in bytes of a line such as `VmSize: 12 kB`.
+fn kibibytes(text: &str, name: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
+    line.split_whitespace().next()?.parse::<u64>().ok().map(|kibibytes| kibibytes.saturating_mul(KIBIBYTE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spacing_that_the_memory_does_not_hold_is_refused_with_one_that_it_holds() {
+        let (area, available) = (1e-6, 150 << 20);
+        // 10,000 particles take 14 MiB, a million a hundred times as much.
+        assert_eq!(holds(area, 1e-5, available), Ok(()));
+        let refused = holds(area, 1e-6, available).unwrap_err();
+        let told = "a spacing of 1e-6 m gives 1.00e6 particles, which need about 1431 MiB of memory, and 150 MiB are available; a spacing of \
+                    3.1e-6 m or more would do";
+        assert_eq!(refused.to_string(), told);
+        assert_eq!(holds(area, refused.enough, available), Ok(()));
+    }
+
+    #[test]
+    fn what_the_system_tells_is_read() {
+        assert_eq!(kibibytes("MemTotal: 9 kB\nMemAvailable:   12 kB\n", "MemAvailable:"), Some(12 * 1024));
+        let limits =
+            |value: &str| format!("Limit Soft Hard Units\nMax address space         {value}   unlimited   bytes\n");
+        assert_eq!(address_space_limit(&limits("4096")), Some(4096));
+        assert_eq!(address_space_limit(&limits("unlimited")), None);
+        assert_eq!(address_space_limit(""), None);
+    }
+}
