@@ -375,38 +375,3 @@ fn a_film_in_scaled_units_that_is_steep_loads_again_as_resolved() {
     let again = load_case_text(&loaded.resolved, &Overrides::default()).unwrap_or_else(|e| panic!("{}", e.render()));
     assert_eq!(again.resolved, loaded.resolved);
 }
-
-#[test]
-fn an_expectation_of_what_the_case_cannot_measure_is_refused_with_what_gives_it() {
-    // What the sides and settings of a case give, and what they do not.
-    let cases = [
-        ("sessile-drop", "smallest-wall-distance-m", None),
-        ("sessile-drop", "balance-error", Some("open sides or a given flow")),
-        ("sessile-drop", "balance-eror", Some("did you mean `balance-error`?")),
-        ("sessile-drop", "inflow-ratio", Some("a velocity or a flow-rate in [sph.sides.open]")),
-        ("taylor-green", "smallest-wall-distance-m", Some("a side that is a wall")),
-        ("open-channel", "inflow-ratio", None),
-        ("open-channel", "driving-pressure-drop-Pa", Some("a given flow through periodic sides")),
-        ("open-channel", "burst-pressure-Pa", Some("pressure-steps in [sph.sides.open]")),
-        ("burst-pressure", "burst-pressure-Pa", None),
-        ("burst-pressure", "asked-inflow-m2-per-s", Some("a velocity or a flow-rate")),
-        ("permeability-tensor", "permeability-xy-m2", None),
-        ("thin-film/slip", "last-particle-position", Some("[thin-film.method.particles]")),
-        ("thin-film/partial-wetting", "similarity-error", Some("completely wetting")),
-    ];
-    for (case, measure, refused) in cases {
-        let text = std::fs::read_to_string(folder(&format!("cases/{case}.toml"))).unwrap();
-        let expect = format!("expect=[{{ measure = \"{measure}\", value = 1.0, tolerance = 1.0 }}]");
-        let loaded = load_case_text(&text, &Overrides::parse(&[expect]).unwrap());
-        match (loaded, refused) {
-            (Ok(_), None) => {}
-            (Err(error), Some(help)) => {
-                let told = error.mistakes.iter().map(|it| format!("{} {}", it.message, it.help_text()));
-                let told: Vec<String> = told.collect();
-                assert!(told.len() == 1 && told[0].contains(measure) && told[0].contains(help), "{case}: {told:?}");
-                assert!(!told[0].contains(", `balance-error`"), "{case} offers it: {told:?}");
-            }
-            (loaded, _) => panic!("{measure} of {case}: {loaded:?}"),
-        }
-    }
-}

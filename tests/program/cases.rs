@@ -1,12 +1,7 @@
 //! Runs of the program on small cases: files, threads, interrupts, failures and messages.
 
-use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-
-use meniscus::case::load;
-use meniscus::case::measures::offers;
-use meniscus::input::Overrides;
 
 use crate::support::program::{
     assert_code, assert_same_files, command, folder_with_small_case, meniscus, report, shipped, stderr, stdout,
@@ -90,18 +85,6 @@ fn an_interrupted_and_resumed_run_leaves_the_same_bytes_as_an_unbroken_one() {
     assert_code(&output, 0);
     assert!(stderr(&output).contains("already at its end"), "{}", stderr(&output));
     assert_same_files(&broken, &folder.path().join("unbroken"));
-}
-
-#[test]
-fn a_report_has_the_measures_that_its_case_can_expect_and_no_other() {
-    let folder = folder_with_small_case();
-    let case = load(&folder.path().join("drop.toml"), &Overrides::default()).unwrap().case;
-    assert_code(&meniscus(folder.path(), &["run", "drop.toml", "--out", "out"]), 0);
-    let offered = offers(&case.model, Some(&case.geometry), case.steady.is_some());
-    let offered = offered.iter().filter(|offer| offer.is_given).flat_map(|offer| offer.names.iter().copied());
-    let report = report(&folder.path().join("out"));
-    let there = report["measures"].as_object().unwrap().keys().map(String::as_str);
-    assert_eq!(there.collect::<BTreeSet<_>>(), offered.collect());
 }
 
 #[test]

@@ -9,4 +9,5 @@ mod case_files;
 mod case_schema;
 mod cases;
 mod command_line;
+mod expectations;
 mod faults;

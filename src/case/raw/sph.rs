@@ -13,7 +13,7 @@ tables! {
     /// Direct simulation by incompressible SPH.
     pub struct RawSph {
         /// Initial particle spacing `dx` in m: at least 10 across the domain, 5 across the narrowest throat; at most
-        /// 2e7 particles, and no more than the free memory holds (1.5 kB each).
+        /// 2e7 particles, and no more than the free memory holds (1.6 kB each).
         pub spacing: f64,
         /// Smoothing length over spacing, `h/dx` (default 1.5).
         pub smoothing_ratio: f64,
