@@ -1,5 +1,7 @@
 //! What can be seen of a flow at one time: interface, contact lines, phases, pressures. Computed per record, not per step.
 
+use std::sync::OnceLock;
+
 use crate::analysis::blobs::{Blob, LINK, blobs};
 use crate::analysis::near_level::nodes_near_level;
 use crate::analysis::phases::{CapillaryPressure, PhaseAreas, PressureSamples, capillary_pressure};
@@ -14,7 +16,7 @@ use crate::interface::wall::clip;
 use crate::math::Vec2;
 use crate::sph::flow::Flow;
 use crate::sph::particles::Phase;
-use crate::sph::unresolved::Unresolved;
+use crate::sph::unresolved::{ThinParts, small_pieces};
 
 /// Grid nodes beyond a wall side, so that the contour reaches the wall before it is cut off there.
 const MARGIN: usize = 2;
@@ -34,8 +36,10 @@ pub struct Observation {
     pub wetted_length: f64,
     /// Connected parts of the wetting phase, the largest first.
     pub wetting_blobs: Vec<Blob>,
-    /// Parts of both phases that the particles do not resolve.
-    pub unresolved: Unresolved,
+    /// Connected parts of either phase below the resolution.
+    pub small_pieces: usize,
+    /// Where a phase is thin, once someone has looked: most records need not know.
+    thin: OnceLock<ThinParts>,
 }
 
 impl Observation {
@@ -73,10 +77,16 @@ impl Observation {
             areas,
             capillary_pressure: capillary_pressure(&samples, &interface, &wall_point),
             wetted_length: wetted_length(wall, &wall_color).wetting,
-            unresolved: Unresolved::of(flow, &wetting_blobs),
+            small_pieces: small_pieces(flow, &wetting_blobs),
+            thin: OnceLock::new(),
             wetting_blobs,
             interface,
         }
+    }
+
+    /// Where a phase is thinner than about three particles; `flow` is the flow that is seen.
+    pub fn thin(&self, flow: &Flow) -> &ThinParts {
+        self.thin.get_or_init(|| ThinParts::of(flow))
     }
 
     /// Mean contact angle with its spread over the contact lines.

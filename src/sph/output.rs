@@ -12,7 +12,7 @@ use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
 use crate::sph::flow::Flow;
 use crate::sph::observe::{Observation, fluid_samples, nodes};
 use crate::sph::surface_force::equivalent::volume_forces;
-use crate::sph::unresolved::Unresolved;
+use crate::sph::unresolved::ThinParts;
 
 /// Reach of the circle fit for the curvature along the interface, over h.
 const CURVATURE_REACH: f64 = 2.5;
@@ -35,7 +35,7 @@ fn integer(name: &'static str, values: Vec<i64>) -> Field<'static> {
 /// The state for output; `grid_spacing` in m.
 #[must_use]
 pub fn snapshot(flow: &Flow, observation: &Observation, grid_spacing: f64) -> Snapshot<'static> {
-    let mut particles = particles(flow, &observation.unresolved);
+    let mut particles = particles(flow, observation.thin(flow));
     let grid = grid(flow, &particles, grid_spacing);
     without(&mut particles, flow.state.particles.buffer());
     Snapshot {
@@ -65,7 +65,7 @@ fn wall(flow: &Flow, x: Vec2) -> (f64, Vec2) {
     (distance.min(flow.setting.domain.bounds.size().norm()), normal)
 }
 
-fn particles(flow: &Flow, unresolved: &Unresolved) -> Cloud<'static> {
+fn particles(flow: &Flow, thin: &ThinParts) -> Cloud<'static> {
     let (p, f, n) = (&flow.state.particles, &flow.fields, flow.state.particles.len());
     let on_fluid = |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect();
     let (distance, normal) = p.position.par_iter().map(|&x| wall(flow, x)).unzip();
@@ -74,7 +74,7 @@ fn particles(flow: &Flow, unresolved: &Unresolved) -> Cloud<'static> {
     let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from))).collect();
     let fields = vec![
         integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
-        integer("below-resolution", below_resolution(flow, unresolved)),
+        integer("below-resolution", below_resolution(flow, thin)),
         integer("phase", p.phase.iter().map(|phase| phase.number()).collect()),
         vector("velocity", "m/s", p.velocity.clone()),
         scalar("pressure", "Pa", pressure),
@@ -92,8 +92,8 @@ fn particles(flow: &Flow, unresolved: &Unresolved) -> Cloud<'static> {
 }
 
 /// 1 where a phase is thinner than about three particles, else 0.
-fn below_resolution(flow: &Flow, unresolved: &Unresolved) -> Vec<i64> {
-    let mut thin: Vec<i64> = unresolved.thin.iter().copied().map(i64::from).collect();
+fn below_resolution(flow: &Flow, thin: &ThinParts) -> Vec<i64> {
+    let mut thin: Vec<i64> = thin.is_thin.iter().copied().map(i64::from).collect();
     thin.resize(flow.state.particles.len(), 0);
     thin
 }

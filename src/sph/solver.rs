@@ -157,7 +157,7 @@ impl Solver for SphSolver {
             ("non_wetting_area_m2", seen.areas.non_wetting),
             ("contact_lines", seen.contact_lines.len() as f64),
             ("wetting_blobs", seen.wetting_blobs.len() as f64),
-            ("small_pieces", seen.unresolved.small_pieces as f64),
+            ("small_pieces", seen.small_pieces as f64),
             ("momentum_x_kg_per_m_s", momentum.x),
             ("momentum_y_kg_per_m_s", momentum.y),
         ];

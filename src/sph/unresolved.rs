@@ -8,35 +8,55 @@ use crate::sph::particles::Phase;
 /// Pieces of fewer particles than this, five across, have no curvature that a fit could find.
 pub const SMALLEST_PIECE: usize = 20;
 
-/// The parts of both phases that the particles do not resolve.
+/// Where a phase is thinner than about three particles.
 #[derive(Debug, Clone)]
-pub struct Unresolved {
-    /// Whether the phase around each fluid particle is thinner than about three particles.
-    pub thin: Vec<bool>,
+pub struct ThinParts {
+    /// Whether the phase around each fluid particle is that thin.
+    pub is_thin: Vec<bool>,
     /// Thin particles over the number of particles of the phase that has fewer.
     pub share: f64,
-    /// Connected pieces of either phase with fewer particles than have a curvature.
-    pub small_pieces: usize,
 }
 
-impl Unresolved {
-    /// Looks at the fluid of a flow with the pieces of its wetting phase.
+impl ThinParts {
+    /// Looks at the fluid of a flow.
     #[must_use]
-    pub fn of(flow: &Flow, wetting_pieces: &[Blob]) -> Self {
-        let (p, fluids) = (&flow.state.particles, flow.state.particles.fluids);
-        let (points, volumes, period) =
-            (&p.position[..fluids], &flow.fields.volume[..fluids], flow.setting.domain.periods());
-        let is_wetting: Vec<bool> = p.phase[..fluids].iter().map(|phase| *phase == Phase::Wetting).collect();
-        let wetting = is_wetting.iter().filter(|wetting| **wetting).count();
-        let smaller = wetting.min(fluids - wetting);
-        if smaller == 0 || flow.setting.method.tension == 0.0 {
-            return Self { thin: vec![false; fluids], share: 0.0, small_pieces: 0 };
+    pub fn of(flow: &Flow) -> Self {
+        let (is_wetting, smaller) = (wetting(flow), smaller_phase(flow));
+        if smaller == 0 {
+            return Self { is_thin: vec![false; is_wetting.len()], share: 0.0 };
         }
-        let others: Vec<bool> = is_wetting.iter().map(|wetting| !wetting).collect();
-        let other_pieces = blobs(points, volumes, &others, LINK * flow.setting.method.spacing, period);
-        let small = |pieces: &[Blob]| pieces.iter().filter(|piece| piece.count < SMALLEST_PIECE).count();
-        let thin = thin_parts(points, &is_wetting, flow.setting.method.spacing, period);
-        let share = thin.iter().filter(|thin| **thin).count() as f64 / smaller as f64;
-        Self { thin, share, small_pieces: small(wetting_pieces) + small(&other_pieces) }
+        let points = &flow.state.particles.position[..is_wetting.len()];
+        let is_thin = thin_parts(points, &is_wetting, flow.setting.method.spacing, flow.setting.domain.periods());
+        let share = is_thin.iter().filter(|thin| **thin).count() as f64 / smaller as f64;
+        Self { is_thin, share }
     }
+}
+
+/// Connected pieces of either phase with fewer particles than have a curvature; `wetting_pieces` are those of the wetting phase.
+#[must_use]
+pub fn small_pieces(flow: &Flow, wetting_pieces: &[Blob]) -> usize {
+    if smaller_phase(flow) == 0 {
+        return 0;
+    }
+    let others: Vec<bool> = wetting(flow).iter().map(|wetting| !wetting).collect();
+    let (points, volumes) = (&flow.state.particles.position[..others.len()], &flow.fields.volume[..others.len()]);
+    let link = LINK * flow.setting.method.spacing;
+    let pieces = blobs(points, volumes, &others, link, flow.setting.domain.periods());
+    wetting_pieces.iter().chain(&pieces).filter(|piece| piece.count < SMALLEST_PIECE).count()
+}
+
+/// Whether each fluid particle is of the wetting phase.
+fn wetting(flow: &Flow) -> Vec<bool> {
+    let p = &flow.state.particles;
+    p.phase[..p.fluids].iter().map(|phase| *phase == Phase::Wetting).collect()
+}
+
+/// Number of particles of the phase that has fewer; 0 without an interface.
+fn smaller_phase(flow: &Flow) -> usize {
+    if flow.setting.method.tension == 0.0 {
+        return 0;
+    }
+    let p = &flow.state.particles;
+    let wetting = p.phase[..p.fluids].iter().filter(|phase| **phase == Phase::Wetting).count();
+    wetting.min(p.fluids - wetting)
 }

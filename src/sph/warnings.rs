@@ -46,7 +46,7 @@ pub fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<String>
 
 /// Pieces and films below the resolution, now or at any record before.
 fn pieces_and_films(flow: &Flow, seen: &Observation, series: &Series) -> Option<String> {
-    let (share, small_pieces) = (seen.unresolved.share, seen.unresolved.small_pieces);
+    let (share, small_pieces) = (seen.thin(flow).share, seen.small_pieces);
     let most = most_small_pieces(series);
     let before = most.filter(|(most, _)| *most > small_pieces as f64);
     if small_pieces == 0 && before.is_none() && share < LARGEST_THIN_SHARE {

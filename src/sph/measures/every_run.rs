@@ -79,14 +79,14 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
     ];
     found.push(measure(
         "below-resolution-share",
-        s.seen.unresolved.share,
+        s.seen.thin(s.flow).share,
         "",
         None,
         "particles where their phase is thinner than about three of them, over the particles of the smaller phase",
     ));
     found.push(measure(
         "small-pieces",
-        s.seen.unresolved.small_pieces as f64,
+        s.seen.small_pieces as f64,
         "",
         None,
         "connected parts of either phase with fewer than 20 particles",
