@@ -18,6 +18,7 @@ mod new;
 mod new_pack;
 mod opened_study;
 mod output;
+mod processor;
 mod progress;
 mod run;
 mod source;
