@@ -1,11 +1,14 @@
 //! Benchmarks: named cases, one file for each table `[sph.measure.NAME]` of a case file but that of the permeability, which is no benchmark.
 //!
 //! A benchmark is a [`Group`] of measures: further columns of the time series, and measures at the end. It sees the flow and what is
-//! observed of it; the solver gets the groups of a case as a list and knows none of them (`src/run/setup.rs`). Exact solutions stand in
-//! the file of their benchmark, or in [`laws`](crate::analysis::laws) and [`young_laplace`](crate::analysis::young_laplace).
+//! observed of it; the solver gets the groups of a case as a list and knows none of them (`src/run/setup.rs`).
 //!
-//! Tools: `series` reads the time series, `moments` is the shape of a drop, `damped` fits an oscillation, `disc_pair` finds two
-//! discs, `force_balance` is that of a drop on a wall.
+//! An exact solution stands in the file of its benchmark; those between two discs, which two benchmarks need, in [`disc_pair`], and the
+//! drop on a flat wall, which the solver needs too, in [`cap`](crate::interface::cap). Angles are in rad through the wetting phase,
+//! lengths in m.
+//!
+//! Tools: `series` reads the time series, `moments` is the shape of a drop, `damped` fits an oscillation, `waves` has what the solutions
+//! of waves and drops share, `force_balance` is that of a drop on a wall.
 
 mod capillary_bridge;
 mod capillary_rise;
@@ -13,7 +16,7 @@ mod capillary_wave;
 mod cavity;
 mod cylinder_array;
 mod damped;
-mod disc_pair;
+pub mod disc_pair;
 mod drop_on_disc;
 mod force_balance;
 mod four_discs;
@@ -32,6 +35,7 @@ mod slit_filling;
 mod spreading;
 mod taylor_green;
 mod throat_entry;
+mod waves;
 
 use crate::case::checked::MeasureSet;
 use crate::sph::measures::Group;

@@ -1,7 +1,11 @@
 //! Base, height and, under gravity, the angle of a drop on a wall (C1 and C2 of the benchmarks).
+//!
+//! Exact under gravity: the Young-Laplace equation of the plane, solved by Runge-Kutta steps from the apex. With the arc length s, the
+//! inclination phi and the depth z below the apex: dx/ds = cos phi, dz/ds = sin phi, dphi/ds = kappa_0 + z/l_c², where
+//! l_c² = sigma/(d_rho g). The unknown apex curvature kappa_0 follows from the area of the drop by bisection.
 
-use crate::analysis::laws::drops::cap;
-use crate::analysis::young_laplace::sessile_drop;
+use crate::analysis::roots::bisect;
+use crate::interface::cap::cap;
 use crate::interface::contact::ContactLine;
 use crate::math::Vec2;
 use crate::solver::Measure;
@@ -9,6 +13,86 @@ use crate::sph::measures::{Group, Subject, measure};
 
 /// Measures of its table `[sph.measure.sessile-drop]`.
 pub const GROUP: Group = Group::of(measures);
+
+/// A point of a meniscus under gravity, the apex at the origin and z downward.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProfilePoint {
+    /// Horizontal distance from the apex in m.
+    pub x: f64,
+    /// Depth below the apex in m.
+    pub z: f64,
+    /// Area in m² between the apex and here, on one side.
+    pub area: f64,
+}
+
+/// Steps turn by no more than this (rad), and are no longer than this part of the capillary length: the error of the
+/// fourth-order rule is then below 1e-8 of the sizes.
+const LARGEST_TURN: f64 = 0.01;
+/// Steps after which a profile that has not reached its inclination is given up.
+const MOST_STEPS: usize = 200_000;
+
+/// The profile from the apex to the inclination `last` (rad).
+///
+/// `apex_curvature` in 1/m, above 0; `capillary_length` in m. Empty where the inclination is not reached.
+#[must_use]
+pub fn profile(apex_curvature: f64, capillary_length: f64, last: f64) -> Vec<ProfilePoint> {
+    let stiffness = capillary_length.powi(-2);
+    // State: x, z, inclination and the area, of which x dz is added.
+    let slope = |[x, z, phi, _]: [f64; 4]| [phi.cos(), phi.sin(), apex_curvature + stiffness * z, x * phi.sin()];
+    let add = |y: [f64; 4], k: [f64; 4], by: f64| [0, 1, 2, 3].map(|i| y[i] + by * k[i]);
+    let step = |y: [f64; 4], ds: f64| {
+        let k1 = slope(y);
+        let k2 = slope(add(y, k1, 0.5 * ds));
+        let k3 = slope(add(y, k2, 0.5 * ds));
+        let k4 = slope(add(y, k3, ds));
+        [0, 1, 2, 3].map(|i| y[i] + ds / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
+    };
+    let point = |y: [f64; 4]| ProfilePoint { x: y[0], z: y[1], area: y[3] };
+    let mut y = [0.0; 4];
+    let mut points = vec![point(y)];
+    for _ in 0..MOST_STEPS {
+        let turn = apex_curvature + stiffness * y[1];
+        let ds = (LARGEST_TURN / turn).min(capillary_length * LARGEST_TURN);
+        let next = step(y, ds);
+        if next[2] >= last {
+            // The last step ends where the inclination is reached.
+            let Some(part) = bisect(|part| step(y, part)[2] - last, 0.0, ds) else { return Vec::new() };
+            points.push(point(step(y, part)));
+            return points;
+        }
+        y = next;
+        points.push(point(y));
+    }
+    Vec::new()
+}
+
+/// A drop on a flat floor under gravity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SessileDrop {
+    /// Length of the wetted floor in m.
+    pub base: f64,
+    /// Height in m.
+    pub height: f64,
+}
+
+/// The drop that ends at the contact angle, with its area in m².
+fn drop_from(apex_curvature: f64, capillary_length: f64, angle: f64) -> Option<(SessileDrop, f64)> {
+    let points = profile(apex_curvature, capillary_length, angle);
+    let end = points.last().filter(|_| points.len() > 1)?;
+    Some((SessileDrop { base: 2.0 * end.x, height: end.z }, 2.0 * end.area))
+}
+
+/// The drop of `area` (m²) with the contact `angle` (rad) under gravity of the `capillary_length` (m).
+#[must_use]
+pub fn sessile_drop(area: f64, capillary_length: f64, angle: f64) -> Option<SessileDrop> {
+    // Without gravity the cap's curvature; gravity flattens the apex, for puddles by many orders of magnitude.
+    let cap = ((angle - angle.sin() * angle.cos()) / area).sqrt();
+    let excess = |logarithm: f64| {
+        drop_from(cap * logarithm.exp(), capillary_length, angle).map_or(f64::NAN, |(_, found)| found - area)
+    };
+    let logarithm = bisect(excess, -40.0, 1.0)?;
+    drop_from(cap * logarithm.exp(), capillary_length, angle).map(|(drop, _)| drop)
+}
 
 /// A wall is level where its normal points up to this cosine.
 const LEVEL: f64 = 1.0 - 1e-6;
@@ -81,4 +165,72 @@ fn under_gravity(s: &Subject, (base, height): (f64, f64)) -> Vec<Measure> {
         measure("base-ratio", ratio(base, exact.map(|e| e.base)), "", None, &format!("base {over}")),
         measure("height-ratio", ratio(height, exact.map(|e| e.height)), "", None, &format!("height {over}")),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::arc::Arc;
+
+    /// Height in m of the lowest point of the meniscus between plates `width` (m) apart over the level outside.
+    fn rise_between_plates(width: f64, capillary_length: f64, angle: f64) -> Option<f64> {
+        let last = std::f64::consts::FRAC_PI_2 - angle;
+        let circular = 2.0 * angle.cos() / width;
+        let off = |logarithm: f64| {
+            let points = profile(circular * logarithm.exp(), capillary_length, last);
+            points.last().map_or(f64::NAN, |end| end.x - 0.5 * width)
+        };
+        let logarithm = bisect(off, -30.0, 1.0)?;
+        Some(capillary_length.powi(2) * circular * logarithm.exp())
+    }
+
+    #[test]
+    fn sessile_drops_of_area_one_have_the_printed_base_and_height() {
+        for (degrees, sizes) in [
+            (40.0_f64, [(0.1, 2.85937, 0.50960), (1.0, 3.08776, 0.45738), (10.0, 5.21725, 0.21621)]),
+            (60.0, [(0.1, 2.22700, 0.63207), (1.0, 2.37639, 0.58245), (10.0, 3.70996, 0.31476)]),
+            (90.0, [(0.1, 1.61076, 0.79103), (1.0, 1.73681, 0.73555), (10.0, 2.68281, 0.43890)]),
+            (120.0, [(0.1, 1.10866, 0.93412), (1.0, 1.25878, 0.86249), (10.0, 2.14078, 0.52977)]),
+        ] {
+            for (bond, base, height) in sizes {
+                let drop = sessile_drop(1.0, 1.0 / f64::sqrt(bond), degrees.to_radians()).expect("a drop");
+                assert!((drop.base - base).abs() < 1.1e-5, "{degrees} Bo {bond}: {drop:?}");
+                assert!((drop.height - height).abs() < 1.1e-5, "{degrees} Bo {bond}: {drop:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_rise_between_plates_has_the_printed_height_in_the_middle() {
+        for (degrees, width, height) in
+            [(40.0_f64, 0.5, 3.02894), (40.0, 1.0, 1.46356), (60.0, 1.0, 0.95797), (60.0, 2.0, 0.42316)]
+        {
+            let found = rise_between_plates(width, 1.0, degrees.to_radians()).expect("a meniscus");
+            assert!((found - height).abs() < 1.1e-5, "{degrees} {width}: {found}");
+        }
+    }
+
+    #[test]
+    fn the_end_of_a_flat_puddle_is_found_from_four_capillary_lengths_of_it() {
+        let length = 0.316;
+        for (apex_curvature, degrees) in [(1e-3, 60.0_f64), (0.02, 120.0)] {
+            let side = profile(apex_curvature, length, degrees.to_radians());
+            let floor = side.last().unwrap().z;
+            let points: Vec<Vec2> = side.iter().rev().map(|p| Vec2::new(p.x, -p.z)).collect();
+            let mut way = 0.0;
+            let mut last = points[0];
+            let used = points.iter().filter(|x| {
+                way += (**x - last).norm();
+                last = **x;
+                x.y > -0.8 * floor && way < 4.0 * length
+            });
+            let used: Vec<Vec2> = used.step_by(8).copied().collect();
+            let arc = Arc::fit(&used, Vec2::new(0.0, -length.powi(-2)), length).unwrap();
+            assert!(arc.middle.rms < 1e-4, "{degrees}: {:e}", arc.middle.rms);
+            let way = (points[0] - used[0]).norm();
+            let back = arc.walk(used[0], -way);
+            let off = arc.normal_at(points[0]).dot(&Vec2::y()) + degrees.to_radians().cos();
+            assert!((back - points[0]).norm() < 0.02 * length && off.abs() < 2e-3, "{degrees}: {back:?}, {off}");
+        }
+    }
 }

@@ -2,12 +2,23 @@
 
 use std::f64::consts::PI;
 
-use crate::analysis::laws::pores::entry_curvature;
+use crate::analysis::roots::bisect;
 use crate::solver::Measure;
 use crate::sph::measures::{Group, Subject, measure};
 
 /// Measures of its table `[sph.measure.throat-entry]`.
 pub const GROUP: Group = Group::of(measures);
+
+/// Entry curvature p_c*/sigma in 1/m of the throat between two discs with `radii` (m) and centers `distance` (m) apart.
+///
+/// 1/r* with sqrt(R1² + r² + 2 R1 r cos theta) + sqrt(R2² + r² + 2 R2 r cos theta) = L, `angle` (rad) below 90 degrees
+/// or not far above. Nothing where the discs overlap or no such arc exists.
+#[must_use]
+pub fn entry_curvature(radii: [f64; 2], distance: f64, angle: f64) -> Option<f64> {
+    let reach = |r: f64| radii.iter().map(|big| (big * big + r * r + 2.0 * big * r * angle.cos()).sqrt()).sum::<f64>();
+    let r = bisect(|r| reach(r) - distance, 1e-12 * distance, 10.0 * distance)?;
+    Some(1.0 / r)
+}
 
 fn measures(s: &Subject) -> Vec<Measure> {
     let (tension, h) = (s.flow.setting.method.tension, s.flow.setting.method.kernel.h);
@@ -45,4 +56,23 @@ fn measures(s: &Subject) -> Vec<Measure> {
             "curvature of the fitted meniscus at the end over 1/r*",
         ),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entry_curvatures_of_throats_between_discs_are_as_printed() {
+        let angles = [0.0, 20.0, 40.0, 60.0, 90.0_f64];
+        for (gap, expected) in
+            [(0.5, [4.0, 3.80798, 3.26775, 2.49136, 1.33333]), (1.0, [2.0, 1.92014, 1.69707, 1.37980, 0.89443])]
+        {
+            for (degrees, value) in angles.iter().zip(expected) {
+                let found = entry_curvature([1.0, 1.0], 2.0 + gap, degrees.to_radians()).expect("a throat");
+                assert!((found - value).abs() < 0.6e-5, "gap {gap}, {degrees} deg: {found}");
+            }
+        }
+        assert_eq!(entry_curvature([1.0, 1.0], 1.9, 0.3), None);
+    }
 }

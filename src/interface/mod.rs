@@ -2,10 +2,12 @@
 //!
 //! Lines: a field on the nodes of a [`lattice`] has a [`contour`], an ordered [`polyline`] with its curvature, which is cut off at a [`wall`];
 //! [`lengths`] of interface and wetted wall. Shapes: the [`circle`] and the [`arc`] of Young and Laplace through ordered points with standard errors, the
-//! [`weighted_circle`] through a stencil of points, free or held to an angle at a wall. Contact lines: [`contact`] has their angles with
-//! error bars, [`meniscus_ends`] those of interfaces that move under a body force. [`menisci`] between two walls: place, burst, touch, overlap.
+//! [`weighted_circle`] through a stencil of points, free or held to an angle at a wall, the [`cap`] of a drop on a flat wall.
+//! Contact lines: [`contact`] has their angles with error bars, [`meniscus_ends`] those of interfaces that move under a body force.
+//! [`menisci`] between two walls: place, burst, touch, overlap.
 
 pub mod arc;
+pub mod cap;
 pub mod circle;
 pub mod contact;
 pub mod contour;

@@ -1,6 +1,6 @@
 //! What of a flow is out of the reach of its resolution, in words for the reader of its measures.
 
-use crate::analysis::laws::drops::cap;
+use crate::interface::cap::cap;
 use crate::interface::contact::ContactLine;
 use crate::interface::wall::{WallPoint, is_edge_between};
 use crate::math::{Vec2, perpendicular};

@@ -1,9 +1,9 @@
 //! The way of a measurement from particles to angle, curvature and lengths, on states whose answer is known.
 
-use meniscus::analysis::laws::drops::cap;
-use meniscus::analysis::laws::pores::DiscPair;
 use meniscus::analysis::phases::PhaseAreas;
 use meniscus::analysis::resample::{Samples, Stencils};
+use meniscus::benchmarks::disc_pair::DiscPair;
+use meniscus::interface::cap::cap;
 use meniscus::interface::contact::{ContactLine, ContactSettings, contact_lines, summarize};
 use meniscus::interface::contour::contour;
 use meniscus::interface::lattice::Lattice;

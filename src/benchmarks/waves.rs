@@ -1,0 +1,27 @@
+//! Linear viscous capillary modes of two fluids of equal density and viscosity: plane waves and free drops.
+//!
+//! With equal fluids the interface is a sheet of force in one fluid, and its own motion follows in closed form from the Green's
+//! function of the unsteady Stokes equation. Leaves out gravity, walls and fluids that differ (for those: Prosperetti 1981). The Laplace
+//! transforms stand in `capillary_wave` and `oscillating_drop`; here is the way back from them.
+
+use std::f64::consts::PI;
+
+use nalgebra::Complex;
+
+/// Nodes of the inverse Laplace transform: enough to enclose the poles over three periods, with nine digits left by rounding.
+const NODES: usize = 40;
+
+/// A function of time from its Laplace transform, at `time` (s) above 0 (fixed Talbot contour, Abate & Valkó 2004).
+#[must_use]
+pub fn inverse_laplace(transform: impl Fn(Complex<f64>) -> Complex<f64>, time: f64) -> f64 {
+    let r = 2.0 * NODES as f64 / (5.0 * time);
+    let first = 0.5 * (transform(Complex::new(r, 0.0)).re * (r * time).exp());
+    let node = |k: usize| {
+        let angle = k as f64 * PI / NODES as f64;
+        let cotangent = 1.0 / angle.tan();
+        let s = r * angle * Complex::new(cotangent, 1.0);
+        let slope = Complex::new(1.0, angle + (angle * cotangent - 1.0) * cotangent);
+        ((s * time).exp() * transform(s) * slope).re
+    };
+    r / NODES as f64 * (first + (1..NODES).map(node).sum::<f64>())
+}
