@@ -33,7 +33,7 @@ The layout of a table is TOML in a comment above it:
 
 A cell is text with fields `{NAME}`, `{NAME:.3f}` or `{NAME / 2e-4 - 1:+.1%}`, where a name is that of a parameter or
 of a column of the study's table, and arithmetic goes from left to right. ` ±` at the end of the format adds the error
-bar. A column without a head is named by its field.
+bar, that by the spacing included. A column without a head is named by its field.
 """
 
 import argparse
@@ -218,9 +218,12 @@ def cell(template: str, run: dict[str, str], names: dict) -> str:
         if found is None:
             return "none"
         text = format(found, form.removesuffix("±").strip())
-        bar = run.get(f"{expression.split()[0]}-uncertainty")
+        bars = [run.get(f"{expression.split()[0]}-{kind}") for kind in ("uncertainty", "discretization-uncertainty")]
+        bar = math.hypot(*(float(bar) for bar in bars if bar))
         if form.endswith("±") and bar:
-            text += f" ± {format(float(bar), form.removesuffix('±').strip())}"
+            name = expression.split()[0]
+            moved = value(expression, run | {name: str(float(run[name]) + bar)})
+            text += f" ± {format(abs(moved - found), form.removesuffix('±').strip().lstrip('+'))}"
         return re.sub(r"^-|(?<=[ (])-", "\u2212", text).replace("%", " %")
 
     return FIELD.sub(field, template)

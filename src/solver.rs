@@ -1,6 +1,6 @@
 //! What the simulation loop needs of a solver.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::diagram::{Diagram, Mosaic};
 use crate::math::Vec2;
@@ -46,7 +46,7 @@ pub struct Sample {
 }
 
 /// A final result with its error bar and how it was found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Measure {
     /// Name in `report.json`, such as `contact-angle-deg`.
     pub name: String,
@@ -58,6 +58,25 @@ pub struct Measure {
     pub uncertainty: Option<f64>,
     /// How it was measured, in one sentence.
     pub method: String,
+    /// The column of the time series that it moves with, unless it is one of the watched quantities.
+    pub moves_with: Option<MovesWith>,
+}
+
+/// The column that a measure moves with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MovesWith {
+    /// Its name.
+    pub column: &'static str,
+    /// A change of the measure over that of the column.
+    pub factor: f64,
+}
+
+impl Measure {
+    /// The same measure, of which the series holds a `column`: its changes times `factor` are those of the measure.
+    #[must_use]
+    pub fn moving_with(self, column: &'static str, factor: f64) -> Self {
+        Self { moves_with: Some(MovesWith { column, factor }), ..self }
+    }
 }
 
 /// What one step did.
@@ -201,7 +220,14 @@ pub struct Watched {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quantity {
     /// A contact angle in degrees.
-    Angle,
+    Angle {
+        /// Column of the kinetic energy in J/m: what of it is still to be lost can turn the interface.
+        energy: &'static str,
+        /// Column of the length of the interface in m.
+        length: &'static str,
+        /// Interfacial tension in N/m.
+        tension: f64,
+    },
     /// A difference of pressures in Pa, compared with its value, or with `scale` in Pa where that is larger.
     Pressure {
         /// What counts as a small pressure, in Pa.
@@ -223,7 +249,7 @@ impl Quantity {
     #[must_use]
     pub fn range(self) -> [f64; 2] {
         match self {
-            Self::Angle => [0.0, 180.0],
+            Self::Angle { .. } => [0.0, 180.0],
             Self::Saturation => [0.0, 1.0],
             Self::Pressure { .. } | Self::Energy { .. } => [f64::NEG_INFINITY, f64::INFINITY],
         }

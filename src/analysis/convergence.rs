@@ -1,7 +1,8 @@
 //! Observed orders of convergence.
 //!
 //! Against a known reference: the slope of log error over log spacing. Without one: the order, the limit and the error
-//! estimate of Richardson's extrapolation from three spacings, the ratios of which may differ (Roache 1998).
+//! estimate of Richardson's extrapolation from three spacings, the ratios of which may differ (Roache 1998), and the
+//! uncertainties that follow from it.
 
 use super::roots::bisect;
 
@@ -47,6 +48,33 @@ pub fn extrapolate(spacings: [f64; 3], values: [f64; 3]) -> Option<Extrapolation
     Some(Extrapolation { order, limit: f3 - finest_error, finest_error: finest_error.abs() })
 }
 
+/// The factor on an extrapolated error that covers the true one in 95 of 100 cases (Roache 1998): two standard uncertainties.
+const SAFETY: f64 = 1.25;
+
+/// Below this order values do not converge yet.
+const LEAST_ORDER: f64 = 0.5;
+
+/// A higher observed order than that of the method is chance.
+const ORDER_OF_METHOD: f64 = 2.0;
+
+/// The standard uncertainty of each value by its spacing, `spacings` from coarse to fine; nothing for fewer than three.
+///
+/// Where the finest three converge, half of `SAFETY` times the distance from their limit, at least that of the finest; else their range, at
+/// least the distance from the finest (after Eça and Hoekstra 2014).
+#[must_use]
+pub fn discretization_uncertainties(spacings: &[f64], values: &[f64]) -> Option<Vec<f64>> {
+    let (&[.., h1, h2, h3], &[.., f1, f2, f3]) = (spacings, values) else { return None };
+    let observed = extrapolate([h1, h2, h3], [f1, f2, f3]).map(|found| found.order);
+    let (limit, factor, least) = match observed.filter(|order| *order >= LEAST_ORDER) {
+        Some(order) => {
+            let error = (f2 - f3) / ((h2 / h3).powf(order.min(ORDER_OF_METHOD)) - 1.0);
+            (f3 - error, 0.5 * SAFETY, 0.5 * SAFETY * error.abs())
+        }
+        None => (f3, 1.0, f1.max(f2).max(f3) - f1.min(f2).min(f3)),
+    };
+    Some(values.iter().map(|value| (factor * (value - limit).abs()).max(least)).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -70,5 +98,26 @@ mod tests {
     #[test]
     fn an_error_that_grows_on_refinement_has_a_negative_order() {
         assert!(observed_order(&[0.1, 0.05, 0.025], &[1.0, 1.2, 1.5]) < 0.0);
+    }
+
+    #[test]
+    fn two_uncertainties_cover_the_errors_of_power_laws() {
+        let h = [0.1, 0.05, 0.025, 0.0125];
+        for order in [0.7, 1.0, 1.5, 2.0, 3.0] {
+            let errors = h.map(|h: f64| 0.3 * h.powf(order));
+            let found = discretization_uncertainties(&h, &errors.map(|error| 1.0 + error)).unwrap();
+            for (error, uncertainty) in errors.iter().zip(&found) {
+                assert!(2.0 * uncertainty >= 1.2 * error, "order {order}: {found:?}");
+                // Above the second order the finest is less certain than it could be.
+                assert!(order > 2.0 || 2.0 * uncertainty <= 1.3 * error, "order {order}: {found:?}");
+            }
+        }
+        assert_eq!(discretization_uncertainties(&h[..2], &[1.0, 2.0]), None);
+    }
+
+    #[test]
+    fn values_that_swing_are_as_uncertain_as_they_swing() {
+        let found = discretization_uncertainties(&[0.8, 0.4, 0.2, 0.1], &[4.0, 1.0, 2.0, 1.5]).unwrap();
+        assert_eq!(found, [2.5, 1.0, 1.0, 1.0]);
     }
 }

@@ -6,13 +6,18 @@
 
 use crate::analysis::roots::bisect;
 use crate::interface::cap::cap;
-use crate::interface::contact::ContactLine;
+use crate::interface::contact::{ACCURACY, ContactLine};
 use crate::math::Vec2;
 use crate::solver::Measure;
-use crate::sph::measures::{Group, Subject, measure};
+use crate::sph::flow::Flow;
+use crate::sph::measures::{Columns, Group, Subject, measure};
+use crate::sph::observe::Observation;
 
-/// Measures of its table `[sph.measure.sessile-drop]`.
-pub const GROUP: Group = Group::of(measures);
+/// Columns and measures of its table `[sph.measure.sessile-drop]`.
+pub const GROUP: Group = Group { columns, ..Group::of(measures) };
+
+const BASE: &str = "base_m";
+const HEIGHT: &str = "height_m";
 
 /// A point of a meniscus under gravity, the apex at the origin and z downward.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,44 +102,71 @@ pub fn sessile_drop(area: f64, capillary_length: f64, angle: f64) -> Option<Sess
 /// A wall is level where its normal points up to this cosine.
 const LEVEL: f64 = 1.0 - 1e-6;
 
-fn measures(s: &Subject) -> Vec<Measure> {
-    let (base, height) = extent(s);
-    let mut found = vec![
-        measure("base-m", base, "m", None, "distance of the two contact points of the fitted meniscus"),
-        measure(
-            "height-m",
-            height,
-            "m",
-            None,
-            "largest distance of the c = 0.5 contour from the line through both contact points",
-        ),
-    ];
-    let more = if s.flow.setting.method.gravity == Vec2::zeros() {
-        as_a_cap(s, (base, height))
-    } else {
-        under_gravity(s, (base, height))
-    };
-    found.extend(more);
-    found
+/// Flatter menisci, of some degrees, count as this flat: their end is known by the fit and not by the contour there.
+const SMALLEST_SINE: f64 = 0.05;
+
+/// A length with its standard uncertainty at one time, in m.
+#[derive(Debug, Clone, Copy)]
+struct Length {
+    value: f64,
+    uncertainty: f64,
 }
 
-/// Base and height in m, NaN where there are not two contact lines with an angle.
-fn extent(s: &Subject) -> (f64, f64) {
-    let lines: Vec<_> = s.seen.lines_with_angle().collect();
-    // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
-    match lines[..] {
-        [a, b] => {
-            let (from, along) = (a.position, b.position - a.position);
-            let distance = |x: &Vec2| along.perp(&(x - from)).abs() / along.norm();
-            let points = s.seen.interface.iter().flat_map(|line| &line.points);
-            (along.norm(), points.map(distance).fold(f64::NAN, f64::max))
+/// How far a drop extends, NaN where there are not two contact lines with an angle.
+#[derive(Debug, Clone, Copy)]
+struct Extent {
+    base: Length,
+    height: Length,
+}
+
+impl Extent {
+    /// What is seen of it; `h` in m.
+    fn of(seen: &Observation, h: f64) -> Self {
+        // As for the angle: the contour may lie off by so much, to one side all along. That moves both ends outward, those of a flat drop the farther.
+        let off = ACCURACY * h;
+        let lines: Vec<_> = seen.lines_with_angle().collect();
+        // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
+        let [a, b] = lines[..] else {
+            let none = Length { value: f64::NAN, uncertainty: f64::NAN };
+            return Self { base: none, height: none };
+        };
+        let (from, along) = (a.position, b.position - a.position);
+        let distance = |x: &Vec2| along.perp(&(x - from)).abs() / along.norm();
+        let points = seen.interface.iter().flat_map(|line| &line.points);
+        let along_wall = |line: &ContactLine| off / line.angle_deg.to_radians().sin().max(SMALLEST_SINE);
+        Self {
+            base: Length { value: along.norm(), uncertainty: along_wall(a) + along_wall(b) },
+            height: Length { value: points.map(distance).fold(f64::NAN, f64::max), uncertainty: off },
         }
-        _ => (f64::NAN, f64::NAN),
     }
 }
 
-/// Base and height (m) of a drop of either phase over those of the circular segment.
-fn as_a_cap(s: &Subject, (base, height): (f64, f64)) -> Vec<Measure> {
+fn columns(flow: &Flow, seen: &Observation) -> Columns {
+    let Extent { base, height } = Extent::of(seen, flow.setting.method.kernel.h);
+    vec![(BASE, base.value), (HEIGHT, height.value)]
+}
+
+fn measures(s: &Subject) -> Vec<Measure> {
+    let extent = Extent::of(s.seen, s.flow.setting.method.kernel.h);
+    let length = |name, Length { value, uncertainty }, method| measure(name, value, "m", Some(uncertainty), method);
+    let of_base = "distance of the two contact points of the fitted meniscus";
+    let of_height = "largest distance of the c = 0.5 contour from the line through both contact points";
+    let mut found = vec![
+        length("base-m", extent.base, of_base).moving_with(BASE, 1.0),
+        length("height-m", extent.height, of_height).moving_with(HEIGHT, 1.0),
+    ];
+    let (exact, over) = if s.flow.setting.method.gravity == Vec2::zeros() { as_a_cap(s) } else { under_gravity(s) };
+    let ratio = |name, what: &str, column, Length { value, uncertainty }, exact: f64| {
+        measure(name, value / exact, "", Some(uncertainty / exact), &format!("{what} {over}"))
+            .moving_with(column, 1.0 / exact)
+    };
+    found.push(ratio("base-ratio", "base", BASE, extent.base, exact.base));
+    found.push(ratio("height-ratio", "height", HEIGHT, extent.height, exact.height));
+    found
+}
+
+/// The exact drop of either phase without gravity, and what it is.
+fn as_a_cap(s: &Subject) -> (SessileDrop, &'static str) {
     let through_wetting = s.flow.setting.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
     let is_wetting = s.seen.lines_with_angle().map(|line| line.curvature).sum::<f64>() > 0.0;
     let areas = &s.seen.areas;
@@ -144,27 +176,20 @@ fn as_a_cap(s: &Subject, (base, height): (f64, f64)) -> Vec<Measure> {
         cap(areas.non_wetting, std::f64::consts::PI - through_wetting)
     };
     let over = "over that of the circular segment with the same area and the requested angle";
-    vec![
-        measure("base-ratio", base / exact.base, "", None, &format!("base {over}")),
-        measure("height-ratio", height / exact.height, "", None, &format!("height {over}")),
-    ]
+    (SessileDrop { base: exact.base, height: exact.height }, over)
 }
 
-/// Base and height (m) of a drop on a level floor over those of the exact solution under gravity.
-fn under_gravity(s: &Subject, (base, height): (f64, f64)) -> Vec<Measure> {
+/// The exact drop on a level floor under gravity, NaN on others, and what it is.
+fn under_gravity(s: &Subject) -> (SessileDrop, &'static str) {
     let m = &s.flow.setting.method;
     let force = m.curvature_gradient();
     let is_on_floor = |line: &ContactLine| -(s.flow.setting.wall)(line.position).1.dot(&force.normalize()) > LEVEL;
     let asked_for = m.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
     let exact = sessile_drop(s.seen.areas.wetting, force.norm().sqrt().recip(), asked_for);
     let exact = exact.filter(|_| s.seen.lines_with_angle().all(is_on_floor));
-    let ratio = |found: f64, exact: Option<f64>| exact.map_or(f64::NAN, |exact| found / exact);
     let over =
         "over that of the Young-Laplace equation with the same area, the requested angle and gravity, on a level floor";
-    vec![
-        measure("base-ratio", ratio(base, exact.map(|e| e.base)), "", None, &format!("base {over}")),
-        measure("height-ratio", ratio(height, exact.map(|e| e.height)), "", None, &format!("height {over}")),
-    ]
+    (exact.unwrap_or(SessileDrop { base: f64::NAN, height: f64::NAN }), over)
 }
 
 #[cfg(test)]

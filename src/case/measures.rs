@@ -26,6 +26,8 @@ const WITH_TENSION: &[&str] = &[
 const WITH_WETTING: &[&str] = &["contact-angle-deg", "requested-angle-deg"];
 /// Those of one with open sides, or with a given flow through periodic ones.
 const OPEN_SIDES: &[&str] = &["balance-error", "open-area-drift", "inflow-m2-per-s"];
+/// Those of two phases between open sides.
+const BREAKTHROUGH: &[&str] = &["breakthrough-time-s", "saturation-at-breakthrough"];
 /// Those of one with a given velocity or flow rate, at an inlet or through periodic sides.
 const GIVEN_FLOW: &[&str] = &["asked-inflow-m2-per-s", "inflow-ratio"];
 /// Those of one with a given flow through periodic sides.
@@ -145,14 +147,16 @@ fn of_flow(sph: &Sph, has_shapes: bool) -> [Offer; 4] {
 }
 
 /// The measures of what passes through the sides.
-fn of_open_sides(sph: &Sph) -> [Offer; 4] {
+fn of_open_sides(sph: &Sph) -> [Offer; 5] {
     let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
     let open = || sides.iter().zip(&sph.open).filter_map(|(side, open)| Some((*side, (*open)?)));
     let is_given = open().any(|(_, open)| !matches!(open.drive, Drive::Pressure(_)));
     let has_steps = open().any(|(_, open)| open.pressure_steps.is_some());
     let is_periodic = open().any(|(side, _)| side == Side::Periodic);
+    let is_displaced = sph.tension > 0.0 && open().any(|(side, _)| side != Side::Periodic);
     [
         Offer::new(OPEN_SIDES, "open sides or a given flow through periodic ones", open().next().is_some()),
+        Offer::new(BREAKTHROUGH, "two phases with a tension above 0, and open sides", is_displaced),
         Offer::new(GIVEN_FLOW, "a velocity or a flow-rate in [sph.sides.open]", is_given),
         Offer::new(PERIODIC_FLOW, "a given flow through periodic sides", is_periodic),
         Offer::new(PRESSURE_STEPS, "pressure-steps in [sph.sides.open]", has_steps),

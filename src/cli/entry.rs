@@ -8,7 +8,7 @@ use clap::{CommandFactory, Parser};
 use super::arguments::{Arguments, Command, RunArguments};
 use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{say, tell};
-use super::{check, compare, couple, geometry, list, network, new, output, processor, run, source, study, threads};
+use super::{check, compare, couple, geometry, list, network, new, output, run, source, study, threads};
 
 /// Reads the command line and does what it says.
 #[must_use]
@@ -22,10 +22,6 @@ pub fn main() -> ExitCode {
         tell(format_args!("bug in meniscus: {what}{place}. Please report this line together with the case file."));
         std::process::exit(i32::from(BUG));
     }));
-    if let Err(failure) = processor::check() {
-        tell(failure.message);
-        return ExitCode::from(failure.code);
-    }
     let code = match Arguments::try_parse() {
         Ok(arguments) => {
             threads::bound_environment();

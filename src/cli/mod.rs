@@ -18,7 +18,7 @@ mod new;
 mod new_pack;
 mod opened_study;
 mod output;
-mod processor;
+pub mod processor;
 mod progress;
 mod run;
 mod source;

@@ -1,25 +1,31 @@
-//! Whether the processor has the instructions that the program was built with (`.cargo/config.toml`).
+//! Whether the processor has the instructions that the program was built with (`.cargo/config.toml`: x86-64-v3).
 
-use super::exit::{Failure, USAGE};
+/// Ends the program with a message where the processor lacks them: the first one would end it without a word.
+///
+/// To be called first. Only functions of the standard library work here, which is built for any processor.
+#[inline(never)]
+pub fn require() {
+    #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
+    if !has_v3() {
+        use std::io::Write;
 
-/// # Errors
-/// A failure that tells how to build for the processor, where it lacks them: the first one would end the program without a word.
-pub fn check() -> Result<(), Failure> {
-    if cfg!(target_feature = "avx2") && !has_avx2() {
-        let what = "this processor lacks AVX2 instructions, with which the program was built; build it without them: \
-                    RUSTFLAGS='-C target-cpu=x86-64' cargo build --release";
-        return Err(Failure::new(USAGE, &what));
+        let message =
+            b"error: this processor lacks instructions (AVX2) that the program was built with; build it without them: \
+            RUSTFLAGS='-C target-cpu=x86-64' cargo build --release\n";
+        // Nobody is left to tell.
+        let _ = std::io::stderr().write_all(message);
+        std::process::exit(i32::from(super::exit::USAGE));
     }
-    Ok(())
 }
 
 /// What the processor itself tells: the standard library's test takes what the program was built with for granted.
-#[cfg(target_arch = "x86_64")]
-fn has_avx2() -> bool {
-    raw_cpuid::CpuId::new().get_extended_feature_info().is_some_and(|features| features.has_avx2())
-}
-
-#[cfg(not(target_arch = "x86_64"))]
-fn has_avx2() -> bool {
-    false
+#[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
+fn has_v3() -> bool {
+    let processor = raw_cpuid::CpuId::new();
+    let basic = processor
+        .get_feature_info()
+        .is_some_and(|f| f.has_avx() && f.has_fma() && f.has_f16c() && f.has_movbe() && f.has_oxsave());
+    let extended = processor.get_extended_feature_info().is_some_and(|f| f.has_avx2() && f.has_bmi1() && f.has_bmi2());
+    let more = processor.get_extended_processor_and_feature_identifiers().is_some_and(|f| f.has_lzcnt());
+    basic && extended && more
 }

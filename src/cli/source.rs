@@ -195,6 +195,7 @@ fn measures(geometry: &Geometry) -> Vec<Measure> {
         unit: unit.into(),
         uncertainty: None,
         method: method.into(),
+        moves_with: None,
     };
     let mut found = vec![
         Measure {

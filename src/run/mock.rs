@@ -116,6 +116,7 @@ impl Solver for MockSolver {
             unit: unit.into(),
             uncertainty: Some(1.0e-9),
             method: method.into(),
+            moves_with: None,
         };
         vec![
             measure("radius-m", self.points[0].norm(), "m", "distance of the first particle from the origin"),

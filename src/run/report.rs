@@ -186,7 +186,8 @@ pub fn wall_time(total: f64, parts: impl Iterator<Item = PartTime>) -> WallTime 
     WallTime { total, parts: parts.map(|part| (part.part, part.seconds)).collect() }
 }
 
-/// Measures by name. Those that stand in the `series` too, as one of the `watched` quantities, are as uncertain as these still move.
+/// Measures by name. Those that stand in the `series` too, as one of the `watched` quantities or as a column that they move with, are as
+/// uncertain as these still move.
 #[must_use]
 pub fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) -> BTreeMap<String, Reading> {
     // Adding zero turns minus zero, which means nothing to people, into zero.
@@ -196,10 +197,16 @@ pub fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) ->
         .map(|m| {
             let at_one_time = m.uncertainty.and_then(finite);
             let column = m.name.replace('-', "_");
-            let kind = watched.iter().find(|one| one.column == column).map(|one| one.kind);
-            let drift = kind.and_then(|kind| Some(Drift::of(series, &column)?.within(kind.range(), m.value)));
+            let of_it = watched.iter().find(|one| one.column == column);
+            let kind = of_it.map(|one| one.kind);
+            let drift = match (of_it, m.moves_with) {
+                (Some(one), _) => Drift::of_watched(series, *one, m.value),
+                (None, Some(with)) => Drift::of(series, with.column).map(|drift| drift.times(with.factor)),
+                (None, None) => None,
+            };
             let known = at_one_time.or(kind.and_then(Quantity::small));
-            let uncertainty = drift.map_or(at_one_time, |drift| Some(at_one_time.unwrap_or(0.0).hypot(drift.left)));
+            let of_motion = drift.map(|drift| at_one_time.unwrap_or(0.0).hypot(drift.left).hypot(drift.by_flow));
+            let uncertainty = of_motion.and_then(finite).or(at_one_time);
             let moves = drift.filter(|drift| known.is_some_and(|known| drift.left > known));
             let not_at_rest = moves.map(|drift| Motion { rate: drift.rate, unit: format!("{}/s", m.unit) });
             (m.name, Reading { value: finite(m.value), unit: m.unit, uncertainty, method: m.method, not_at_rest })
@@ -264,5 +271,30 @@ impl Report {
         let text = serde_json::to_string_pretty(self)
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
         atomic::write(&path, (text + "\n").as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ratio_moves_with_the_column_of_its_length() {
+        let rows = (0..=100).map(|i| f64::from(i) / 100.0).map(|t| vec![t, 2.0 - t]).collect();
+        let series = Series { columns: vec!["time_s".into(), "base_m".into()], rows };
+        let ratio = Measure {
+            name: "base-ratio".into(),
+            value: 4.0,
+            unit: String::new(),
+            uncertainty: Some(0.01),
+            method: String::new(),
+            moves_with: None,
+        };
+        let found = |measure: &Measure| readings(vec![measure.clone()], &series, &[]).remove("base-ratio").unwrap();
+        assert_eq!(found(&ratio).not_at_rest, None);
+        let moving = found(&ratio.clone().moving_with("base_m", 4.0));
+        let motion = moving.not_at_rest.unwrap();
+        assert!((motion.rate + 4.0).abs() < 1e-9 && moving.uncertainty.unwrap() > 1.0, "{motion:?}");
+        assert_eq!(found(&ratio.moving_with("no_such_column", 4.0)).uncertainty, Some(0.01));
     }
 }

@@ -148,7 +148,7 @@ fn change(
         }
     }
     let tolerance = match watched.kind {
-        Quantity::Angle => steady.contact_angle.to_degrees(),
+        Quantity::Angle { .. } => steady.contact_angle.to_degrees(),
         Quantity::Pressure { scale } => steady.capillary_pressure * mean.abs().max(scale),
         Quantity::Saturation => steady.saturation,
         Quantity::Energy { .. } => steady.kinetic_energy * mean.abs(),
@@ -183,7 +183,10 @@ mod tests {
 
     const ROWS: u32 = 200;
 
-    const ANGLE: [Watched; 1] = [Watched { column: "contact_angle_deg", kind: Quantity::Angle }];
+    const ANGLE: [Watched; 1] = [Watched {
+        column: "contact_angle_deg",
+        kind: Quantity::Angle { energy: "kinetic_energy_J_per_m", length: "interface_length_m", tension: 0.02 },
+    }];
 
     /// A series of one second with one quantity.
     fn series(column: &str, value: impl Fn(f64) -> f64) -> Series {

@@ -169,14 +169,16 @@ impl Solver for SphSolver {
         let (m, size) = (&self.flow.setting.method, self.flow.setting.domain.bounds.size());
         let capillary_speed =
             (m.tension > 0.0).then(|| m.tension / m.wetting_fluid.viscosity.max(m.other_fluid.viscosity));
-        let energy = Quantity::Energy { speed: "max_speed_m_per_s", capillary_speed };
-        let mut watched = vec![Watched { column: "kinetic_energy_J_per_m", kind: energy }];
+        let energy = "kinetic_energy_J_per_m";
+        let kind = Quantity::Energy { speed: "max_speed_m_per_s", capillary_speed };
+        let mut watched = vec![Watched { column: energy, kind }];
         if m.tension > 0.0 {
             // An interface as curved as the domain is wide.
             let pressure = Quantity::Pressure { scale: m.tension / size.max() };
             watched.push(Watched { column: "capillary_pressure_Pa", kind: pressure });
             watched.push(Watched { column: "saturation", kind: Quantity::Saturation });
-            watched.push(Watched { column: "contact_angle_deg", kind: Quantity::Angle });
+            let angle = Quantity::Angle { energy, length: "interface_length_m", tension: m.tension };
+            watched.push(Watched { column: "contact_angle_deg", kind: angle });
         }
         watched
     }

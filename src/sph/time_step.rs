@@ -4,8 +4,15 @@ use std::f64::consts::PI;
 
 use crate::sph::method::{Method, ViscousStep, ViscousTerm};
 
-/// Courant number on the smoothing length.
+/// Courant number on the smoothing length, without surface tension. It bounds the error of the motion, since particles move with the flow.
 const COURANT: f64 = 0.125;
+
+/// The same with surface tension, where the measures of the gallery do not tell one from the other (docs/numerics/forces.md, "Limit by
+/// velocity").
+const COURANT_WITH_TENSION: f64 = 0.25;
+
+/// The largest Courant number that a factor on the step may ask for: with the overshoot below it stays under the way that ends a run.
+const LARGEST_COURANT: f64 = 0.3;
 
 /// A step that would carry a particle farther than the Courant number allows times this is taken again, shorter: from rest no velocity
 /// tells what forces will do.
@@ -32,6 +39,13 @@ const SZEWC_OVER_MORRIS: f64 = 2.0;
 
 /// A step below this share of the static limits means that a velocity has run away.
 const COLLAPSE: f64 = 1e-3;
+
+/// What the limits are multiplied with.
+struct Constants {
+    velocity: f64,
+    body_force: f64,
+    capillary: f64,
+}
 
 /// A time step with the limit that rules it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,23 +82,35 @@ impl Method {
             ViscousStep::Implicit => in_gas * LONG_CAPILLARY,
             ViscousStep::Explicit => CAPILLARY,
         };
-        self.bounded(speed, f * COURANT, f * capillary)
+        let body_force = f * self.usual_courant();
+        self.bounded(speed, &Constants { velocity: self.courant(), body_force, capillary: f * capillary })
     }
 
-    /// The time in s in which the pressure takes its share of the density error back, whatever the step.
+    /// The Courant number of the limit by velocity without a factor on the step.
+    fn usual_courant(&self) -> f64 {
+        if self.tension > 0.0 { COURANT_WITH_TENSION } else { COURANT }
+    }
+
+    /// That with it.
+    fn courant(&self) -> f64 {
+        (self.time_step_factor * self.usual_courant()).min(LARGEST_COURANT)
+    }
+
+    /// The time in s in which the pressure takes its share of the density error back, whatever the step: with the shortest of the constants,
+    /// since measured, less often is less even.
     #[must_use]
     pub fn density_correction_time(&self, speed: f64) -> f64 {
-        self.bounded(speed, COURANT, CAPILLARY).dt
+        self.bounded(speed, &Constants { velocity: COURANT, body_force: COURANT, capillary: CAPILLARY }).dt
     }
 
-    /// The tightest of the limits by velocity, body force and surface tension with these constants.
-    fn bounded(&self, speed: f64, courant: f64, capillary: f64) -> TimeStep {
+    /// The tightest of the limits by velocity, body force and surface tension.
+    fn bounded(&self, speed: f64, constants: &Constants) -> TimeStep {
         let h = self.kernel.h;
         let of_waves = (self.mean_density() * h.powi(3) / (2.0 * PI * self.tension)).sqrt();
         TimeStep { dt: f64::INFINITY, limit: "none" }
-            .tighter(capillary * of_waves, "surface tension")
-            .tighter(courant * (h / self.gravity.norm()).sqrt(), "gravity")
-            .tighter(courant * h / speed, "velocity")
+            .tighter(constants.capillary * of_waves, "surface tension")
+            .tighter(constants.body_force * (h / self.gravity.norm()).sqrt(), "gravity")
+            .tighter(constants.velocity * h / speed, "velocity")
     }
 
     /// The step in s to take in place of one of length `dt` (s) in which a particle goes as far as `way` (m); none if it may go so far.
@@ -92,7 +118,7 @@ impl Method {
     /// What goes too far is taken to be accelerated: its way falls with the square of the step.
     #[must_use]
     pub fn shorter_step(&self, dt: f64, way: f64) -> Option<f64> {
-        let meant = self.time_step_factor * COURANT * self.kernel.h;
+        let meant = self.courant() * self.kernel.h;
         (way > OVERSHOOT * meant).then(|| dt * (meant / way).sqrt())
     }
 

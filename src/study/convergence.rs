@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::definition::{Choice, Study, Target, Trend};
+use super::definition::{Choice, Column, Study, Target, Trend};
 use super::results::RunResult;
-use super::values::shown;
+use super::values::{same, shown};
 use crate::analysis::convergence::observed_order;
 
 /// Last part of a key that is a spacing.
@@ -61,15 +61,24 @@ impl Convergence {
     }
 }
 
-/// The errors of a trend, one list per combination of the other parameters.
+/// The results in groups that differ in nothing but the parameter `along` and those that vary with it, each with its name.
 #[must_use]
-pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<Convergence> {
-    // Parameters that vary together with the one along which the error falls do not tell runs apart.
+pub fn groups<'a>(
+    study: &Study,
+    along: &str,
+    results: impl Iterator<Item = &'a RunResult>,
+) -> Vec<(String, Vec<&'a RunResult>)> {
+    // Parameters of its axis that follow from it do not tell runs apart.
+    let follows = |column: &Column, from: &Column| {
+        let pairs = || from.values.iter().zip(&column.values);
+        pairs().all(|(x, y)| pairs().all(|(other, z)| !same(x, other) || same(y, z)))
+    };
     let together: Vec<&str> = study
         .axes
         .iter()
-        .filter(|axis| axis.columns.iter().any(|column| column.name == trend.along))
-        .flat_map(|axis| axis.columns.iter().map(|column| column.name.as_str()))
+        .filter_map(|axis| Some((axis, axis.columns.iter().find(|column| column.name == along)?)))
+        .flat_map(|(axis, from)| axis.columns.iter().filter(move |column| follows(column, from)))
+        .map(|column| column.name.as_str())
         .collect();
     let group = |result: &RunResult| {
         let others = result.run.parameters.iter().filter(|p| !together.contains(&p.name.as_str()));
@@ -77,7 +86,7 @@ pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<
     };
     let mut groups: Vec<(String, Vec<&RunResult>)> = Vec::new();
     let mut places: BTreeMap<String, usize> = BTreeMap::new();
-    for result in results.iter().filter(|result| result.run.is_in(&trend.only)) {
+    for result in results {
         let name = group(result);
         let place = *places.entry(name.clone()).or_insert(groups.len());
         if place == groups.len() {
@@ -85,6 +94,23 @@ pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<
         }
         groups[place].1.push(result);
     }
+    groups
+}
+
+/// The spacing that varies, if one does.
+#[must_use]
+pub fn spacing(study: &Study) -> Option<&Column> {
+    let is_spacing = |target: &Target| match target {
+        Target::Key(key) => key.rsplit('.').next() == Some(SPACING),
+        _ => false,
+    };
+    study.parameters().find(|column| is_spacing(&column.target) && column.values.len() > 1)
+}
+
+/// The errors of a trend, one list per combination of the other parameters.
+#[must_use]
+pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<Convergence> {
+    let groups = groups(study, &trend.along, results.iter().filter(|result| result.run.is_in(&trend.only)));
     let convergence = |(of, results): (String, Vec<&RunResult>)| {
         let point = |result: &&RunResult| {
             let reference = result.run.quantity(&trend.reference)?;
@@ -108,11 +134,7 @@ pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<
 /// The errors of all trends; and where a spacing varies, of every measure of which the study expects a value.
 #[must_use]
 pub fn all(study: &Study, results: &[RunResult]) -> Vec<Convergence> {
-    let is_spacing = |target: &Target| match target {
-        Target::Key(key) => key.rsplit('.').next() == Some(SPACING),
-        _ => false,
-    };
-    let spacing = study.parameters().find(|column| is_spacing(&column.target) && column.values.len() > 1);
+    let spacing = spacing(study);
     let mut trends = study.trends.clone();
     for expected in &study.expectations {
         let Some(column) = spacing else { break };

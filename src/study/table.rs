@@ -1,6 +1,7 @@
 //! The table of a study: a row per run, as CSV with all digits and as Markdown for people.
 
 use super::definition::Study;
+use super::resolution::Resolution;
 use super::results::{RunResult, measures};
 use super::values::shown;
 use super::verdict::{digits, significant};
@@ -20,11 +21,12 @@ fn shown_measures(study: &Study, results: &[RunResult]) -> Vec<String> {
     study.report.measures.clone().unwrap_or_else(|| measures(results).into_keys().collect())
 }
 
-/// The table for other programs: all digits, an uncertainty beside each measure that has one, nothing where there is no
-/// value. It does not depend on how often the study was interrupted.
+/// The table for other programs: all digits, beside each measure its uncertainty in the run and that by the spacing where they are known,
+/// nothing where there is no value. It does not depend on how often the study was interrupted.
 #[must_use]
 pub fn full(study: &Study, results: &[RunResult]) -> Table {
     let names = shown_measures(study, results);
+    let resolution = Resolution::of(study, results);
     let has_uncertainty = |name: &str| results.iter().any(|result| result.uncertainty(name).is_some());
     let mut heads = vec!["run".to_owned()];
     heads.extend(study.parameters().map(|column| column.name.clone()));
@@ -33,6 +35,9 @@ pub fn full(study: &Study, results: &[RunResult]) -> Table {
         heads.push(name.clone());
         if has_uncertainty(name) {
             heads.push(format!("{name}-uncertainty"));
+        }
+        if resolution.has(name) {
+            heads.push(format!("{name}-discretization-uncertainty"));
         }
     }
     let digits = |number: f64| if number.fract() == 0.0 { format!("{number}") } else { format!("{number:?}") };
@@ -46,13 +51,16 @@ pub fn full(study: &Study, results: &[RunResult]) -> Table {
             if has_uncertainty(name) {
                 row.push(text(result.uncertainty(name)));
             }
+            if resolution.has(name) {
+                row.push(text(resolution.uncertainty(result, name)));
+            }
         }
         row
     };
     Table { heads, rows: results.iter().map(row).collect() }
 }
 
-/// The table for people: four digits with the uncertainty behind them, units in the heads.
+/// The table for people: four digits with the uncertainty behind them, that by the spacing included, units in the heads.
 #[must_use]
 pub fn short(study: &Study, results: &[RunResult]) -> Table {
     let names = shown_measures(study, results);
@@ -64,7 +72,12 @@ pub fn short(study: &Study, results: &[RunResult]) -> Table {
         Some(unit) if !unit.is_empty() && !name.ends_with(&format!("-{unit}")) => format!("{name} ({unit})"),
         _ => name.clone(),
     }));
-    let cell = |result: &RunResult, name: &str| match (result.number(name), result.uncertainty(name)) {
+    let resolution = Resolution::of(study, results);
+    let uncertainty = |result: &RunResult, name: &str| {
+        let both = [result.uncertainty(name), resolution.uncertainty(result, name)];
+        both.into_iter().flatten().reduce(f64::hypot)
+    };
+    let cell = |result: &RunResult, name: &str| match (result.number(name), uncertainty(result, name)) {
         (Some(value), Some(uncertainty)) => format!("{} ± {}", digits(value), significant(uncertainty, 2)),
         (Some(value), None) => digits(value),
         (None, _) => "–".to_owned(),
@@ -139,5 +152,17 @@ mod tests {
              | 1e-5 | done    | 0.3333 ± 0.10 | 10    | 1.500       | –     |\n\
              | 0.25 | partial | –             | –     | –           | –     |\n"
         );
+    }
+
+    #[test]
+    fn three_spacings_widen_the_bars() {
+        let study =
+            study("[[axis]]\nname = 'dx'\nkey = 'sph.spacing'\nvalues = [4, 2, 1]\n[report]\nmeasures = ['m']\n");
+        let results = complete(&study, |run| 1.0 + run.value("dx").and_then(toml::Value::as_integer).unwrap() as f64);
+        let csv = String::from_utf8(full(&study, &results).csv().unwrap()).unwrap();
+        let known: Vec<f64> = csv.lines().skip(1).map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect();
+        assert!(csv.starts_with("run,dx,status,m,m-uncertainty,m-discretization-uncertainty\n"), "{csv}");
+        assert!(known.iter().zip([2.5, 1.25, 0.625]).all(|(found, known)| (found - known).abs() < 1e-9), "{csv}");
+        assert!(short(&study, &results).markdown().contains("5.000 ± 2.5"));
     }
 }

@@ -133,5 +133,5 @@ fn spreading(solver: &ThinFilmSolver, length: impl Fn(&Record) -> Option<f64>) -
 }
 
 fn measure(name: &str, value: f64, unit: &str, method: &str) -> Measure {
-    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into() }
+    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
 }

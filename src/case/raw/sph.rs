@@ -154,7 +154,7 @@ tables! {
         pub fitted_interface: bool,
         /// Largest relative residual of the pressure solve (default 1e-6).
         pub pressure_tolerance: f64,
-        /// Factor on all limits of the time step (default 1).
+        /// Factor on all limits of the time step; of that by velocity up to a Courant number of 0.3 (default 1).
         pub time_step_factor: f64,
     }
 }

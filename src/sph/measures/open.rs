@@ -13,12 +13,27 @@ fn is_open(flow: &Flow) -> bool {
 /// Column of the pressure at a side where it rises in steps less that at the opposite side, in Pa.
 pub const PRESSURE_DIFFERENCE: &str = "pressure_difference_Pa";
 
-/// Column of the area of the phase at that side that left through the opposite one, in m².
+/// Column of the area in m² of the phase that comes in that has left through another side: with a pressure that rises in steps, of the phase
+/// at that side through the opposite one.
 pub const PASSED: &str = "passed_m2";
 
 /// The first side whose pressure rises in steps.
 fn rising(flow: &Flow) -> Option<&OpenSide> {
     flow.setting.open.sides.iter().find(|side| side.steps.is_some())
+}
+
+/// Whether two phases can displace each other through open sides.
+fn is_displacement(flow: &Flow) -> bool {
+    flow.setting.method.tension > 0.0 && !flow.setting.open.sides.is_empty()
+}
+
+/// The phase of which more came in, and the number of the side by which most of it did.
+fn entering(flow: &Flow) -> (usize, usize) {
+    let ledger = &flow.state.ledger;
+    let (came, _) = ledger.totals();
+    let phase = usize::from(came[1] > came[0]);
+    let entry = (0..ledger.came.len()).max_by_key(|number| ledger.came[*number][phase]).unwrap_or(0);
+    (phase, entry)
 }
 
 /// Areas in m² that came in and left since time zero, by phase: particles times their area at rest.
@@ -45,6 +60,10 @@ pub fn columns(flow: &Flow) -> Columns {
         let phase = usize::from(side.main != Phase::Wetting);
         let through = opposite.map_or(0, |opposite| flow.state.ledger.left[opposite.number][phase]);
         columns.push((PASSED, area(through)));
+    } else if is_displacement(flow) {
+        let (phase, entry) = entering(flow);
+        let others = (0..flow.state.ledger.left.len()).filter(|number| *number != entry);
+        columns.push((PASSED, area(others.map(|number| flow.state.ledger.left[number][phase]).sum())));
     }
     for (side, given) in flow.given_flows() {
         let (rate, gradient) = names[side.axis()];
@@ -94,8 +113,35 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
     if flow.state.time > 0.0 {
         found.extend(flow_rates(flow));
     }
+    if is_displacement(flow) {
+        found.extend(breakthrough(s));
+    }
     found.extend(burst(s));
     found
+}
+
+/// When the phase that comes in first left through another side, and its saturation then: in the middle between two records.
+fn breakthrough(s: &Subject) -> [Measure; 2] {
+    let is_wetting = match rising(s.flow) {
+        Some(side) => side.main == Phase::Wetting,
+        None => entering(s.flow).0 == 0,
+    };
+    let [passed, time, wetting] =
+        [PASSED, "time_s", "saturation"].map(|name| s.series.column(name).collect::<Vec<f64>>());
+    // Of the entering phase, as that of a network.
+    let saturation: Vec<f64> = wetting.iter().map(|s| if is_wetting { *s } else { 1.0 - s }).collect();
+    let interval = passed.iter().position(|&area| area > 0.0).and_then(|row| Some([row.checked_sub(1)?, row]));
+    let method = match interval {
+        Some(_) => "middle of the interval of records in which the phase that comes in first left through another side",
+        None => "the phase that comes in has left through no other side by the end",
+    };
+    let of = |name: &str, values: &[f64], unit: &str| {
+        let ends = interval.map(|rows| rows.map(|row| values[row]));
+        let middle = ends.map_or(f64::NAN, |[before, after]| 0.5 * (before + after));
+        let uncertainty = ends.map(|[before, after]| 0.5 * (after - before).abs() / 3.0_f64.sqrt());
+        measure(name, middle, unit, uncertainty, method)
+    };
+    [of("breakthrough-time-s", &time, "s"), of("saturation-at-breakthrough", &saturation, "")]
 }
 
 /// The pressure, rising in steps, at which the phase that comes in passes to the opposite side: between the last one at which the menisci rested

@@ -61,5 +61,5 @@ impl Group {
 /// A measure: its value and standard `uncertainty` in `unit`, and in one sentence the `method`.
 #[must_use]
 pub fn measure(name: &str, value: f64, unit: &str, uncertainty: Option<f64>, method: &str) -> Measure {
-    Measure { name: name.into(), value, unit: unit.into(), uncertainty, method: method.into() }
+    Measure { name: name.into(), value, unit: unit.into(), uncertainty, method: method.into(), moves_with: None }
 }
