@@ -130,7 +130,9 @@ fn breakthrough(s: &Subject) -> [Measure; 2] {
         [PASSED, "time_s", "saturation"].map(|name| s.series.column(name).collect::<Vec<f64>>());
     // Of the entering phase, as that of a network.
     let saturation: Vec<f64> = wetting.iter().map(|s| if is_wetting { *s } else { 1.0 - s }).collect();
-    let interval = passed.iter().position(|&area| area > 0.0).and_then(|row| Some([row.checked_sub(1)?, row]));
+    // At the very start, before much came in, the column can be of the other phase.
+    let before = passed.iter().rposition(|&area| area == 0.0);
+    let interval = before.map(|row| [row, row + 1]).filter(|[_, after]| *after < passed.len());
     let method = match interval {
         Some(_) => "middle of the interval of records in which the phase that comes in first left through another side",
         None => "the phase that comes in has left through no other side by the end",
