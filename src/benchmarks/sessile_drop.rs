@@ -147,22 +147,22 @@ fn columns(flow: &Flow, seen: &Observation) -> Columns {
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let extent = Extent::of(s.seen, s.flow.setting.method.kernel.h);
-    let length = |name, Length { value, uncertainty }, method| measure(name, value, "m", Some(uncertainty), method);
+    let Extent { base, height } = Extent::of(s.seen, s.flow.setting.method.kernel.h);
     let of_base = "distance of the two contact points of the fitted meniscus";
     let of_height = "largest distance of the c = 0.5 contour from the line through both contact points";
-    let mut found = vec![
-        length("base-m", extent.base, of_base).moving_with(BASE, 1.0),
-        length("height-m", extent.height, of_height).moving_with(HEIGHT, 1.0),
-    ];
     let (exact, over) = if s.flow.setting.method.gravity == Vec2::zeros() { as_a_cap(s) } else { under_gravity(s) };
-    let ratio = |name, what: &str, column, Length { value, uncertainty }, exact: f64| {
-        measure(name, value / exact, "", Some(uncertainty / exact), &format!("{what} {over}"))
-            .moving_with(column, 1.0 / exact)
-    };
-    found.push(ratio("base-ratio", "base", BASE, extent.base, exact.base));
-    found.push(ratio("height-ratio", "height", HEIGHT, extent.height, exact.height));
-    found
+    let (of_base_ratio, of_height_ratio) = (format!("base {over}"), format!("height {over}"));
+    let over_base = |length: f64| length / exact.base;
+    let over_height = |length: f64| length / exact.height;
+    let [base_bar, height_bar] = [base, height].map(|length| length.uncertainty);
+    vec![
+        measure("base-m", base.value, "m", Some(base_bar), of_base).moving_with(BASE, 1.0),
+        measure("height-m", height.value, "m", Some(height_bar), of_height).moving_with(HEIGHT, 1.0),
+        measure("base-ratio", over_base(base.value), "", Some(over_base(base_bar)), &of_base_ratio)
+            .moving_with(BASE, over_base(1.0)),
+        measure("height-ratio", over_height(height.value), "", Some(over_height(height_bar)), &of_height_ratio)
+            .moving_with(HEIGHT, over_height(1.0)),
+    ]
 }
 
 /// The exact drop of either phase without gravity, and what it is.
