@@ -51,6 +51,8 @@ fn fresh_output_keeps_the_contract_and_is_drawn() {
         run(script(name).arg(&out).arg(option).arg(&target), "the figure must be drawn");
         assert!(target.metadata().is_ok_and(|m| m.len() > 2000), "{file} is empty");
     }
+    let printed = run(script("small_pieces.py").arg(&out), "the pieces must be counted");
+    assert!(printed.contains("\nwetting: small 0, ") && printed.contains("\nnon-wetting: small 0, "), "{printed}");
 }
 
 #[test]

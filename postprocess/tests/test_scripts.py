@@ -18,6 +18,7 @@ import compare_picture  # noqa: E402
 import field_picture  # noqa: E402
 import movie  # noqa: E402
 import results  # noqa: E402
+import small_pieces  # noqa: E402
 import spreading  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -109,6 +110,12 @@ class Scripts(unittest.TestCase):
         self.assertAlmostEqual(found["max"], 0.03 / (6.0 * synthetic.SPACING))
         self.draws("field_picture.py", "--picture", "figure.png")
         self.draws("field_picture.py", "--picture", "speed.png", "--field", "velocity", "--time", "0.001")
+
+    def test_points_are_linked_to_pieces(self):
+        """A row of three, one apart, and one whose neighbor is just too far."""
+        points = np.array([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [1.5, 0.0, 0.0], [3.0, 0.0, 0.0], [6.7, 0.0, 0.0]])
+        piece = small_pieces.pieces(points, 1.6)
+        self.assertEqual([int(np.sum(piece == number)) for number in piece], [3, 1, 3, 3, 1])
 
     def test_caps_are_continued_to_the_wall(self):
         """A circle and a parabola of known base and angle, seen from a fifth of their height on."""

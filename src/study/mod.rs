@@ -22,7 +22,7 @@ mod names;
 pub mod page;
 pub mod raw;
 pub mod report;
-mod resolution;
+pub mod resolution;
 pub mod results;
 pub mod runs;
 pub mod slurm;

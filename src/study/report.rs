@@ -8,6 +8,7 @@ use super::curve::{CurveError, svg};
 use super::definition::Study;
 use super::folder::StudyFolder;
 use super::page::{Content, page};
+use super::resolution::Resolution;
 use super::results::{RUN_NUMBERS, RunResult, Standing, measures, results};
 use super::runs::PlannedRun;
 use super::table::{self, Table};
@@ -61,9 +62,10 @@ pub fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Resul
     let results = results(runs, folder);
     let judgments = judgments(study, &results);
     let convergences = convergence::all(study, &results);
-    let table = table::short(study, &results);
+    let resolution = Resolution::of(study, &results);
+    let table = table::short(study, &results, &resolution);
     let path = |name: &str| folder.root().join(name);
-    atomic::write(&path("table.csv"), &table::full(study, &results).csv()?)?;
+    atomic::write(&path("table.csv"), &table::full(study, &results, &resolution).csv()?)?;
     atomic::write(&path("table.md"), table.markdown().as_bytes())?;
     let mut curves = Vec::new();
     for (number, curve) in study.report.curves.iter().enumerate() {

@@ -24,9 +24,8 @@ fn shown_measures(study: &Study, results: &[RunResult]) -> Vec<String> {
 /// The table for other programs: all digits, beside each measure its uncertainty in the run and that by the spacing where they are known,
 /// nothing where there is no value. It does not depend on how often the study was interrupted.
 #[must_use]
-pub fn full(study: &Study, results: &[RunResult]) -> Table {
+pub fn full(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
     let names = shown_measures(study, results);
-    let resolution = Resolution::of(study, results);
     let has_uncertainty = |name: &str| results.iter().any(|result| result.uncertainty(name).is_some());
     let mut heads = vec!["run".to_owned()];
     heads.extend(study.parameters().map(|column| column.name.clone()));
@@ -62,7 +61,7 @@ pub fn full(study: &Study, results: &[RunResult]) -> Table {
 
 /// The table for people: four digits with the uncertainty behind them, that by the spacing included, units in the heads.
 #[must_use]
-pub fn short(study: &Study, results: &[RunResult]) -> Table {
+pub fn short(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
     let names = shown_measures(study, results);
     let units = measures(results);
     let mut heads: Vec<String> = study.parameters().map(|column| column.name.clone()).collect();
@@ -72,7 +71,6 @@ pub fn short(study: &Study, results: &[RunResult]) -> Table {
         Some(unit) if !unit.is_empty() && !name.ends_with(&format!("-{unit}")) => format!("{name} ({unit})"),
         _ => name.clone(),
     }));
-    let resolution = Resolution::of(study, results);
     let uncertainty = |result: &RunResult, name: &str| {
         let both = [result.uncertainty(name), resolution.uncertainty(result, name)];
         both.into_iter().flatten().reduce(f64::hypot)
@@ -138,7 +136,7 @@ mod tests {
         );
         let mut results = complete(&study, |_| 1.0 / 3.0);
         results[1].standing = Standing::Partial;
-        let csv = String::from_utf8(full(&study, &results).csv().unwrap()).unwrap();
+        let csv = String::from_utf8(full(&study, &results, &Resolution::of(&study, &results)).csv().unwrap()).unwrap();
         assert_eq!(
             csv,
             "run,dx,status,m,m-uncertainty,steps,wall-time-s,other\n\
@@ -146,7 +144,7 @@ mod tests {
              dx=0.25,0.25,partial,,,,,\n"
         );
         assert_eq!(
-            short(&study, &results).markdown(),
+            short(&study, &results, &Resolution::of(&study, &results)).markdown(),
             "| dx   | status  | m (deg)       | steps | wall-time-s | other |\n\
              |------|---------|---------------|-------|-------------|-------|\n\
              | 1e-5 | done    | 0.3333 ± 0.10 | 10    | 1.500       | –     |\n\
@@ -159,11 +157,11 @@ mod tests {
         let study =
             study("[[axis]]\nname = 'dx'\nkey = 'sph.spacing'\nvalues = [4, 2, 1]\n[report]\nmeasures = ['m']\n");
         let results = complete(&study, |run| 1.0 + run.value("dx").and_then(toml::Value::as_integer).unwrap() as f64);
-        let csv = String::from_utf8(full(&study, &results).csv().unwrap()).unwrap();
+        let csv = String::from_utf8(full(&study, &results, &Resolution::of(&study, &results)).csv().unwrap()).unwrap();
         let known: Vec<f64> = csv.lines().skip(1).map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect();
         assert!(csv.starts_with("run,dx,status,m,m-uncertainty,m-discretization-uncertainty\n"), "{csv}");
         assert!(known.iter().zip([2.5, 1.25, 0.625]).all(|(found, known)| (found - known).abs() < 1e-9), "{csv}");
-        let people = short(&study, &results).markdown();
+        let people = short(&study, &results, &Resolution::of(&study, &results)).markdown();
         assert!(people.contains("± 2.5") && people.contains("± 0.63"), "{people}");
     }
 }
