@@ -60,6 +60,8 @@ pub struct Fields {
     pub slip_length: Vec<f64>,
     /// Number of contact lines that a line force acts on.
     pub contact_lines: usize,
+    /// Whether a contact line is where its wall bends.
+    pub has_pinned_line: bool,
     /// The contact lines now: the state of the next step.
     pub lines: Vec<Line>,
     /// Receding and advancing angle in rad of the wall next to each fluid particle, NaN where none is in reach.
@@ -148,6 +150,7 @@ impl Fields {
         self.color.extend_from_slice(&sharp[..n]);
         self.jump = None;
         self.contact_lines = 0;
+        self.has_pinned_line = false;
         self.lines.clear();
         self.slip_length.clear();
         self.slip_length.resize(fluids, method.no_slip.slip_length);
@@ -259,7 +262,9 @@ impl Fields {
         };
         let resolution = Resolution { spacing: method.spacing, h: method.kernel.h };
         let points = interface_points(neighborhood, domain, &fields, moving, resolution);
-        let interface = Interface::new(&points, domain, resolution, &setting.wall).under(method.curvature_gradient());
+        let interface = Interface::new(&points, domain, resolution, &setting.wall)
+            .under(method.curvature_gradient())
+            .before(state.last_dt);
         let mut pinned = Vec::new();
         if method.wetting.is_some() {
             let seen = interface.lines();
@@ -267,6 +272,7 @@ impl Fields {
             self.lines = follow(setting, state, &seen);
             pinned.extend(seen.iter().zip(&self.lines).filter_map(|(line, now)| line.pinned(now.angle)));
         }
+        self.has_pinned_line = !pinned.is_empty();
         let lines = &self.lines;
         let angle_at = |x: Vec2, outward: Vec2| {
             // Without a model this is not asked for.

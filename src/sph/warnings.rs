@@ -2,8 +2,6 @@
 
 use crate::interface::cap::cap;
 use crate::interface::contact::ContactLine;
-use crate::interface::wall::{WallPoint, is_edge_between};
-use crate::math::{Vec2, perpendicular};
 use crate::solver::Series;
 use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
@@ -24,24 +22,13 @@ const LIMITING_ANGLE: f64 = 10.0;
 /// Differences of angles that are rounding, in degrees and in rad.
 const ROUNDING: f64 = 1e-9;
 
-/// Ohnesorge number below which interfaces that end at an edge have been seen to swing (docs/validation/pillar.md).
-const THIN_LIQUID: f64 = 0.01;
-
 /// The warnings that a flow asks for now.
 #[must_use]
 pub fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<String> {
     if flow.setting.method.tension == 0.0 {
         return Vec::new();
     }
-    [
-        pieces_and_films(flow, seen, series),
-        low_drop(flow, seen),
-        limiting_angle(flow),
-        thin_liquid_at_edge(flow, seen, series),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    [pieces_and_films(flow, seen, series), low_drop(flow, seen), limiting_angle(flow)].into_iter().flatten().collect()
 }
 
 /// Pieces and films below the resolution, now or at any record before.
@@ -93,50 +80,6 @@ fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
     })
 }
 
-/// A contact line at an edge of a wall, or with edges before it at the start, in a liquid too thin to damp what the step feeds.
-fn thin_liquid_at_edge(flow: &Flow, seen: &Observation, series: &Series) -> Option<String> {
-    let m = &flow.setting.method;
-    let length = seen.areas.wetting.min(seen.areas.non_wetting).sqrt();
-    let ohnesorge = m.wetting_fluid.viscosity / (m.wetting_fluid.density * m.tension * length).sqrt();
-    // Without an interface the length is 0.
-    if !(ohnesorge < THIN_LIQUID && length > 0.0) {
-        return None;
-    }
-    let wall = |x: Vec2| WallPoint::from((flow.setting.wall)(x));
-    let is_at_edge = |line: &ContactLine| {
-        let along = m.kernel.h * perpendicular(wall(line.position).normal);
-        is_edge_between(&wall, line.position - along, line.position + along)
-    };
-    let what = if seen.lines_with_angle().any(is_at_edge) {
-        format!("a contact line stands at an edge in a thin liquid (Oh = {ohnesorge:.4})")
-    } else if m.wetting.is_some() && series.rows.is_empty() && has_convex_edge(flow) {
-        format!("an edge of a wall may be reached by a contact line of a thin liquid (Oh = {ohnesorge:.4})")
-    } else {
-        return None;
-    };
-    Some(format!(
-        "{what}: long steps make the interface swing there; sph.numerics.time-step-factor = 0.1 makes the swings small"
-    ))
-}
-
-/// Whether fluid stands at a convex edge of a wall.
-fn has_convex_edge(flow: &Flow) -> bool {
-    let (p, h) = (&flow.state.particles, flow.setting.method.kernel.h);
-    let wall = |x: Vec2| WallPoint::from((flow.setting.wall)(x));
-    p.position[..p.fluids].iter().any(|&x| {
-        let here = wall(x);
-        here.distance < h && is_convex_edge(&wall, x - here.distance * here.normal, h)
-    })
-}
-
-/// Whether a wall has a convex edge within `reach` (m) of its point `x` (m).
-fn is_convex_edge(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, reach: f64) -> bool {
-    let along = reach * perpendicular(wall(x).normal);
-    let (behind, ahead) = (x - along, x + along);
-    // Normals open outward where the solid is convex, and close in a corner of the pore.
-    is_edge_between(wall, behind, ahead) && (wall(ahead).normal - wall(behind).normal).dot(&along) > 0.0
-}
-
 /// Whether an angle in degrees is within [`LIMITING_ANGLE`] of 0 or 180, the bound included.
 fn is_limiting(angle: f64) -> bool {
     angle.min(180.0 - angle) <= LIMITING_ANGLE + ROUNDING
@@ -155,30 +98,6 @@ fn limiting_angle(flow: &Flow) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// A wall from the floor y = 0, x < 0 to a face x = 0: down it with the solid below (convex), or up it with the solid beside (a corner).
-    fn bent(convex: bool) -> impl Fn(Vec2) -> WallPoint {
-        move |x| {
-            let (floor, face) = (x.y, if convex { x.x } else { -x.x });
-            let normal = if convex { Vec2::x() } else { -Vec2::x() };
-            let at_face = if convex { face > floor } else { face < floor };
-            if at_face {
-                WallPoint { distance: face, normal }
-            } else {
-                WallPoint { distance: floor, normal: Vec2::y() }
-            }
-        }
-    }
-
-    #[test]
-    fn convex_edges_are_told_from_corners_and_flat_walls() {
-        for at in [-0.05, -0.02] {
-            let x = Vec2::new(at, 0.0);
-            assert!(is_convex_edge(&bent(true), x, 0.1), "an edge near {at}");
-            assert!(!is_convex_edge(&bent(false), x, 0.1), "a corner near {at}");
-        }
-        assert!(!is_convex_edge(&bent(true), Vec2::new(-1.0, 0.0), 0.1), "a flat wall");
-    }
 
     #[test]
     fn the_bound_of_limiting_angles_is_within_them() {

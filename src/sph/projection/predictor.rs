@@ -30,7 +30,9 @@ impl Flow {
         let rate = if is_limited { self.viscous_rate() } else { 0.0 };
         // Walls count: what they drag along has their velocity at the end of the step.
         let (place, speed) = largest(particles.len(), |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
-        let step = self.setting.method.time_step(speed, rate).tighter(longest, "acceleration");
+        let method = &self.setting.method;
+        let pinned = if self.fields.has_pinned_line { method.pinned_time_step() } else { f64::INFINITY };
+        let step = method.time_step(speed, rate).tighter(pinned, "surface tension").tighter(longest, "acceleration");
         let smallest = self.setting.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
             let place = particles.position.get(place).copied().unwrap_or_default();

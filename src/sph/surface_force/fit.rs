@@ -4,6 +4,9 @@
 //! wall would take the curvature of its middle for that at its end. What the known gradient has bent the interface is taken out
 //! of the points before a circle is fitted (`stencils`).
 //!
+//! At a pinned contact line the fit answers to the place of the interface stiffly, and not by the gradient of an energy: taken at the beginning
+//! of a step, it feeds the waves of a thin liquid. There the points are those of the end of the step.
+//!
 //! The points lie on the level 1/2 of the smoothed color, which is drawn towards the center of curvature by h²κ/7. So a stencil is
 //! fitted more than once: for the curvature that moves its points to the interface, and there.
 
@@ -109,7 +112,8 @@ impl<'a> InterfaceFit<'a> {
         if let Some(line) = self.pinned_line_at(point.x + contact, side) {
             let contact = self.interface.domain.separation(line.place, point.x);
             let wall = WallFrame { outward: side * perpendicular(line.normal), normal: line.normal };
-            return Some((self.fit_at(point, near, contact, wall)?.0, share));
+            let near = self.interface.at_end_of_step(near);
+            return Some((self.fit_at(point, &near, contact, wall)?.0, share));
         }
         let mut kappa = None;
         for _ in 0..PROJECTIONS {

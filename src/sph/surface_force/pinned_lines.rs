@@ -52,13 +52,14 @@ impl InterfaceLine<'_> {
         if normal_at(NEIGHBORHOOD).dot(&normal_at(-NEIGHBORHOOD)) > BENT {
             return None;
         }
+        let near = interface.at_end_of_step(&self.near);
         let mut end = End { contact: Vec2::zeros(), normal: self.normal };
         // The nearest places from which the line would go on outwards, and from which it would come back, with how far.
         let mut between: [Option<(End, f64)>; 2] = [None; 2];
         for _ in 0..STEPS {
             let wall = WallFrame { outward: self.side * perpendicular(end.normal), normal: end.normal };
             let pulled = angle_pulled(self.into_wetting, wall, angle);
-            let (_, way) = fit_from_contact(&self.near, end.contact, wall, pulled)?;
+            let (_, way) = fit_from_contact(&near, end.contact, wall, pulled)?;
             if way.abs() < SAME_PLACE * interface.h {
                 break;
             }

@@ -39,6 +39,8 @@ pub struct Interface<'a> {
     pub(super) spacing: f64,
     /// ∇κ in 1/m² of an interface at rest.
     pub(super) gradient: Vec2,
+    /// Length of the coming step in s, about.
+    pub(super) step: f64,
     pub(super) wall: &'a Wall<'a>,
     pub(super) domain: &'a Domain,
 }
@@ -54,13 +56,19 @@ impl<'a> Interface<'a> {
     ) -> Self {
         let places: Vec<Vec2> = points.iter().map(|p| p.x).collect();
         let cells = Cells::build(&places, domain, STENCIL_RADIUS * h);
-        Self { points, cells, h, spacing, gradient: Vec2::zeros(), wall, domain }
+        Self { points, cells, h, spacing, gradient: Vec2::zeros(), step: 0.0, wall, domain }
     }
 
     /// The same interface under gravity, with the gradient (1/m²) of its curvature at rest.
     #[must_use]
     pub fn under(self, gradient: Vec2) -> Self {
         Self { gradient, ..self }
+    }
+
+    /// The same interface before a step of the length `step` (s).
+    #[must_use]
+    pub fn before(self, step: f64) -> Self {
+        Self { step, ..self }
     }
 
     /// Index of the nearest point and x − x_p; all of those that are equally near, so that a mirrored flow stays mirrored.
@@ -131,6 +139,15 @@ impl<'a> Interface<'a> {
         let limit = self.limit();
         let drawn = |x: Vec2| LINE_MOMENT * self.h * self.h * (kappa + self.gradient.dot(&x)).clamp(-limit, limit);
         near.iter().map(|q| WeightedPoint { x: q.x - drawn(q.x) * self.points[q.index].normal, ..*q }).collect()
+    }
+
+    /// The points of a stencil where the interface carries them by the end of the step.
+    pub(super) fn at_end_of_step(&self, near: &[WeightedPoint]) -> Vec<WeightedPoint> {
+        let moved = |q: &WeightedPoint| {
+            let point = &self.points[q.index];
+            WeightedPoint { x: q.x + self.step * point.velocity.dot(&point.normal) * point.normal, ..*q }
+        };
+        near.iter().map(moved).collect()
     }
 
     /// The points of a stencil as they would lie if the interface had everywhere the curvature that it has at `origin`.
