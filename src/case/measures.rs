@@ -140,7 +140,7 @@ fn of_flow(sph: &Sph, has_shapes: bool) -> [Offer; 4] {
     let has_walls = has_shapes || sides.contains(&Side::Wall);
     // An interface that is frozen has neither angle nor tension.
     let is_frozen = sph.measure.relative_permeability;
-    let (has_tension, has_wetting) = (sph.tension > 0.0 && !is_frozen, sph.wetting_model.is_some() && !is_frozen);
+    let (has_tension, has_wetting) = (sph.acting_tension() > 0.0, sph.wetting_model.is_some() && !is_frozen);
     let unless_frozen = |given_by| {
         if is_frozen { "an interface that moves, without [sph.measure.relative-permeability]" } else { given_by }
     };
