@@ -1,4 +1,4 @@
-//! Benchmarks: named cases, one file for each table `[sph.measure.NAME]` of a case file but that of the permeability, which is no benchmark.
+//! Benchmarks: named cases, one file for each table `[sph.measure.NAME]` of a case file but those of the permeabilities, which are no benchmarks.
 //!
 //! A benchmark is a [`Group`] of measures: further columns of the time series, and measures at the end. It sees the flow and what is
 //! observed of it; the solver gets the groups of a case as a list and knows none of them (`src/run/setup.rs`).

@@ -81,6 +81,14 @@ pub struct Sph {
     pub measure: MeasureSet,
 }
 
+impl Sph {
+    /// The tension in N/m of an interface that moves; 0 where it is frozen.
+    #[must_use]
+    pub fn acting_tension(&self) -> f64 {
+        if self.measure.relative_permeability { 0.0 } else { self.tension }
+    }
+}
+
 /// A Newtonian fluid.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Fluid {

@@ -138,11 +138,17 @@ pub fn offers(model: &Model, geometry: Option<&GeometrySpec>, is_steady: bool) -
 fn of_flow(sph: &Sph, has_shapes: bool) -> [Offer; 4] {
     let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
     let has_walls = has_shapes || sides.contains(&Side::Wall);
+    // An interface that is frozen has neither angle nor tension.
+    let is_frozen = sph.measure.relative_permeability;
+    let (has_tension, has_wetting) = (sph.acting_tension() > 0.0, sph.wetting_model.is_some() && !is_frozen);
+    let unless_frozen = |given_by| {
+        if is_frozen { "an interface that moves, without [sph.measure.relative-permeability]" } else { given_by }
+    };
     [
         Offer::new(EVERY_RUN, "every run", true),
         Offer::new(WITH_WALLS, "a solid or a side that is a wall", has_walls),
-        Offer::new(WITH_TENSION, "two phases with a tension above 0", sph.tension > 0.0),
-        Offer::new(WITH_WETTING, "a wetting model, such as [sph.wetting.young]", sph.wetting_model.is_some()),
+        Offer::new(WITH_TENSION, unless_frozen("two phases with a tension above 0"), has_tension),
+        Offer::new(WITH_WETTING, unless_frozen("a wetting model, such as [sph.wetting.young]"), has_wetting),
     ]
 }
 
@@ -278,6 +284,8 @@ groups! {
     cylinder_array: ["drag-over-mu-u", "mean-velocity-m-per-s", "permeability-m2", "unsteady-share"],
     /// Permeability tensor of a periodic cell by a body force along each axis in turn: see `of_permeability`.
     permeability: [],
+    /// Relative permeability of each phase with the other one as a part of the solid.
+    relative_permeability: ["permeability-m2", "relative-permeability-wetting", "relative-permeability-non-wetting", "saturation", "unsteady-share"],
     /// Capillary pressure of a meniscus in the throat between two bodies; between discs over the exact entry pressure.
     throat_entry: ["entry-pressure-Pa", "entry-pressure-ratio", "entry-curvature-ratio"],
     /// Difference of the mean levels on both sides of a plate.

@@ -19,6 +19,7 @@ mod patches;
 mod permeability;
 pub mod preset;
 pub mod raw;
+mod relative_permeability;
 mod resolve;
 mod schema;
 mod shapes;

@@ -29,6 +29,11 @@ pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
     }
 }
 
+/// Defaults of the flows beside a frozen interface: those of one fluid, with particles along the interface.
+pub(super) fn beside_frozen_interface() -> Numerics {
+    Numerics { fitted_interface: true, ..default(None) }
+}
+
 pub(super) fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numerics) -> Numerics {
     let mut within = |key: &str, given: Option<f64>, range: (f64, f64), what: &str, default: f64| {
         checker.within(&format!("sph.numerics.{key}"), given, range, what).unwrap_or(default)

@@ -14,7 +14,7 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
         checker.refuse(
             "sph.phases.non-wetting",
             "a permeability is that of one fluid, and there are two: their interface moves or holds them back",
-            "leave out the second phase with its interface and wetting, or [sph.measure.permeability]",
+            "leave out the second phase with its interface and wetting, or measure [sph.measure.relative-permeability] beside a frozen interface",
         );
     }
     if sph.measure.cylinder_array || sph.measure.poiseuille {
@@ -25,7 +25,9 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
             "keep one of both",
         );
     }
-    sides(checker, sph);
+    if no_side_is_driven(checker, sph) {
+        force(checker, sph);
+    }
     let has_walls = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top].contains(&Side::Wall);
     if geometry.is_some_and(|geometry| geometry.shapes.is_empty()) && !has_walls {
         checker.refuse(
@@ -36,8 +38,8 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
     }
 }
 
-/// Sides that are open, driven or moving, and a force that does not go with the others.
-fn sides(checker: &mut Checker, sph: &Sph) {
+/// Whether no side is open, driven or moving; refuses those that are.
+pub(super) fn no_side_is_driven(checker: &mut Checker, sph: &Sph) -> bool {
     let kinds = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
     let before = checker.problems.len();
     for (i, side) in SIDES.iter().enumerate() {
@@ -61,10 +63,12 @@ fn sides(checker: &mut Checker, sph: &Sph) {
             );
         }
     }
-    let is_periodic = [kinds[0] == Side::Periodic, kinds[2] == Side::Periodic];
-    if checker.problems.len() > before {
-        return;
-    }
+    checker.problems.len() == before
+}
+
+/// A force that does not go with the sides.
+fn force(checker: &mut Checker, sph: &Sph) {
+    let is_periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
     if is_periodic == [false; 2] {
         checker.refuse(
             "sph.measure.permeability",
@@ -108,11 +112,16 @@ pub(super) fn records(
             "leave this out; unsteady-share-x and unsteady-share-y tell how steady both flows are",
         );
     }
-    let most = end / forces / FEWEST_RECORDS;
+    few_records(checker, output, end / forces, "under each force");
+}
+
+/// Refuses a series with too few records in a flow of `length` (s), which `named` says where they are.
+pub(super) fn few_records(checker: &mut Checker, output: &Output, length: f64, named: &str) {
+    let most = length / FEWEST_RECORDS;
     if output.series_every > most {
         checker.refuse(
             "output.series.every-time",
-            format!("{:?} s leaves fewer than {FEWEST_RECORDS} records under each force", output.series_every),
+            format!("{:?} s leaves fewer than {FEWEST_RECORDS} records {named}", output.series_every),
             format!("a row every {most:.2e} s or more often would do"),
         );
     }

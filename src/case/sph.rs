@@ -71,7 +71,11 @@ pub(super) fn sph(
         None => initial::initial(checker, &raw_initial, two_phases, geometry),
     };
     let walls = walls(checker, &raw.walls.clone().unwrap_or_default(), wetting_model.is_some(), spacing);
-    let default = numerics::default(surface_force);
+    let measure = MeasureSet::from_raw(&raw.measure.clone().unwrap_or_default());
+    let default = match measure.relative_permeability {
+        true => numerics::beside_frozen_interface(),
+        false => numerics::default(surface_force),
+    };
     let numerics = numerics::numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
     Some(Sph {
         spacing: spacing?,
@@ -93,7 +97,7 @@ pub(super) fn sph(
         open: open?,
         initial: initial?,
         numerics,
-        measure: MeasureSet::from_raw(&raw.measure.clone().unwrap_or_default()),
+        measure,
     })
 }
 

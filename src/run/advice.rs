@@ -83,7 +83,7 @@ pub fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
         return None;
     }
     let sph = match &case.model {
-        Model::Sph(sph) if sph.tension > 0.0 => Some(sph.as_ref()),
+        Model::Sph(sph) if sph.acting_tension() > 0.0 => Some(sph.as_ref()),
         Model::Network(_) => None,
         _ => return None,
     };

@@ -71,7 +71,7 @@ pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
         (driven, "fastest wall or inflow")
     } else if initial > 0.0 {
         (initial, "initial speed")
-    } else if sph.tension > 0.0 {
+    } else if sph.acting_tension() > 0.0 {
         ((sph.tension / (rho * l)).sqrt(), "sqrt(sigma / rho L)")
     } else {
         // In the middle of a gap of width L; a body force cannot make more of the fall through L than free fall.
@@ -100,7 +100,7 @@ pub fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
         // Infinitely slow and without gravity: all numbers are zero.
         Model::Network(_) => return Vec::new(),
     };
-    let (rho, mu, sigma) = (sph.wetting.density, sph.wetting.viscosity, sph.tension);
+    let (rho, mu, sigma) = (sph.wetting.density, sph.wetting.viscosity, sph.acting_tension());
     let length = length.value;
     let difference = (rho - sph.non_wetting.map_or(0.0, |fluid| fluid.density)).abs();
     let number = |symbol, value, formula| Number { symbol, value, formula };

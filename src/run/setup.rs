@@ -140,7 +140,7 @@ const ACROSS_THROAT: f64 = 8.0;
 
 /// What of a state that a case begins with will not rest.
 fn not_at_rest(sph: &Sph) -> Vec<String> {
-    let Some(start) = &sph.initial.network else { return Vec::new() };
+    let Some(start) = sph.initial.network.as_ref().filter(|_| sph.acting_tension() > 0.0) else { return Vec::new() };
     /// Angles in degrees that differ by less are the same, written and read.
     const SAME: f64 = 1e-6;
     let mut found = Vec::new();
@@ -165,7 +165,7 @@ fn not_at_rest(sph: &Sph) -> Vec<String> {
 
 /// A throat with an interface to pass it that has few particles across.
 fn coarse_throat(case: &Case, sph: &Sph) -> Option<String> {
-    let width = throat(case).filter(|_| sph.tension > 0.0)?;
+    let width = throat(case).filter(|_| sph.acting_tension() > 0.0)?;
     let across = width / sph.spacing;
     // Less is rounding of where shapes stand.
     (across < (1.0 - 1e-9) * ACROSS_THROAT).then(|| {

@@ -11,6 +11,7 @@ pub mod domain;
 pub mod fields;
 pub mod fill;
 pub mod flow;
+pub mod frozen;
 pub mod images;
 pub mod kernel;
 pub mod measures;

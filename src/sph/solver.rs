@@ -10,7 +10,8 @@ use crate::solver::{
     Measure, Quantity, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo, Watched,
 };
 use crate::sph::flow::Flow;
-use crate::sph::measures::{DiscOf, Group, Subject, all, columns, permeability};
+use crate::sph::frozen::FrozenInterface;
+use crate::sph::measures::{DiscOf, Group, Subject, all, columns, permeability, relative};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Particles;
 use crate::sph::stages::Stages;
@@ -27,6 +28,8 @@ pub struct SphSolver {
     /// What is seen of the present state, once someone has looked.
     seen: OnceLock<Observation>,
     surroundings: Surroundings,
+    /// The flows beside a frozen interface, one after the other, and the number of the present one.
+    frozen: Option<(FrozenInterface, usize)>,
     /// What is measured beside what every run measures.
     groups: Vec<Group>,
 }
@@ -60,15 +63,34 @@ impl SphSolver {
     pub fn new(flow: Flow, surroundings: Surroundings) -> Self {
         let seen = Observation::of(&flow, &surroundings.wall_samples);
         let groups = Vec::new();
-        let mut solver = Self { flow, start: seen.areas, seen: OnceLock::from(seen), surroundings, groups };
+        let mut solver =
+            Self { flow, start: seen.areas, seen: OnceLock::from(seen), surroundings, frozen: None, groups };
         solver.turn_force();
         solver
+    }
+
+    /// A solver at time zero of the flows beside a frozen interface, one after the other.
+    #[must_use]
+    pub fn beside(interface: FrozenInterface, surroundings: Surroundings) -> Self {
+        let first = interface.first();
+        Self { frozen: Some((interface, 0)), ..Self::new(first, surroundings) }
     }
 
     /// The same solver that has the columns and measures of `groups` too.
     #[must_use]
     pub fn measuring(self, groups: Vec<Group>) -> Self {
         Self { groups, ..self }
+    }
+
+    /// Begins the flow of the present time beside a frozen interface, where it is not the one before.
+    fn turn_flow(&mut self) {
+        if let (Some((interface, present)), Some(stages)) = (&mut self.frozen, &self.surroundings.stages) {
+            let stage = stages.stage(self.flow.state.time);
+            if stage != *present {
+                self.flow = interface.flow(stage, &self.flow);
+                *present = stage;
+            }
+        }
     }
 
     /// Gives the flow the body force of its time, where several act one after the other.
@@ -101,6 +123,7 @@ impl SphSolver {
             plates: &around.plates,
             wall_speeds: around.wall_speeds,
             stages: around.stages.as_ref(),
+            is_frozen: self.frozen.is_some(),
         }
     }
 
@@ -121,6 +144,7 @@ impl Solver for SphSolver {
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         self.seen.take();
+        self.turn_flow();
         self.turn_force();
         let time = self.flow.state.time;
         self.flow.step(self.surroundings.stages.as_ref().map_or(until, |stages| stages.stop(time, until)))
@@ -188,13 +212,11 @@ impl Solver for SphSolver {
     }
 
     fn warnings(&self, series: &Series) -> Vec<String> {
-        let area = self.observe().areas.wetting;
-        let of_permeability = |stages| permeability::warnings(&self.flow, stages, series, area);
-        let of_tensor = self.surroundings.stages.as_ref().map(of_permeability);
         let subject = self.subject(series);
+        let of_permeability = permeability::warnings(&subject).into_iter().chain(relative::warnings(&subject));
         let of_groups = self.groups.iter().flat_map(|group| (group.warnings)(&subject));
         let of_flow = warnings(&self.flow, self.observe(), series);
-        of_flow.into_iter().chain(of_tensor.into_iter().flatten()).chain(of_groups).collect()
+        of_flow.into_iter().chain(of_permeability).chain(of_groups).collect()
     }
 
     fn results(&self) -> Results<'_> {
@@ -207,13 +229,21 @@ impl Solver for SphSolver {
     fn state(&self) -> Vec<u8> {
         // Numbers into memory: postcard has no way to fail here.
         let mut bytes = postcard::to_stdvec(&self.start).unwrap_or_default();
+        if let Some((_, present)) = &self.frozen {
+            bytes.extend(postcard::to_stdvec(present).unwrap_or_default());
+        }
         bytes.extend(state::save(&self.flow));
         bytes
     }
 
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         self.seen.take();
-        let (start, flow) = postcard::take_from_bytes(state).map_err(|error| StateError(error.to_string()))?;
+        let unreadable = |error: postcard::Error| StateError(error.to_string());
+        let (start, mut flow) = postcard::take_from_bytes(state).map_err(unreadable)?;
+        if let Some((interface, present)) = &mut self.frozen {
+            (*present, flow) = postcard::take_from_bytes(flow).map_err(unreadable)?;
+            self.flow = interface.flow(*present, &self.flow);
+        }
         state::load(&mut self.flow, flow)?;
         self.start = start;
         self.turn_force();

@@ -28,6 +28,15 @@ impl Stages {
         (!axes.is_empty()).then_some(Self { axes, force, length })
     }
 
+    /// The `force` (m/s²), which is along one axis, `times` over for the same time each until `end` (s): for a flow that begins anew each time. None
+    /// where there is no force.
+    #[must_use]
+    pub fn repeated(force: Vec2, times: usize, end: f64) -> Option<Self> {
+        let of_one = Self::new(force, end)?;
+        let axis = of_one.axes[0];
+        Some(Self { axes: vec![axis; times], force, length: end / times as f64 })
+    }
+
     /// The axes in the order of their stages.
     #[must_use]
     pub fn axes(&self) -> &[usize] {
@@ -37,8 +46,13 @@ impl Stages {
     /// Body force per mass in m/s² of the step that begins at `time` (s).
     #[must_use]
     pub fn force(&self, time: f64) -> Vec2 {
-        let stage = self.axes.iter().enumerate().skip(1).filter(|(stage, _)| self.starts_by(*stage, time)).count();
-        self.force_of(stage)
+        self.force_of(self.stage(time))
+    }
+
+    /// The stage of the step that begins at `time` (s).
+    #[must_use]
+    pub fn stage(&self, time: f64) -> usize {
+        (1..self.axes.len()).filter(|&stage| self.starts_by(stage, time)).count()
     }
 
     /// Body force per mass in m/s² of a stage; none of one that is not there.
@@ -109,6 +123,14 @@ mod tests {
         );
         assert_eq!(stages.stop(0.3, 0.7), 0.7);
         assert_eq!(Stages::new(Vec2::zeros(), 1.0), None);
+    }
+
+    #[test]
+    fn a_force_that_is_repeated_begins_anew_at_each_third() {
+        let stages = Stages::repeated(Vec2::new(0.0, 3.0), 3, 0.9).unwrap();
+        assert_eq!([0.0, 0.29, 0.3, 0.6, 0.9].map(|time| stages.stage(time)), [0, 0, 1, 2, 2]);
+        assert_eq!((stages.force(0.0), stages.force(0.7)), (Vec2::new(0.0, 3.0), Vec2::new(0.0, 3.0)));
+        assert!((stages.stop(0.2, 0.5) - 0.3).abs() < 1e-12);
     }
 
     #[test]

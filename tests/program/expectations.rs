@@ -36,6 +36,8 @@ fn an_expectation_of_what_the_case_cannot_measure_is_refused_with_what_gives_it(
         ("burst-pressure", "burst-pressure-Pa", None),
         ("burst-pressure", "asked-inflow-m2-per-s", Some("a velocity or a flow-rate")),
         ("permeability-tensor", "permeability-xy-m2", None),
+        ("relative-permeability", "relative-permeability-non-wetting", None),
+        ("relative-permeability", "capillary-pressure-Pa", Some("an interface that moves")),
         ("thin-film/slip", "last-particle-position", Some("[thin-film.method.particles]")),
         ("thin-film/partial-wetting", "similarity-error", Some("completely wetting")),
     ];

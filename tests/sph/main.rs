@@ -10,6 +10,7 @@ mod fitted_interface;
 mod fitted_walls;
 mod open_sides;
 mod poisson;
+mod relative_permeability;
 mod step;
 mod stream;
 mod terms;

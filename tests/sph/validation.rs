@@ -23,12 +23,14 @@ fn run(folder: &Path, arguments: &[&str]) -> impl Fn(&str) -> f64 + use<> {
 }
 
 /// Study, runs of it that take a second or two, and measures of its page. The expectations of the study judge them against exact solutions.
-const FAST_ROWS: [(&str, &[usize], &[&str]); 16] = [
+const FAST_ROWS: [(&str, &[usize], &[&str]); 18] = [
     ("poiseuille", &[1, 2, 3], &["velocity-l2-error"]),
     ("navier-slip", &[1, 2], &["slip-length-m", "velocity-l2-error"]),
     ("validation/taylor-green", &[1], &["decay-rate-error"]),
     ("validation/layered-poiseuille", &[1, 2, 4, 5], &["layered-velocity-l2-error", "wetting-flow-rate-ratio"]),
     ("validation/cylinder-array", &[1, 4, 7], &["drag-over-mu-u", "permeability-m2"]),
+    ("validation/relative-permeability", &[1, 2], &["permeability-m2", "relative-permeability-wetting"]),
+    ("validation/relative-permeability-array", &[1, 2], &["permeability-m2", "relative-permeability-non-wetting"]),
     ("validation/cylinder-morris", &[1], &["mean-velocity-m-per-s"]),
     ("validation/capillary-wave", &[1], &["wave-rms-error"]),
     ("validation/shear-drop", &[1], &["deformation-ratio"]),

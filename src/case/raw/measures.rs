@@ -38,6 +38,8 @@ tables! {
         pub cylinder_array: Empty,
         /// Permeability tensor of a periodic cell.
         pub permeability: Empty,
+        /// Relative permeability of both phases beside a frozen interface.
+        pub relative_permeability: Empty,
         /// Capillary pressure of a meniscus in the throat between two bodies.
         pub throat_entry: Empty,
         /// Difference of the mean levels on both sides of a plate.

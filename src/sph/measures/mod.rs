@@ -1,11 +1,13 @@
 //! What is measured of a flow: in every run, and by the groups that a case asks for.
 //!
-//! Every run has the measures of `every_run`, those of its open sides ([`open`]) and, where its body force acts along each axis in turn, the [`permeability`].
+//! Every run has the measures of `every_run`, those of its open sides ([`open`]) and, where its body force acts along each axis in turn, the [`permeability`]; beside a
+//! frozen interface the [`relative`] one.
 //! [`stream`] is the force of the other fluid. The groups are those of `src/benchmarks`, which the solver is given as a list: it knows none of them.
 
 mod every_run;
 pub mod open;
 pub mod permeability;
+pub mod relative;
 pub mod stream;
 mod subject;
 
@@ -21,6 +23,7 @@ pub fn all(subject: &Subject, groups: &[Group]) -> Vec<Measure> {
     let mut measures = every_run::measures(subject);
     measures.extend(open::measures(subject));
     measures.extend(permeability::measures(subject));
+    measures.extend(relative::measures(subject));
     measures.extend(groups.iter().flat_map(|group| (group.measures)(subject)));
     measures
 }

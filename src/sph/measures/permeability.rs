@@ -17,6 +17,7 @@ const CREEPING: f64 = 0.5;
 const STEADY: f64 = 0.01;
 
 const MEANS: [&str; 2] = ["mean_velocity_x_m_per_s", "mean_velocity_y_m_per_s"];
+const AREAS: [&str; 2] = ["wetting_area_m2", "non_wetting_area_m2"];
 const MOMENTA: [&str; 2] = ["momentum_x_kg_per_m_s", "momentum_y_kg_per_m_s"];
 
 /// The velocity averaged over the whole cell, solids at rest, in m/s.
@@ -27,20 +28,22 @@ pub fn columns(flow: &Flow) -> Columns {
     MEANS.into_iter().zip([mean.x, mean.y]).collect()
 }
 
-/// What the force along one axis does.
-struct Column {
+/// What the force along one axis does in its stage.
+pub(super) struct Column {
+    /// Number of the stage.
+    pub stage: usize,
     /// Axis of the force: 0 for x, 1 for y.
-    axis: usize,
+    pub axis: usize,
     /// Permeabilities in m²: of the velocities along x and y.
-    permeability: Vec2,
+    pub permeability: Vec2,
     /// Magnitude of the rate of the momentum over the force on the fluid.
-    unsteady_share: f64,
+    pub unsteady_share: f64,
     /// Reynolds number of mean velocity and square root of permeability.
-    reynolds: f64,
+    pub reynolds: f64,
 }
 
-/// The response to each force whose stage has two rows; `fluid_area` in m².
-fn response(flow: &Flow, stages: &Stages, series: &Series, fluid_area: f64) -> Vec<Column> {
+/// The response to each force whose stage has two rows.
+pub(super) fn response(flow: &Flow, stages: &Stages, series: &Series) -> Vec<Column> {
     let fluid = &flow.setting.method.wetting_fluid;
     let read = |row: &[f64], names: [&str; 2]| {
         let value = |name: &str| series.columns.iter().position(|column| column == name).map_or(f64::NAN, |i| row[i]);
@@ -51,10 +54,12 @@ fn response(flow: &Flow, stages: &Stages, series: &Series, fluid_area: f64) -> V
         // Per volume.
         let force = fluid.density * stages.force_of(stage)[axis];
         let mean = read(last, MEANS);
+        let fluid_area = read(last, AREAS).sum();
         let rate = (read(last, MOMENTA) - read(before, MOMENTA)).norm() / (last[0] - before[0]);
         let permeability = fluid.viscosity * mean / force;
         let length = permeability.norm().sqrt();
         Some(Column {
+            stage,
             axis,
             permeability,
             unsteady_share: rate / (force.abs() * fluid_area),
@@ -65,8 +70,8 @@ fn response(flow: &Flow, stages: &Stages, series: &Series, fluid_area: f64) -> V
 }
 
 pub fn measures(s: &Subject) -> Vec<Measure> {
-    let Some(stages) = s.stages else { return Vec::new() };
-    let columns = response(s.flow, stages, s.series, s.seen.areas.wetting);
+    let Some(stages) = s.stages.filter(|_| !s.is_frozen) else { return Vec::new() };
+    let columns = response(s.flow, stages, s.series);
     columns.iter().flat_map(column_measures).collect()
 }
 
@@ -99,32 +104,38 @@ fn column_measures(column: &Column) -> Vec<Measure> {
 
 /// What a reader must know before trusting the tensor.
 #[must_use]
-pub fn warnings(flow: &Flow, stages: &Stages, series: &Series, fluid_area: f64) -> Vec<String> {
-    let columns = response(flow, stages, series, fluid_area);
-    let mut found: Vec<String> =
-        columns.iter().flat_map(|column| [unsteady(column), inertial(column)]).flatten().collect();
+pub fn warnings(s: &Subject) -> Vec<String> {
+    let Some(stages) = s.stages.filter(|_| !s.is_frozen) else { return Vec::new() };
+    let columns = response(s.flow, stages, s.series);
+    let named = |column: &Column| format!("the flow under the force along {}", ["x", "y"][column.axis]);
+    let mut found: Vec<String> = columns
+        .iter()
+        .flat_map(|column| [unsteady(column, &named(column)), inertial(column, &named(column))])
+        .flatten()
+        .collect();
     if let [x, y] = &columns[..] {
         found.extend(asymmetric(x, y));
     }
     found
 }
 
-fn unsteady(column: &Column) -> Option<String> {
-    let (axis, share) = (["x", "y"][column.axis], column.unsteady_share);
+/// Whether the `named` flow was not steady.
+pub(super) fn unsteady(column: &Column, named: &str) -> Option<String> {
+    let share = column.unsteady_share;
     (share > STEADY).then(|| {
         format!(
-            "the flow under the force along {axis} was not steady: {:.1} % of the force still changed its momentum; a later time.end gives \
-             it more time",
+            "{named} was not steady: {:.1} % of the force still changed its momentum; a later time.end gives it more time",
             100.0 * share
         )
     })
 }
 
-fn inertial(column: &Column) -> Option<String> {
-    let (axis, reynolds) = (["x", "y"][column.axis], column.reynolds);
+/// Whether the `named` flow is too fast.
+pub(super) fn inertial(column: &Column, named: &str) -> Option<String> {
+    let reynolds = column.reynolds;
     (reynolds > CREEPING).then(|| {
         format!(
-            "the flow under the force along {axis} has a Reynolds number of {reynolds:.2} with the square root of the permeability: above \
+            "{named} has a Reynolds number of {reynolds:.2} with the square root of the permeability: above \
              {CREEPING} inertia can change the permeability; lower sph.gravity"
         )
     })
@@ -149,7 +160,7 @@ mod tests {
     use super::*;
 
     fn column(axis: usize, permeability: [f64; 2], unsteady_share: f64) -> Column {
-        Column { axis, permeability: permeability.into(), unsteady_share, reynolds: 0.0 }
+        Column { stage: axis, axis, permeability: permeability.into(), unsteady_share, reynolds: 0.0 }
     }
 
     #[test]
@@ -162,11 +173,11 @@ mod tests {
     #[test]
     fn what_is_not_steady_or_not_slow_is_told() {
         assert!(
-            unsteady(&column(0, [3.0, 1.0], 0.02)).is_some_and(|text| text.contains("along x was not steady: 2.0 %"))
+            unsteady(&column(0, [3.0, 1.0], 0.02), "it").is_some_and(|text| text.contains("it was not steady: 2.0 %"))
         );
-        assert!(unsteady(&column(0, [3.0, 1.0], 1e-3)).is_none());
+        assert!(unsteady(&column(0, [3.0, 1.0], 1e-3), "it").is_none());
         let fast = Column { reynolds: 3.0, ..column(1, [3.0, 1.0], 0.0) };
-        assert!(inertial(&fast).is_some_and(|text| text.contains("along y has a Reynolds number of 3.00")));
-        assert!(inertial(&column(1, [3.0, 1.0], 0.0)).is_none());
+        assert!(inertial(&fast, "it").is_some_and(|text| text.contains("it has a Reynolds number of 3.00")));
+        assert!(inertial(&column(1, [3.0, 1.0], 0.0), "it").is_none());
     }
 }

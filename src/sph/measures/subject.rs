@@ -34,6 +34,8 @@ pub struct Subject<'a> {
     pub wall_speeds: [f64; 4],
     /// The body forces, where they act one after the other.
     pub stages: Option<&'a Stages>,
+    /// Whether they act on the flows beside a frozen interface.
+    pub is_frozen: bool,
 }
 
 /// Columns of the time series: name and value.

@@ -79,7 +79,8 @@ impl Flow {
         let start = Instant::now();
         let time = self.state.time;
         self.setting.open.sides.iter_mut().for_each(|side| side.take_step(time));
-        if self.state.steps == 0 {
+        // Flows that follow one another in a run begin anew.
+        if self.state.last_dt == 0.0 {
             self.find_first_pressure(until)?;
         }
         let mut predicted = self.predict(until, f64::INFINITY, self.setting.method.viscous_step)?;

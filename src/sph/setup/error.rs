@@ -51,6 +51,11 @@ pub enum SetupError {
     /// No room for a single particle.
     #[error("no fluid particle fits into the pore at a spacing of {0:.3e} m; use a smaller spacing")]
     NoFluid(f64),
+    /// A phase without a single particle beside a frozen interface.
+    #[error(
+        "the {0} phase has no particle in the pore, and a relative permeability is that of two phases; let sph.initial give it some room"
+    )]
+    NoPhase(&'static str),
 }
 
 impl SetupError {
@@ -60,6 +65,7 @@ impl SetupError {
         match self {
             Self::Geometry(_) => "geometry".to_owned(),
             Self::PeriodTooShort { .. } | Self::NoFluid(_) => "sph.spacing".to_owned(),
+            Self::NoPhase(_) => "sph.initial".to_owned(),
             Self::Blocked(side) | Self::EndsAtSide { side, .. } => format!("sph.sides.{side}"),
             Self::Openings { side, .. } => format!("sph.sides.open.{side}.profile"),
         }

@@ -1,6 +1,7 @@
 //! From a checked case and its geometry to a solver: the only SPH folder that sees both.
 
 mod error;
+mod frozen;
 mod handed_back;
 mod handed_over;
 mod initial;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 pub use error::SetupError;
 pub use initial::region;
 
+use self::frozen::Pore;
 use self::method::method;
 use self::open_sides::{inside_of_open_sides, open_sides};
 use self::places::{Filling, places};
@@ -28,7 +30,7 @@ use crate::sph::fill::{self, Lattice, Region};
 use crate::sph::flow::Flow;
 use crate::sph::method::Method;
 use crate::sph::open::{self, Around, Open};
-use crate::sph::particles::Phase;
+use crate::sph::particles::{Particles, Phase};
 use crate::sph::setting::Setting;
 use crate::sph::solver::SphSolver;
 
@@ -64,17 +66,22 @@ struct Ground {
 
 impl Ground {
     fn new(geometry: &Geometry, sph: &Sph) -> Result<Self, SetupError> {
+        let ground = Self::of(geometry, sph);
+        let support = ground.method.kernel.support();
+        if !fill::fits(&ground.domain, support) {
+            let (size, needed) = (geometry.bounds().size(), fill::PERIODIC_SUPPORTS * support);
+            return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
+        }
+        Ok(ground)
+    }
+
+    /// The same where the periods are known to be long enough.
+    fn of(geometry: &Geometry, sph: &Sph) -> Self {
         let bounds = geometry.bounds();
         let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
         let lattice = Lattice::fitting(bounds, sph.spacing);
         let method = method(sph, &lattice);
-        let domain = Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides));
-        let support = method.kernel.support();
-        if !fill::fits(&domain, support) {
-            let (size, needed) = (bounds.size(), fill::PERIODIC_SUPPORTS * support);
-            return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
-        }
-        Ok(Self { lattice, method, domain })
+        Self { lattice, method, domain: Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides)) }
     }
 }
 
@@ -82,6 +89,11 @@ impl Ground {
 fn start_region(case: &Case, sph: &Sph) -> Region {
     match &sph.initial.network {
         Some(start) => handed_over::region(case, sph, start),
+        // A frozen interface goes on at the opposite side, as its flow does.
+        None if sph.measure.relative_permeability => {
+            let periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
+            Region::of_shapes(region(case, &sph.initial.wetting).with_periodic(periodic))
+        }
         None => Region::of_shapes(region(case, &sph.initial.wetting)),
     }
 }
@@ -118,36 +130,23 @@ pub fn build_to_resume(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> 
 
 /// The solver with particles that are packed where someone is there to be told of it.
 fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result<SphSolver, SetupError> {
+    if sph.measure.relative_permeability {
+        return beside_frozen_interface(case, sph, packed.unwrap_or(&mut |_| {}));
+    }
     let geometry = Arc::new(geometry(case, sph)?);
     let bounds = geometry.bounds();
-    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
-    let Ground { lattice, method, domain } = Ground::new(&geometry, sph)?;
-    let support = method.kernel.support();
+    let ground = Ground::new(&geometry, sph)?;
     let region = start_region(case, sph);
+    let (mut particles, mut depth) = filled(sph, &geometry, (&ground, &region), packed)?;
+    let Ground { lattice, method, domain } = ground;
     let phase = |x: Vec2| start_phase(sph, &region, x);
-    let walls = sides.map(|side| side == Side::Wall);
-    let interface = (sph.non_wetting.is_some() && sph.numerics.fitted_interface).then_some(&region);
-    let filling = Filling {
-        geometry: &geometry,
-        domain: &domain,
-        lattice: &lattice,
-        method: &method,
-        sides,
-        fitted_walls: sph.numerics.fitted_walls,
-    };
-    let places = places(&filling, interface, packed);
-    let mut particles = places.particles(phase);
-    let mut depth = places.depth;
-    if particles.fluids == 0 {
-        return Err(SetupError::NoFluid(sph.spacing));
-    }
     let open = open_sides(sph, &geometry, &lattice, method.kernel.h, &phase)?;
     let inside = inside_of_open_sides(&open.sides);
     let around = Around {
         bounds,
         step: lattice.step,
-        support,
-        walls,
+        support: method.kernel.support(),
+        walls: [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top].map(|side| side == Side::Wall),
         signed_distance: &|x| geometry.signed_distance(inside(x)),
         phase: &phase,
     };
@@ -156,7 +155,7 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
     if let Some(start) = &sph.initial.network {
         handed_over::set_pressures(&mut particles, sph, &open, start);
     }
-    let open = Open { cell: lattice.step.x * lattice.step.y, ..open };
+    let open = Open { cell: lattice.volume(), ..open };
     let surroundings = surroundings(case, sph, &geometry);
     let spots = wall_spots(sph, &geometry).unwrap_or_default();
     let wall: WallQuery = Box::new(move |x| {
@@ -165,4 +164,41 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
     });
     let setting = Setting { method, domain, wall, spots, open };
     Ok(SphSolver::new(Flow::new(setting, particles, depth), surroundings))
+}
+
+/// The solver that measures the relative permeabilities: the flows of the whole pore and of each phase, one after the other. Each begins with packed
+/// particles, those of a resumed run that it has not come to too.
+fn beside_frozen_interface(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Result<SphSolver, SetupError> {
+    let geometry = Arc::new(geometry(case, sph)?);
+    let region = start_region(case, sph);
+    let one_fluid = frozen::with_one_fluid(sph);
+    let ground = Ground::new(&geometry, &one_fluid)?;
+    let (particles, depth) = filled(sph, &geometry, (&ground, &region), Some(packed))?;
+    let surroundings = surroundings(case, sph, &geometry);
+    let pore = Pore { geometry, region: Arc::new(region), sph: Arc::new(one_fluid) };
+    Ok(SphSolver::beside(frozen::frozen(&pore, &particles, &depth)?, surroundings))
+}
+
+/// The particles of pore and walls, and the depth in m of those of walls.
+fn filled(
+    sph: &Sph,
+    geometry: &Geometry,
+    (ground, region): (&Ground, &Region),
+    packed: Option<&mut dyn FnMut(f64)>,
+) -> Result<(Particles, Vec<f64>), SetupError> {
+    let interface = (sph.non_wetting.is_some() && sph.numerics.fitted_interface).then_some(region);
+    let filling = Filling {
+        geometry,
+        domain: &ground.domain,
+        lattice: &ground.lattice,
+        method: &ground.method,
+        sides: [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top],
+        fitted_walls: sph.numerics.fitted_walls,
+    };
+    let places = places(&filling, interface, packed);
+    let particles = places.particles(|x| start_phase(sph, region, x));
+    if particles.fluids == 0 {
+        return Err(SetupError::NoFluid(sph.spacing));
+    }
+    Ok((particles, places.depth))
 }

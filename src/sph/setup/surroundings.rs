@@ -8,6 +8,7 @@ use crate::interface::lengths::wall_samples;
 use crate::interface::polyline::Polyline;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::Lines;
+use crate::sph::frozen::FLOWS;
 use crate::sph::measures::DiscOf;
 use crate::sph::solver::Surroundings;
 use crate::sph::stages::Stages;
@@ -21,9 +22,20 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surro
         discs: discs(&case.geometry),
         plates: plates(&case.geometry),
         wall_speeds: sph.wall_speeds,
-        stages: sph.measure.permeability.then(|| Stages::new(sph.gravity, case.end)).flatten(),
+        stages: stages(sph, case.end),
         grid_spacing: case.output.grid_ratio * sph.spacing,
-        hand_back: sph.initial.network.as_ref().map(|start| hand_back(start, sph.tension)),
+        // A frozen interface leaves the state as it was.
+        hand_back: (sph.initial.network.as_ref().filter(|_| !sph.measure.relative_permeability))
+            .map(|start| hand_back(start, sph.tension)),
+    }
+}
+
+/// The body forces that act one after the other until `end` (s), where that is what is measured.
+fn stages(sph: &Sph, end: f64) -> Option<Stages> {
+    match &sph.measure {
+        measure if measure.permeability => Stages::new(sph.gravity, end),
+        measure if measure.relative_permeability => Stages::repeated(sph.gravity, FLOWS, end),
+        _ => None,
     }
 }
 

@@ -1,0 +1,49 @@
+//! Relative permeability of each phase beside a frozen interface: the permeability of the phase alone, with the other one as a part of the solid, over
+//! that of the whole pore.
+
+use super::permeability::{Column, inertial, response, unsteady};
+use super::subject::{Subject, measure};
+use crate::solver::Measure;
+
+/// The flows in the order of their stages.
+const FLOWS: [&str; 3] = ["of the whole pore", "of the wetting phase", "of the non-wetting phase"];
+
+pub fn measures(s: &Subject) -> Vec<Measure> {
+    let columns = columns(s);
+    let [whole, wetting, other] = &columns[..] else { return Vec::new() };
+    let along = ["x", "y"][whole.axis];
+    let [k, of_wetting, of_other] = [whole, wetting, other].map(|column| column.permeability[column.axis]);
+    let of_whole = format!(
+        "viscosity times the velocity along {along} averaged over the whole cell, over the force per volume, with one fluid in the whole pore"
+    );
+    let relative = |phase: &str| {
+        format!(
+            "the same with the {phase} phase as the only fluid and the other one as a part of the solid, over permeability-m2"
+        )
+    };
+    let share = columns.iter().map(|column| column.unsteady_share).fold(0.0, f64::max);
+    let of_share = "largest rate of the momentum between the last two records of a flow, over the force on its fluid";
+    let of_saturation = "area of the wetting phase over that of both at time zero";
+    vec![
+        measure("permeability-m2", k, "m2", None, &of_whole),
+        measure("relative-permeability-wetting", of_wetting / k, "", None, &relative("wetting")),
+        measure("relative-permeability-non-wetting", of_other / k, "", None, &relative("non-wetting")),
+        measure("saturation", s.start.saturation(), "", None, of_saturation),
+        measure("unsteady-share", share, "", None, of_share),
+    ]
+}
+
+/// What a reader must know before trusting them.
+#[must_use]
+pub fn warnings(s: &Subject) -> Vec<String> {
+    let told = |column: &Column| {
+        let named = format!("the flow {}", FLOWS[column.stage]);
+        [unsteady(column, &named), inertial(column, &named)]
+    };
+    columns(s).iter().flat_map(told).flatten().collect()
+}
+
+/// The response of each flow that has come to its end.
+fn columns(s: &Subject) -> Vec<Column> {
+    s.stages.filter(|_| s.is_frozen).map(|stages| response(s.flow, stages, s.series)).unwrap_or_default()
+}

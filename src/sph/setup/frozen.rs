@@ -1,0 +1,117 @@
+//! The flows of a relative permeability: from particles of both phases to those of the whole pore and of each phase beside a frozen interface.
+
+use std::sync::Arc;
+
+use super::{Ground, SetupError, start_phase};
+use crate::case::checked::Sph;
+use crate::geometry::Geometry;
+use crate::math::Vec2;
+use crate::sph::fill::Region;
+use crate::sph::flow::Flow;
+use crate::sph::frozen::{FlowAtRest, FrozenInterface};
+use crate::sph::open::Open;
+use crate::sph::particles::{Particles, Phase};
+use crate::sph::setting::Setting;
+use crate::sph::wetting::wall::WallSpots;
+
+/// How far beside a wall the phase on it is looked for, over the spacing.
+const BESIDE: f64 = 0.1;
+
+/// Walls and initial phases of a case.
+#[derive(Clone)]
+pub(super) struct Pore {
+    /// The solids.
+    pub geometry: Arc<Geometry>,
+    /// The region of the initial state.
+    pub region: Arc<Region>,
+    /// The case.
+    pub sph: Arc<Sph>,
+}
+
+/// The case with the wetting fluid in both phases and nothing that acts on the interface: a slow flow has the same permeability with any fluid.
+pub(super) fn with_one_fluid(sph: &Sph) -> Sph {
+    Sph {
+        non_wetting: sph.non_wetting.map(|_| sph.wetting),
+        tension: 0.0,
+        surface_force: None,
+        wetting_model: None,
+        wetting_patches: Vec::new(),
+        ..sph.clone()
+    }
+}
+
+/// The flows of the pore and of its phases, from the particles of both with the `depth` (m) of those of walls.
+pub(super) fn frozen(pore: &Pore, particles: &Particles, depth: &[f64]) -> Result<FrozenInterface, SetupError> {
+    for (phase, name) in [(Phase::Wetting, "wetting"), (Phase::NonWetting, "non-wetting")] {
+        if !particles.phase.contains(&phase) {
+            return Err(SetupError::NoPhase(name));
+        }
+    }
+    let whole = (particles.clone(), depth.to_vec());
+    let of_phase = |phase| at_rest(pore, Some(phase), pore.beside(phase, particles));
+    let flows = [at_rest(pore, None, whole), of_phase(Phase::Wetting), of_phase(Phase::NonWetting)];
+    Ok(FrozenInterface::new(flows))
+}
+
+/// What makes the flow of a phase, or of the whole pore, from its particles and the depth in m of those of walls.
+fn at_rest(pore: &Pore, phase: Option<Phase>, start: (Particles, Vec<f64>)) -> FlowAtRest {
+    let pore = pore.clone();
+    Box::new(move || {
+        let wall = pore.clone();
+        // The same box was good for the particles.
+        let Ground { lattice, method, domain } = Ground::of(&pore.geometry, &pore.sph);
+        let setting = Setting {
+            method,
+            domain,
+            wall: Box::new(move |x| wall.wall(phase, x)),
+            spots: WallSpots::default(),
+            open: Open { cell: lattice.volume(), ..Open::default() },
+        };
+        let (particles, depth) = start.clone();
+        Flow::new(setting, particles, depth)
+    })
+}
+
+impl Pore {
+    /// The particles of one phase as fluid, with walls made of the solids and of the other phase down to the depth of the support; and the depth
+    /// of these in m below what bounds the phase.
+    fn beside(&self, phase: Phase, of_both: &Particles) -> (Particles, Vec<f64>) {
+        let support = Ground::of(&self.geometry, &self.sph).method.kernel.support();
+        let (mut particles, mut depth) = (Particles::default(), Vec::new());
+        let own = |a: &usize| of_both.phase[*a] == phase;
+        let all = 0..of_both.len();
+        all.clone().filter(own).for_each(|a| particles.push(phase, of_both.position[a]));
+        for x in all.filter(|a| !own(a)).map(|a| of_both.position[a]) {
+            let below = -self.wall(Some(phase), x).0;
+            if below < support {
+                particles.push(Phase::Solid, x);
+                depth.push(below);
+            }
+        }
+        (particles, depth)
+    }
+
+    /// Distance in m to what bounds the fluid, above 0 in it, and the normal into the fluid: of a `phase` that the other one bounds as well as the
+    /// solids, or of both.
+    fn wall(&self, phase: Option<Phase>, x: Vec2) -> (f64, Vec2) {
+        let x = self.geometry.wrapped(x);
+        let solid = self.geometry.wall(x);
+        let Some(phase) = phase else { return (solid.distance, solid.normal) };
+        let is_pore = solid.distance > 0.0;
+        let beside = if is_pore { x } else { x + (BESIDE * self.sph.spacing - solid.distance) * solid.normal };
+        let (away, normal) = self.interface(x);
+        let own = start_phase(&self.sph, &self.region, self.geometry.wrapped(beside)) == phase;
+        match () {
+            () if own && is_pore && away < solid.distance => (away, normal),
+            () if own => (solid.distance, solid.normal),
+            // Under the other phase: what is nearest of the phase lies at the interface.
+            () => (-away.max(-solid.distance), -normal),
+        }
+    }
+
+    /// Distance of the interface in m, and the direction from there.
+    fn interface(&self, x: Vec2) -> (f64, Vec2) {
+        let surface = self.region.surface().wall(x);
+        (surface.distance.abs(), surface.distance.signum() * surface.normal)
+    }
+}
