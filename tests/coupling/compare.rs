@@ -124,6 +124,14 @@ fn a_comparison_of_a_study_that_cannot_be_run_is_refused_before_any_run() {
     study(folder.path(), 2);
     let path = folder.path().join("study.toml");
     let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replace("\"network-break", "\"netwrk-break")).unwrap();
+    let output = meniscus(folder.path(), &["study", "plan", "study.toml"]);
+    assert_code(&output, 3);
+    let told = stderr(&output);
+    assert!(
+        told.contains("study.toml:14") && told.contains("did you mean `network-breakthrough-pressure-Pa`"),
+        "{told}"
+    );
     let other = repository("cases/network/hand-over.toml");
     std::fs::write(&path, text.replace("\"network.toml\"", &format!("{other:?}"))).unwrap();
     let output = meniscus(folder.path(), &["study", "plan", "study.toml"]);
