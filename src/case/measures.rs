@@ -97,6 +97,23 @@ const FILM_SIMILARITY: &[&str] = &["similarity-curvature", "similarity-error"];
 /// That of a run with an end by a criterion.
 const STEADY: &[&str] = &["steady-at-s"];
 
+/// Those of a comparison of a direct simulation with a network.
+const COMPARISON: &[&str] = &[
+    "mean-overlap",
+    "rank-correlation",
+    "elements-in-both",
+    "network-breakthrough-pressure-Pa",
+    "direct-breakthrough-pressure-Pa",
+    "network-saturation-at-breakthrough",
+    "direct-saturation-at-breakthrough",
+    "network-permeability-m2",
+    "direct-permeability-m2",
+    "network-pores",
+    "direct-particles",
+    "network-cpu-s",
+    "direct-cpu-s",
+];
+
 /// Measures that come together, and what a case must have for them.
 #[derive(Debug)]
 pub struct Offer {
@@ -132,6 +149,12 @@ pub fn offers(model: &Model, geometry: Option<&GeometrySpec>, is_steady: bool) -
             Offer::new(NETWORK_IN_TIME, "[network.dynamic]", network.is_dynamic()),
         ],
     }
+}
+
+/// The measures of a comparison of a direct simulation with a network.
+#[must_use]
+pub fn offer_of_comparison() -> Offer {
+    Offer::new(COMPARISON, "[compare] in a study", true)
 }
 
 /// The measures of every direct simulation and those of its walls, tension and wetting.

@@ -1,20 +1,19 @@
 //! `meniscus compare`: a network and a direct simulation of one geometry, side by side.
 
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 
-use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED, USAGE};
+use super::exit::{DONE, Failure, SOLVER_FAILED, USAGE};
 use super::output::{duration, readable, say, tell};
 use super::progress::ProgressDisplay;
 use super::run::new_folder;
 use super::source;
 use super::threads::pool;
-use crate::io::{FileError, atomic};
-use crate::run::compare::{CompareError, Comparison, Side, compare as run_both, page};
+use crate::run::compare::{Comparison, Of, PAGE, Pair, Side, compare as run_both, write};
 use crate::run::execute::Mode;
 use crate::run::folder;
-use crate::run::setup::SetupError;
 
 /// `compare`.
 #[derive(Debug, Args)]
@@ -34,50 +33,28 @@ pub struct CompareArguments {
     pub threads: Option<std::num::NonZeroUsize>,
 }
 
-/// Runs both cases, writes `compare.html` and `compare.json`, and tells what came out.
+/// Runs both cases, writes the page, the numbers and the curves, and tells what came out.
 pub fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let direct = source::load_case(Some(&arguments.direct), &[])?;
     let out = new_folder(arguments.out.as_deref(), &format!("{}-compare", direct.name), Mode::New);
     let _claim = folder::create(&out).map_err(|error| Failure::new(USAGE, &error))?;
     tell(format_args!("{} | {} -> {}", network.case.title, direct.case.title, out.display()));
+    let pair = Pair { network: &network.case, direct: &direct.case, records: arguments.records.get() };
     let found = pool(arguments.threads)?.install(|| {
         let mut display = ProgressDisplay::new();
-        let found =
-            run_both((&network.case, &direct.case), arguments.records.get(), &mut |share| display.compared(share));
+        let found = run_both(&pair, &AtomicBool::new(false), &mut display);
         display.finish();
-        found.map_err(|error| match &error {
-            CompareError::Setup(misfit @ SetupError::Network(_)) => network.refused(misfit),
-            CompareError::Setup(misfit) => direct.refused(misfit),
-            CompareError::NoNetwork => network.refused_at(
-                "network",
-                "the first case has no displacement in a network",
-                "give [network] an inlet",
-            ),
-            CompareError::NoDirect => direct.refused_at(
-                "sph",
-                "the second case is no direct simulation of two fluids",
-                "give it [sph] with both phases",
-            ),
-            CompareError::OtherGeometry(_) => direct.refused_at("geometry", &error.to_string(), ""),
-            CompareError::OtherSides { side, .. } => {
-                direct.refused_at(&format!("sph.sides.{side}"), &error.to_string(), "")
-            }
-            other => failure(other),
+        found.map_err(|error| match error.problems() {
+            Some((Of::Network, problems)) => network.refused_for(problems),
+            Some((Of::Direct, problems)) => direct.refused_for(problems),
+            None => Failure::new(SOLVER_FAILED, &error),
         })
     })?;
-    let json = serde_json::to_string_pretty(&found).map_err(|error| Failure::new(BUG, &error))?;
-    let unwritten = |error: FileError| Failure::new(USAGE, &error);
-    atomic::write(&out.join("compare.json"), (json + "\n").as_bytes()).map_err(unwritten)?;
-    atomic::write(&out.join("compare.html"), page(&found).as_bytes()).map_err(unwritten)?;
+    write(&found, &out).map_err(|error| Failure::new(USAGE, &error))?;
     summary(&found);
-    say(format_args!("  page        {}", out.join("compare.html").display()));
+    say(format_args!("  page        {}", out.join(PAGE).display()));
     Ok(DONE)
-}
-
-fn failure(error: &CompareError) -> Failure {
-    let code = if matches!(error, CompareError::Solver(_)) { SOLVER_FAILED } else { BAD_INPUT };
-    Failure::new(code, error)
 }
 
 fn summary(found: &Comparison) {

@@ -42,11 +42,6 @@ impl ProgressDisplay {
         self.show(share, || "first steps are tried".to_owned());
     }
 
-    /// Shows which share of a direct simulation beside a network is done.
-    pub fn compared(&mut self, share: f64) {
-        self.show(share, || "direct simulation".to_owned());
-    }
-
     /// Shows a share of the work with a text, where enough time has passed since the last one.
     fn show(&mut self, share: f64, text: impl FnOnce() -> String) {
         let pause = if self.bar.is_some() { BETWEEN_UPDATES } else { BETWEEN_LINES };

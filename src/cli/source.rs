@@ -49,11 +49,16 @@ impl Source {
         placed.map_or_else(|| Failure::new(BAD_INPUT, error), Failure::input)
     }
 
+    /// A case with problems that were found later, each with its place in the file.
+    pub fn refused_for(&self, problems: Vec<Problem>) -> Failure {
+        let told = problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+        let placed = self.document.as_ref().and_then(|document| document.refuse(problems).err());
+        placed.map_or_else(|| Failure::new(BAD_INPUT, &told), Failure::input)
+    }
+
     /// A case that does not fit, with the place of the key that a user would change.
     pub fn refused_at(&self, key: &str, message: &str, help: &str) -> Failure {
-        let problem = Problem::new(key, message, help);
-        let placed = self.document.as_ref().and_then(|document| document.refuse(vec![problem.clone()]).err());
-        placed.map_or_else(|| Failure::new(BAD_INPUT, &problem), Failure::input)
+        self.refused_for(vec![Problem::new(key, message, help)])
     }
 }
 

@@ -38,6 +38,9 @@ fn tell_one_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
     let found = estimates(&opened.runs, &opened.program, cores, (&kept, false), &never);
     let results = results(&opened.runs, &opened.folder);
     say(&opened.study.title);
+    if let Some(compare) = &opened.study.compare {
+        say(format_args!("  network     {}, {} records", compare.network.display(), compare.records));
+    }
     for one in &opened.study.set {
         say(format_args!("  all runs    {}", one.text));
     }

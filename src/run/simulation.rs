@@ -15,7 +15,7 @@ use crate::io::journal::Mark;
 use crate::io::restart::Saved;
 use crate::io::vtk::Compression;
 use crate::io::{FileError, atomic, pvd, vtk};
-use crate::solver::{Clock, PartTime, Series, Solver, SolverError};
+use crate::solver::{Clock, PartTime, Series, Solver, SolverError, StepInfo};
 
 /// How a run ended.
 #[derive(Debug)]
@@ -43,6 +43,14 @@ pub struct Progress {
     pub dt: f64,
     /// The limit that ruled it.
     pub limit: &'static str,
+}
+
+impl Progress {
+    /// Where a solver stands after a step towards the end of its run.
+    #[must_use]
+    pub fn after(solver: &dyn Solver, step: StepInfo, end: f64) -> Self {
+        Self { clock: solver.clock(), time: solver.time(), end, step: solver.steps(), dt: step.dt, limit: step.limit }
+    }
 }
 
 /// Someone who is told of each step: a progress bar, say.
@@ -224,14 +232,7 @@ impl Simulation<'_> {
                     return Ok(Outcome::Interrupted);
                 }
                 match self.solver.step(stop.time) {
-                    Ok(info) => self.watcher.stepped(&Progress {
-                        clock: self.solver.clock(),
-                        time: self.solver.time(),
-                        end: self.schedule.end(),
-                        step: self.solver.steps(),
-                        dt: info.dt,
-                        limit: info.limit,
-                    }),
+                    Ok(info) => self.watcher.stepped(&Progress::after(self.solver, info, self.schedule.end())),
                     Err(error) => {
                         self.records.record(self.solver, Due::LAST_GOOD_STATE)?;
                         return Ok(Outcome::Failed(error));

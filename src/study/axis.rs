@@ -40,6 +40,7 @@ pub(super) fn axis(checker: &mut Checker, raw: &RawAxis, index: usize, folder: &
             let column = RawColumn {
                 name: raw.name.clone(),
                 key: raw.key.clone(),
+                also: raw.also.clone(),
                 values: raw.values.clone(),
                 range: raw.range.clone(),
             };
@@ -54,8 +55,9 @@ pub(super) fn axis(checker: &mut Checker, raw: &RawAxis, index: usize, folder: &
 
 /// Refuses keys that do not go with the kind of the axis.
 fn refuse_foreign_keys(checker: &mut Checker, raw: &RawAxis, kind: &str, at: &str) {
-    let keys: [(&str, bool, &[&str]); 4] = [
+    let keys: [(&str, bool, &[&str]); 5] = [
         ("name", raw.name.is_some(), &["key", "cases"]),
+        ("also", raw.also.is_some(), &["key"]),
         ("values", raw.values.is_some(), &["key"]),
         ("range", raw.range.is_some(), &["key"]),
         ("columns", raw.columns.is_some(), &["table"]),
@@ -114,10 +116,28 @@ fn column_of(checker: &mut Checker, raw: &RawColumn, at: &str) -> Option<Column>
         checker.refuse(format!("{at}.values"), message, "");
         return None;
     }
-    let target = raw.key.clone().map_or(Target::Nothing, Target::Key);
+    let target = target(checker, raw, at);
     let name = raw.name.clone().or_else(|| raw.key.as_deref().map(last_part));
     let name = checker.require(&format!("{at}.name"), name, "name = \"exact-width\", or a key of the case")?;
     Some(Column { name, target, values, origins })
+}
+
+/// The keys that a parameter sets.
+fn target(checker: &mut Checker, raw: &RawColumn, at: &str) -> Target {
+    let also = raw.also.iter().flatten();
+    match &raw.key {
+        Some(key) => Target::Keys(std::iter::once(key).chain(also).cloned().collect()),
+        None => {
+            if raw.also.is_some() {
+                checker.refuse(
+                    format!("{at}.also"),
+                    "`also` goes with `key`, found none",
+                    "name the first key in `key`",
+                );
+            }
+            Target::Nothing
+        }
+    }
 }
 
 /// `contact-angle-deg` of `sph.wetting.young.contact-angle-deg`.
@@ -185,7 +205,7 @@ fn table(checker: &mut Checker, raw: &RawAxis, at: &str, folder: &Path) -> Optio
         .collect();
     for (head, key) in raw.columns.iter().flatten() {
         match columns.iter_mut().find(|column| column.name == *head) {
-            Some(column) => column.target = Target::Key(key.clone()),
+            Some(column) => column.target = Target::Keys(vec![key.clone()]),
             None => checker.refuse(
                 format!("{at}.columns.{head}"),
                 format!("{} has no column `{head}`", path.display()),
@@ -198,7 +218,7 @@ fn table(checker: &mut Checker, raw: &RawAxis, at: &str, folder: &Path) -> Optio
             Ok(record) => {
                 for (column, field) in columns.iter_mut().zip(record.iter()) {
                     column.origins.push(match column.target {
-                        Target::Key(_) => format!("{at}.columns.{}", column.name),
+                        Target::Keys(_) => format!("{at}.columns.{}", column.name),
                         _ => at_table.clone(),
                     });
                     column.values.push(field_value(field));
@@ -272,7 +292,7 @@ mod tests {
         let axis = axis(&mut checker, &raw, 0, folder.path()).unwrap();
         assert_eq!(checker.problems, []);
         assert_eq!(axis.len(), 2);
-        assert_eq!(axis.columns[0].target, Target::Key("a.b".to_owned()));
+        assert_eq!(axis.columns[0].target, Target::Keys(vec!["a.b".to_owned()]));
         assert_eq!(axis.columns[1].values, [Value::Float(3.5), Value::Float(0.2)]);
         assert_eq!(axis.columns[2].values[1], Value::String("periodic".to_owned()));
     }

@@ -101,7 +101,7 @@ pub fn groups<'a>(
 #[must_use]
 pub fn spacing(study: &Study) -> Option<&Column> {
     let is_spacing = |target: &Target| match target {
-        Target::Key(key) => key.rsplit('.').next() == Some(SPACING),
+        Target::Keys(keys) => keys.iter().any(|key| key.rsplit('.').next() == Some(SPACING)),
         _ => false,
     };
     study.parameters().find(|column| is_spacing(&column.target) && column.values.len() > 1)

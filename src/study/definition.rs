@@ -16,6 +16,8 @@ pub struct Study {
     pub title: String,
     /// The base case; absent where an axis names the cases.
     pub case: Option<PathBuf>,
+    /// What each run is compared with, where it is.
+    pub compare: Option<ComparisonPlan>,
     /// Values that are the same in all runs.
     pub set: Vec<Assignment>,
     /// What varies; the first one varies slowest.
@@ -27,6 +29,15 @@ pub struct Study {
     /// What the report shows.
     pub report: ReportPlan,
     pub(super) document: crate::input::Document,
+}
+
+/// The network that the cases of all runs are compared with.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ComparisonPlan {
+    /// The case of the network.
+    pub network: PathBuf,
+    /// Number of compared states of the direct simulation.
+    pub records: usize,
 }
 
 /// A value for a key of the case.
@@ -62,8 +73,8 @@ impl Axis {
 /// What a parameter changes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Target {
-    /// A key of the case.
-    Key(String),
+    /// Keys of the case, at least one, that take the same value.
+    Keys(Vec<String>),
     /// The base case: the files, one per value.
     Case(Vec<PathBuf>),
     /// Nothing: a number to compare with.

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use super::child::Program;
 use super::estimate::{Cores, Estimate};
 use super::folder::StudyFolder;
-use super::results::{Standing, standing};
+use super::results::{Standing, is_complete, standing};
 use super::runs::{PlannedRun, Run};
 use crate::io::{FileError, atomic};
 use crate::run::memory;
@@ -105,10 +105,7 @@ pub fn memory_of(estimate: Option<&Estimate>) -> u64 {
 /// # Errors
 /// [`FileError`] where a log cannot be written.
 pub fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<Vec<End>, FileError> {
-    let complete = |planned: &PlannedRun| {
-        let folder = work.folder.run(&planned.run.name);
-        matches!(standing(&folder, &planned.resolved), Standing::Complete(_)) && folder.join("picture.png").exists()
-    };
+    let complete = |planned: &PlannedRun| is_complete(&work.folder.run(&planned.run.name), planned);
     let mut ends: Vec<End> =
         work.runs.iter().map(|run| if complete(run) { End::WasComplete } else { End::Interrupted }).collect();
     let mut queue = longest_first(work, &ends);

@@ -3,11 +3,13 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use super::comparison::{self, PlannedNetwork};
 use super::folder::{FolderError, StudyFolder};
-use super::results::{Standing, standing};
+use super::results::{is_complete, standing};
 use super::runs::PlannedRun;
 use crate::input::InputError;
 use crate::io::{FileError, restart};
+use crate::run::compare;
 use crate::run::execute::{Job, Mode, RunError, execute};
 use crate::run::folder::FolderError as RunFolderError;
 use crate::run::report::{REPORT, Report, Status};
@@ -53,11 +55,11 @@ pub fn run(
 ) -> Result<Ending, ExecuteError> {
     let Some(_claim) = folder.claim_run(&planned.run.name, interrupt)? else { return Ok(Ending::Interrupted) };
     let path = folder.run(&planned.run.name);
-    match standing(&path, &planned.resolved) {
-        // A kill may have come between the report and the picture, which is drawn after it.
-        Standing::Complete(_) if path.join("picture.png").exists() => return Ok(Ending::WasComplete),
-        Standing::Complete(_) => {}
-        _ => remove_file(&path.join(REPORT))?,
+    if is_complete(&path, planned) {
+        return Ok(Ending::WasComplete);
+    }
+    if standing(&path, &planned.resolved).report().is_none() {
+        remove_file(&path.join(REPORT))?;
     }
     if restart::path(&path).exists() {
         match attempt(planned, &path, Mode::Resume, interrupt, watcher) {
@@ -80,6 +82,9 @@ fn attempt(
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
 ) -> Result<Ending, ExecuteError> {
+    if let Some(network) = &planned.network {
+        return compared(planned, network, (path, interrupt), watcher);
+    }
     let built = match mode {
         Mode::New => setup::build(&planned.case),
         Mode::Resume => setup::build_to_resume(&planned.case),
@@ -88,6 +93,24 @@ fn attempt(
     let job = Job { case: &planned.case, resolved: &planned.resolved, folder: path.to_path_buf(), mode };
     let finished = execute(&job, solver.as_mut(), interrupt, watcher)?;
     Ok(ending(&finished.report))
+}
+
+/// Compares the case of a run with a network; it cannot be taken up.
+fn compared(
+    planned: &PlannedRun,
+    network: &PlannedNetwork,
+    (path, interrupt): (&Path, &AtomicBool),
+    watcher: &mut dyn Watcher,
+) -> Result<Ending, ExecuteError> {
+    let pair = network.with(&planned.case);
+    match compare::execute(&pair, (&planned.resolved, path), interrupt, watcher) {
+        Ok(report) => Ok(ending(&report)),
+        Err(compare::ExecuteError::Run(error)) => Err(error.into()),
+        Err(compare::ExecuteError::Cases(error)) => {
+            let placed = comparison::refuse(&error, &network.document, &planned.document).err();
+            Err(placed.unwrap_or(InputError { mistakes: Vec::new() }).into())
+        }
+    }
 }
 
 /// What is wrong with a case that no solver can be made for, with the places in its file.

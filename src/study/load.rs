@@ -4,15 +4,21 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::axis::axis;
-use super::definition::{Assignment, Axis, Expectation, Study, Target, Trend};
+use super::definition::{Assignment, Axis, ComparisonPlan, Expectation, Study, Target, Trend};
 use super::names::Names;
-use super::raw::RawStudy;
+use super::raw::{RawComparison, RawStudy};
 use super::results::RUN_NUMBERS;
 use crate::case::{other_than_a_study, read};
 use crate::input::{Checker, Document, InputError, Overrides};
 
 /// Most runs of a study.
 const MOST_RUNS: usize = 10_000;
+
+/// Compared states where the study file does not say how many, as in `meniscus compare`.
+const RECORDS: usize = 100;
+
+/// Most compared states: each is kept in memory cell by cell.
+const MOST_RECORDS: usize = 10_000;
 
 /// Names of columns of the table that a parameter must not have, besides the numbers of a run.
 const TAKEN: [&str; 2] = ["run", "status"];
@@ -48,6 +54,7 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
     } else if raw.case.is_none() && !cases && all_axes {
         checker.require("case", raw.case.as_ref(), "case = \"../cases/sessile-drop.toml\"");
     }
+    let compare = comparison(&mut checker, raw.compare.as_ref(), folder);
     let set = assignments(&mut checker, raw.set.as_deref().unwrap_or_default());
     check_keys(&mut checker, &axes, &set);
     // A parameter of an axis that is wrong would seem unknown.
@@ -71,7 +78,20 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
         return Err(InputError { mistakes });
     };
     let name = path.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    Ok(Study { name, title, case, set, axes, expectations, trends, report, document })
+    Ok(Study { name, title, case, compare, set, axes, expectations, trends, report, document })
+}
+
+/// What the cases are compared with, where the file says so.
+fn comparison(checker: &mut Checker, raw: Option<&RawComparison>, folder: &Path) -> Option<ComparisonPlan> {
+    let raw = raw?;
+    let network =
+        checker.require("compare.network", raw.network.as_ref(), "network = \"../cases/network/compare.toml\"");
+    let records = raw.records.unwrap_or(RECORDS);
+    if !(1..=MOST_RECORDS).contains(&records) {
+        let message = format!("expected 1 to {MOST_RECORDS} records, found {records}");
+        checker.refuse("compare.records", message, format!("{RECORDS} where it is left out"));
+    }
+    Some(ComparisonPlan { network: folder.join(network?), records })
 }
 
 /// Refuses parameters of one name and too many runs.
@@ -118,14 +138,16 @@ fn check_keys(checker: &mut Checker, axes: &[Axis], set: &[Assignment]) {
         set.iter().filter_map(|one| one.text.split_once('=')).map(|(key, _)| key.trim()).collect();
     for (index, axis) in axes.iter().enumerate() {
         for column in &axis.columns {
-            let Target::Key(key) = &column.target else { continue };
+            let Target::Keys(keys) = &column.target else { continue };
             let at = format!("axis[{index}]");
-            if Overrides::parse(&[format!("{key}=0")]).is_err() {
-                checker.refuse(&at, format!("`{key}` is not a key path"), "as in geometry.shapes[0].disc.radius");
-            } else if seen.contains(&key.as_str()) {
-                checker.refuse(&at, format!("`{key}` is set twice"), "keep it in one axis, or in `set`");
+            for key in keys {
+                if Overrides::parse(&[format!("{key}=0")]).is_err() {
+                    checker.refuse(&at, format!("`{key}` is not a key path"), "as in geometry.shapes[0].disc.radius");
+                } else if seen.contains(&key.as_str()) {
+                    checker.refuse(&at, format!("`{key}` is set twice"), "keep it in one axis, or in `set`");
+                }
+                seen.push(key);
             }
-            seen.push(key);
         }
     }
 }

@@ -5,7 +5,7 @@
 use super::definition::{Choice, Study};
 use super::results::RUN_NUMBERS;
 use super::runs::PlannedRun;
-use crate::case::measures::{offers, unmeasured};
+use crate::case::measures::{offer_of_comparison, offers, unmeasured};
 use crate::input::Problem;
 
 /// Names of measures that the runs do not have, each at its place in the study file.
@@ -33,11 +33,11 @@ impl Names<'_> {
     fn wrong(&self, name: &str, planned: &PlannedRun) -> Option<(String, String)> {
         let is_known = RUN_NUMBERS.contains(&name) || self.study.parameters().any(|column| column.name == name);
         let case = &planned.case;
-        if is_known {
-            None
-        } else {
-            unmeasured(name, &offers(&case.model, Some(&case.geometry), case.steady.is_some()))
-        }
+        let offers = || match &planned.network {
+            Some(_) => vec![offer_of_comparison()],
+            None => offers(&case.model, Some(&case.geometry), case.steady.is_some()),
+        };
+        if is_known { None } else { unmeasured(name, &offers()) }
     }
 
     /// The problem of a measure that one of the chosen runs does not have.

@@ -9,6 +9,7 @@ use super::results::{RunResult, Standing};
 use super::table::Table;
 use super::values::shown;
 use super::verdict::{Judgment, Verdict, digits};
+use crate::run::compare::PAGE;
 
 /// Look of the page.
 const STYLE: &str = "body{font:16px/1.45 system-ui,sans-serif;margin:2em auto;max-width:78em;padding:0 1em;color:#222}\
@@ -18,7 +19,7 @@ th,td{border:1px solid #ccc;padding:.3em .6em;text-align:left;vertical-align:top
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(17em,1fr));gap:1em}\
 figure{margin:0}figure img{width:100%;border:1px solid #ddd}figcaption{font-size:.85em;color:#444}\
 .diagrams{display:grid;grid-template-columns:repeat(auto-fill,minmax(30em,1fr));gap:1em}\
-.curves svg{max-width:100%;height:auto}";
+.curves svg,figure svg{max-width:100%;height:auto}";
 
 /// What stands on the page.
 #[derive(Debug)]
@@ -37,6 +38,8 @@ pub struct Content<'a> {
     pub convergences: &'a [Convergence],
     /// Names of the files of diagrams, a list per run.
     pub diagrams: &'a [Vec<String>],
+    /// Capillary pressure over saturation of both models as SVG, one per run that was compared with a network and is complete.
+    pub comparisons: &'a [(&'a RunResult, String)],
 }
 
 /// The page as HTML.
@@ -62,7 +65,9 @@ pub fn page(content: &Content<'_>) -> String {
     html += "<h2>Table</h2>\n<div class=\"wide\">\n";
     push_table(&mut html, content.table);
     html += "</div>\n";
-    if content.study.report.pictures {
+    if content.study.report.pictures && content.study.compare.is_some() {
+        push_comparisons(&mut html, content.comparisons);
+    } else if content.study.report.pictures {
         push_pictures(&mut html, content.results);
         push_diagrams(&mut html, content.results, content.diagrams);
     }
@@ -146,14 +151,32 @@ fn push_table(html: &mut String, table: &Table) {
 fn push_pictures(html: &mut String, results: &[RunResult]) {
     html.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
     for result in results.iter().filter(|result| result.standing.report().is_some()) {
-        let parameters: Vec<String> =
-            result.run.parameters.iter().map(|p| format!("{} = {}", p.name, shown(&p.value))).collect();
-        let (name, caption) = (escaped(&result.run.name), escaped(&parameters.join(", ")));
+        let (name, caption) = (escaped(&result.run.name), caption(result));
         // Writing to a string cannot fail.
         let _ = writeln!(
             html,
             "<figure><a href=\"runs/{name}/picture.png\"><img loading=\"lazy\" src=\"runs/{name}/picture.png\" \
              alt=\"{caption}\"></a><figcaption>{caption}</figcaption></figure>"
+        );
+    }
+    html.push_str("</div>\n");
+}
+
+/// The parameters of a run with their values.
+fn caption(result: &RunResult) -> String {
+    let parameters = result.run.parameters.iter().map(|p| format!("{} = {}", p.name, shown(&p.value)));
+    escaped(&parameters.collect::<Vec<_>>().join(", "))
+}
+
+/// The curves of network and direct simulation of each run; the whole comparison lies in the folder of the run.
+fn push_comparisons(html: &mut String, comparisons: &[(&RunResult, String)]) {
+    html.push_str("<h2>Network and direct simulation</h2>\n<div class=\"diagrams\">\n");
+    for (result, curves) in comparisons {
+        let (name, caption) = (escaped(&result.run.name), caption(result));
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            html,
+            "<figure>{curves}<figcaption>{caption}: <a href=\"runs/{name}/{PAGE}\">comparison</a></figcaption></figure>"
         );
     }
     html.push_str("</div>\n");

@@ -19,6 +19,8 @@ tables! {
         pub case: PathBuf,
         /// Values for all runs, `"KEY=VALUE"` as in `--set`.
         pub set: Vec<String>,
+        /// Each run compares its case, a direct simulation, with a network of the same geometry, as `meniscus compare` does.
+        pub compare: RawComparison,
         /// What varies; every value of an axis is combined with every value of the others.
         pub axis: Vec<RawAxis>,
         /// Measures expected of every run.
@@ -29,6 +31,14 @@ tables! {
         pub report: RawReport,
     }
 
+    /// What the case is compared with.
+    pub struct RawComparison {
+        /// Case of the network, relative to the study file (required).
+        pub network: PathBuf,
+        /// Number of compared states of the direct simulation, 1 to 10 000 (default 100).
+        pub records: usize,
+    }
+
     /// What varies: one key with `values` or a `range`, several keys that vary together (`pair`), the rows of a CSV file
     /// (`table`), or several base cases (`cases`).
     pub struct RawAxis {
@@ -36,6 +46,8 @@ tables! {
         pub name: String,
         /// Key path in the case file, as in `--set`; with `values` or `range`.
         pub key: String,
+        /// Further key paths that take the same values.
+        pub also: Vec<String>,
         /// Values of the key.
         #[schemars(with = "Option<Vec<serde_json::Value>>")]
         pub values: Vec<toml::Value>,
@@ -57,6 +69,8 @@ tables! {
         pub name: String,
         /// Key path in the case file; a parameter without a key is a number to compare with.
         pub key: String,
+        /// Further key paths that take the same values.
+        pub also: Vec<String>,
         /// Values of the key.
         #[schemars(with = "Option<Vec<serde_json::Value>>")]
         pub values: Vec<toml::Value>,

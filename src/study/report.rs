@@ -15,6 +15,7 @@ use super::table::{self, Table};
 use super::verdict::{Judgment, judgments};
 use crate::input::nearest;
 use crate::io::{FileError, atomic};
+use crate::run::compare::CURVES;
 
 /// A report that cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -54,6 +55,13 @@ fn diagrams_of(folder: &Path, standing: &Standing) -> Vec<String> {
     found
 }
 
+/// The curves of each complete comparison; those without a pressure have none.
+fn comparisons<'r>(study: &Study, results: &'r [RunResult], folder: &StudyFolder) -> Vec<(&'r RunResult, String)> {
+    let complete = results.iter().filter(|result| study.compare.is_some() && result.standing.report().is_some());
+    let curves = |result: &RunResult| std::fs::read_to_string(folder.run(&result.run.name).join(CURVES));
+    complete.map(|result| (result, curves(result).unwrap_or_default())).collect()
+}
+
 /// Writes `table.csv`, `table.md`, `curve-1.svg` and so on, and `report.html`.
 ///
 /// # Errors
@@ -76,7 +84,9 @@ pub fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Resul
     }
     let diagrams: Vec<Vec<String>> =
         results.iter().map(|result| diagrams_of(&folder.run(&result.run.name), &result.standing)).collect();
+    let comparisons = comparisons(study, &results, folder);
     let content = Content {
+        comparisons: &comparisons,
         diagrams: &diagrams,
         study,
         results: &results,

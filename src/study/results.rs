@@ -103,6 +103,14 @@ pub fn standing(folder: &Path, resolved: &str) -> Standing {
     }
 }
 
+/// Whether nothing is left to do for a run in its folder. The picture is drawn after the report, of which a kill may have kept it; the files of a
+/// comparison come before its report.
+#[must_use]
+pub fn is_complete(folder: &Path, planned: &PlannedRun) -> bool {
+    let is_drawn = planned.network.is_some() || folder.join("picture.png").exists();
+    is_drawn && standing(folder, &planned.resolved).report().is_some()
+}
+
 /// A run with where it stands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunResult {

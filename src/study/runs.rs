@@ -2,23 +2,21 @@
 //! each with its case checked.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use toml::Value;
 
+use super::base_case;
+use super::comparison::{self, DirectRun, NetworkRun, PlannedNetwork};
 use super::definition::{Assignment, Choice, Quantity, Study, Target};
 use super::values::{number_of, same, shown};
+use crate::case::Loaded;
 use crate::case::checked::Case;
-use crate::case::{self, Loaded};
-use crate::input::{Document, InputError, Mistake, Overrides, Problem};
+use crate::input::{Document, InputError, Mistake, Problem};
 use crate::io::checksum::fnv1a;
-use crate::run::setup;
 
 /// Longest name of a run; file systems take 255 bytes, and files in the folder are named too.
 const LONGEST_NAME: usize = 120;
-
-/// The expectations of a base case hold for its own values; a study has its own.
-const WITHOUT_EXPECTATIONS: &str = "expect=[]";
 
 /// Most mistakes that are told.
 const MOST_MISTAKES: usize = 50;
@@ -47,6 +45,8 @@ pub struct Run {
     pub parameters: Vec<Parameter>,
     /// What differs from the base case.
     pub assignments: Vec<Assignment>,
+    /// What it is compared with, where it is.
+    pub network: Option<NetworkRun>,
 }
 
 /// A run with its checked case.
@@ -56,10 +56,12 @@ pub struct PlannedRun {
     pub run: Run,
     /// The case.
     pub case: Case,
-    /// The case file with all that was filled in.
+    /// The case file with all that was filled in; with that of the network where it is compared with one.
     pub resolved: String,
     /// The text of the case file.
     pub document: Document,
+    /// What it is compared with, where it is.
+    pub network: Option<PlannedNetwork>,
 }
 
 impl PlannedRun {
@@ -95,9 +97,7 @@ impl Run {
     /// What differs from the base case, as `--set` takes it.
     #[must_use]
     pub fn overrides(&self) -> Vec<String> {
-        let mut texts = vec![WITHOUT_EXPECTATIONS.to_owned()];
-        texts.extend(self.assignments.iter().map(|one| one.text.clone()));
-        texts
+        base_case::overrides(&self.assignments)
     }
 
     /// Loads the case of the run and holds it against its geometry.
@@ -105,29 +105,41 @@ impl Run {
     /// # Errors
     /// All mistakes; those of a value of the study at its place in the study file.
     pub fn plan(&self, study: &Study) -> Result<PlannedRun, InputError> {
-        self.load().map_err(|error| self.placed(study, error))
+        self.load(study).map_err(|error| self.placed(study, error))
     }
 
-    fn load(&self) -> Result<PlannedRun, InputError> {
-        let overrides = Overrides::parse(&self.overrides())?;
-        let loaded = case::load(&self.case, &overrides)?;
-        loaded.refuse(setup::problems(&loaded.case))?;
+    fn load(&self, study: &Study) -> Result<PlannedRun, InputError> {
+        let (loaded, network) = match &self.network {
+            Some(network) => {
+                let direct = DirectRun { case: &self.case, origin: &self.case_origin, assignments: &self.assignments };
+                let (direct, network) = comparison::plan(study, &direct, network)?;
+                (direct, Some(network))
+            }
+            None => (base_case::load(&self.case, &self.assignments)?, None),
+        };
         let Loaded { case, resolved, document, .. } = loaded;
-        Ok(PlannedRun { run: self.clone(), case, resolved, document })
+        Ok(PlannedRun { run: self.clone(), case, resolved, document, network })
     }
 
     /// Moves the mistakes of values that the study sets to their places in the study file.
     fn placed(&self, study: &Study, error: InputError) -> InputError {
         let mut mistakes = Vec::new();
+        let of_network = self.network.iter();
+        let assignments = || self.assignments.iter().chain(of_network.clone().flat_map(|network| &network.assignments));
+        let cases = || {
+            let network = of_network.clone().map(|network| (&network.case, comparison::NETWORK_KEY));
+            std::iter::once((&self.case, self.case_origin.as_str())).chain(network)
+        };
         for mistake in error.mistakes {
-            let set_here = self.assignments.iter().find(|one| mistake.name == format!("--set {}", one.text));
-            let is_missing_case = mistake.place.is_none() && mistake.name == self.case.display().to_string();
+            let set_here = assignments().find(|one| mistake.name == format!("--set {}", one.text));
+            let is_missing = |case: &Path| mistake.place.is_none() && mistake.name == case.display().to_string();
+            let missing_case = cases().find(|(case, _)| is_missing(case));
             let problem = match set_here {
                 Some(one) => {
                     let message = format!("{} (in `{}`)", mistake.message, one.text);
                     Some(Problem::new(&one.origin, message, mistake.help_text()))
                 }
-                None => is_missing_case.then(|| Problem::new(&self.case_origin, &mistake.message, mistake.help_text())),
+                None => missing_case.map(|(_, origin)| Problem::new(origin, &mistake.message, mistake.help_text())),
             };
             let moved = problem.and_then(|problem| study.refuse(vec![problem]).err());
             match moved {
@@ -162,9 +174,10 @@ fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
         for (number, column) in axis.columns.iter().enumerate() {
             let Some(value) = column.values.get(place) else { continue };
             match &column.target {
-                Target::Key(key) => {
+                Target::Keys(keys) => {
                     let origin = column.origins.get(place).cloned().unwrap_or_default();
-                    assignments.push(Assignment { text: format!("{key}={value}"), origin });
+                    let set = |key: &String| Assignment { text: format!("{key}={value}"), origin: origin.clone() };
+                    assignments.extend(keys.iter().map(set));
                 }
                 Target::Case(files) => {
                     case = files.get(place).cloned().unwrap_or_default();
@@ -179,7 +192,8 @@ fn run(study: &Study, number: usize, names: &mut BTreeSet<String>) -> Run {
         }
     }
     let name = free_name(if labels.is_empty() { "only".to_owned() } else { labels.join("_") }, names);
-    Run { index: number + 1, name, case, case_origin, parameters, assignments }
+    let network = study.compare.as_ref().map(|plan| comparison::split(plan, &mut assignments));
+    Run { index: number + 1, name, case, case_origin, parameters, assignments, network }
 }
 
 /// A value as part of the name of a folder: of a path its last part, of an array its numbers.

@@ -54,5 +54,89 @@ fn cases_of_two_geometries_are_refused() {
     assert!(stderr(&output).contains("not of one geometry"), "{}", stderr(&output));
     let no_network = meniscus(folder.path(), &["compare", "direct.toml", "direct.toml", "--out", "none"]);
     assert_code(&no_network, 3);
-    assert!(stderr(&no_network).contains("the first case has no displacement"), "{}", stderr(&no_network));
+    assert!(stderr(&no_network).contains("expected a network with a displacement"), "{}", stderr(&no_network));
+}
+
+/// A study of the comparison in `folder` at two angles.
+fn study(folder: &Path, records: usize) {
+    let text = format!(
+        r#"
+format = 1
+title = "Network and direct simulation at two angles"
+case = "direct.toml"
+[compare]
+network = "network.toml"
+records = {records}
+[[axis]]
+name = "angle"
+key = "sph.wetting.young.contact-angle-deg"
+also = ["network.wetting.young.contact-angle-deg"]
+values = [40.0, 60.0]
+[[expect]]
+measure = "network-breakthrough-pressure-Pa"
+value = 547.5
+tolerance = 0.1
+where = {{ angle = 40.0 }}
+"#
+    );
+    std::fs::write(folder.join("study.toml"), text).unwrap();
+}
+
+#[test]
+fn a_study_compares_both_at_each_of_its_points() {
+    let folder = tempfile::tempdir().unwrap();
+    cases(folder.path());
+    let run = |records| {
+        study(folder.path(), records);
+        let output = meniscus(folder.path(), &["study", "run", "study.toml", "--out", "out", "--jobs", "2"]);
+        assert_code(&output, 0);
+        stderr(&output).matches("done in").count()
+    };
+    assert_eq!(run(2), 2);
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).unwrap();
+    let csv = read("table.csv");
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap_or_else(|| panic!("{name}: {csv}"));
+    let values = |name: &str| [1, 2].map(|row| rows[row][column(name)].parse::<f64>().unwrap());
+    assert_eq!(values("angle"), [40.0, 60.0]);
+    let [wetting, less_wetting] = values("network-breakthrough-pressure-Pa");
+    assert!(wetting > 1.1 * less_wetting, "the angle reached the network: {csv}");
+    assert!(values("mean-overlap").iter().all(|overlap| (0.0..=1.0).contains(overlap)), "{csv}");
+    assert!(values("direct-cpu-s").iter().all(|seconds| *seconds > 0.0), "{csv}");
+    assert_eq!(rows[1][column("direct-breakthrough-pressure-Pa")], "", "it ends long before");
+    let page = read("report.html");
+    assert_eq!((page.matches("<svg").count(), page.matches("src=").count()), (2, 0), "it is one file");
+    for name in ["angle=40", "angle=60"] {
+        assert!(page.contains(&format!("href=\"runs/{name}/compare.html\"")), "{page}");
+        assert!(read(&format!("runs/{name}/compare.html")).contains("At equal saturation"));
+    }
+    // What is complete is kept, what was begun only is done again, and so is all of it with other records.
+    assert_eq!(run(2), 0);
+    std::fs::remove_file(folder.path().join("out/runs/angle=60/report.json")).unwrap();
+    assert_eq!(run(2), 1);
+    assert_eq!(run(3), 2);
+}
+
+#[test]
+fn a_comparison_of_a_study_that_cannot_be_run_is_refused_before_any_run() {
+    let folder = tempfile::tempdir().unwrap();
+    cases(folder.path());
+    study(folder.path(), 2);
+    let path = folder.path().join("study.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replace("\"network-break", "\"netwrk-break")).unwrap();
+    let output = meniscus(folder.path(), &["study", "plan", "study.toml"]);
+    assert_code(&output, 3);
+    let told = stderr(&output);
+    assert!(
+        told.contains("study.toml:14") && told.contains("did you mean `network-breakthrough-pressure-Pa`"),
+        "{told}"
+    );
+    let other = repository("cases/network/hand-over.toml");
+    std::fs::write(&path, text.replace("\"network.toml\"", &format!("{other:?}"))).unwrap();
+    let output = meniscus(folder.path(), &["study", "plan", "study.toml"]);
+    assert_code(&output, 3);
+    let told = stderr(&output);
+    assert!(told.contains("study.toml:6") && told.contains("not of one geometry"), "{told}");
+    assert!(told.contains("let both name the same shape file: that of direct.toml"), "{told}");
 }

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
-use meniscus::case::measures::offers;
+use meniscus::case::measures::{offer_of_comparison, offers};
 use meniscus::case::preset::{COLD, Preset, WARM};
 use meniscus::case::{load, schema};
 use meniscus::input::Overrides;
@@ -240,8 +240,13 @@ fn tells<'f>(rows: &[Vec<String>], files: impl Iterator<Item = (&'f str, &'f [Fi
 #[test]
 fn every_measure_is_described() {
     let mut there = BTreeSet::new();
-    let others = ["src/thin_film/measures.rs", "src/network/measures.rs", "src/network/dynamic/measures.rs"]
-        .map(|file| root().join(file));
+    const OTHERS: [&str; 4] = [
+        "src/thin_film/measures.rs",
+        "src/network/measures.rs",
+        "src/network/dynamic/measures.rs",
+        "src/run/compare/measures.rs",
+    ];
+    let others = OTHERS.map(|file| root().join(file));
     let of_flows =
         ["src/sph/measures", "src/benchmarks"].into_iter().flat_map(|folder| files(&root().join(folder), &["rs"]));
     for file in of_flows.chain(others) {
@@ -262,6 +267,7 @@ fn every_measure_is_described() {
             .into_iter()
             .flat_map(|offer| offer.names.iter().map(|name| (*name).to_owned()))
     });
+    let known = known.chain(offer_of_comparison().names.iter().map(|name| (*name).to_owned()));
     assert_eq!(known.collect::<BTreeSet<_>>(), there, "the names that `[[expect]]` knows: src/case/measures.rs");
 }
 

@@ -1,6 +1,6 @@
 //! Study files: each bad snippet gives exactly the mistakes it names, at their lines.
 //!
-//! `tests/bad-study/*.snippets`: whole study files split by `+++` lines, beside a case `drop.toml`, a table `t.csv` and a
+//! `tests/bad-study/*.snippets`: whole study files split by `+++` lines, beside a case `drop.toml`, a network `pack.toml`, a table `t.csv` and a
 //! table `ragged.csv`. `#^ message` below a line: this mistake at that line; messages are told up to a given length, so that
 //! lists of known names may grow. `MENISCUS_BLESS=1 cargo test --test study files` writes the messages anew: read them.
 
@@ -13,10 +13,31 @@ use meniscus::study::runs::{plan, runs};
 /// Longest message in a snippet.
 const LONGEST: usize = 90;
 
+/// A network of other shapes than those of `drop.toml`.
+const PACK: &str = r#"
+format = 1
+title = "Drainage between two discs"
+[geometry]
+min = [0.0, 0.0]
+max = [1.0e-3, 6.0e-4]
+[[geometry.shapes]]
+disc = { center = [5.0e-4, 1.0e-4], radius = 1.5e-4 }
+[[geometry.shapes]]
+disc = { center = [5.0e-4, 5.0e-4], radius = 1.5e-4 }
+[network]
+inlet = "left"
+outlet = "right"
+[network.interface]
+tension = 0.02
+[network.wetting.young]
+contact-angle-deg = 60.0
+"#;
+
 fn folder_with(text: &str) -> tempfile::TempDir {
     let folder = crate::support::program::folder_with_small_case();
     std::fs::write(folder.path().join("t.csv"), "angle,exact,side\n50,1.5,wall\n70,2.5,periodic\n").unwrap();
     std::fs::write(folder.path().join("ragged.csv"), "angle,exact\n50,1.5\n70\n").unwrap();
+    std::fs::write(folder.path().join("pack.toml"), PACK).unwrap();
     std::fs::write(folder.path().join("study.toml"), text).unwrap();
     folder
 }

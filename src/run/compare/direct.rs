@@ -1,14 +1,15 @@
 //! The direct simulation of a comparison, from record to record.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use super::{CompareError, Grid, Record, Track};
-use crate::case::checked::Case;
+use super::{CompareError, Grid, Pair, Record, Track};
 use crate::case::network::state::NetworkState;
 use crate::case::raw::RawPhase;
 use crate::math::Vec2;
 use crate::run::processor_time::ProcessorTime;
 use crate::run::setup;
+use crate::run::simulation::{Progress, Watcher};
 use crate::snapshot::{Snapshot, Values};
 use crate::solver::{Series, Solver};
 use crate::sph::measures::open::PRESSURE_DIFFERENCE;
@@ -18,13 +19,14 @@ const NON_WETTING: i64 = 1;
 /// Number of wall particles.
 const SOLID: i64 = 2;
 
-/// Runs a case to its end with so many records.
+/// Runs the direct simulation of a pair to its end.
 pub fn track(
-    case: &Case,
+    pair: &Pair<'_>,
     (state, grid): (&NetworkState, &Grid),
-    records: usize,
-    done: &mut dyn FnMut(f64),
+    interrupt: &AtomicBool,
+    watcher: &mut dyn Watcher,
 ) -> Result<Track, CompareError> {
+    let (case, records) = (pair.direct, pair.records);
     let (clock, processor_time) = (Instant::now(), ProcessorTime::start());
     let mut solver = setup::build(case)?;
     let mut track = Track {
@@ -40,10 +42,13 @@ pub fn track(
     for record in 0..=records {
         let until = case.end * record as f64 / records as f64;
         while solver.time() < until {
-            solver.step(until)?;
+            if interrupt.load(Ordering::Relaxed) {
+                return Err(CompareError::Interrupted);
+            }
+            let step = solver.step(until)?;
+            watcher.stepped(&Progress::after(solver.as_ref(), step, case.end));
         }
         track.add(&as_record(solver.as_ref(), grid, state.invading), grid);
-        done(record as f64 / records as f64);
     }
     track.wall_time_s = clock.elapsed().as_secs_f64();
     track.processor_time_s = processor_time.seconds();

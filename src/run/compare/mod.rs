@@ -5,20 +5,29 @@
 //! what both took. Of a network its first half cycle counts.
 
 mod direct;
+mod execute;
+mod files;
+mod measures;
 mod network;
 mod page;
 mod picture;
 mod rank;
 
+use std::sync::atomic::AtomicBool;
+
 use serde::Serialize;
 
+pub use self::execute::{ExecuteError, execute};
+pub use self::files::{CURVES, PAGE, write};
 pub(super) use self::network::outlet_elements;
-pub use self::page::page;
 use crate::case::checked::{Case, Model};
 use crate::case::network::state::NetworkState;
 use crate::geometry::elements::Elements;
+use crate::input::Problem;
 use crate::math::{Bounds, Vec2};
+use crate::network::solver::NetworkSolver;
 use crate::run::setup::{self, SetupError};
+use crate::run::simulation::Watcher;
 use crate::solver::SolverError;
 
 /// Saturations at which both are drawn.
@@ -26,14 +35,34 @@ const PICTURES: usize = 4;
 /// Cells along the longer side of the domain on which phases are compared.
 const CELLS: f64 = 240.0;
 
+/// A network and a direct simulation that are compared.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair<'a> {
+    /// The case of the network.
+    pub network: &'a Case,
+    /// The case of the direct simulation.
+    pub direct: &'a Case,
+    /// Number of compared states of the direct simulation.
+    pub records: usize,
+}
+
+/// One of both cases.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Of {
+    /// That of the network.
+    Network,
+    /// That of the direct simulation.
+    Direct,
+}
+
 /// Two cases that cannot be compared, or a run that failed.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
     /// The first case is no network with a displacement.
-    #[error("the first case has no displacement in a network; give [network] an inlet")]
+    #[error("expected a network with a displacement; give the case [network] with an inlet")]
     NoNetwork,
     /// The second case is no direct simulation of two fluids.
-    #[error("the second case is no direct simulation of two fluids; give it [sph] with both phases")]
+    #[error("expected a direct simulation of two fluids; give the case [sph] with both phases")]
     NoDirect,
     /// The cases have different geometries.
     #[error("the cases are not of one geometry: {0}; let both name the same shape file")]
@@ -54,6 +83,26 @@ pub enum CompareError {
     /// A solver failed.
     #[error(transparent)]
     Solver(#[from] SolverError),
+    /// It was asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl CompareError {
+    /// What is wrong with which of both cases, at the keys that a user would change; none where a run failed or was stopped.
+    #[must_use]
+    pub fn problems(&self) -> Option<(Of, Vec<Problem>)> {
+        let direct = |key: &str| Some((Of::Direct, vec![Problem::of_text(key, &self.to_string())]));
+        match self {
+            Self::NoNetwork => Some((Of::Network, vec![Problem::of_text("network", &self.to_string())])),
+            Self::NoDirect => direct("sph"),
+            Self::OtherGeometry(_) => direct("geometry"),
+            Self::OtherSides { side, .. } => direct(&format!("sph.sides.{side}")),
+            Self::Setup(misfit @ SetupError::Network(_)) => Some((Of::Network, misfit.problems())),
+            Self::Setup(misfit) => Some((Of::Direct, misfit.problems())),
+            Self::Solver(_) | Self::Interrupted => None,
+        }
+    }
 }
 
 /// A state of one of both: where the curve stands, and which cells hold the invading phase.
@@ -166,41 +215,51 @@ pub struct Comparison {
     pub at_equal_saturation: Vec<AtSaturation>,
 }
 
-/// Runs both cases and compares them; `records` is the number of states of the direct simulation, `done` is told its share that is done.
+/// Whether two cases can be compared.
 ///
 /// # Errors
 /// [`CompareError`].
-pub fn compare(
-    (network_case, direct_case): (&Case, &Case),
-    records: usize,
-    done: &mut dyn FnMut(f64),
-) -> Result<Comparison, CompareError> {
-    let Model::Network(wanted) = &network_case.model else { return Err(CompareError::NoNetwork) };
-    let Model::Sph(sph) = &direct_case.model else { return Err(CompareError::NoDirect) };
+pub fn check(pair: &Pair<'_>) -> Result<(), CompareError> {
+    fitting(pair).map(|_| ())
+}
+
+/// Runs both cases and compares them. `interrupt` stops the direct simulation after the present step, of which `watcher` is told.
+///
+/// # Errors
+/// [`CompareError`].
+pub fn compare(pair: &Pair<'_>, interrupt: &AtomicBool, watcher: &mut dyn Watcher) -> Result<Comparison, CompareError> {
+    let (mut solver, state) = fitting(pair)?;
+    let boundaries = state.elements.iter().map(|element| NetworkState::curves(&element.boundary)).collect();
+    let elements = Elements::new(boundaries, state.images());
+    let bounds = setup::geometry(pair.network)?.bounds();
+    let grid = Grid::new(bounds, &elements);
+    let by_network = network::track(&mut solver, &grid)?;
+    let by_direct = direct::track(pair, (&state, &grid), interrupt, watcher)?;
+    let outlet = network::outlet_elements(&state);
+    Ok(Comparison {
+        titles: [pair.network.title.clone(), pair.direct.title.clone()],
+        network: side(&by_network, &outlet),
+        direct: side(&by_direct, &outlet),
+        ..compared(&by_network, &by_direct, &grid)
+    })
+}
+
+/// The network and its first state, where the direct simulation has the same shapes and sides.
+fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareError> {
+    let Model::Network(wanted) = &pair.network.model else { return Err(CompareError::NoNetwork) };
+    let Model::Sph(sph) = &pair.direct.model else { return Err(CompareError::NoDirect) };
     if sph.non_wetting.is_none() {
         return Err(CompareError::NoDirect);
     }
-    let mut solver = crate::network::setup::build_still(network_case, wanted).map_err(SetupError::from)?;
+    let solver = crate::network::setup::build_still(pair.network, wanted).map_err(SetupError::from)?;
     let state = network::state(&solver).ok_or(CompareError::NoNetwork)?;
-    if let Some(misfit) = state.misfit(&direct_case.geometry) {
+    if let Some(misfit) = state.misfit(&pair.direct.geometry) {
         return Err(CompareError::OtherGeometry(misfit));
     }
     if let Some((side, misfit)) = state.misfit_of_sides(&sph.sides) {
         return Err(CompareError::OtherSides { side, misfit });
     }
-    let boundaries = state.elements.iter().map(|element| NetworkState::curves(&element.boundary)).collect();
-    let elements = Elements::new(boundaries, state.images());
-    let bounds = setup::geometry(network_case)?.bounds();
-    let grid = Grid::new(bounds, &elements);
-    let by_network = network::track(&mut solver, &grid)?;
-    let by_direct = direct::track(direct_case, (&state, &grid), records, done)?;
-    let outlet = network::outlet_elements(&state);
-    Ok(Comparison {
-        titles: [network_case.title.clone(), direct_case.title.clone()],
-        network: side(&by_network, &outlet),
-        direct: side(&by_direct, &outlet),
-        ..compared(&by_network, &by_direct, &grid)
-    })
+    Ok((solver, state))
 }
 
 fn side(track: &Track, outlet: &[usize]) -> Side {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Comparison, Side};
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
-use crate::io::diagram;
+use crate::io::diagram::{self, DiagramError};
 
 const STYLE: &str = "body{font:16px/1.45 system-ui,sans-serif;margin:2em auto;max-width:70em;padding:0 1em;color:#222}\
 table{border-collapse:collapse;margin:1em 0;font-variant-numeric:tabular-nums}\
@@ -23,7 +23,10 @@ pub fn page(comparison: &Comparison) -> String {
     html += &table(comparison);
     html += &warnings(comparison);
     html += "<h2>Capillary pressure over saturation</h2>\n";
-    html += &curve(comparison);
+    html += &match curves(comparison) {
+        Ok(svg) => svg.unwrap_or_else(|| "<p>There is no pressure to show.</p>".to_owned()),
+        Err(error) => format!("<p>{}</p>", escaped(&error.to_string())),
+    };
     html += "\n<h2>At equal saturation</h2>\n<p>Network on the left, direct simulation on the right; the invading phase is light.</p>\n";
     for at in &comparison.at_equal_saturation {
         let [one, other] = at.saturation;
@@ -74,8 +77,8 @@ fn warnings(comparison: &Comparison) -> String {
     if all.is_empty() { all } else { format!("<h2>Warnings</h2>\n<ul>\n{all}</ul>\n") }
 }
 
-/// Both curves on one pair of axes.
-fn curve(comparison: &Comparison) -> String {
+/// Both curves on one pair of axes as SVG; none where no pressure is known.
+pub fn curves(comparison: &Comparison) -> Result<Option<String>, DiagramError> {
     let known = |side: &Side| -> Vec<[f64; 2]> {
         let pairs = side.saturation.iter().zip(&side.capillary_pressure_pa);
         pairs.filter_map(|(saturation, pressure)| Some([*saturation, (*pressure)?])).collect()
@@ -94,10 +97,7 @@ fn curve(comparison: &Comparison) -> String {
         map: None,
         traces: vec![trace("network", stairs), trace("direct simulation", known(&comparison.direct))],
     };
-    match diagram::svg(&diagram) {
-        Ok(svg) => svg.unwrap_or_else(|| "<p>There is no pressure to show.</p>".to_owned()),
-        Err(error) => format!("<p>{}</p>", escaped(&error.to_string())),
-    }
+    diagram::svg(&diagram)
 }
 
 fn escaped(text: &str) -> String {

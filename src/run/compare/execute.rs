@@ -1,0 +1,92 @@
+//! A comparison as a run with a folder and a report, so that a study can hold many of them side by side.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+use super::measures::measures;
+use super::{CompareError, Comparison, Pair, Side, compare, write};
+use crate::run::execute::RunError;
+use crate::run::folder;
+use crate::run::numbers::{self, Length, expected_speed};
+use crate::run::processor_time::ProcessorTime;
+use crate::run::report::{Machine, Reached, Report, SolverReport, Status, WallTime, readings};
+use crate::run::simulation::Watcher;
+use crate::solver::{Clock, Series};
+
+/// A comparison that has no report.
+#[derive(Debug, thiserror::Error)]
+pub enum ExecuteError {
+    /// Its folder, or a file in it.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// Its cases.
+    #[error(transparent)]
+    Cases(CompareError),
+}
+
+/// Compares a pair in a new folder and writes the files of the comparison and `report.json`; `resolved` is the text of both cases.
+///
+/// # Errors
+/// [`ExecuteError`]. A solver that fails and an interrupt are no errors here: the report says so.
+pub fn execute(
+    pair: &Pair<'_>,
+    (resolved, folder): (&str, &Path),
+    interrupt: &AtomicBool,
+    watcher: &mut dyn Watcher,
+) -> Result<Report, ExecuteError> {
+    let (clock, processor_time) = (Instant::now(), ProcessorTime::start());
+    let _claim = folder::create(folder).map_err(RunError::from)?;
+    let (found, status, error) = match compare(pair, interrupt, watcher) {
+        Ok(found) => (Some(found), Status::Done, None),
+        Err(CompareError::Interrupted) => (None, Status::Interrupted, None),
+        Err(CompareError::Solver(error)) => (None, Status::Failed, Some(error.to_string())),
+        Err(misfit) => return Err(ExecuteError::Cases(misfit)),
+    };
+    let mut report = report(pair, resolved, found.as_ref());
+    report.status = status;
+    report.error = error;
+    report.wall_time_s.total = clock.elapsed().as_secs_f64();
+    report.cpu_s = processor_time.seconds();
+    if let Some(found) = &found {
+        write(found, folder).map_err(RunError::from)?;
+    }
+    report.write(folder).map_err(RunError::from)?;
+    Ok(report)
+}
+
+/// The report of what was found; that of nothing where there is none.
+fn report(pair: &Pair<'_>, resolved: &str, found: Option<&Comparison>) -> Report {
+    let none = Side::default();
+    let [network, direct] = found.map_or([&none; 2], |found| [&found.network, &found.direct]);
+    let reached = found.map_or(0.0, |_| pair.direct.end);
+    let length = Length::of(pair.direct);
+    let (speed, _) = expected_speed(pair.direct, length);
+    let measured = found.map_or(Vec::new(), measures);
+    let parts = [("network", network.wall_time_s), ("direct simulation", direct.wall_time_s)];
+    Report {
+        version: env!("CARGO_PKG_VERSION"),
+        status: Status::Done,
+        error: None,
+        time_s: Some(reached),
+        clock: Reached { clock: Clock::TIME, value: reached },
+        steps: direct.steps,
+        steady: None,
+        measures: readings(measured, &Series::default(), &[]),
+        expectations: Vec::new(),
+        numbers: numbers::numbers(pair.direct, length, speed),
+        length_of_numbers: length,
+        case: pair.direct.clone(),
+        resolved_case: resolved.to_owned(),
+        machine: Machine::present(),
+        wall_time_s: WallTime { total: 0.0, parts: parts.into() },
+        cpu_s: None,
+        warnings: network.warnings.iter().chain(&direct.warnings).cloned().collect(),
+        solver: SolverReport {
+            unknowns: direct.unknowns,
+            steps: direct.steps,
+            wall_time_s: direct.wall_time_s,
+            counts: Default::default(),
+        },
+    }
+}

@@ -1,0 +1,28 @@
+//! The files of a comparison: the page, all numbers, the curves.
+
+use std::path::Path;
+
+use super::{Comparison, page};
+use crate::io::{FileError, atomic};
+
+/// The page.
+pub const PAGE: &str = "compare.html";
+/// Capillary pressure over saturation of both.
+pub const CURVES: &str = "compare.svg";
+/// All numbers.
+const NUMBERS: &str = "compare.json";
+
+/// Writes them; the page comes last.
+///
+/// # Errors
+/// [`FileError`].
+pub fn write(found: &Comparison, folder: &Path) -> Result<(), FileError> {
+    let numbers = folder.join(NUMBERS);
+    let text = serde_json::to_string_pretty(found)
+        .map_err(|error| FileError::Format { path: numbers.clone(), what: error.to_string() })?;
+    atomic::write(&numbers, (text + "\n").as_bytes())?;
+    if let Ok(Some(svg)) = page::curves(found) {
+        atomic::write(&folder.join(CURVES), svg.as_bytes())?;
+    }
+    atomic::write(&folder.join(PAGE), page::page(found).as_bytes())
+}

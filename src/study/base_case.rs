@@ -1,0 +1,29 @@
+//! A base case with the values of a run.
+
+use std::path::Path;
+
+use super::definition::Assignment;
+use crate::case::{self, Loaded};
+use crate::input::{InputError, Overrides};
+use crate::run::setup;
+
+/// The expectations of a base case hold for its own values; a study has its own.
+const WITHOUT_EXPECTATIONS: &str = "expect=[]";
+
+/// What differs from the base case, as `--set` takes it.
+pub(super) fn overrides(assignments: &[Assignment]) -> Vec<String> {
+    let mut texts = vec![WITHOUT_EXPECTATIONS.to_owned()];
+    texts.extend(assignments.iter().map(|one| one.text.clone()));
+    texts
+}
+
+/// Loads a case with these values and holds it against its geometry.
+///
+/// # Errors
+/// All mistakes.
+pub(super) fn load(case: &Path, assignments: &[Assignment]) -> Result<Loaded, InputError> {
+    let overrides = Overrides::parse(&overrides(assignments))?;
+    let loaded = case::load(case, &overrides)?;
+    loaded.refuse(setup::problems(&loaded.case))?;
+    Ok(loaded)
+}

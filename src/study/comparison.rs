@@ -1,0 +1,140 @@
+//! Runs that compare their case, a direct simulation, with a network of the same geometry: which values of a run go to which of both cases, and
+//! whether both fit.
+
+use std::path::{Path, PathBuf};
+
+use super::base_case::load;
+use super::definition::{Assignment, ComparisonPlan, Study};
+use crate::case::Loaded;
+use crate::case::checked::Case;
+use crate::input::{Document, InputError, Problem};
+use crate::run::compare::{self, CompareError, Of, Pair};
+
+/// The table that only the case of a network has.
+const OF_NETWORK: &str = "network";
+/// The table that both cases have alike.
+const OF_BOTH: &str = "geometry";
+/// The key that names the case of the network.
+pub(super) const NETWORK_KEY: &str = "compare.network";
+
+/// The network that the case of a run is compared with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NetworkRun {
+    /// Its base case.
+    pub case: PathBuf,
+    /// What differs from it.
+    pub assignments: Vec<Assignment>,
+    /// Number of compared states of the direct simulation.
+    pub records: usize,
+}
+
+/// The direct simulation of a run.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DirectRun<'a> {
+    /// Its base case.
+    pub case: &'a Path,
+    /// Where the base case is named: a key path in the study file.
+    pub origin: &'a str,
+    /// What differs from it.
+    pub assignments: &'a [Assignment],
+}
+
+/// The network of a run with its case checked.
+#[derive(Debug, Clone)]
+pub struct PlannedNetwork {
+    /// The case.
+    pub case: Case,
+    /// The text of its file.
+    pub document: Document,
+    /// Number of compared states of the direct simulation.
+    pub records: usize,
+}
+
+impl PlannedNetwork {
+    /// This network and the direct simulation of a case.
+    pub(super) fn with<'a>(&'a self, direct: &'a Case) -> Pair<'a> {
+        Pair { network: &self.case, direct, records: self.records }
+    }
+}
+
+/// Gives the values of a run to the case that has their keys: those of `[network]` to the network, those of `[geometry]` to both, all others to
+/// the direct simulation. Its own are left in `assignments`.
+pub(super) fn split(plan: &ComparisonPlan, assignments: &mut Vec<Assignment>) -> NetworkRun {
+    let is_in = |one: &Assignment, table: &str| one.text.split(['.', '[', '=']).next().map(str::trim) == Some(table);
+    let of_network = assignments.iter().filter(|one| is_in(one, OF_NETWORK) || is_in(one, OF_BOTH)).cloned().collect();
+    assignments.retain(|one| !is_in(one, OF_NETWORK));
+    NetworkRun { case: plan.network.clone(), assignments: of_network, records: plan.records }
+}
+
+/// Loads both cases and holds them against each other. The resolved text is that of both, by which a comparison is known.
+///
+/// # Errors
+/// All mistakes of both, or why they cannot be compared.
+pub(super) fn plan(
+    study: &Study,
+    direct: &DirectRun<'_>,
+    network: &NetworkRun,
+) -> Result<(Loaded, PlannedNetwork), InputError> {
+    let &DirectRun { case, origin, assignments } = direct;
+    let (mut direct, other) = both(load(case, assignments), load(&network.case, &network.assignments))?;
+    let records = network.records;
+    direct.resolved =
+        format!("# direct simulation, {records} records\n{}\n# network\n{}", direct.resolved, other.resolved);
+    let other = PlannedNetwork { case: other.case, document: other.document, records };
+    if let Err(error) = compare::check(&other.with(&direct.case)) {
+        // Which two cases are compared is said by the study, not by one of them.
+        let here = match &error {
+            CompareError::NoNetwork => Some((NETWORK_KEY, error.to_string())),
+            CompareError::OtherGeometry(_) => Some((NETWORK_KEY, format!("{error}: that of {}", case.display()))),
+            CompareError::NoDirect => Some((origin, error.to_string())),
+            _ => None,
+        };
+        match here {
+            Some((key, text)) => study.refuse(vec![Problem::of_text(key, &text)])?,
+            None => refuse(&error, &other.document, &direct.document)?,
+        }
+    }
+    Ok((direct, other))
+}
+
+/// Two cases, or the mistakes of both.
+fn both<T>(one: Result<T, InputError>, other: Result<T, InputError>) -> Result<(T, T), InputError> {
+    match (one, other) {
+        (Ok(one), Ok(other)) => Ok((one, other)),
+        (one, other) => {
+            let mistakes = [one.err(), other.err()].into_iter().flatten().flat_map(|error| error.mistakes);
+            Err(InputError { mistakes: mistakes.collect() })
+        }
+    }
+}
+
+/// Puts what is wrong with two cases at its place in one of them.
+///
+/// # Errors
+/// [`InputError`] where something is wrong with a case.
+pub(super) fn refuse(error: &CompareError, network: &Document, direct: &Document) -> Result<(), InputError> {
+    match error.problems() {
+        Some((Of::Network, problems)) => network.refuse(problems),
+        Some((Of::Direct, problems)) => direct.refuse(problems),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_go_to_the_case_that_has_their_keys() {
+        let plan = ComparisonPlan { network: "network.toml".into(), records: 10 };
+        let one = |text: &str| Assignment { text: text.to_owned(), origin: "set[0]".to_owned() };
+        let texts = |all: &[Assignment]| all.iter().map(|one| one.text.clone()).collect::<Vec<_>>();
+        let mut direct =
+            ["sph.spacing=1e-5", "network.inlet=\"left\"", "geometry={file=\"a.toml\"}", "time.end=1", "networks.a=1"]
+                .map(one)
+                .to_vec();
+        let network = split(&plan, &mut direct);
+        assert_eq!(texts(&network.assignments), ["network.inlet=\"left\"", "geometry={file=\"a.toml\"}"]);
+        assert_eq!(texts(&direct), ["sph.spacing=1e-5", "geometry={file=\"a.toml\"}", "time.end=1", "networks.a=1"]);
+    }
+}
