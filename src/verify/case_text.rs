@@ -21,7 +21,7 @@ const CAPILLARY_TIMES: f64 = 12.0;
 const VISCOUS_TIMES: f64 = 6.0;
 /// End of a run of one phase in times density · height²/viscosity; the slowest mode between plates decays in a tenth of it.
 const FLOW_TIMES: f64 = 1.0;
-/// Steps of the pressure of a whole pore up to an overlap: their rise times the spacings across, over tension/width.
+/// Rise of the steps of the pressure of a whole pore up to an overlap over tension/width, per spacing over width.
 const RISE_PER_SPACING: f64 = 0.16;
 /// How many there are below the overlap, and as many above it.
 const OVERLAP_STEPS: f64 = 5.0;
@@ -206,14 +206,14 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Steps from below an event to above it, which lies in the middle between two of them; none where the branch before the event is shorter
+    /// Steps at a spacing (m) from below an event to above it, which lies in the middle between two of them; none where the branch before the event is shorter
     /// than one.
     #[must_use]
-    pub fn of(cut_out: &WholePore, across: u32) -> Option<Self> {
+    pub fn of(cut_out: &WholePore, spacing: f64) -> Option<Self> {
         let scale = 1.0 / cut_out.width;
         let (rise, steps, times) = match cut_out.kind {
             EventKind::Touch => (TOUCH_RISE * scale, TOUCH_STEPS, TOUCH_TIMES),
-            _ => (RISE_PER_SPACING * scale / f64::from(across), OVERLAP_STEPS, OVERLAP_TIMES),
+            _ => (RISE_PER_SPACING * scale * scale * spacing, OVERLAP_STEPS, OVERLAP_TIMES),
         };
         let below = ((cut_out.curvature - cut_out.lowest) / rise + 0.5).floor().min(steps);
         let first = cut_out.curvature + (0.5 - below) * rise;
@@ -226,7 +226,8 @@ impl Steps {
 #[must_use]
 pub fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Option<String> {
     let (width, tension, frame) = (cut_out.width, fluids.tension, &cut_out.frame);
-    let steps = Steps::of(cut_out, named.across)?;
+    let spacing = cut_out.narrowest / f64::from(named.across);
+    let steps = Steps::of(cut_out, spacing)?;
     let behind = cut_out.behind(steps.first)?;
     let [wetting, other] = fluids.of(width);
     let (density, viscosity) = (wetting.density.max(other.density), wetting.viscosity.max(other.viscosity));
@@ -252,7 +253,7 @@ pub fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Option<Strin
         named.across
     );
     text += &shapes(&cut_out.geometry);
-    let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
+    let _ = write!(text, "\n[sph]\nspacing = {spacing:e} # m\n\n");
     text += &phase("wetting", wetting);
     text += &phase("non-wetting", other);
     let _ = write!(

@@ -60,9 +60,9 @@ pub enum Impossible {
     /// A third body beside another one.
     #[error("its third body stands beside one of the others, seen along the way")]
     Beside,
-    /// No way on.
-    #[error("the way on is narrower than half of the throat")]
-    Closed,
+    /// A narrow gap.
+    #[error("a gap between its bodies is narrower than half of the throat")]
+    Narrow,
     /// Not an event of this kind.
     #[error("it is a burst, which is verified in its throat")]
     Burst,

@@ -246,6 +246,27 @@ fn study_text(names: &[String], network: &str) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "    \"{CASES}/{name}\",");
     }
-    text + "]\n\n[report]\nmeasures = [\n    \"entry-pressure-Pa\",\n    \"contact-angle-deg\",\n    \"inflow-m2-per-s\",\n    \
-            \"driving-pressure-drop-Pa\",\n    \"area-drift\",\n    \"unknowns\",\n    \"steps\",\n    \"wall-time-s\",\n]\n"
+    text += "]\n\n[report]\nmeasures = [\n";
+    for measure in measures(names) {
+        let _ = writeln!(text, "    \"{measure}\",");
+    }
+    text + "]\n"
+}
+
+/// The measures that the cases have.
+fn measures(names: &[String]) -> impl Iterator<Item = &'static str> {
+    let has = |what: &str| names.iter().any(|name| name.contains(what));
+    let (has_entry, has_flow, has_event) = (has("-entry-"), has("-flow-"), has("event-"));
+    let all = [
+        ("entry-pressure-Pa", has_entry),
+        ("capillary-pressure-Pa", has_event),
+        ("contact-angle-deg", has_entry || has_event),
+        ("inflow-m2-per-s", has_flow || has_event),
+        ("driving-pressure-drop-Pa", has_flow),
+        ("area-drift", true),
+        ("unknowns", true),
+        ("steps", true),
+        ("wall-time-s", true),
+    ];
+    all.into_iter().filter_map(|(measure, is_there)| is_there.then_some(measure))
 }

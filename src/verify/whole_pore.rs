@@ -19,12 +19,14 @@ use crate::network::displacement::{EventKind, Place, Scene};
 const ROOM: f64 = 1.0;
 /// Room between bodies and the inlet or outlet, in widths.
 const ROOM_AT_ENDS: f64 = 1.5;
+/// Where the inlet or outlet may cut the outer bodies, in their radii: elsewhere it lies beyond them.
+const CUT: f64 = 0.5;
 /// Room ahead of menisci and behind them, in widths.
 const ROOM_ALONG: f64 = 2.0;
 /// How far below the event the menisci are held against box and walls, as curvature times width.
 const BELOW: f64 = 0.1;
-/// Least width of the way on past the third body or between the outer ones, in widths.
-const WAY_ON: f64 = 0.5;
+/// Least gap between two of the bodies, in widths: spacings are chosen by it, and their number goes with the square.
+const NARROWEST: f64 = 0.5;
 /// Lengths below this share of the width are rounding.
 const ROUNDING: f64 = 1e-9;
 /// The same of a touch, which is a double root.
@@ -41,6 +43,8 @@ pub struct WholePore {
     pub frame: Frame,
     /// Width in m of the narrowest throat with a meniscus.
     pub width: f64,
+    /// The narrowest gap between two of the bodies in m.
+    pub narrowest: f64,
     /// Contact angle through the defending phase in rad.
     pub angle: f64,
     /// Curvature of the menisci at the event in 1/m.
@@ -94,7 +98,7 @@ impl WholePore {
         if !(width > 0.0) || lowest >= curvature {
             return Err(Impossible::AtOnce);
         }
-        bodies.check(kind, width)?;
+        bodies.check(width)?;
         let low = lowest.max(curvature - BELOW / width);
         let arcs = [low, curvature].map(|k| arcs(&passages, &frame, k));
         let [Some(before), Some(at_event)] = arcs else { return Err(Impossible::NoMeniscus) };
@@ -105,7 +109,8 @@ impl WholePore {
         let left = filled_area - passages.iter().map(swept).sum::<f64>();
         let area = if left > 0.0 { left } else { filled_area };
         let left_out = bodies.count(&scene.places, &frame, &geometry, width);
-        Ok(Self { kind, frame, width, angle, curvature, lowest, area, geometry, left_out, bodies, passages })
+        let narrowest = bodies.narrowest();
+        Ok(Self { kind, frame, width, narrowest, angle, curvature, lowest, area, geometry, left_out, bodies, passages })
     }
 
     /// What the invading phase fills at a curvature (1/m) of its menisci before the event; it reaches out of the box. None where no menisci
@@ -227,18 +232,19 @@ impl Bodies {
         [&self.upper, &self.lower, &self.third]
     }
 
-    /// Whether both phases can get in and out.
-    fn check(&self, kind: EventKind, width: f64) -> Result<(), Impossible> {
+    /// The narrowest gap between two of them in m.
+    fn narrowest(&self) -> f64 {
         let Self { upper, lower, third } = self;
-        let height = third.center[1];
-        if height > upper.center[1] || height < lower.center[1] {
+        gap(upper, third).min(gap(third, lower)).min(gap(upper, lower))
+    }
+
+    /// Whether both phases can get in and out.
+    fn check(&self, width: f64) -> Result<(), Impossible> {
+        let height = self.third.center[1];
+        if height > self.upper.center[1] || height < self.lower.center[1] {
             return Err(Impossible::Beside);
         }
-        let way_on = match kind {
-            EventKind::Touch => gap(upper, third).max(gap(third, lower)),
-            _ => gap(upper, lower),
-        };
-        if way_on < WAY_ON * width { Err(Impossible::Closed) } else { Ok(()) }
+        if self.narrowest() < NARROWEST * width { Err(Impossible::Narrow) } else { Ok(()) }
     }
 
     /// Whether menisci lie clear of the bodies, with contacts where these are round.
@@ -268,7 +274,11 @@ impl Bodies {
             arcs.iter().map(Curve::bounds).reduce(|a, b| Bounds { min: a.min.inf(&b.min), max: a.max.sup(&b.max) });
         let (behind, ahead) = reached.map_or((0.0, 0.0), |it| (it.min.x.min(0.0), it.max.x.max(0.0)));
         let around = third.radius + ROOM_AT_ENDS * width;
-        let (mut left, mut right) = (behind - ROOM_ALONG * width, ahead + ROOM_ALONG * width);
+        let clear = |reach: f64| {
+            let beyond = upper.radius.max(lower.radius) + ROOM_AT_ENDS * width;
+            if reach <= CUT * upper.radius.min(lower.radius) { reach } else { reach.max(beyond) }
+        };
+        let (mut left, mut right) = (-clear(ROOM_ALONG * width - behind), clear(ahead + ROOM_ALONG * width));
         if kind == EventKind::Touch {
             right = right.max(third.center[0] + around);
         } else {
