@@ -107,6 +107,9 @@ pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     ));
     say(format_args!("  page        {}", written.page.display()));
     say(format_args!("  table       {}", folder.join("verify.csv").display()));
+    if written.events.is_some() {
+        say(format_args!("  events      {}", folder.join("verify_events.csv").display()));
+    }
     let mut statuses = rows.iter().map(|row| &row.status).chain(event_rows.iter().map(|row| &row.status));
     let failed = statuses.any(|status| matches!(status, Status::Failed(_)));
     Ok(if failed { SOLVER_FAILED } else { DONE })

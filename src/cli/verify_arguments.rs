@@ -11,7 +11,7 @@ use super::arguments::Engine;
 #[derive(Debug, Subcommand)]
 pub enum NetworkCommand {
     /// Verify chosen throats by direct simulation of cut-outs: entry pressures and conductances beside those of the formulas
-    Verify(VerifyArguments),
+    Verify(Box<VerifyArguments>),
 }
 
 /// `network verify`.
