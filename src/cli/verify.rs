@@ -15,7 +15,9 @@ use crate::study::runs::plan as plan_runs;
 use crate::verify::case_text::Fluids;
 use crate::verify::choose::{Choice, choose};
 use crate::verify::cut_out::Impossible;
-use crate::verify::plan::{self, Planned, RUNS};
+use crate::verify::event_results::{EventRow, event_row};
+use crate::verify::events::{EventChoice, choose_events};
+use crate::verify::plan::{self, Plan, Planned, RUNS};
 use crate::verify::report;
 use crate::verify::results::{Row, Status, row};
 use crate::verify::subject::{Subject, SubjectError};
@@ -29,26 +31,29 @@ pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         SubjectError::Setup(misfit) => source.refused(&misfit.into()),
         other => bad(&other),
     })?;
-    let choices: Vec<Choice> = arguments
-        .throats
-        .iter()
-        .map(|text| text.parse())
-        .collect::<Result<_, _>>()
-        .map_err(|error: String| usage(&error))?;
+    let choices: Vec<Choice> = parsed(&arguments.throats)?;
+    let event_choices: Vec<EventChoice> = parsed(&arguments.events)?;
     let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;
     let mut planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
+    let mut events = choose_events(&subject, &event_choices, arguments.seed).map_err(|error| usage(&error))?;
     let given = if arguments.alike { [None; 2] } else { subject.fluids };
     let fluids = Fluids { given, tension: subject.tension, invading: subject.invading };
     let spacings: Vec<u32> = arguments.spacings.iter().map(|across| across.get()).collect();
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}-verify", source.name)));
     let name = arguments.case.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let written = plan::write(&folder, &planned, &fluids, &spacings, &name).map_err(|error| usage(&error))?;
+    let plan = Plan { throats: &planned, events: &events, fluids: &fluids, spacings: &spacings, network: &name };
+    let written = plan::write(&folder, &plan).map_err(|error| usage(&error))?;
     for (place, why) in written.refused {
         planned[place].cut_out = Err(Impossible::Case(why));
     }
-    for one in &planned {
-        if let Err(why) = &one.cut_out {
-            tell(format_args!("throat {}: cut-out impossible: {why}", one.chosen.number));
+    for (place, why) in written.refused_events {
+        events[place].cut_out = Err(Impossible::Case(why));
+    }
+    let throats = planned.iter().map(|one| ("throat", one.chosen.number, one.cut_out.as_ref().err()));
+    let all = throats.chain(events.iter().map(|one| ("event", one.number, one.cut_out.as_ref().err())));
+    for (what, number, why) in all {
+        if let Some(why) = why {
+            tell(format_args!("{what} {number}: cut-out impossible: {why}"));
         }
     }
     for kept in &written.kept {
@@ -56,6 +61,10 @@ pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     }
     let cut_out = planned.iter().filter(|one| one.cut_out.is_ok()).count();
     tell(format_args!("{} throats, {cut_out} with a cut-out -> {}", planned.len(), folder.display()));
+    if !events.is_empty() {
+        let cut_out = events.iter().filter(|one| one.cut_out.is_ok()).count();
+        tell(format_args!("{} events, {cut_out} with a cut-out", events.len()));
+    }
     let runs_in = folder.join(RUNS);
     let mut code = DONE;
     let mut found = Vec::new();
@@ -71,14 +80,24 @@ pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         return Ok(code);
     }
     let rows: Vec<Row> = planned.iter().map(|one| row(one, subject.tension, &fluids, &spacings, &found)).collect();
+    let study_folder = StudyFolder::new(&runs_in);
+    let event_rows: Vec<EventRow> =
+        events.iter().map(|one| event_row(one, &fluids, &spacings, &found, &study_folder)).collect();
     let title = format!("Throats of {name} by direct simulation");
-    let written = report::write(&folder, &subject, &rows, &spacings, &title).map_err(|error| usage(&error))?;
+    let written =
+        report::write(&folder, &subject, &rows, &event_rows, &spacings, &title).map_err(|error| usage(&error))?;
     say(&title);
-    say(written.table.markdown().trim_end());
+    if !rows.is_empty() {
+        say(written.table.markdown().trim_end());
+    }
+    if let Some(table) = &written.events {
+        say(table.markdown().trim_end());
+    }
     report::notes(&rows, subject.tension, subject.invading)
         .iter()
         .for_each(|note| say(format_args!("  note        {note}")));
-    let time = rows.iter().map(|row| row.wall_time).sum::<f64>();
+    let times = rows.iter().map(|row| row.wall_time).chain(event_rows.iter().map(|row| row.wall_time));
+    let time = times.sum::<f64>();
     say(format_args!("  all runs    {}", duration(time)));
     say(format_args!(
         "  replaced    {} of {} entry pressures, in {}",
@@ -88,8 +107,16 @@ pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     ));
     say(format_args!("  page        {}", written.page.display()));
     say(format_args!("  table       {}", folder.join("verify.csv").display()));
-    let failed = rows.iter().any(|row| matches!(row.status, Status::Failed(_)));
+    if written.events.is_some() {
+        say(format_args!("  events      {}", folder.join("verify_events.csv").display()));
+    }
+    let mut statuses = rows.iter().map(|row| &row.status).chain(event_rows.iter().map(|row| &row.status));
+    let failed = statuses.any(|status| matches!(status, Status::Failed(_)));
     Ok(if failed { SOLVER_FAILED } else { DONE })
+}
+
+fn parsed<T: std::str::FromStr<Err = String>>(texts: &[String]) -> Result<Vec<T>, Failure> {
+    texts.iter().map(|text| text.parse()).collect::<Result<_, _>>().map_err(|error| Failure::new(USAGE, &error))
 }
 
 fn is_open(results: &[RunResult]) -> bool {

@@ -11,7 +11,7 @@ use super::arguments::Engine;
 #[derive(Debug, Subcommand)]
 pub enum NetworkCommand {
     /// Verify chosen throats by direct simulation of cut-outs: entry pressures and conductances beside those of the formulas
-    Verify(VerifyArguments),
+    Verify(Box<VerifyArguments>),
 }
 
 /// `network verify`.
@@ -20,12 +20,15 @@ pub struct VerifyArguments {
     /// Case file with `[network]` and an interface
     pub case: PathBuf,
     /// Throats: critical, unsure, random:N, or numbers of throats.csv as in 3,7,12; may be given several times
-    #[arg(long, value_name = "WHICH", required = true)]
+    #[arg(long, value_name = "WHICH", required_unless_present = "events")]
     pub throats: Vec<String>,
+    /// Touches and overlaps: critical, touch:N, overlap:N, or numbers of events.csv as in 1,4; may be given several times
+    #[arg(long, value_name = "WHICH")]
+    pub events: Vec<String>,
     /// Spacings across each throat, one run for each
     #[arg(long, value_name = "N,N", value_delimiter = ',', num_args = 1, default_values = ["8", "16"])]
     pub spacings: Vec<NonZeroU32>,
-    /// Chooses the random throats
+    /// Chooses the random throats and events
     #[arg(long, default_value = "1")]
     pub seed: u64,
     /// Take two fluids alike that come to rest soon in place of those of [network.phases]; no pressure at rest depends on them

@@ -3,9 +3,11 @@
 use std::fmt::Write;
 
 use super::cut_out::CutOut;
+use super::whole_pore::WholePore;
 use crate::case::checked::Fluid;
-use crate::geometry::spec::{CurvedPolygon, ShapeSpec};
+use crate::geometry::spec::{CurvedPolygon, GeometrySpec, ShapeSpec};
 use crate::network::cycles::Fluid as Phase;
+use crate::network::displacement::EventKind;
 
 /// Density in kg/m³ where the network gives none: at rest no pressure depends on it.
 pub const DENSITY: f64 = 1000.0;
@@ -19,6 +21,18 @@ const CAPILLARY_TIMES: f64 = 12.0;
 const VISCOUS_TIMES: f64 = 6.0;
 /// End of a run of one phase in times density · height²/viscosity; the slowest mode between plates decays in a tenth of it.
 const FLOW_TIMES: f64 = 1.0;
+/// Rise of the steps of the pressure of a whole pore up to an overlap over tension/width, per spacing over width.
+const RISE_PER_SPACING: f64 = 0.16;
+/// How many there are below the overlap, and as many above it.
+const OVERLAP_STEPS: f64 = 5.0;
+/// Time of such a step in times √(density · length³/tension) of the box and viscous times of the throat, the longer one of both.
+const OVERLAP_TIMES: f64 = 3.0;
+/// Rise of the steps up to a touch over tension/width: fewer and longer ones, since the defending phase between meniscus and wall drains slowly.
+const TOUCH_RISE: f64 = 0.02;
+/// As of an overlap.
+const TOUCH_STEPS: f64 = 2.0;
+/// As of an overlap.
+const TOUCH_TIMES: f64 = 9.0;
 /// Largest deviation of the entry pressure from the formula that the case expects, as a share.
 const EXPECTED: f64 = 0.02;
 
@@ -81,8 +95,7 @@ fn polygon(polygon: &CurvedPolygon) -> String {
     format!("outer = [\n{vertices}]")
 }
 
-fn shapes(cut_out: &CutOut) -> String {
-    let geometry = &cut_out.geometry;
+fn shapes(geometry: &GeometrySpec) -> String {
     let corner = |x: [f64; 2]| format!("[{:e}, {:e}] # m", x[0], x[1]);
     let mut text = format!("[geometry]\nmin = {}\nmax = {}\n", corner(geometry.min), corner(geometry.max));
     for shape in &geometry.shapes {
@@ -133,7 +146,7 @@ pub fn entry(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
     let title = format!("Throat {}: entry pressure, {} spacings across", named.number, named.across);
     let what = "The invading phase fills the closed box up to the meniscus of largest curvature, which rests there.";
     let mut text = head(named, cut_out, what, &title);
-    text += &shapes(cut_out);
+    text += &shapes(&cut_out.geometry);
     let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
     text += &phase("wetting", wetting);
     text += &phase("non-wetting", other);
@@ -161,7 +174,7 @@ pub fn flow(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
     let title = format!("Throat {}: conductance, {} spacings across", named.number, named.across);
     let what = "One phase passes the throat at a given rate; the box is joined along the way.";
     let mut text = head(named, cut_out, what, &title);
-    text += &shapes(cut_out);
+    text += &shapes(&cut_out.geometry);
     let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
     text += &phase("wetting", fluid);
     let _ = write!(
@@ -177,4 +190,85 @@ pub fn flow(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
 #[must_use]
 pub fn flow_rate(fluid: Fluid) -> f64 {
     REYNOLDS * fluid.viscosity / fluid.density
+}
+
+/// The pressures of a whole pore at its inlet, which rise in steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steps {
+    /// Curvature in 1/m of the menisci at the first one.
+    pub first: f64,
+    /// Rise in 1/m.
+    pub rise: f64,
+    /// How many there are.
+    pub count: f64,
+    /// Time of each in capillary or viscous times.
+    pub times: f64,
+}
+
+impl Steps {
+    /// Steps at a spacing (m) from below an event to above it, which lies in the middle between two of them; none where the branch before the event is shorter
+    /// than one.
+    #[must_use]
+    pub fn of(cut_out: &WholePore, spacing: f64) -> Option<Self> {
+        let scale = 1.0 / cut_out.width;
+        let (rise, steps, times) = match cut_out.kind {
+            EventKind::Touch => (TOUCH_RISE * scale, TOUCH_STEPS, TOUCH_TIMES),
+            _ => (RISE_PER_SPACING * scale * scale * spacing, OVERLAP_STEPS, OVERLAP_TIMES),
+        };
+        let below = ((cut_out.curvature - cut_out.lowest) / rise + 0.5).floor().min(steps);
+        let first = cut_out.curvature + (0.5 - below) * rise;
+        (below >= 1.0).then_some(Self { first, rise, count: below + steps, times })
+    }
+}
+
+/// The case of a touch or an overlap: the pressure of the invading phase rises in steps until the menisci leave. None where no menisci stand
+/// below the event.
+#[must_use]
+pub fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Option<String> {
+    let (width, tension, frame) = (cut_out.width, fluids.tension, &cut_out.frame);
+    let spacing = cut_out.narrowest / f64::from(named.across);
+    let steps = Steps::of(cut_out, spacing)?;
+    let behind = cut_out.behind(steps.first)?;
+    let [wetting, other] = fluids.of(width);
+    let (density, viscosity) = (wetting.density.max(other.density), wetting.viscosity.max(other.viscosity));
+    let size = crate::math::Vec2::from(cut_out.geometry.max) - crate::math::Vec2::from(cut_out.geometry.min);
+    let capillary = (density * size.min().powi(3) / tension).sqrt();
+    let hold = steps.times * capillary.max(density * width * width / viscosity);
+    let background = fluids.invading.other().name();
+    let (what, kind) = match cut_out.kind {
+        EventKind::Overlap => ("Two menisci meet on the wall between them", "overlap"),
+        _ => ("A meniscus touches a third wall", "touch"),
+    };
+    let mut text = format!(
+        "# {what}: the pressure of the invading phase rises in steps from below the event to above it.\n# Event {} of {}, at ({:.4e}, {:.4e}) m; x is \
+         the way of the invading phase, {:.2} degrees counter-clockwise from that of the network.\n# The formula: {:.4} Pa.\nformat = 1\n\
+         title = \"Event {}: {kind}, {} spacings across\"\n\n",
+        named.number,
+        named.network,
+        frame.middle.x,
+        frame.middle.y,
+        frame.angle.to_degrees(),
+        tension * cut_out.curvature,
+        named.number,
+        named.across
+    );
+    text += &shapes(&cut_out.geometry);
+    let _ = write!(text, "\n[sph]\nspacing = {spacing:e} # m\n\n");
+    text += &phase("wetting", wetting);
+    text += &phase("non-wetting", other);
+    let _ = write!(
+        text,
+        "[sph.interface]\ntension = {tension:e} # N/m\n\n[sph.wetting.young]\ncontact-angle-deg = {:e} # degrees through the wetting phase\n\n\
+         [sph.sides]\nleft = \"inlet\"\nright = \"outlet\" # at 0 Pa\n\n[sph.sides.open.left]\npressure = {:e} # Pa\n\
+         pressure-steps = {{ rise = {:e}, every-time = {hold:e} }} # Pa, s\n\n\
+         [sph.initial]\nbackground = \"{background}\"\n\n[[sph.initial.wetting]] # the invading phase: its arcs are those of the menisci\n\
+         [sph.initial.wetting.curved-polygon] # x and y in m, bulge\n{}\n\n\
+         [time]\nend = {:e} # s\n\n[output.vtk]\nevery-time = {hold:e} # s\n",
+        fluids.wetting_angle(cut_out.angle),
+        tension * steps.first,
+        tension * steps.rise,
+        polygon(&behind),
+        hold * steps.count
+    );
+    Some(text)
 }

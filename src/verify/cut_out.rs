@@ -48,6 +48,24 @@ pub enum Impossible {
     /// A case that is refused.
     #[error("its case is refused: {0}")]
     Case(String),
+    /// Of a whole pore: walls of another form.
+    #[error("its walls are not three discs")]
+    NoDisc,
+    /// Menisci that have met and wait.
+    #[error("its menisci met at a lower pressure and waited as one")]
+    Waited,
+    /// No branch before the event.
+    #[error("its menisci meet or touch as soon as they stand in their throats")]
+    AtOnce,
+    /// A third body beside another one.
+    #[error("its third body stands beside one of the others, seen along the way")]
+    Beside,
+    /// A narrow gap.
+    #[error("a gap between its bodies is narrower than half of the throat")]
+    Narrow,
+    /// Not an event of this kind.
+    #[error("it is a burst, which is verified in its throat")]
+    Burst,
     /// Another throat.
     #[error("the cut-out has a throat of {0} m in place of this one")]
     Throat(String),
@@ -331,7 +349,7 @@ fn until(path: &[Curve], point: Vec2) -> Vec<Curve> {
 const LONGEST_ARC: f64 = 2.5;
 
 /// A closed path as a polygon; curves of no length are left out.
-fn polygon(path: &[Curve], width: f64) -> CurvedPolygon {
+pub(super) fn polygon(path: &[Curve], width: f64) -> CurvedPolygon {
     let mut outer = Vec::new();
     for curve in path.iter().filter(|curve| curve.length() > ROUNDING * width) {
         let sweep = match curve {

@@ -1,15 +1,19 @@
-//! Throats of a network by direct simulation: chosen throats are cut out, run as an ordinary study of `[sph]` cases, and compared with the
-//! formula of the network.
+//! Throats of a network by direct simulation: chosen throats, and pores where a meniscus touches a third wall or two menisci meet, are cut out,
+//! run as an ordinary study of `[sph]` cases, and compared with the formula of the network.
 //!
-//! [`choose`] says which throats, [`cut_out`] makes a box of each, [`case_text`] its cases, [`plan`] writes them with their study, which
-//! [`crate::study`] runs; [`results`] reads what came out, and [`report`] writes the table, the page, and what a network takes up.
+//! [`choose`] says which throats and [`events`] which touches and overlaps, [`cut_out`] and [`whole_pore`] make a box of each, [`case_text`] its
+//! cases, [`plan`] writes them with their study, which [`crate::study`] runs; [`results`] and [`event_results`] read what came out, and [`report`]
+//! writes the tables, the page, and what a network takes up.
 
 pub mod case_text;
 pub mod choose;
 pub mod cut_out;
+pub mod event_results;
+pub mod events;
 mod page;
 pub mod plan;
 pub mod report;
 pub mod results;
 pub mod subject;
 mod wall_path;
+pub mod whole_pore;

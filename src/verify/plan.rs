@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::case_text::{self, Fluids, Named};
 use super::choose::{Chosen, touches_first};
 use super::cut_out::{CutOut, Impossible};
+use super::events::PlannedEvent;
 use super::subject::Subject;
 use crate::case::load;
 use crate::input::Overrides;
@@ -68,16 +69,18 @@ pub enum Kind {
     Entry,
     /// The conductance.
     Flow,
+    /// A touch or an overlap.
+    Event,
 }
 
-/// The name of a case without its ending.
+/// The name of a case of a throat or an event without its ending.
 #[must_use]
 pub fn case_name(number: usize, kind: Kind, across: u32) -> String {
-    let kind = match kind {
-        Kind::Entry => "entry",
-        Kind::Flow => "flow",
-    };
-    format!("throat-{number}-{kind}-{across}")
+    match kind {
+        Kind::Entry => format!("throat-{number}-entry-{across}"),
+        Kind::Flow => format!("throat-{number}-flow-{across}"),
+        Kind::Event => format!("event-{number}-{across}"),
+    }
 }
 
 /// What was written.
@@ -89,6 +92,8 @@ pub struct Written {
     pub kept: Vec<PathBuf>,
     /// Throats, by their place in the plan, whose case is refused, and why.
     pub refused: Vec<(usize, String)>,
+    /// The same of events.
+    pub refused_events: Vec<(usize, String)>,
 }
 
 /// A folder that cannot be written into.
@@ -102,62 +107,110 @@ pub enum PlanError {
     Changed(PathBuf),
 }
 
+/// What is written: throats and events of one network.
+#[derive(Debug, Clone, Copy)]
+pub struct Plan<'a> {
+    /// The throats.
+    pub throats: &'a [Planned],
+    /// The events.
+    pub events: &'a [PlannedEvent],
+    /// The fluids of all cases.
+    pub fluids: &'a Fluids,
+    /// Spacings across.
+    pub spacings: &'a [u32],
+    /// The case of the network.
+    pub network: &'a str,
+}
+
+impl Plan<'_> {
+    /// The cases of a throat, each with its name.
+    fn of_throat(&self, one: &Planned) -> Vec<(String, String)> {
+        let Ok(cut_out) = &one.cut_out else { return Vec::new() };
+        let kinds =
+            [Kind::Entry, Kind::Flow].into_iter().filter(|&kind| kind == Kind::Entry || one.conductance.is_some());
+        let cases = kinds.flat_map(|kind| self.spacings.iter().map(move |&across| (kind, across)));
+        let text = |(kind, across)| {
+            let named = Named { number: one.chosen.number, network: self.network, across };
+            let text = match kind {
+                Kind::Flow => case_text::flow(cut_out, self.fluids, &named),
+                _ => case_text::entry(cut_out, self.fluids, &named),
+            };
+            (case_name(named.number, kind, across), text)
+        };
+        cases.map(text).collect()
+    }
+
+    /// The cases of an event, each with its name; fewer than spacings where menisci stand nowhere below the event.
+    fn of_event(&self, one: &PlannedEvent) -> Vec<(String, String)> {
+        let Ok(cut_out) = &one.cut_out else { return Vec::new() };
+        let text = |&across: &u32| {
+            let named = Named { number: one.number, network: self.network, across };
+            Some((case_name(one.number, Kind::Event, across), case_text::pore(cut_out, self.fluids, &named)?))
+        };
+        self.spacings.iter().filter_map(text).collect()
+    }
+}
+
 /// Writes the cases and the study.
 ///
 /// # Errors
 /// [`PlanError`].
-pub fn write(
-    folder: &Path,
-    planned: &[Planned],
-    fluids: &Fluids,
-    spacings: &[u32],
-    network: &str,
-) -> Result<Written, PlanError> {
+pub fn write(folder: &Path, plan: &Plan) -> Result<Written, PlanError> {
     let cases = folder.join(CASES);
     atomic::make_folder(&cases)?;
     let digests_path = cases.join(DIGESTS);
-    let mut digests: BTreeMap<String, String> =
-        std::fs::read(&digests_path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default();
-    let (mut names, mut kept, mut refused) = (Vec::new(), Vec::new(), Vec::new());
-    for (place, one) in planned.iter().enumerate() {
-        let Ok(cut_out) = &one.cut_out else { continue };
-        let before = names.len();
-        for kind in [Kind::Entry, Kind::Flow] {
-            if kind == Kind::Flow && one.conductance.is_none() {
-                continue;
-            }
-            for &across in spacings {
-                let named = Named { number: one.chosen.number, network, across };
-                let text = match kind {
-                    Kind::Entry => case_text::entry(cut_out, fluids, &named),
-                    Kind::Flow => case_text::flow(cut_out, fluids, &named),
-                };
-                let name = format!("{}.toml", case_name(one.chosen.number, kind, across));
-                let path = cases.join(&name);
-                if write_case(&path, &text, digests.get(&name))? == Case::Kept {
-                    kept.push(path.clone());
-                }
-                digests.insert(name.clone(), digest(text.as_bytes()));
-                if let Err(error) = load(&path, &Overrides::default()) {
-                    let first = error.mistakes.first().map_or(String::new(), |mistake| mistake.message.clone());
-                    refused.push((place, first));
-                }
-                names.push(name);
-            }
-        }
-        if refused.last().is_some_and(|(last, _)| *last == place) {
-            names.truncate(before);
-        }
+    let digests = std::fs::read(&digests_path).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    let mut writer = CaseWriter { cases, digests: digests.unwrap_or_default(), names: Vec::new(), kept: Vec::new() };
+    let (mut refused, mut refused_events) = (Vec::new(), Vec::new());
+    for (place, one) in plan.throats.iter().enumerate() {
+        refused.extend(writer.write(plan.of_throat(one))?.map(|why| (place, why)));
     }
-    refused.dedup_by_key(|(place, _)| *place);
+    for (place, one) in plan.events.iter().enumerate() {
+        refused_events.extend(writer.write(plan.of_event(one))?.map(|why| (place, why)));
+    }
+    let CaseWriter { digests, names, kept, .. } = writer;
     // Names and digests can always be written.
     atomic::write(&digests_path, &serde_json::to_vec_pretty(&digests).unwrap_or_default())?;
     let study = folder.join(STUDY);
-    if names.is_empty() {
-        return Ok(Written { study: None, kept, refused });
+    let is_empty = names.is_empty();
+    if !is_empty {
+        atomic::write(&study, study_text(&names, plan.network).as_bytes())?;
     }
-    atomic::write(&study, study_text(&names, network).as_bytes())?;
-    Ok(Written { study: Some(study), kept, refused })
+    Ok(Written { study: (!is_empty).then_some(study), kept, refused, refused_events })
+}
+
+/// Writes cases and remembers them.
+struct CaseWriter {
+    cases: PathBuf,
+    digests: BTreeMap<String, String>,
+    /// Those of the study.
+    names: Vec<String>,
+    /// Those that were changed by hand.
+    kept: Vec<PathBuf>,
+}
+
+impl CaseWriter {
+    /// Writes the cases of one cut-out; tells why the first of them is refused, and leaves all of them out of the study then.
+    fn write(&mut self, texts: Vec<(String, String)>) -> Result<Option<String>, PlanError> {
+        let (mut refused, mut names) = (None, Vec::new());
+        for (name, text) in texts {
+            let name = format!("{name}.toml");
+            let path = self.cases.join(&name);
+            if write_case(&path, &text, self.digests.get(&name))? == Case::Kept {
+                self.kept.push(path.clone());
+            }
+            self.digests.insert(name.clone(), digest(text.as_bytes()));
+            if let Err(error) = load(&path, &Overrides::default()) {
+                let first = error.mistakes.first().map_or(String::new(), |mistake| mistake.message.clone());
+                refused = refused.or(Some(first));
+            }
+            names.push(name);
+        }
+        if refused.is_none() {
+            self.names.extend(names);
+        }
+        Ok(refused)
+    }
 }
 
 #[derive(PartialEq, Eq)]
@@ -186,13 +239,34 @@ fn write_case(path: &Path, text: &str, before: Option<&String>) -> Result<Case, 
 
 fn study_text(names: &[String], network: &str) -> String {
     let mut text = format!(
-        "# Throats of {network} by direct simulation: entry pressures and conductances of cut-outs.\n# meniscus study run {STUDY} --out {RUNS}\n\
+        "# Throats of {network} by direct simulation: cut-outs.\n# meniscus study run {STUDY} --out {RUNS}\n\
          format = 1\ntitle = \"Throats of {network} by direct simulation\"\n\n[[axis]]\nname = \"cut-out\"\ncases = [\n"
     );
     for name in names {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "    \"{CASES}/{name}\",");
     }
-    text + "]\n\n[report]\nmeasures = [\n    \"entry-pressure-Pa\",\n    \"contact-angle-deg\",\n    \"inflow-m2-per-s\",\n    \
-            \"driving-pressure-drop-Pa\",\n    \"area-drift\",\n    \"unknowns\",\n    \"steps\",\n    \"wall-time-s\",\n]\n"
+    text += "]\n\n[report]\nmeasures = [\n";
+    for measure in measures(names) {
+        let _ = writeln!(text, "    \"{measure}\",");
+    }
+    text + "]\n"
+}
+
+/// The measures that the cases have.
+fn measures(names: &[String]) -> impl Iterator<Item = &'static str> {
+    let has = |what: &str| names.iter().any(|name| name.contains(what));
+    let (has_entry, has_flow, has_event) = (has("-entry-"), has("-flow-"), has("event-"));
+    let all = [
+        ("entry-pressure-Pa", has_entry),
+        ("capillary-pressure-Pa", has_event),
+        ("contact-angle-deg", has_entry || has_event),
+        ("inflow-m2-per-s", has_flow || has_event),
+        ("driving-pressure-drop-Pa", has_flow),
+        ("area-drift", true),
+        ("unknowns", true),
+        ("steps", true),
+        ("wall-time-s", true),
+    ];
+    all.into_iter().filter_map(|(measure, is_there)| is_there.then_some(measure))
 }

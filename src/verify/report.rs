@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use super::event_results::EventRow;
 use super::page::page;
 use super::results::{Direct, Row, Status};
 use super::subject::Subject;
 use crate::case::network::measured::{Measured, MeasuredThroat};
 use crate::io::{FileError, atomic};
 use crate::network::cycles::Fluid;
+use crate::network::displacement::EventKind;
 use crate::study::table::Table;
 
 /// What was written.
@@ -15,6 +17,8 @@ use crate::study::table::Table;
 pub struct Written {
     /// The table for people.
     pub table: Table,
+    /// That of the events; none where none was chosen.
+    pub events: Option<Table>,
     /// The page.
     pub page: PathBuf,
     /// How many throats take the measured pressure.
@@ -23,7 +27,7 @@ pub struct Written {
     pub measured: PathBuf,
 }
 
-/// Writes `verify.csv`, `verify.html`, `entry_pressures.csv` and `measured.json`.
+/// Writes `verify.csv`, `verify.html`, `entry_pressures.csv` and `measured.json`, and of events `verify_events.csv`.
 ///
 /// # Errors
 /// [`FileError`].
@@ -31,6 +35,7 @@ pub fn write(
     folder: &Path,
     subject: &Subject,
     rows: &[Row],
+    events: &[EventRow],
     spacings: &[u32],
     title: &str,
 ) -> Result<Written, FileError> {
@@ -43,8 +48,13 @@ pub fn write(
     // Numbers and texts can always be written.
     let text = serde_json::to_vec_pretty(&measured).unwrap_or_default();
     atomic::write(&path("measured.json"), &text)?;
-    atomic::write(&path("verify.html"), page(title, &table, rows).as_bytes())?;
-    Ok(Written { table, page: path("verify.html"), replaced, measured: path("measured.json") })
+    let of_events = (!events.is_empty()).then(|| short_events(events));
+    if of_events.is_some() {
+        atomic::write(&path("verify_events.csv"), &full_events(events, spacings).csv()?)?;
+    }
+    let html = page(title, (&table, rows), of_events.as_ref().map(|table| (table, events)));
+    atomic::write(&path("verify.html"), html.as_bytes())?;
+    Ok(Written { table, events: of_events, page: path("verify.html"), replaced, measured: path("measured.json") })
 }
 
 fn measured(subject: &Subject, rows: &[Row]) -> Measured {
@@ -149,6 +159,118 @@ fn full(subject: &Subject, rows: &[Row], spacings: &[u32]) -> Table {
     Table { heads: heads.map(str::to_owned).to_vec(), rows: rows.iter().map(line).collect() }
 }
 
+fn kind_name(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::Burst => "burst",
+        EventKind::Touch => "touch",
+        EventKind::Overlap => "overlap",
+    }
+}
+
+/// All digits of the events.
+fn full_events(rows: &[EventRow], spacings: &[u32]) -> Table {
+    let heads = [
+        "event",
+        "kind",
+        "throat",
+        "x_m",
+        "y_m",
+        "w_m",
+        "theta_deg",
+        "pressure_formula_Pa",
+        "pressure_direct_Pa",
+        "pressure_direct_error_Pa",
+        "difference_Pa",
+        "difference_over_tension_per_width_percent",
+        "spacings_across",
+        "particles",
+        "wall_time_s",
+        "status",
+        "walls_left_out",
+        "chosen",
+    ];
+    let across: Vec<String> = spacings.iter().map(ToString::to_string).collect();
+    let line = |row: &EventRow| {
+        let planned = row.planned;
+        let cut_out = planned.cut_out.as_ref().ok();
+        vec![
+            planned.number.to_string(),
+            kind_name(planned.kind).to_owned(),
+            planned.throat.map_or(String::new(), |throat| throat.to_string()),
+            exact(cut_out.map(|cut_out| cut_out.frame.middle.x)),
+            exact(cut_out.map(|cut_out| cut_out.frame.middle.y)),
+            exact(cut_out.map(|cut_out| cut_out.width)),
+            exact(cut_out.map(|cut_out| cut_out.angle.to_degrees())),
+            exact(Some(row.formula)),
+            exact(row.direct.map(|direct| direct.value)),
+            exact(row.direct.and_then(|direct| direct.error)),
+            exact(row.difference()),
+            exact(percent(row.relative_difference())),
+            across.join(" "),
+            row.particles.map_or(String::new(), |count| format!("{count}")),
+            exact(Some(row.wall_time)),
+            row.status.to_string(),
+            cut_out.map_or(String::new(), |cut_out| cut_out.left_out.to_string()),
+            planned.reason.clone(),
+        ]
+    };
+    Table { heads: heads.map(str::to_owned).to_vec(), rows: rows.iter().map(line).collect() }
+}
+
+const MICROMETERS: f64 = 1e6;
+
+fn number(value: Option<f64>, digits: usize) -> String {
+    match value.filter(|value| value.is_finite()) {
+        Some(value) => format!("{value:.digits$}"),
+        None => "–".to_owned(),
+    }
+}
+
+fn with_error(direct: Option<Direct>, scale: &dyn Fn(f64) -> String) -> String {
+    match direct {
+        Some(Direct { value, error: Some(error) }) => format!("{} ± {}", scale(value), scale(error)),
+        Some(Direct { value, error: None }) => scale(value),
+        None => "–".to_owned(),
+    }
+}
+
+/// The table of the events for people.
+fn short_events(rows: &[EventRow]) -> Table {
+    let heads = [
+        "event",
+        "kind",
+        "throat",
+        "width in µm",
+        "angle in deg",
+        "pressure in Pa: formula",
+        "direct",
+        "difference in Pa",
+        "in % of tension/width",
+        "particles",
+        "time in s",
+        "status",
+    ];
+    let line = |row: &EventRow| {
+        let planned = row.planned;
+        let cut_out = planned.cut_out.as_ref().ok();
+        vec![
+            planned.number.to_string(),
+            kind_name(planned.kind).to_owned(),
+            planned.throat.map_or("–".to_owned(), |throat| throat.to_string()),
+            number(cut_out.map(|cut_out| MICROMETERS * cut_out.width), 2),
+            number(cut_out.map(|cut_out| cut_out.angle.to_degrees()), 1),
+            number(Some(row.formula), 1),
+            with_error(row.direct, &|value| format!("{value:.1}")),
+            number(row.difference(), 1),
+            number(percent(row.relative_difference()), 1),
+            number(row.particles, 0),
+            number(Some(row.wall_time), 1),
+            row.status.to_string(),
+        ]
+    };
+    Table { heads: heads.map(str::to_owned).to_vec(), rows: rows.iter().map(line).collect() }
+}
+
 /// The table for people.
 fn short(subject: &Subject, rows: &[Row]) -> Table {
     let heads = [
@@ -166,16 +288,6 @@ fn short(subject: &Subject, rows: &[Row]) -> Table {
         "status",
         "used",
     ];
-    const MICROMETERS: f64 = 1e6;
-    let number = |value: Option<f64>, digits: usize| match value.filter(|value| value.is_finite()) {
-        Some(value) => format!("{value:.digits$}"),
-        None => "–".to_owned(),
-    };
-    let with_error = |direct: Option<Direct>, scale: &dyn Fn(f64) -> String| match direct {
-        Some(Direct { value, error: Some(error) }) => format!("{} ± {}", scale(value), scale(error)),
-        Some(Direct { value, error: None }) => scale(value),
-        None => "–".to_owned(),
-    };
     let line = |row: &Row| {
         let width = subject.throat(row.planned.chosen.throat).width;
         let angle = row.planned.cut_out.as_ref().ok().map(|cut_out| cut_out.angle.to_degrees());

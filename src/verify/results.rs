@@ -95,13 +95,13 @@ impl Row<'_> {
     }
 }
 
-/// A run of one throat.
-struct Run<'a> {
-    result: &'a RunResult,
+/// A run of one throat or event.
+pub(super) struct Run<'a> {
+    pub(super) result: &'a RunResult,
 }
 
 impl Run<'_> {
-    fn failed(&self) -> Option<String> {
+    pub(super) fn failed(&self) -> Option<String> {
         match &self.result.standing {
             Standing::Failed(report) => {
                 let why = report.error.clone().unwrap_or_default();
@@ -111,13 +111,24 @@ impl Run<'_> {
         }
     }
 
-    fn is_complete(&self) -> bool {
+    pub(super) fn is_complete(&self) -> bool {
         self.result.standing.report().is_some()
     }
 
-    fn number(&self, name: &str) -> Option<f64> {
+    pub(super) fn number(&self, name: &str) -> Option<f64> {
         self.result.number(name).filter(|value| value.is_finite())
     }
+}
+
+/// The runs of a throat or an event from coarse to fine.
+pub(super) fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: &'a [RunResult]) -> Vec<Run<'a>> {
+    let mut across: Vec<u32> = spacings.to_vec();
+    across.sort_unstable();
+    let found = across.into_iter().filter_map(|across| {
+        let name = case_name(number, kind, across);
+        results.iter().find(|result| result.run.case.file_stem().is_some_and(|stem| stem.to_string_lossy() == name))
+    });
+    found.map(|result| Run { result }).collect()
 }
 
 /// The row of a throat; `spacings` in their order.
@@ -130,15 +141,7 @@ pub fn row<'a>(
     results: &[RunResult],
 ) -> Row<'a> {
     let curvature = planned.cut_out.as_ref().map_or(f64::NAN, |cut_out| cut_out.meniscus.curvature);
-    let runs = |kind: Kind| -> Vec<Run> {
-        let mut across: Vec<u32> = spacings.to_vec();
-        across.sort_unstable();
-        let found = across.into_iter().filter_map(|across| {
-            let name = case_name(planned.chosen.number, kind, across);
-            results.iter().find(|result| result.run.case.file_stem().is_some_and(|stem| stem.to_string_lossy() == name))
-        });
-        found.map(|result| Run { result }).collect()
-    };
+    let runs = |kind: Kind| runs_of(planned.chosen.number, kind, spacings, results);
     let (entries, flows) = (runs(Kind::Entry), runs(Kind::Flow));
     let all = || entries.iter().chain(&flows).filter(|run| run.is_complete());
     let mut row = Row {

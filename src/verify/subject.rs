@@ -3,7 +3,7 @@
 use crate::case::checked::{Case, Fluid as FluidOf, Model};
 use crate::interface::menisci::Passage;
 use crate::network::cycles::{Cycles, Entry, Fluid};
-use crate::network::displacement::{Conditions, Displacement};
+use crate::network::displacement::{Conditions, Displacement, Event, EventKind, Scene};
 use crate::network::graph::Throat;
 use crate::network::setup::{SetupError, build_still};
 use crate::network::solver::NetworkSolver;
@@ -42,6 +42,8 @@ pub struct Subject {
     pub to_breakthrough: Option<(Vec<Entry>, f64)>,
     /// Throats through which menisci overlapped in the first half cycle.
     pub overlapped: Vec<usize>,
+    /// Events of the first half cycle.
+    pub events: Vec<Event>,
     fresh: Displacement,
 }
 
@@ -61,13 +63,16 @@ impl Subject {
         let history = solver.cycles().map(first_half_cycle).unwrap_or_default();
         let setting = solver.setting();
         let fresh = Displacement::new(&setting.network, &setting.pores, conditions.clone());
-        let overlaps = history.0.iter().filter(|entry| entry.kind == crate::network::displacement::EventKind::Overlap);
+        let overlaps = history.0.iter().filter(|entry| entry.kind == EventKind::Overlap);
+        let displacement = solver.cycles().map(|cycles| cycles.displacement().clone());
+        let events = displacement.into_iter().flatten().take(history.0.len()).collect();
         Ok(Self {
             tension: interface.tension,
             fluids: [wanted.wetting, wanted.non_wetting],
             invading,
             conditions,
             overlapped: overlaps.filter_map(|entry| entry.throat).collect(),
+            events,
             to_breakthrough: history.1.map(|(count, applied)| (history.0[..count].to_vec(), applied)),
             fresh,
             solver,
@@ -97,6 +102,18 @@ impl Subject {
     pub fn entry(&self, throat: usize) -> Option<(usize, f64)> {
         let burst = |to| Some((to, self.passage(throat, to)?.0.burst()?.curvature));
         [1, 0].into_iter().filter_map(burst).reduce(|best, next| if next.1 > best.1 { next } else { best })
+    }
+
+    /// The menisci of an event of the first half cycle.
+    #[must_use]
+    pub fn scene(&self, event: &Event) -> Scene {
+        self.fresh.scene(event)
+    }
+
+    /// Area in m² of the elements that an event fills.
+    #[must_use]
+    pub fn filled_area(&self, event: &Event) -> f64 {
+        event.elements.iter().map(|&element| self.fresh.elements()[element].area).sum()
     }
 
     /// Tells the geometry, as in `network.json`.

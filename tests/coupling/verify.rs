@@ -5,18 +5,21 @@ use std::path::Path;
 
 use crate::support::program::{assert_code, meniscus, stderr, stdout};
 use meniscus::case::load;
+use meniscus::geometry::Geometry;
 use meniscus::input::Overrides;
 use meniscus::math::Vec2;
 use meniscus::network::conductance::conductances;
-use meniscus::network::displacement::{Conditions, Displacement, Events};
+use meniscus::network::displacement::{Conditions, Displacement, EventKind, Events};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 use meniscus::study;
 use meniscus::verify::case_text::Fluids;
 use meniscus::verify::choose::{Choice, ChoiceError, choose};
 use meniscus::verify::cut_out::CutOut;
-use meniscus::verify::plan::{Planned, write};
+use meniscus::verify::events::{EventChoice, EventError, PlannedEvent, choose_events};
+use meniscus::verify::plan::{Plan, Planned, write};
 use meniscus::verify::subject::Subject;
+use meniscus::verify::whole_pore::WholePore;
 
 /// A random pack between walls.
 const PACK: &str = "{ random-pack = { seed = 3, porosity = 0.6, radius = 1.0e-4, radius-deviation = 0.2, gap = 2.0e-5, \
@@ -140,16 +143,17 @@ fn cases_and_study_load_and_a_case_changed_by_hand_is_kept() {
     let fluids = Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading };
     let all = planned(&subject);
     let out = folder.path().join("out");
-    let written = write(&out, &all, &fluids, &[6, 8], "grains.toml").unwrap();
+    let plan = Plan { throats: &all, events: &[], fluids: &fluids, spacings: &[6, 8], network: "grains.toml" };
+    let written = write(&out, &plan).unwrap();
     let study = study::load::load(&written.study.unwrap()).unwrap_or_else(|error| panic!("{}", error.render()));
     let runs = study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
     assert!(runs.len() >= 4 && written.kept.is_empty());
     let changed = &runs[0].run.case;
     let text = std::fs::read_to_string(changed).unwrap();
     std::fs::write(changed, text.replace("3.0e-4", "2.0e-4")).unwrap();
-    assert_eq!(write(&out, &all, &fluids, &[6, 8], "grains.toml").unwrap().kept.len(), 1);
+    assert_eq!(write(&out, &plan).unwrap().kept.len(), 1);
     let other = Fluids { tension: 0.05, ..fluids };
-    let message = write(&out, &all, &other, &[6, 8], "grains.toml").unwrap_err().to_string();
+    let message = write(&out, &Plan { fluids: &other, ..plan }).unwrap_err().to_string();
     assert!(message.contains("was changed by hand"), "{message}");
 }
 
@@ -171,6 +175,113 @@ fn throats_are_chosen_by_what_they_are() {
     assert_eq!(both.iter().map(|one| one.number).collect::<Vec<_>>(), [3, 1, 2]);
     assert!(matches!(choose(&subject, &[Choice::Numbers(vec![9999])], 1), Err(ChoiceError::NoThroat { .. })));
     assert!("random".parse::<Choice>().is_err() && "critical".parse() == Ok(Choice::Critical));
+}
+
+fn planned_events(subject: &Subject) -> Vec<PlannedEvent> {
+    let all = (1..=subject.events.len()).collect();
+    choose_events(subject, &[EventChoice::Numbers(all)], 1).unwrap()
+}
+
+/// Whether a displacement through the cut-out's own network, from left to right, has the event.
+fn has_event(cut_out: &WholePore) -> bool {
+    let geometry = Geometry::new(&cut_out.geometry).unwrap().with_sides([false; 2], [false, false, true, true]);
+    let network = extract(&geometry, [true, true, false, false]).unwrap();
+    let conditions = Conditions {
+        angle: vec![cut_out.angle; cut_out.geometry.shapes.len() + 4],
+        inlet: [true, false, false, false],
+        outlet: [false, true, false, false],
+        trapping: false,
+        events: Events::All,
+        largest_curvature: f64::INFINITY,
+        measured: Vec::new(),
+    };
+    let is_it = |curvature: f64| (curvature - cut_out.curvature).abs() < 1e-7 / cut_out.width;
+    Displacement::new(&network, &Pores::merged(&network, 1.0), conditions)
+        .any(|event| event.kind == cut_out.kind && is_it(event.curvature))
+}
+
+#[test]
+fn the_cut_out_of_a_whole_pore_has_the_event_of_the_network() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut cut, mut with_event) = ([0, 0], 0);
+    let other = PACK.replace("seed = 3", "seed = 4");
+    let [min, max] = AROUND_THREE;
+    let touch = [min, max, "network.inlet=\"right\"", "network.outlet=\"left\""];
+    let free = ["network.trapping=false"];
+    for (shapes, angle, set) in [
+        (PACK, 110.0, &free[..]),
+        (PACK, 120.0, &free),
+        (&other, 130.0, &free),
+        (PACK, 140.0, &free),
+        (THREE, 110.0, &[min, max]),
+        (THREE, 120.0, &touch),
+    ] {
+        let subject = subject(folder.path(), shapes, angle, set);
+        for one in planned_events(&subject) {
+            let cut_out = match &one.cut_out {
+                Ok(cut_out) => cut_out,
+                Err(why) => {
+                    println!("{angle} degrees, event {} ({:?}): {why}", one.number, one.kind);
+                    assert!(one.kind != EventKind::Burst || why.to_string().contains("burst"), "{why}");
+                    continue;
+                }
+            };
+            assert_eq!(cut_out.kind, one.kind);
+            cut[usize::from(one.kind == EventKind::Touch)] += 1;
+            with_event += usize::from(has_event(cut_out));
+            // The invading phase ends at the menisci: between two bodies, or three.
+            let behind = cut_out.behind(cut_out.curvature).unwrap();
+            let arcs = behind.outer.iter().filter(|[.., bulge]| *bulge != 0.0).count();
+            assert!(arcs <= if one.kind == EventKind::Touch { 1 } else { 2 }, "{behind:?}");
+        }
+    }
+    assert!(cut[0] >= 1 && cut[1] >= 1, "{cut:?}");
+    // In the others a meniscus comes into the pore another way before, past the sides of the box.
+    assert!(with_event * 10 >= 8 * (cut[0] + cut[1]), "{with_event} of {cut:?}");
+}
+
+#[test]
+fn events_are_chosen_by_what_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let subject = subject(folder.path(), PACK, 140.0, &[]);
+    let choose = |text: &str| choose_events(&subject, &[text.parse().unwrap()], 1);
+    let kinds = |text: &str| choose(text).unwrap().iter().map(|one| one.kind).collect::<Vec<_>>();
+    assert_eq!(kinds("touch:1"), [EventKind::Touch]);
+    assert_eq!(kinds("overlap:1"), [EventKind::Overlap]);
+    let critical = choose("critical").unwrap();
+    assert_eq!(subject.events[critical[0].number - 1].applied, subject.to_breakthrough.as_ref().unwrap().1);
+    assert_eq!(kinds("1,2,1").len(), 2);
+    assert!(matches!(choose("0"), Err(EventError::NoEvent { .. })) && choose("9999").is_err());
+    assert!("touch".parse::<EventChoice>().is_err() && "burst:3".parse::<EventChoice>().is_err());
+}
+
+/// Discs of 100 µm, 50 µm apart.
+const THREE: &str = "{ disc = { center = [8.0e-4, 8.0e-4], radius = 1.0e-4 } }, { disc = { center = [8.0e-4, 1.05e-3], radius = 1.0e-4 } }, \
+                     { disc = { center = [5.835e-4, 9.25e-4], radius = 1.0e-4 } }";
+
+/// The box around them.
+const AROUND_THREE: [&str; 2] = ["geometry.min=[4.0e-4,8.0e-4]", "geometry.max=[1.0e-3,1.05e-3]"];
+
+#[test]
+fn the_menisci_of_a_whole_pore_rest_at_its_first_pressure() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("three.toml"), case(THREE, 110.0, "")).unwrap();
+    let [min, max] = AROUND_THREE;
+    let arguments =
+        ["network", "verify", "three.toml", "--events", "overlap:1", "--spacings", "6", "--only-write", "--out", "out"];
+    let output = meniscus(at, &[&arguments[..], &["--set", min, "--set", max]].concat());
+    assert_code(&output, 0);
+    let study = study::load::load(&at.join("out/verify.toml")).unwrap_or_else(|error| panic!("{}", error.render()));
+    let runs = study::runs::plan(&study).unwrap_or_else(|error| panic!("{}", error.render()));
+    let case = runs[0].run.case.to_string_lossy().into_owned();
+    assert_code(&meniscus(at, &["run", &case, "--set", "time.end=2.0e-4", "--threads", "1", "--out", "run"]), 0);
+    let report: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(at.join("run/report.json")).unwrap()).unwrap();
+    let pressure = report["measures"]["capillary-pressure-Pa"]["value"].as_f64().unwrap();
+    // Below the overlap, where symmetry puts both contacts in the middle of the shared disc, by four and a half steps of 16 Pa.
+    let (formula, scale) = (135.7, 600.0);
+    assert!((pressure - (formula - 72.0)).abs() < 0.02 * scale, "{pressure}");
 }
 
 /// The first row of a table by its heads.

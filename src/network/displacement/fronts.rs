@@ -45,7 +45,7 @@ pub(super) struct Neighbor {
     /// Length of wall between both gates in m.
     shared: f64,
     /// What is added to a position in its frame to get that in the frame of the meniscus it is the neighbor of, in m.
-    offset: Vec2,
+    pub offset: Vec2,
     /// The elements in between.
     pub passed: Vec<usize>,
 }

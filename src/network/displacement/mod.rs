@@ -11,6 +11,7 @@
 
 mod driven;
 mod fronts;
+mod involved;
 mod loops;
 mod mesh;
 mod outflow;
@@ -24,6 +25,7 @@ use std::sync::Arc;
 
 pub use self::driven::{Advance, FrontId, GateFacts};
 use self::fronts::{Candidate, Front};
+pub use self::involved::{Involved, Place, Scene};
 use self::mesh::Mesh;
 use self::outflow::Outflow;
 pub use self::standing::{Beginning, Interfaces, Standing};
@@ -121,6 +123,8 @@ pub struct Event {
     pub curvature: f64,
     /// The applied curvature in 1/m: the largest so far.
     pub applied: f64,
+    /// Its menisci.
+    pub involved: Involved,
 }
 
 /// A part of the pore space between walls and gates.
@@ -352,7 +356,7 @@ impl Iterator for Displacement {
     type Item = Event;
 
     fn next(&mut self) -> Option<Event> {
-        let (candidate, filled) = loop {
+        let (candidate, filled, involved) = loop {
             let candidate =
                 self.queue.peek().copied().filter(|next| next.curvature <= self.conditions.largest_curvature)?;
             self.queue.pop();
@@ -362,7 +366,7 @@ impl Iterator for Displacement {
             }
             let mesh = self.mesh.clone();
             match partner {
-                None => break (candidate, vec![mesh.element(gate, to)]),
+                None => break (candidate, vec![mesh.element(gate, to)], Involved::alone((gate, to))),
                 // Another meniscus may have come in between.
                 Some((front, hand)) => {
                     let Some(neighbor) =
@@ -379,7 +383,8 @@ impl Iterator for Displacement {
                         self.queue.push(Candidate { curvature: waits_until, is_joined: true, ..candidate });
                         continue;
                     }
-                    break (candidate, neighbor.passed);
+                    let involved = Involved::both((gate, to), hand, &neighbor, candidate.is_joined);
+                    break (candidate, neighbor.passed, involved);
                 }
             }
         };
@@ -391,6 +396,6 @@ impl Iterator for Displacement {
             filled.iter().flat_map(|&element| &mesh.elements[element].loops).copied().collect();
         elements.sort_unstable();
         elements.dedup();
-        Some(Event { kind, throat: mesh.gates[gate].throat, elements, curvature, applied: self.applied })
+        Some(Event { kind, throat: mesh.gates[gate].throat, elements, curvature, applied: self.applied, involved })
     }
 }

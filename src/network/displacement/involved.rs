@@ -1,0 +1,73 @@
+//! The menisci that an event is about, with the walls between which they stand.
+
+use super::driven::FrontId;
+use super::fronts::Neighbor;
+use super::{Displacement, Event};
+use crate::geometry::curve::Curve;
+use crate::interface::menisci::{Hand, Passage};
+use crate::math::Vec2;
+
+/// The meniscus of an event, and that which it met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Involved {
+    front: FrontId,
+    met: Option<Met>,
+}
+
+/// A meniscus that another one met at an overlap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Met {
+    front: FrontId,
+    hand: Hand,
+    /// What is added to a position in its frame to get that in the frame of the other one, in m.
+    offset: Vec2,
+    has_waited: bool,
+}
+
+/// Where a meniscus can stand, and the other walls ahead of it.
+#[derive(Debug, Clone)]
+pub struct Place {
+    /// Both walls.
+    pub passage: Passage,
+    /// The walls ahead.
+    pub ahead: Vec<Curve>,
+}
+
+/// The menisci of an event with their walls, in one frame.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// From left to right, seen in the direction of advance: one, or the two of an overlap, which share the wall between them.
+    pub places: Vec<Place>,
+    /// Whether two menisci met at a lower pressure than that of the event, and waited as one.
+    pub has_waited: bool,
+}
+
+impl Involved {
+    /// A meniscus by itself.
+    pub(super) fn alone(front: FrontId) -> Self {
+        Self { front, met: None }
+    }
+
+    /// A meniscus and its neighbor on one hand.
+    pub(super) fn both(front: FrontId, hand: Hand, neighbor: &Neighbor, has_waited: bool) -> Self {
+        Self { front, met: Some(Met { front: neighbor.front, hand, offset: neighbor.offset, has_waited }) }
+    }
+}
+
+impl Displacement {
+    /// The menisci of an event of this displacement.
+    #[must_use]
+    pub fn scene(&self, event: &Event) -> Scene {
+        let place = |front: FrontId, offset: Vec2| {
+            let (passage, ahead) = self.passage_at(&self.conditions.angle, &self.mesh, front, offset);
+            Place { passage, ahead }
+        };
+        let Involved { front, met } = event.involved;
+        let one = place(front, Vec2::zeros());
+        let Some(met) = met else { return Scene { places: vec![one], has_waited: false } };
+        let other = place(met.front, met.offset);
+        // The wall on its left leads from a meniscus to the one that stands on the left of it.
+        let places = if met.hand == Hand::Left { vec![other, one] } else { vec![one, other] };
+        Scene { places, has_waited: met.has_waited }
+    }
+}
