@@ -11,8 +11,8 @@ use crate::support::python::{interpreter, root, run};
 /// The part of each case that is run: some steps.
 const PART: f64 = 300.0;
 
-/// Records of the series in a part beside the first: two under each of two body forces that act one after the other.
-const RECORDS: f64 = 4.0;
+/// Records of the series in a part beside the first: two of each of three flows that follow one another.
+const RECORDS: f64 = 6.0;
 
 #[test]
 fn every_case_of_the_folder_runs_and_keeps_the_output_contract() {
