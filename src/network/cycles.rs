@@ -8,7 +8,6 @@ use std::sync::Arc;
 use super::displacement::{Beginning, Conditions, Displacement, EventKind, Phase};
 use super::graph::{Network, Pores};
 use super::moment::Moment;
-use super::tables::kind_name;
 
 /// The fluids.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -275,7 +274,7 @@ impl Cycles {
         if self.breakthrough.is_none() && self.displacement.reached_outlet() {
             self.breakthrough = Some(Arc::new(self.moment()));
         }
-        Some(kind_name(event.kind))
+        Some(event.kind.name())
     }
 
     /// The moment after the event by which an invading phase first reached its outlet.

@@ -1,7 +1,6 @@
 //! `pores.csv`, `throats.csv` and `events.csv`: SI units, one row each for a pore, a throat, an event.
 
 use super::cycles::{Cycles, Invasion};
-use super::displacement::EventKind;
 use super::graph::{Opening, Throat};
 use super::occupation::Occupation;
 use super::solver::{NetworkSolver, Setting, nearest};
@@ -208,20 +207,11 @@ pub fn events(setting: &Setting, cycles: &Cycles) -> Table {
             counts("half_cycle", history.iter().map(|entry| entry.half_cycle + 1)),
             words("process", history.iter().map(|entry| process(entry.half_cycle))),
             counts("sequence", sequences),
-            words("event", history.iter().map(|entry| kind_name(entry.kind))),
+            words("event", history.iter().map(|entry| entry.kind.name())),
             places("throat", history.iter().map(|entry| entry.throat.and_then(|throat| number_of[throat]))),
             numbers("meniscus_pressure_Pa", history.iter().map(|entry| tension * entry.curvature)),
             numbers("capillary_pressure_Pa", history.iter().map(|entry| tension * entry.applied)),
             numbers("saturation", history.iter().map(|entry| entry.saturation)),
         ],
-    }
-}
-
-/// Name of a kind of event.
-pub(super) fn kind_name(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::Burst => "burst",
-        EventKind::Touch => "touch",
-        EventKind::Overlap => "overlap",
     }
 }

@@ -9,7 +9,6 @@ use super::subject::Subject;
 use crate::case::network::measured::{Measured, MeasuredThroat};
 use crate::io::{FileError, atomic};
 use crate::network::cycles::Fluid;
-use crate::network::displacement::EventKind;
 use crate::study::table::Table;
 
 /// What was written.
@@ -159,14 +158,6 @@ fn full(subject: &Subject, rows: &[Row], spacings: &[u32]) -> Table {
     Table { heads: heads.map(str::to_owned).to_vec(), rows: rows.iter().map(line).collect() }
 }
 
-fn kind_name(kind: EventKind) -> &'static str {
-    match kind {
-        EventKind::Burst => "burst",
-        EventKind::Touch => "touch",
-        EventKind::Overlap => "overlap",
-    }
-}
-
 /// All digits of the events.
 fn full_events(rows: &[EventRow], spacings: &[u32]) -> Table {
     let heads = [
@@ -195,7 +186,7 @@ fn full_events(rows: &[EventRow], spacings: &[u32]) -> Table {
         let cut_out = planned.cut_out.as_ref().ok();
         vec![
             planned.number.to_string(),
-            kind_name(planned.kind).to_owned(),
+            planned.kind.name().to_owned(),
             planned.throat.map_or(String::new(), |throat| throat.to_string()),
             exact(cut_out.map(|cut_out| cut_out.frame.middle.x)),
             exact(cut_out.map(|cut_out| cut_out.frame.middle.y)),
@@ -255,7 +246,7 @@ fn short_events(rows: &[EventRow]) -> Table {
         let cut_out = planned.cut_out.as_ref().ok();
         vec![
             planned.number.to_string(),
-            kind_name(planned.kind).to_owned(),
+            planned.kind.name().to_owned(),
             planned.throat.map_or("–".to_owned(), |throat| throat.to_string()),
             number(cut_out.map(|cut_out| MICROMETERS * cut_out.width), 2),
             number(cut_out.map(|cut_out| cut_out.angle.to_degrees()), 1),

@@ -10,6 +10,7 @@
 //! Left out: areas swept by menisci between events, overlaps of a joined meniscus with a third one, films and corner flow.
 
 mod driven;
+mod event;
 mod fronts;
 mod involved;
 mod loops;
@@ -24,6 +25,7 @@ use std::collections::BinaryHeap;
 use std::sync::Arc;
 
 pub use self::driven::{Advance, FrontId, GateFacts};
+pub use self::event::{Event, EventKind};
 use self::fronts::{Candidate, Front};
 pub use self::involved::{Involved, Place, Scene};
 use self::mesh::Mesh;
@@ -96,35 +98,6 @@ pub enum Phase {
     Defending,
     /// The one that comes in.
     Invading,
-}
-
-/// What let a meniscus go on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum EventKind {
-    /// It passed the largest curvature of its gate.
-    Burst,
-    /// It touched a wall ahead.
-    Touch,
-    /// It met its neighbor on the wall between them.
-    Overlap,
-}
-
-/// One event.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Event {
-    /// What happened.
-    pub kind: EventKind,
-    /// The throat through which elements were filled; none for a segment within a region.
-    pub throat: Option<usize>,
-    /// The elements that were filled.
-    pub elements: Vec<usize>,
-    /// Curvature of the meniscus at the event in 1/m.
-    pub curvature: f64,
-    /// The applied curvature in 1/m: the largest so far.
-    pub applied: f64,
-    /// Its menisci.
-    pub involved: Involved,
 }
 
 /// A part of the pore space between walls and gates.

@@ -4,7 +4,7 @@ use super::solver::DynamicSolver;
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::network::cycles::Fluid;
 use crate::network::measures::of_network_with_flow;
-use crate::network::tables::{counts, kind_name, numbers, numbers_of_throats, places, words};
+use crate::network::tables::{counts, numbers, numbers_of_throats, places, words};
 use crate::solver::{Measure, Series};
 use crate::table::Table;
 
@@ -125,7 +125,7 @@ pub fn events(solver: &DynamicSolver) -> Table {
         columns: vec![
             counts("sequence", 1..=history.len()),
             numbers("time_s", history.iter().map(|event| event.time)),
-            words("event", history.iter().map(|event| kind_name(event.kind))),
+            words("event", history.iter().map(|event| event.kind.name())),
             places("throat", history.iter().map(|event| event.throat.and_then(|throat| number_of[throat]))),
             numbers("meniscus_pressure_Pa", history.iter().map(|event| tension * event.curvature)),
             numbers("pressure_difference_Pa", history.iter().map(|event| event.pressure)),
