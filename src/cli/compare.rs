@@ -1,17 +1,18 @@
 //! `meniscus compare`: a network and a direct simulation of one geometry, side by side.
 
 use std::path::PathBuf;
-use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 
-use super::exit::{DONE, Failure, SOLVER_FAILED, USAGE};
+use super::exit::{DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{duration, readable, say, tell};
 use super::progress::ProgressDisplay;
 use super::run::new_folder;
-use super::source;
 use super::threads::pool;
-use crate::run::compare::{Comparison, Of, PAGE, Pair, Side, compare as run_both, write};
+use super::{interrupt, source};
+use crate::run::compare::{
+    CompareError, Comparison, DIRECT_RUN, Of, PAGE, Pair, Side, Task, compare as run_both, write,
+};
 use crate::run::execute::Mode;
 use crate::run::folder;
 
@@ -28,6 +29,9 @@ pub struct CompareArguments {
     /// Output folder, new or empty; where there is none: out/NAME-compare, out/NAME-compare-2, ..., NAME being that of the direct case
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Go on with an interrupted comparison in its folder
+    #[arg(long)]
+    pub resume: bool,
     /// Number of threads; all cores where there is none. The results do not depend on it
     #[arg(long, value_name = "N")]
     pub threads: Option<std::num::NonZeroUsize>,
@@ -37,20 +41,29 @@ pub struct CompareArguments {
 pub fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let direct = source::load_case(Some(&arguments.direct), &[])?;
-    let out = new_folder(arguments.out.as_deref(), &format!("{}-compare", direct.name), Mode::New);
-    let _claim = folder::create(&out).map_err(|error| Failure::new(USAGE, &error))?;
+    let mode = if arguments.resume { Mode::Resume } else { Mode::New };
+    let out = new_folder(arguments.out.as_deref(), &format!("{}-compare", direct.name), mode);
+    let claim = if arguments.resume { folder::take_up(&out, &out.join(DIRECT_RUN)) } else { folder::create(&out) };
+    let _claim = claim.map_err(|error| Failure::new(USAGE, &error))?;
     tell(format_args!("{} | {} -> {}", network.case.title, direct.case.title, out.display()));
     let pair = Pair { network: &network.case, direct: &direct.case, records: arguments.records.get() };
+    let task = Task { pair, resolved: &direct.resolved, folder: &out, mode };
     let found = pool(arguments.threads)?.install(|| {
         let mut display = ProgressDisplay::new();
-        let found = run_both(&pair, &AtomicBool::new(false), &mut display);
+        let found = run_both(&task, &interrupt::flag(), &mut display);
         display.finish();
-        found.map_err(|error| match error.problems() {
-            Some((Of::Network, problems)) => network.refused_for(problems),
-            Some((Of::Direct, problems)) => direct.refused_for(problems),
-            None => Failure::new(SOLVER_FAILED, &error),
+        found.map(Some).or_else(|error| match (&error, error.problems()) {
+            (CompareError::Interrupted, _) => Ok(None),
+            (_, Some((Of::Network, problems))) => Err(network.refused_for(problems)),
+            (_, Some((Of::Direct, problems))) => Err(direct.refused_for(problems)),
+            (CompareError::Run(_), _) => Err(Failure::new(USAGE, &error)),
+            _ => Err(Failure::new(SOLVER_FAILED, &error)),
         })
     })?;
+    let Some(found) = found else {
+        say(format_args!("interrupted; the same command with --out {} --resume goes on", out.display()));
+        return Ok(INTERRUPTED);
+    };
     write(&found, &out).map_err(|error| Failure::new(USAGE, &error))?;
     summary(&found);
     say(format_args!("  page        {}", out.join(PAGE).display()));

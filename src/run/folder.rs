@@ -108,18 +108,26 @@ pub fn create(folder: &Path) -> Result<Claim, FolderError> {
     claim::claim(folder)
 }
 
+/// Takes the right to work in `folder`, in which there is a saved state of `run`, the folder itself or one within it.
+///
+/// # Errors
+/// [`FolderError::InUse`], [`FolderError::NothingToResume`], [`FolderError::File`].
+pub fn take_up(folder: &Path, run: &Path) -> Result<Claim, FolderError> {
+    claim::existing(folder)?;
+    let state = restart::path(run);
+    if !state.exists() {
+        return Err(FolderError::NothingToResume { folder: folder.to_path_buf(), state });
+    }
+    claim::claim(folder)
+}
+
 /// The saved state of the run in `folder`, after a check that all files that belong to it are there as they were written, and the right to work
 /// there; what a killed run left half written is removed.
 ///
 /// # Errors
 /// [`FolderError`] where there is none, where another process works at it, where it is damaged, or where it belongs to another case.
 pub fn resume(folder: &Path, case_hash: u64) -> Result<(Saved, Claim), FolderError> {
-    let state = restart::path(folder);
-    claim::existing(folder)?;
-    if !state.exists() {
-        return Err(FolderError::NothingToResume { folder: folder.to_path_buf(), state });
-    }
-    let claim = claim::claim(folder)?;
+    let claim = take_up(folder, folder)?;
     let saved = restart::load(folder)?;
     if saved.case_hash != case_hash {
         return Err(FolderError::OtherCase { folder: folder.to_path_buf(), saved: saved.case_hash, now: case_hash });

@@ -57,6 +57,14 @@ impl Progress {
 pub trait Watcher {
     /// A step was done.
     fn stepped(&mut self, progress: &Progress);
+
+    /// A row of the series is about to be recorded, and after it whatever else is due: the saved state never runs ahead of this.
+    ///
+    /// # Errors
+    /// [`FileError`] where something cannot be written.
+    fn recorded(&mut self, _: &dyn Solver) -> Result<(), FileError> {
+        Ok(())
+    }
 }
 
 /// No one.
@@ -177,7 +185,7 @@ impl Simulation<'_> {
     /// [`FileError`].
     pub fn begin(&mut self, folder: &Path) -> Result<(), FileError> {
         self.write_outline(folder)?;
-        self.records.record(self.solver, Due::ALL)
+        self.record(Due::ALL)
     }
 
     /// Writes anew what follows from the solver whatever its state: `solid.vtp` and `units.json`.
@@ -208,12 +216,19 @@ impl Simulation<'_> {
         self.solver.time() >= self.schedule.end() || self.solver.is_done() || self.ends_steady()
     }
 
+    fn record(&mut self, due: Due) -> Result<(), FileError> {
+        if due.series {
+            self.watcher.recorded(self.solver)?;
+        }
+        self.records.record(self.solver, due)
+    }
+
     /// Records what is due at a stop, row first, and everything where the run is steady by then.
     fn record_stop(&mut self, due: Due) -> Result<bool, FileError> {
-        self.records.record(self.solver, Due { vtk: false, restart: false, ..due })?;
+        self.record(Due { vtk: false, restart: false, ..due })?;
         let is_steady = due.series && self.ends_steady();
         let rest = if is_steady { Due::ALL } else { due };
-        self.records.record(self.solver, Due { series: false, ..rest })?;
+        self.record(Due { series: false, ..rest })?;
         Ok(is_steady)
     }
 
@@ -228,18 +243,18 @@ impl Simulation<'_> {
         while let Some(stop) = self.schedule.next_after(self.solver.time()) {
             while self.solver.time() < stop.time {
                 if self.interrupt.load(Ordering::Relaxed) {
-                    self.records.record(self.solver, Due::TO_RESUME)?;
+                    self.record(Due::TO_RESUME)?;
                     return Ok(Outcome::Interrupted);
                 }
                 match self.solver.step(stop.time) {
                     Ok(info) => self.watcher.stepped(&Progress::after(self.solver, info, self.schedule.end())),
                     Err(error) => {
-                        self.records.record(self.solver, Due::LAST_GOOD_STATE)?;
+                        self.record(Due::LAST_GOOD_STATE)?;
                         return Ok(Outcome::Failed(error));
                     }
                 }
                 if self.solver.is_done() {
-                    self.records.record(self.solver, Due::ALL)?;
+                    self.record(Due::ALL)?;
                     return Ok(Outcome::Done);
                 }
             }

@@ -48,6 +48,8 @@ pub struct PlannedNetwork {
     pub document: Document,
     /// Number of compared states of the direct simulation.
     pub records: usize,
+    /// The case file of the direct simulation with all that was filled in.
+    pub of_direct: String,
 }
 
 impl PlannedNetwork {
@@ -78,9 +80,9 @@ pub(super) fn plan(
     let &DirectRun { case, origin, assignments } = direct;
     let (mut direct, other) = both(load(case, assignments), load(&network.case, &network.assignments))?;
     let records = network.records;
-    direct.resolved =
-        format!("# direct simulation, {records} records\n{}\n# network\n{}", direct.resolved, other.resolved);
-    let other = PlannedNetwork { case: other.case, document: other.document, records };
+    let of_direct = direct.resolved;
+    direct.resolved = format!("# direct simulation, {records} records\n{of_direct}\n# network\n{}", other.resolved);
+    let other = PlannedNetwork { case: other.case, document: other.document, records, of_direct };
     if let Err(error) = compare::check(&other.with(&direct.case)) {
         // Which two cases are compared is said by the study, not by one of them.
         let here = match &error {

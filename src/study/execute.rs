@@ -1,6 +1,6 @@
 //! One run of a study: begun, taken up where it stopped, or left alone where it is complete.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use super::comparison::{self, PlannedNetwork};
@@ -9,7 +9,7 @@ use super::results::{is_complete, standing};
 use super::runs::PlannedRun;
 use crate::input::InputError;
 use crate::io::{FileError, restart};
-use crate::run::compare;
+use crate::run::compare::{self, DIRECT_RUN, Task};
 use crate::run::execute::{Job, Mode, RunError, execute};
 use crate::run::folder::FolderError as RunFolderError;
 use crate::run::report::{REPORT, Report, Status};
@@ -61,7 +61,7 @@ pub fn run(
     if standing(&path, &planned.resolved).report().is_none() {
         remove_file(&path.join(REPORT))?;
     }
-    if restart::path(&path).exists() {
+    if saved_state(&path, planned).exists() {
         match attempt(planned, &path, Mode::Resume, interrupt, watcher) {
             Err(ExecuteError::Run(RunError::Folder(error @ RunFolderError::InUse { .. }))) => {
                 return Err(ExecuteError::Run(RunError::Folder(error)));
@@ -83,7 +83,7 @@ fn attempt(
     watcher: &mut dyn Watcher,
 ) -> Result<Ending, ExecuteError> {
     if let Some(network) = &planned.network {
-        return compared(planned, network, (path, interrupt), watcher);
+        return compared(planned, network, (path, mode), interrupt, watcher);
     }
     let built = match mode {
         Mode::New => setup::build(&planned.case),
@@ -95,15 +95,24 @@ fn attempt(
     Ok(ending(&finished.report))
 }
 
-/// Compares the case of a run with a network; it cannot be taken up.
+/// The saved state of a run; that of a comparison is that of its direct simulation.
+fn saved_state(path: &Path, planned: &PlannedRun) -> PathBuf {
+    match planned.network {
+        Some(_) => restart::path(&path.join(DIRECT_RUN)),
+        None => restart::path(path),
+    }
+}
+
+/// Compares the case of a run with a network.
 fn compared(
     planned: &PlannedRun,
     network: &PlannedNetwork,
-    (path, interrupt): (&Path, &AtomicBool),
+    (folder, mode): (&Path, Mode),
+    interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
 ) -> Result<Ending, ExecuteError> {
-    let pair = network.with(&planned.case);
-    match compare::execute(&pair, (&planned.resolved, path), interrupt, watcher) {
+    let task = Task { pair: network.with(&planned.case), resolved: &network.of_direct, folder, mode };
+    match compare::execute(&task, &planned.resolved, interrupt, watcher) {
         Ok(report) => Ok(ending(&report)),
         Err(compare::ExecuteError::Run(error)) => Err(error.into()),
         Err(compare::ExecuteError::Cases(error)) => {

@@ -7,6 +7,8 @@ use serde::Deserialize;
 
 use super::folder::StudyFolder;
 use super::runs::{PlannedRun, Run};
+use crate::io::restart;
+use crate::run::compare::DIRECT_RUN;
 use crate::run::report::{REPORT, Reading, Status};
 
 /// What is known of a run besides its measures.
@@ -98,7 +100,7 @@ pub fn standing(folder: &Path, resolved: &str) -> Standing {
             Status::Failed => Standing::Failed(Box::new(report)),
             Status::Interrupted => Standing::Partial,
         },
-        None if crate::io::restart::path(folder).exists() => Standing::Partial,
+        None if [folder, &folder.join(DIRECT_RUN)].iter().any(|it| restart::path(it).exists()) => Standing::Partial,
         None => Standing::New,
     }
 }

@@ -1,8 +1,10 @@
 //! `meniscus compare`: two cases of one geometry become a page and a JSON file; cases that do not fit are refused.
 
 use std::path::Path;
+use std::process::Stdio;
+use std::time::Duration;
 
-use crate::support::program::{assert_code, meniscus, stderr};
+use crate::support::program::{assert_code, command, meniscus, stderr};
 
 fn repository(name: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(name).display().to_string()
@@ -55,6 +57,52 @@ fn cases_of_two_geometries_are_refused() {
     let no_network = meniscus(folder.path(), &["compare", "direct.toml", "direct.toml", "--out", "none"]);
     assert_code(&no_network, 3);
     assert!(stderr(&no_network).contains("expected a network with a displacement"), "{}", stderr(&no_network));
+}
+
+/// All that is compared, without the times that it took.
+fn compared(folder: &Path) -> serde_json::Value {
+    let text = std::fs::read_to_string(folder.join("compare.json")).unwrap();
+    let mut found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    for side in ["network", "direct"] {
+        for time in ["wall_time_s", "processor_time_s"] {
+            assert!(found[side].as_object_mut().unwrap().remove(time).is_some(), "{side}: {time}");
+        }
+    }
+    found
+}
+
+#[test]
+fn a_comparison_that_is_killed_goes_on_to_the_same_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    cases(folder.path());
+    let direct = folder.path().join("direct.toml");
+    let text = std::fs::read_to_string(&direct).unwrap();
+    std::fs::write(&direct, text + "\n[output]\nrestart = { every-time = 1.0e-5 } # s\n").unwrap();
+    let arguments = |out| ["compare", "network.toml", "direct.toml", "--records", "20", "--threads", "1", "--out", out];
+    assert_code(&meniscus(folder.path(), &arguments("whole")), 0);
+    let mut child = command(folder.path(), &arguments("killed")).stderr(Stdio::null()).spawn().unwrap();
+    let states = folder.path().join("killed/direct-states.jsonl");
+    let count = || std::fs::read_to_string(&states).map_or(0, |text| text.lines().count());
+    while count() < 8 {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it was killed");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(count() < 21, "it was killed too late");
+    let go_on = |more: &[&str]| meniscus(folder.path(), &[&arguments("killed")[..], &["--resume"], more].concat());
+    assert_code(&go_on(&[]), 0);
+    assert_eq!(count(), 21);
+    assert_eq!(compared(&folder.path().join("killed")), compared(&folder.path().join("whole")));
+    // Files for ParaView are written beside it, and at the end only the page is made again.
+    assert!(folder.path().join("killed/direct/particles.pvd").exists());
+    std::fs::remove_file(folder.path().join("killed/compare.html")).unwrap();
+    assert_code(&go_on(&[]), 0);
+    assert!(folder.path().join("killed/compare.html").exists());
+    let nothing = meniscus(folder.path(), &[&arguments("nothing")[..], &["--resume"]].concat());
+    assert_code(&nothing, 2);
+    assert!(stderr(&nothing).contains("there is no run to resume in nothing"), "{}", stderr(&nothing));
+    assert!(!folder.path().join("nothing").exists());
 }
 
 /// A study of the comparison in `folder` at two angles.
@@ -110,10 +158,15 @@ fn a_study_compares_both_at_each_of_its_points() {
         assert!(page.contains(&format!("href=\"runs/{name}/compare.html\"")), "{page}");
         assert!(read(&format!("runs/{name}/compare.html")).contains("At equal saturation"));
     }
-    // What is complete is kept, what was begun only is done again, and so is all of it with other records.
+    // What is complete is kept, what was begun is taken up, and with other records all of it is done again.
     assert_eq!(run(2), 0);
     std::fs::remove_file(folder.path().join("out/runs/angle=60/report.json")).unwrap();
+    // Particles of the first state are written by a run that begins, not by one that goes on.
+    let first = folder.path().join("out/runs/angle=60/direct/particles/particles-000000.vtu");
+    let written = || std::fs::metadata(&first).unwrap().modified().unwrap();
+    let before = written();
     assert_eq!(run(2), 1);
+    assert_eq!(written(), before, "its direct simulation was at the end");
     assert_eq!(run(3), 2);
 }
 

@@ -1,68 +1,103 @@
-//! The direct simulation of a comparison, from record to record.
+//! The direct simulation of a comparison: an ordinary run in a folder of its own, of which each record is held against the network.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::sync::atomic::AtomicBool;
 
-use super::{CompareError, Grid, Pair, Record, Track};
+use super::states::States;
+use super::{CompareError, Grid, Record, Task, Track};
+use crate::case::checked::Case;
 use crate::case::network::state::NetworkState;
 use crate::case::raw::RawPhase;
+use crate::io::FileError;
 use crate::math::Vec2;
-use crate::run::processor_time::ProcessorTime;
+use crate::run::execute::{Job, Mode, RunError, case_hash, execute};
+use crate::run::folder::{self, FolderError};
+use crate::run::report::{Report, Status};
 use crate::run::setup;
 use crate::run::simulation::{Progress, Watcher};
 use crate::snapshot::{Snapshot, Values};
-use crate::solver::{Series, Solver};
+use crate::solver::Solver;
 use crate::sph::measures::open::PRESSURE_DIFFERENCE;
 
 /// Number of the non-wetting phase in the field `phase`; the wetting one is 0.
 const NON_WETTING: i64 = 1;
 /// Number of wall particles.
 const SOLID: i64 = 2;
+/// Folder of the run in that of the comparison.
+pub const RUN: &str = "direct";
 
-/// Runs the direct simulation of a pair to its end.
+/// Runs the direct simulation of a task to its end, or goes on with it.
 pub fn track(
-    pair: &Pair<'_>,
+    task: &Task<'_>,
     (state, grid): (&NetworkState, &Grid),
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
 ) -> Result<Track, CompareError> {
-    let (case, records) = (pair.direct, pair.records);
-    let (clock, processor_time) = (Instant::now(), ProcessorTime::start());
-    let mut solver = setup::build(case)?;
-    let mut track = Track {
-        records: Vec::new(),
-        filled: vec![None; state.elements.len()],
-        wall_time_s: 0.0,
-        processor_time_s: None,
-        unknowns: solver.statistics().unknowns,
-        steps: 0,
-        permeability: None,
-        warnings: Vec::new(),
-    };
-    for record in 0..=records {
-        let until = case.end * record as f64 / records as f64;
-        while solver.time() < until {
-            if interrupt.load(Ordering::Relaxed) {
-                return Err(CompareError::Interrupted);
-            }
-            let step = solver.step(until)?;
-            watcher.stepped(&Progress::after(solver.as_ref(), step, case.end));
+    let case = recorded(task.pair.direct, task.pair.records);
+    let folder = task.folder.join(RUN);
+    let (mut solver, states) = match task.mode {
+        Mode::New => (setup::build(&case)?, States::new(task.folder)),
+        Mode::Resume => {
+            let (saved, _claim) = folder::resume(&folder, case_hash(&case)?).map_err(RunError::from)?;
+            let states = States::up_to(saved.time, task.folder, grid);
+            let states = states.map_err(|error| RunError::from(FolderError::Damaged { error }))?;
+            (setup::build_to_resume(&case)?, states)
         }
-        track.add(&as_record(solver.as_ref(), grid, state.invading), grid);
+    };
+    let mut recorder = Recorder { watcher, states, grid, invading: state.invading };
+    let job = Job { case: &case, resolved: task.resolved, folder, mode: task.mode };
+    let report = execute(&job, solver.as_mut(), interrupt, &mut recorder)?.report;
+    match report.status {
+        Status::Interrupted => return Err(CompareError::Interrupted),
+        Status::Failed => return Err(CompareError::Failed(report.error.unwrap_or_default())),
+        Status::Done | Status::ExpectationFailed => {}
     }
-    track.wall_time_s = clock.elapsed().as_secs_f64();
-    track.processor_time_s = processor_time.seconds();
-    track.steps = solver.steps();
-    let measures = solver.measures(&Series::default());
-    let permeability = measures.iter().find(|it| it.name == "permeability-m2").map(|it| it.value);
-    track.permeability = permeability.filter(|value| value.is_finite());
-    track.warnings = setup::warnings(case, solver.as_ref(), &Series::default());
-    Ok(track)
+    Ok(Track::of(recorder.states.records(), &report, state.elements.len(), grid))
+}
+
+/// The case with so many records of its series: each is a state that is compared.
+fn recorded(case: &Case, records: usize) -> Case {
+    let mut case = case.clone();
+    case.output.series_every = case.end / records as f64;
+    case
+}
+
+/// Notes the state at each record, and tells another of each step.
+struct Recorder<'a> {
+    watcher: &'a mut dyn Watcher,
+    states: States,
+    grid: &'a Grid,
+    invading: RawPhase,
+}
+
+impl Watcher for Recorder<'_> {
+    fn stepped(&mut self, progress: &Progress) {
+        self.watcher.stepped(progress);
+    }
+
+    fn recorded(&mut self, solver: &dyn Solver) -> Result<(), FileError> {
+        self.states.add(solver.time(), as_record(solver, self.grid, self.invading))
+    }
 }
 
 impl Track {
+    fn of(records: Vec<Record>, report: &Report, elements: usize, grid: &Grid) -> Self {
+        let permeability = report.measures.get("permeability-m2").and_then(|reading| reading.value);
+        let mut track = Self {
+            records: Vec::new(),
+            filled: vec![None; elements],
+            wall_time_s: report.wall_time_s.total,
+            processor_time_s: report.cpu_s,
+            unknowns: report.solver.unknowns,
+            steps: report.steps,
+            permeability,
+            warnings: report.warnings.clone(),
+        };
+        records.into_iter().for_each(|record| track.add(record, grid));
+        track
+    }
+
     /// Adds a record, and notes which elements are filled by more than half of their cells.
-    fn add(&mut self, record: &Record, grid: &Grid) {
+    fn add(&mut self, record: Record, grid: &Grid) {
         let mut shares = vec![[0_usize; 2]; self.filled.len()];
         for (&(_, element), &invaded) in grid.cells.iter().zip(&record.invaded) {
             shares[element][usize::from(invaded)] += 1;
@@ -73,7 +108,7 @@ impl Track {
                 filled.get_or_insert(number);
             }
         }
-        self.records.push(record.clone());
+        self.records.push(record);
     }
 }
 

@@ -1,12 +1,11 @@
 //! A comparison as a run with a folder and a report, so that a study can hold many of them side by side.
 
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use super::measures::measures;
-use super::{CompareError, Comparison, Pair, Side, compare, write};
-use crate::run::execute::RunError;
+use super::{CompareError, Comparison, DIRECT_RUN, Side, Task, compare, write};
+use crate::run::execute::{Mode, RunError};
 use crate::run::folder;
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::processor_time::ProcessorTime;
@@ -25,39 +24,48 @@ pub enum ExecuteError {
     Cases(CompareError),
 }
 
-/// Compares a pair in a new folder and writes the files of the comparison and `report.json`; `resolved` is the text of both cases.
+/// Compares both cases of a task and writes the files of the comparison and `report.json`; `resolved` is the text of both cases.
 ///
 /// # Errors
 /// [`ExecuteError`]. A solver that fails and an interrupt are no errors here: the report says so.
 pub fn execute(
-    pair: &Pair<'_>,
-    (resolved, folder): (&str, &Path),
+    task: &Task<'_>,
+    resolved: &str,
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
 ) -> Result<Report, ExecuteError> {
     let (clock, processor_time) = (Instant::now(), ProcessorTime::start());
-    let _claim = folder::create(folder).map_err(RunError::from)?;
-    let (found, status, error) = match compare(pair, interrupt, watcher) {
+    let _claim = match task.mode {
+        Mode::New => folder::create(task.folder),
+        Mode::Resume => folder::take_up(task.folder, &task.folder.join(DIRECT_RUN)),
+    }
+    .map_err(RunError::from)?;
+    let (found, status, error) = match compare(task, interrupt, watcher) {
         Ok(found) => (Some(found), Status::Done, None),
         Err(CompareError::Interrupted) => (None, Status::Interrupted, None),
-        Err(CompareError::Solver(error)) => (None, Status::Failed, Some(error.to_string())),
+        Err(error @ (CompareError::Solver(_) | CompareError::Failed(_))) => {
+            (None, Status::Failed, Some(error.to_string()))
+        }
+        Err(CompareError::Run(error)) => return Err(error.into()),
         Err(misfit) => return Err(ExecuteError::Cases(misfit)),
     };
-    let mut report = report(pair, resolved, found.as_ref());
+    let mut report = report(task, resolved, found.as_ref());
     report.status = status;
     report.error = error;
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
-    report.cpu_s = processor_time.seconds();
+    // That of the direct simulation holds what processes before this one took.
+    let of_both = found.as_ref().and_then(|it| Some(it.network.processor_time_s? + it.direct.processor_time_s?));
+    report.cpu_s = of_both.or(processor_time.seconds());
     if let Some(found) = &found {
-        write(found, folder).map_err(RunError::from)?;
+        write(found, task.folder).map_err(RunError::from)?;
     }
-    report.write(folder).map_err(RunError::from)?;
+    report.write(task.folder).map_err(RunError::from)?;
     Ok(report)
 }
 
 /// The report of what was found; that of nothing where there is none.
-fn report(pair: &Pair<'_>, resolved: &str, found: Option<&Comparison>) -> Report {
-    let none = Side::default();
+fn report(task: &Task<'_>, resolved: &str, found: Option<&Comparison>) -> Report {
+    let (none, pair) = (Side::default(), &task.pair);
     let [network, direct] = found.map_or([&none; 2], |found| [&found.network, &found.direct]);
     let reached = found.map_or(0.0, |_| pair.direct.end);
     let length = Length::of(pair.direct);

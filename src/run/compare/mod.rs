@@ -12,11 +12,14 @@ mod network;
 mod page;
 mod picture;
 mod rank;
+mod states;
 
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
+pub use self::direct::RUN as DIRECT_RUN;
 pub use self::execute::{ExecuteError, execute};
 pub use self::files::{CURVES, PAGE, write};
 pub(super) use self::network::outlet_elements;
@@ -26,6 +29,7 @@ use crate::geometry::elements::Elements;
 use crate::input::Problem;
 use crate::math::{Bounds, Vec2};
 use crate::network::solver::NetworkSolver;
+use crate::run::execute::{Mode, RunError};
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
 use crate::solver::SolverError;
@@ -44,6 +48,19 @@ pub struct Pair<'a> {
     pub direct: &'a Case,
     /// Number of compared states of the direct simulation.
     pub records: usize,
+}
+
+/// A comparison in a folder.
+#[derive(Debug, Clone, Copy)]
+pub struct Task<'a> {
+    /// Both cases.
+    pub pair: Pair<'a>,
+    /// The case file of the direct simulation with all that was filled in.
+    pub resolved: &'a str,
+    /// The folder, which exists.
+    pub folder: &'a Path,
+    /// Whether the direct simulation is begun or taken up.
+    pub mode: Mode,
 }
 
 /// One of both cases.
@@ -80,12 +97,18 @@ pub enum CompareError {
     /// A case cannot be set up.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// A solver failed.
+    /// The network failed.
     #[error(transparent)]
     Solver(#[from] SolverError),
-    /// It was asked to stop.
+    /// The direct simulation failed.
+    #[error("{0}")]
+    Failed(String),
+    /// It was asked to stop, and can be taken up.
     #[error("interrupted")]
     Interrupted,
+    /// The folder of the direct simulation, or a file in it.
+    #[error(transparent)]
+    Run(#[from] RunError),
 }
 
 impl CompareError {
@@ -100,7 +123,7 @@ impl CompareError {
             Self::OtherSides { side, .. } => direct(&format!("sph.sides.{side}")),
             Self::Setup(misfit @ SetupError::Network(_)) => Some((Of::Network, misfit.problems())),
             Self::Setup(misfit) => Some((Of::Direct, misfit.problems())),
-            Self::Solver(_) | Self::Interrupted => None,
+            Self::Solver(_) | Self::Failed(_) | Self::Interrupted | Self::Run(_) => None,
         }
     }
 }
@@ -223,18 +246,20 @@ pub fn check(pair: &Pair<'_>) -> Result<(), CompareError> {
     fitting(pair).map(|_| ())
 }
 
-/// Runs both cases and compares them. `interrupt` stops the direct simulation after the present step, of which `watcher` is told.
+/// Runs both cases and compares them. `interrupt` stops the direct simulation after the present step, of which `watcher` is told; it can be taken
+/// up. The network is run again: it takes seconds.
 ///
 /// # Errors
 /// [`CompareError`].
-pub fn compare(pair: &Pair<'_>, interrupt: &AtomicBool, watcher: &mut dyn Watcher) -> Result<Comparison, CompareError> {
+pub fn compare(task: &Task<'_>, interrupt: &AtomicBool, watcher: &mut dyn Watcher) -> Result<Comparison, CompareError> {
+    let pair = &task.pair;
     let (mut solver, state) = fitting(pair)?;
     let boundaries = state.elements.iter().map(|element| NetworkState::curves(&element.boundary)).collect();
     let elements = Elements::new(boundaries, state.images());
     let bounds = setup::geometry(pair.network)?.bounds();
     let grid = Grid::new(bounds, &elements);
     let by_network = network::track(&mut solver, &grid)?;
-    let by_direct = direct::track(pair, (&state, &grid), interrupt, watcher)?;
+    let by_direct = direct::track(task, (&state, &grid), interrupt, watcher)?;
     let outlet = network::outlet_elements(&state);
     Ok(Comparison {
         titles: [pair.network.title.clone(), pair.direct.title.clone()],
