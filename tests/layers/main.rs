@@ -2,9 +2,10 @@
 //!
 //! Reads the sources as text: comments are cut off, every path that begins with `crate::` counts.
 
+mod circles;
 mod picture;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// What each module of the crate may import besides itself. Output code sees snapshots, so `io` sees neither case nor solver
@@ -58,10 +59,6 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
     ),
 ];
 
-/// Folders whose files form a chain: none imports a file that leads back to it.
-const CHAINS: [&str; 6] =
-    ["wetting", "interface", "interface/menisci", "sph/surface_force", "sph/measures", "benchmarks"];
-
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
 const ONE_PLACE: [(&str, &[&str]); 18] = [
     ("parry2d_f64", &["geometry/"]),
@@ -96,6 +93,11 @@ impl Source {
     /// The module of the crate it belongs to: `sph` for `sph/poisson/solve.rs`, `math` for `math.rs`.
     fn module(&self) -> &str {
         self.path.split('/').next().unwrap_or_default().trim_end_matches(".rs")
+    }
+
+    /// Whether it holds tests only.
+    fn is_of_tests(&self) -> bool {
+        self.path.ends_with("/tests.rs") || self.path.contains("/tests/")
     }
 
     /// The text up to its tests.
@@ -232,7 +234,7 @@ fn imports_of_modules() -> picture::Imports {
     let is_module = |source: &&Source| !matches!(source.path.as_str(), "main.rs" | "lib.rs");
     for source in sources().iter().filter(is_module) {
         let of_module = found.entry(source.module().to_owned()).or_default();
-        if source.path.ends_with("/tests.rs") || source.path.contains("/tests/") {
+        if source.is_of_tests() {
             continue;
         }
         let code = source.code();
@@ -257,58 +259,6 @@ fn the_picture_of_the_structure_is_that_of_the_source() {
         shown == drawn,
         "docs/figures/structure.svg is not of this source: MENISCUS_BLESS=1 cargo test --release --test layers"
     );
-}
-
-/// The files and folders of a folder by name, each with those that it imports outside of its tests; `mod` is the folder itself.
-fn imports_within(folder: &str) -> BTreeMap<String, BTreeSet<String>> {
-    let sources: Vec<Source> = sources()
-        .into_iter()
-        .filter(|source| source.path.starts_with(&format!("{folder}/")))
-        .filter(|source| !source.path.ends_with("/tests.rs") && !source.path.contains("/tests/"))
-        .collect();
-    let inner = |source: &Source| source.path[folder.len() + 1..].to_owned();
-    let name = |source: &Source| inner(source).split('/').next().unwrap_or_default().trim_end_matches(".rs").to_owned();
-    let names: BTreeSet<String> = sources.iter().map(name).collect();
-    let mut found = BTreeMap::<String, BTreeSet<String>>::new();
-    for source in &sources {
-        let code = source.code();
-        let mut heads = heads_behind(&code, &format!("crate::{}::", folder.replace('/', "::")));
-        if !inner(source).contains('/') {
-            heads.extend(heads_behind(&code, "super::"));
-        }
-        let importer = name(source);
-        let of_file = found.entry(importer.clone()).or_default();
-        for (_, head) in heads {
-            of_file.insert(if names.contains(&head) { head } else { "mod".to_owned() });
-        }
-        if importer == "mod" {
-            of_file.clear();
-            let leads_to = |child: &&String| {
-                let path = format!("{child}::");
-                code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(is_word))
-            };
-            of_file.extend(names.iter().filter(leads_to).cloned());
-        }
-        of_file.remove(&importer);
-    }
-    found
-}
-
-#[test]
-fn the_files_of_a_chain_import_each_other_in_one_direction() {
-    let mut violations = Vec::new();
-    for folder in CHAINS {
-        let mut left = imports_within(folder);
-        assert!(left.len() > 4, "{folder}: {left:?}");
-        // Files that import none of those left are the end of the chain.
-        while let Some(end) = left.iter().find(|(_, imported)| imported.is_empty()).map(|(name, _)| name.clone()) {
-            left.remove(&end);
-            left.values_mut().for_each(|imported| _ = imported.remove(&end));
-        }
-        violations
-            .extend(left.iter().map(|(name, imported)| format!("src/{folder}/{name}: in a circle by {imported:?}")));
-    }
-    assert_none(&violations);
 }
 
 #[test]

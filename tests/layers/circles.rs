@@ -1,0 +1,145 @@
+//! Circles of imports: files and folders of one folder that import each other, directly or through further ones.
+//!
+//! Each folder of the source is a graph of its own, with its files and subfolders as nodes. `mod` is what the folder itself defines or shows.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::{Source, heads_behind, is_word, sources};
+
+/// For each node those that it imports outside of its tests.
+type Imports = BTreeMap<String, BTreeSet<String>>;
+
+/// The circles that exist, each as its folder and its files. A new one fails the test; one that is gone leaves this list.
+const KNOWN: [(&str, &str); 27] = [
+    ("case", "check checked film initial measures network numerics open raw resolve shapes sides sph steady wetting"),
+    ("case/raw", "measures mod sides sph wetting"),
+    ("cli", "arguments compare couple run verify_arguments"),
+    ("cli", "new new_pack"),
+    ("geometry/export", "dxf mask mod text"),
+    ("geometry/import", "build cut window"),
+    ("geometry/import", "closing contour"),
+    ("geometry/import", "options units"),
+    ("geometry/import/svg", "mod walk"),
+    ("geometry/pack", "array micromodel mod random"),
+    ("network", "cycles moment"),
+    ("network", "dynamic flow layers measures openpnm pictures setup solver state summary tables"),
+    ("network/displacement", "driven event fronts involved mod standing"),
+    ("network/dynamic", "goals graph known mod step"),
+    ("network/dynamic", "measures solver"),
+    ("run", "claim folder"),
+    ("run/compare", "direct execute files measures mod network page picture states"),
+    ("sph", "cells pairs"),
+    ("sph", "fields flow method motion projection setting state surface_force time_step wetting"),
+    ("sph/fill", "interface lattice mod walls"),
+    ("sph/open", "buffer extrapolate mod pressure side through"),
+    ("sph/poisson", "assemble cholesky dirichlet mod multigrid solve"),
+    ("sph/projection", "mod pressure"),
+    ("sph/setup", "frozen mod open_sides"),
+    ("study", "measured results runs"),
+    ("thin_film", "cells grid ring"),
+    ("thin_film", "diagrams measures solver"),
+];
+
+/// The folders of the source, from the paths of their files.
+fn folders(sources: &[Source]) -> BTreeSet<&str> {
+    sources.iter().flat_map(|source| source.path.match_indices('/').map(|(at, _)| &source.path[..at])).collect()
+}
+
+/// The first parts of the paths that begin with exactly `n` times `super::`.
+fn heads_above(code: &str, n: usize) -> Vec<String> {
+    let prefix = "super::".repeat(n);
+    // Each longer chain ends with the same prefix, behind another `super::`.
+    let marked = code.replace(&format!("super::{prefix}"), "longer::");
+    heads_behind(&marked, &prefix).into_iter().map(|(_, head)| head).collect()
+}
+
+/// The imports between the files and subfolders of a folder.
+fn imports_within(folder: &str, sources: &[Source]) -> Imports {
+    let inside: Vec<(&Source, &str)> = sources
+        .iter()
+        .filter(|source| !source.is_of_tests())
+        .filter_map(|source| Some((source, source.path.strip_prefix(folder)?.strip_prefix('/')?)))
+        .collect();
+    let name = |inner: &str| inner.split('/').next().unwrap_or_default().trim_end_matches(".rs").to_owned();
+    let names: BTreeSet<String> = inside.iter().map(|(_, inner)| name(inner)).collect();
+    let mut found = Imports::new();
+    for (source, inner) in inside {
+        let (code, importer) = (source.code(), name(inner));
+        let imported = if importer == "mod" {
+            let leads_to = |child: &&String| {
+                let path = format!("{child}::");
+                code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(is_word))
+            };
+            names.iter().filter(leads_to).cloned().collect()
+        } else {
+            let mut heads = heads_behind(&code, &format!("crate::{}::", folder.replace('/', "::")));
+            let depth = inner.matches('/').count() + usize::from(!inner.ends_with("mod.rs"));
+            heads.extend(heads_above(&code, depth).into_iter().map(|head| (0, head)));
+            let node = |head: String| if names.contains(&head) { head } else { "mod".to_owned() };
+            heads.into_iter().map(|(_, head)| node(head)).collect::<BTreeSet<_>>()
+        };
+        let of_importer = found.entry(importer.clone()).or_default();
+        of_importer.extend(imported);
+        of_importer.remove(&importer);
+    }
+    found
+}
+
+/// All that a node leads to.
+fn reached(from: &str, imports: &Imports) -> BTreeSet<String> {
+    let (mut found, mut left) = (BTreeSet::new(), vec![from.to_owned()]);
+    while let Some(node) = left.pop() {
+        let next = imports.get(&node).into_iter().flatten().filter(|&next| found.insert(next.clone()));
+        left.extend(next.cloned().collect::<Vec<_>>());
+    }
+    found
+}
+
+/// The circles of a graph: the nodes that lead to each other.
+fn circles(imports: &Imports) -> BTreeSet<String> {
+    let reach: BTreeMap<&String, BTreeSet<String>> =
+        imports.keys().map(|node| (node, reached(node, imports))).collect();
+    let leads = |a: &String, b: &String| reach.get(a).is_some_and(|of_a| of_a.contains(b));
+    let in_a_circle = imports.keys().filter(|node| leads(node, node));
+    in_a_circle
+        .map(|node| {
+            imports
+                .keys()
+                .filter(|other| leads(node, other) && leads(other, node))
+                .cloned()
+                .collect::<Vec<_>>()
+                .join(" ")
+        })
+        .collect()
+}
+
+#[test]
+fn no_folder_has_a_circle_of_imports_that_is_not_known() {
+    let sources = sources();
+    let found: Vec<(&str, String)> = folders(&sources)
+        .into_iter()
+        .flat_map(|folder| circles(&imports_within(folder, &sources)).into_iter().map(move |files| (folder, files)))
+        .collect();
+    let known: Vec<(&str, String)> = KNOWN.iter().map(|&(folder, files)| (folder, files.to_owned())).collect();
+    let only_in = |these: &[(&str, String)], those: &[(&str, String)]| {
+        let rows = these.iter().filter(|it| !those.contains(it));
+        rows.map(|(folder, files)| format!("    (\"{folder}\", \"{files}\"),\n")).collect::<String>()
+    };
+    let (new, gone) = (only_in(&found, &known), only_in(&known, &found));
+    assert!(new.is_empty() && gone.is_empty(), "new circles:\n{new}circles that are gone from the source:\n{gone}");
+}
+
+#[test]
+fn a_circle_is_found_through_further_files_and_folders() {
+    let source = |path: &str, code: &str| Source { path: path.to_owned(), lines: vec![code.to_owned()] };
+    let sources = [
+        source("sph/mod.rs", "pub mod a;"),
+        source("sph/a.rs", "use super::b::B;"),
+        source("sph/b.rs", "use crate::sph::c::{C, D};"),
+        source("sph/c/mod.rs", "mod inner;"),
+        source("sph/c/inner.rs", "use super::super::a::A; use super::other::O;"),
+        source("sph/d.rs", "use super::a::A;"),
+    ];
+    assert_eq!(circles(&imports_within("sph", &sources)), BTreeSet::from(["a b c".to_owned()]));
+    assert_eq!(folders(&sources), BTreeSet::from(["sph", "sph/c"]));
+}
