@@ -414,12 +414,13 @@ fn three_discs_drain_like_their_mirror_image() {
 }
 
 /// Asserts that discs have a network, the same however they lie.
-fn has_network(size: [f64; 2], discs: &[[f64; 3]], sides: [Pairs; 2]) {
+fn has_network(size: [f64; 2], discs: &[[f64; 3]], sides: [Pairs; 2]) -> Outcome {
     let grains = discs.iter().map(|&[x, y, r]| Grain::Disc([x, y], r)).collect();
     let scene =
         Scene { size, grains, sides, flow: usize::from(sides[0] != Pairs::Open), angle_deg: 0.0, trapping: true };
     let found = failures_of(&scene);
     assert!(found.is_empty(), "{found:?}");
+    scene.outcome(&STILL).unwrap()
 }
 
 #[test]
@@ -427,7 +428,11 @@ fn posts_on_a_square_and_discs_in_tall_boxes_have_a_network() {
     let posts = [[1e-4, 1e-4, 4e-5], [3e-4, 1e-4, 4e-5], [1e-4, 3e-4, 4e-5], [3e-4, 3e-4, 4e-5]];
     let [open, walls] = [Pairs::Open, Pairs::Walls];
     for sides in [[open, walls], [walls, open], [walls, walls]] {
-        has_network([4e-4, 4e-4], &posts, sides);
+        let drained = has_network([4e-4, 4e-4], &posts, sides);
+        if sides.contains(&open) {
+            // Two posts are 120 um apart.
+            assert!((drained.steps[1].0 - 2.0 / 1.2e-4).abs() < 1e-9 * 2.0 / 1.2e-4, "{:?}", drained.steps);
+        }
         has_network([1.0, 3.0], &[[0.5, 1.5, 0.05]], sides);
         has_network([1.0, 4.0], &[[0.3, 1.0, 0.15], [0.7, 2.1, 0.12], [0.4, 3.0, 0.15]], sides);
     }
