@@ -6,7 +6,10 @@
 use crate::geometry::curve::{ClosestPoint, Curve};
 use crate::math::Vec2;
 
-/// The closest points of two curves that do not cross, the first one on `one`.
+/// Squares of distances that differ by less than this share are equal.
+const LEVEL: f64 = 1e-9;
+
+/// The closest points of two curves that do not cross, the first one on `one`. Where the distance is the same along both, one pair stands in the middle.
 #[must_use]
 pub fn closest_points(one: &Curve, other: &Curve) -> [ClosestPoint; 2] {
     let from_one = |x: Vec2| {
@@ -30,7 +33,19 @@ pub fn closest_points(one: &Curve, other: &Curve) -> [ClosestPoint; 2] {
     offer(from_other(other.point(0.0)));
     offer(from_other(other.point(1.0)));
     match (*one, *other) {
-        (Curve::Segment { .. }, Curve::Segment { .. }) => {}
+        (Curve::Segment { .. }, Curve::Segment { .. }) => {
+            // Where they run level, the middle of the part that they share.
+            let ends = [
+                from_one(one.point(0.0)),
+                from_one(one.point(1.0)),
+                from_other(other.point(0.0)),
+                from_other(other.point(1.0)),
+            ];
+            let equal =
+                ends.iter().filter(|pair| squared_distance(pair) <= least * (1.0 + LEVEL)).map(|pair| pair[0].u);
+            let (low, high) = equal.fold((1.0_f64, 0.0_f64), |(low, high), u| (low.min(u), high.max(u)));
+            return if high > low { from_one(one.point(0.5 * (low + high))) } else { best };
+        }
         (Curve::Segment { .. }, Curve::Arc { center, .. }) => offer(from_one(center)),
         (Curve::Arc { center, .. }, Curve::Segment { .. }) => offer(from_other(center)),
         (Curve::Arc { center, radius, .. }, Curve::Arc { center: facing, .. }) => {

@@ -13,4 +13,5 @@ mod packs;
 mod permeability;
 mod pores;
 mod scenes;
+mod symmetry;
 mod tutorial;

@@ -56,6 +56,10 @@ impl Classifier {
         if slopes.iter().all(|slope| !matches!(slope, Slope::Level(_))) {
             return decide(slopes.map(|slope| end(&slope)), at).into_iter().collect();
         }
+        if !at.is_empty(walls) {
+            // Just beyond the end of a level passage, which is found from within it.
+            return Vec::new();
+        }
         let (ahead, first) = follow(walls, at, t);
         let (mut passage, ends) = if first == End::Closed {
             (ahead, [End::Closed; 2])
@@ -215,7 +219,14 @@ fn axis(walls: &Walls, at: &Opposite, t: Vec2, along: &[Along; 2]) -> Option<Cur
     });
     let Some(center) = center else {
         let length = (0..2).map(|i| remaining(walls, &at.contacts[i], &along[i], t)).fold(f64::INFINITY, f64::min);
-        return (length > 0.0).then(|| Curve::Segment { a: at.center, b: at.center + t * length });
+        // Between two corners `t` is off the direction of the walls by rounding, which a long passage multiplies.
+        let tangent = |along: &Along| match along {
+            Along::Piece(link) => walls.curve(link.wall, link.shift).tangent(0.5),
+            Along::Vertex(..) => t,
+        };
+        let with_t = |tangent: Vec2| tangent * tangent.dot(&t).signum();
+        let direction = along.iter().map(|along| with_t(tangent(along))).sum::<Vec2>().normalize();
+        return (length > 0.0).then(|| Curve::Segment { a: at.center, b: at.center + direction * length });
     };
     let spoke = at.center - center;
     let sign = cross(spoke, t).signum();

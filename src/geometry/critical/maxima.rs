@@ -4,7 +4,7 @@
 //! first guess need not name the right pieces. A maximum lies within the triangle of three of its wall points.
 
 use crate::geometry::critical::candidates::Triple;
-use crate::geometry::critical::opposite::slack;
+use crate::geometry::critical::opposite::{TIE, slack};
 use crate::geometry::critical::walls::{Contact, Shift, Walls, plus};
 use crate::math::Vec2;
 
@@ -19,8 +19,8 @@ pub(crate) struct Maximum {
     pub contacts: Vec<Contact>,
 }
 
-/// Three wall points that leave less than this angle (rad) to a half circle are two opposite ones.
-const HALF_CIRCLE: f64 = 1e-7;
+/// Three wall points that leave less than this angle (rad) to a half circle are two opposite ones: the center is within [`TIE`] of their middle.
+const HALF_CIRCLE: f64 = 2.0 * TIE;
 
 const NEWTON_STEPS: usize = 40;
 const EXCHANGES: usize = 12;
@@ -65,7 +65,7 @@ fn found(walls: &Walls, x: Vec2, radius: f64, nearest: &Contact) -> Option<Maxim
 /// A maximum with all its wall points.
 pub(crate) fn at(walls: &Walls, center: Vec2, radius: f64) -> Maximum {
     let y = walls.wrapped(center).0;
-    let mut contacts = walls.contacts(y, radius + slack(walls, radius));
+    let mut contacts = walls.contacts(y, radius * (1.0 + TIE) + slack(walls, radius));
     // Points of the same place are one.
     let mut kept: Vec<Contact> = Vec::new();
     contacts.retain(|contact| {

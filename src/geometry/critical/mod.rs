@@ -15,13 +15,13 @@ pub(crate) mod walls;
 use crate::geometry::critical::candidates::{Pair, Samples, candidates};
 use crate::geometry::critical::level::{Classifier, Kind};
 use crate::geometry::critical::maxima::{Maximum, center_of_arc, maximum};
-use crate::geometry::critical::opposite::{Opposite, opposite_points};
+use crate::geometry::critical::opposite::{Opposite, TIE, opposite_points};
 use crate::geometry::critical::slope::is_opening;
 use crate::geometry::critical::walls::{Contact, Walls, minus};
 use crate::math::Vec2;
 
 /// Critical places nearer than this share of their distance from the walls are one.
-const SAME_PLACE: f64 = 1e-6;
+const SAME_PLACE: f64 = 4.0 * TIE;
 
 /// The critical points within the domain.
 pub(crate) struct CriticalPoints {
@@ -39,7 +39,7 @@ impl CriticalPoints {
         let (saddles, mut maxima) = between_two(walls, &pairs);
         maxima.extend(triples.iter().filter_map(|triple| maximum(walls, triple)));
         maxima.extend((0..walls.walls.len()).filter_map(|wall| center_of_arc(walls, wall)));
-        let maxima = one_of_each(maxima, |maximum| (maximum.center, maximum.radius));
+        let maxima = one_of_each(maxima, |maximum| (walls.folded(maximum.center), maximum.radius));
         Self { saddles, maxima }
     }
 }
@@ -51,7 +51,7 @@ fn between_two(walls: &Walls, pairs: &[Pair]) -> (Vec<Opposite>, Vec<Maximum>) {
         let is_first = k == 0 || (pairs[k - 1].walls, pairs[k - 1].shift) != (pair.walls, pair.shift);
         found.extend(opposite_points(walls, pair, is_first).into_iter().map(|at| in_cell(walls, at)));
     }
-    let found = one_of_each(found, |at| (at.center, at.half));
+    let found = one_of_each(found, |at| (walls.folded(at.center), at.half));
     let mut classifier = Classifier::default();
     let kinds: Vec<Kind> = found.iter().flat_map(|at| classifier.classify(walls, at)).collect();
     let (mut saddles, mut maxima) = (Vec::new(), Vec::new());
@@ -62,7 +62,7 @@ fn between_two(walls: &Walls, pairs: &[Pair]) -> (Vec<Opposite>, Vec<Maximum>) {
             Kind::Maximum(at) => maxima.push(maxima::at(walls, at.center, at.half)),
         }
     }
-    (one_of_each(saddles, |at| (at.center, at.half)), maxima)
+    (one_of_each(saddles, |at| (walls.folded(at.center), at.half)), maxima)
 }
 
 /// The same with its middle in the half-open cell.
@@ -73,7 +73,7 @@ fn in_cell(walls: &Walls, at: Opposite) -> Opposite {
     Opposite { contacts: at.contacts.map(moved), center, half: at.half }
 }
 
-/// The things whose centers differ, sorted by them; of equal ones the first.
+/// The things whose centers differ, sorted by them; of equal ones the largest.
 fn one_of_each<T>(mut found: Vec<T>, place: impl Fn(&T) -> (Vec2, f64)) -> Vec<T> {
     found.sort_by(|a, b| {
         let (p, q) = (place(a), place(b));
@@ -83,10 +83,11 @@ fn one_of_each<T>(mut found: Vec<T>, place: impl Fn(&T) -> (Vec2, f64)) -> Vec<T
     for thing in found {
         let (x, size) = place(&thing);
         let near = SAME_PLACE * size;
-        let is_known =
-            kept.iter().rev().map(&place).take_while(|(y, _)| x.x - y.x <= near).any(|(y, _)| (x - y).norm() <= near);
-        if !is_known {
-            kept.push(thing);
+        let mut known = kept.iter_mut().rev().take_while(|other| x.x - place(other).0.x <= near);
+        match known.find(|other| (x - place(other).0).norm() <= near) {
+            Some(other) if place(other).1 < size => *other = thing,
+            Some(_) => {}
+            None => kept.push(thing),
         }
     }
     kept

@@ -15,6 +15,10 @@ pub(crate) const SAME_DIRECTION: f64 = 1e-7;
 /// Differences of distances, over the distance, that are rounding.
 pub(crate) const SAME_DISTANCE: f64 = 1e-9;
 
+/// Share of a distance within which further walls count as equally near. Below it a saddle and a maximum beside it are one thing: they differ in
+/// height by no more than its square.
+pub(crate) const TIE: f64 = 1e-6;
+
 /// Two opposite wall points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Opposite {
@@ -36,6 +40,29 @@ impl Opposite {
     /// The unit vector from the first point to the second.
     pub fn across(&self) -> Vec2 {
         (self.contacts[1].point - self.contacts[0].point) / (2.0 * self.half)
+    }
+
+    /// Whether a unit vector from the middle leads to neither of the two points nor to a neighbor of one.
+    pub fn leads_elsewhere(&self, v: Vec2) -> bool {
+        // A wall point within this angle in rad of one of the two is a neighbor of that; it follows from the slack of distances.
+        let beside = (10.0 * SAME_DISTANCE).sqrt();
+        v.dot(&self.across()).abs() < 1.0 - 0.5 * beside * beside
+    }
+
+    /// Whether no wall is nearer to the middle than the two points, up to rounding.
+    pub fn is_empty(&self, walls: &Walls) -> bool {
+        walls.distance(self.center) >= self.half - slack(walls, self.half)
+    }
+
+    /// The same where a third wall may be nearer within [`TIE`].
+    fn is_nearly_empty(&self, walls: &Walls) -> bool {
+        let (distance, inner) = (walls.distance(self.center), self.half - slack(walls, self.half));
+        distance >= inner
+            || distance >= self.half * (1.0 - TIE)
+                && walls
+                    .contacts(self.center, inner)
+                    .iter()
+                    .all(|contact| self.leads_elsewhere((contact.point - self.center).normalize()))
     }
 }
 
@@ -69,7 +96,7 @@ pub(crate) fn opposite_points(walls: &Walls, pair: &Pair, include_ends: bool) ->
         if walls.is_seen(&opposite.contacts[0], across)
             && walls.is_seen(&opposite.contacts[1], -across)
             && walls.is_within(opposite.center)
-            && walls.distance(opposite.center) >= opposite.half - slack(walls, opposite.half)
+            && opposite.is_nearly_empty(walls)
         {
             found.push(opposite);
         }
@@ -143,7 +170,11 @@ fn angle_place(arc: &Curve, direction: Vec2) -> Option<f64> {
     let Curve::Arc { start, sweep, .. } = *arc else { return None };
     let turned = ((direction.y.atan2(direction.x) - start) * sweep.signum()).rem_euclid(std::f64::consts::TAU);
     let u = turned / sweep.abs();
-    (u < 1.0 && (u > 0.0 || arc.is_closed())).then_some(u)
+    if arc.is_closed() {
+        // Just before the start of a circle the angle rounds to a whole turn.
+        return Some(if u < 1.0 { u } else { 0.0 });
+    }
+    (u > 0.0 && u < 1.0).then_some(u)
 }
 
 /// Parameters within a piece at which its normal line goes through `x`.

@@ -4,7 +4,7 @@
 //! the axis has the second derivative k₁ / (1 + k₁ h) + k₂ / (1 + k₂ h), a vertex counting as k → ∞. A third wall point at the same distance
 //! lets it fall at once. Where the sum vanishes the passage is level there.
 
-use crate::geometry::critical::opposite::{Opposite, SAME_DIRECTION, SAME_DISTANCE, slack};
+use crate::geometry::critical::opposite::{Opposite, SAME_DIRECTION, SAME_DISTANCE, TIE, slack};
 use crate::geometry::critical::walls::{Contact, Link, Sides, Walls};
 use crate::geometry::curve::Curve;
 use crate::math::{Vec2, perpendicular};
@@ -37,13 +37,15 @@ pub(crate) fn slope(walls: &Walls, at: &Opposite, t: Vec2) -> Slope {
         return Slope::Open;
     }
     let across = at.across();
-    // A wall point within this angle of one of the two is a neighbor of that; it follows from the slack of distances.
-    let beside = (10.0 * SAME_DISTANCE).sqrt();
+    let slack = slack(walls, at.half);
+    // A wall ahead is met after the way that its distance exceeds by, over the cosine of its direction.
     let blocks = |contact: &Contact| {
-        let v = (contact.point - at.center) / at.half;
-        v.dot(&t) > beside && v.dot(&across).abs() < 1.0 - 0.5 * beside * beside
+        let v = contact.point - at.center;
+        let distance = v.norm();
+        let ahead = v.dot(&t) / distance;
+        ahead > 0.0 && at.leads_elsewhere(v / distance) && distance - at.half <= (TIE * at.half * ahead).max(slack)
     };
-    if walls.contacts(at.center, at.half + slack(walls, at.half)).iter().any(blocks) {
+    if walls.contacts(at.center, at.half * (1.0 + TIE) + slack).iter().any(blocks) {
         return Slope::Falls;
     }
     let sides = [side(walls, &at.contacts[0], across, t), side(walls, &at.contacts[1], -across, t)];

@@ -180,6 +180,19 @@ impl Walls {
         (x - self.offset(shift), shift)
     }
 
+    /// `x` in the cell; along periodic axes what is next to the far side stands next to the near one, so that images of one place are neighbors.
+    pub fn folded(&self, x: Vec2) -> Vec2 {
+        // Share of a period: more than what places differ by that are one.
+        const NEXT: f64 = 1e-5;
+        let (mut y, size) = (self.wrapped(x).0, self.domain.size());
+        for i in (0..2).filter(|&i| self.periodic[i]) {
+            if y[i] > self.domain.max[i] - NEXT * size[i] {
+                y[i] -= size[i];
+            }
+        }
+        y
+    }
+
     /// Whether `x` lies in the domain, its sides included.
     pub fn is_within(&self, x: Vec2) -> bool {
         self.domain.grown(self.tolerance).contains(self.wrapped(x).0)

@@ -235,7 +235,7 @@ fn contact(piece: &Piece, s: f64) -> Contact {
         Hand::Left => u,
         Hand::Right => 1.0 - u,
     };
-    Contact { part: piece.part, u, point: piece.point(s), advance: piece.advance + s * piece.length }
+    Contact { part: piece.part, u, point: piece.point(s), advance: piece.advance_at(s) }
 }
 
 /// Where the chord of the throat ends on a wall.

@@ -92,11 +92,15 @@ impl Walls {
         if path.is_empty() { vec![Leg { start, end: start }] } else { path }
     }
 
-    /// A meniscus with one contact at the chord, else as near to it along a wall as there is one.
+    /// A meniscus with both contacts at the chord; else one at the chord, or as near to it along a wall as there is one, and of two such menisci that
+    /// whose other contact is nearer to the chord.
     fn start(&self, chord: (usize, usize)) -> Option<Station> {
         let (m, n) = (self.left.len(), self.right.len());
         if m == 0 || n == 0 {
             return None;
+        }
+        if let Some(place) = self.on_chord(chord) {
+            return Some(self.station(place));
         }
         let end = |index: usize, len: usize| if index < len { (index, 0.0) } else { (len - 1, 1.0) };
         let answered = |on: &Piece, (piece, s): (&Piece, f64)| {
@@ -117,7 +121,37 @@ impl Walls {
                 outward(chord.0, m).find_map(found)
             })
         };
-        of_left.or_else(of_right).map(|place| self.station(place))
+        let off_chord = |place: &Place| {
+            let (left, right) = (&self.left[place.left.0], &self.right[place.right.0]);
+            left.advance_at(place.left.1).abs() + right.advance_at(place.right.1).abs()
+        };
+        let nearest = of_left.into_iter().chain(of_right()).min_by(|a, b| off_chord(a).total_cmp(&off_chord(b)));
+        nearest.map(|place| self.station(place))
+    }
+
+    /// The contacts at both ends of the chord, where the walls allow one bend there: at an edge a range of them.
+    fn on_chord(&self, chord: (usize, usize)) -> Option<Place> {
+        let end = |index: usize, pieces: &[Piece]| if index < pieces.len() { (index, 0.0) } else { (index - 1, 1.0) };
+        let (left, right) = (end(chord.0, &self.left), end(chord.1, &self.right));
+        let (l, r) = (&self.left[left.0], &self.right[right.0]);
+        let d = r.point(right.1) - l.point(left.1);
+        let psi = d.y.atan2(d.x);
+        // Middle and half width of the range of bends.
+        let range = |piece: &Piece, s: f64, bend: &dyn Fn(f64) -> f64| {
+            let [from, to] = if piece.is_edge() { piece.direction } else { [piece.direction(s); 2] };
+            (wrapped(bend(0.5 * (from + to))), 0.5 * (to - from).abs())
+        };
+        let (of_left, of_right) = (range(l, left.1, &|mu| mu - psi), range(r, right.1, &|mu| psi + PI - mu));
+        let low = (of_left.0 - of_left.1).max(of_right.0 - of_right.1);
+        let high = (of_left.0 + of_left.1).min(of_right.0 + of_right.1);
+        // Rounding of directions.
+        if !(low <= high + SNAP) {
+            return None;
+        }
+        let bend = 0.5 * (low + high);
+        let at = |piece: &Piece, s: f64, mu: f64| if piece.is_edge() { held(piece.parameter(mu), 0.0, 1.0) } else { s };
+        let (s, t) = (at(l, left.1, psi + bend), at(r, right.1, psi + PI - bend));
+        Some(Place { left: (left.0, s), right: (right.0, t) })
     }
 
     fn follow(&self, start: Station, way: Way) -> Vec<Leg> {

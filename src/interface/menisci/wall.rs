@@ -124,6 +124,11 @@ impl Piece {
         unit(self.direction(s) - self.hand.sign() * FRAC_PI_2)
     }
 
+    /// Length of wall from the chord to the contact.
+    pub fn advance_at(&self, s: f64) -> f64 {
+        self.advance + s * self.length
+    }
+
     /// The change of the contact point and of the direction with `s`.
     pub fn rates(&self, s: f64) -> (Vec2, f64) {
         let turn = self.direction[1] - self.direction[0];

@@ -149,5 +149,6 @@ impl Displacement {
     pub fn complete(&mut self, element: usize) {
         let mesh = self.mesh.clone();
         self.fill(&mesh, &[element]);
+        self.settle(&mesh);
     }
 }

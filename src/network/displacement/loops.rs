@@ -11,6 +11,9 @@ use crate::geometry::intersect::meeting_places;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
 
+/// Lengths that differ by less than this share are equal.
+const SAME_LENGTH: f64 = 1e-9;
+
 /// What follows a stretch of wall on a loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Crossing {
@@ -133,7 +136,8 @@ impl Loop {
         -curves.iter().map(|curve| curve.area_about(origin)).sum::<f64>()
     }
 
-    /// The two parts of the loop on both sides of the shortest segment that divides it; none where there is no such segment.
+    /// The two parts of the loop on both sides of the shortest segment that divides it; none where there is no such segment. Segments of equal
+    /// length that cross each other, as the diagonals of a square array, divide nothing.
     fn divided(&self, segment: usize) -> Option<[Self; 2]> {
         let count = self.walls.len();
         let mut candidates: Vec<(f64, usize, usize, WallPoint, WallPoint)> = Vec::new();
@@ -149,8 +153,18 @@ impl Loop {
         }
         candidates.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
         let curves = self.curves();
-        let found = candidates.into_iter().find(|(_, _, _, p, q)| holds_segment(&curves, p.point, q.point));
-        found.map(|(_, a, b, p, q)| self.cut((a, p), (b, q), segment))
+        let mut left =
+            candidates.into_iter().filter(|(_, _, _, p, q)| holds_segment(&curves, p.point, q.point)).peekable();
+        while let Some(shortest) = left.next() {
+            let mut equal = vec![shortest];
+            equal.extend(std::iter::from_fn(|| left.next_if(|next| next.0 <= shortest.0 * (1.0 + SAME_LENGTH))));
+            let ends = |it: &(f64, usize, usize, WallPoint, WallPoint)| [it.3.point, it.4.point];
+            let is_free = |one: &&_| equal.iter().all(|other| !do_cross(ends(one), ends(other)));
+            if let Some(&(_, a, b, p, q)) = equal.iter().find(is_free) {
+                return Some(self.cut((a, p), (b, q), segment));
+            }
+        }
+        None
     }
 
     fn cut(&self, (a, p): (usize, WallPoint), (b, q): (usize, WallPoint), segment: usize) -> [Self; 2] {
@@ -171,6 +185,13 @@ impl Loop {
         };
         [part((a, p), (b, q), 0), part((b, q), (a, p), 1)]
     }
+}
+
+/// Whether two segments cross each other strictly between their ends.
+fn do_cross([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> bool {
+    let slack = SAME_LENGTH * (b - a).norm() * (d - c).norm();
+    let are_apart = |one: f64, other: f64| one.min(other) < -slack && one.max(other) > slack;
+    are_apart(cross(b - a, c - a), cross(b - a, d - a)) && are_apart(cross(d - c, a - c), cross(d - c, b - c))
 }
 
 /// Whether the segment between two points of the walls of a loop lies in it without meeting any of its curves in between.
@@ -236,6 +257,11 @@ fn project(wall: &[WallPiece], x: Vec2) -> Option<WallPoint> {
     found.map(|(piece, closest)| WallPoint::of(piece, closest))
 }
 
+/// How many of two points are ends of their pieces.
+fn ends(one: &WallPoint, other: &WallPoint) -> usize {
+    [one, other].into_iter().filter(|it| it.u == 0.0 || it.u == 1.0).count()
+}
+
 /// The closest points of two stretches of wall.
 fn closest_points(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, WallPoint)> {
     // Up to so many pairs of pieces are all tried.
@@ -248,8 +274,15 @@ fn closest_points(one: &[WallPiece], other: &[WallPiece]) -> Option<(WallPoint, 
         for (j, b) in other.iter().enumerate() {
             let [p, q] = closest(&a.curve, &b.curve);
             let distance = (p.point - q.point).norm();
-            if best.is_none_or(|(least, ..)| distance < least) {
-                best = Some((distance, WallPoint::of(i, p), WallPoint::of(j, q)));
+            let found = (distance, WallPoint::of(i, p), WallPoint::of(j, q));
+            // A corner is an end of two pieces; where one of them runs level with the other wall, the middle of both counts.
+            let is_closer = |best: (f64, WallPoint, WallPoint)| {
+                let rounding = SAME_LENGTH * distance;
+                distance < best.0 - rounding
+                    || distance <= best.0 + rounding && ends(&found.1, &found.2) < ends(&best.1, &best.2)
+            };
+            if best.is_none_or(is_closer) {
+                best = Some(found);
             }
         }
     }

@@ -73,10 +73,9 @@ pub(super) fn loop_of(region: &Region) -> Loop {
         found.crossings.push(crossing);
     }
     // A whole side that no wall meets is no part of the way along the walls, which goes around a periodic domain.
+    let apart: Vec<bool> = (0..found.crossings.len()).map(|k| misses_walls(&found, k)).collect();
     for k in (0..found.crossings.len()).rev() {
-        let misses_walls = found.wall_before(k) != Vec2::zeros() || found.wall_after(k) != Vec2::zeros();
-        let is_apart = misses_walls && matches!(found.crossings[k].gate, GateId::Opening(_));
-        if is_apart && found.crossings.len() > 1 {
+        if apart[k] && found.crossings.len() > 1 {
             let opening = found.crossings.remove(k);
             found.apart.push(opening);
             let before = found.walls.remove(k);
@@ -90,6 +89,24 @@ pub(super) fn loop_of(region: &Region) -> Loop {
     }
     found.has_seam = found.connected().1;
     found
+}
+
+/// Whether a crossing is an opening, or follows others that are, along sides that no wall meets.
+fn misses_walls(part: &Loop, k: usize) -> bool {
+    let is_opening = |k: usize| matches!(part.crossings[k].gate, GateId::Opening(_));
+    let count = part.crossings.len();
+    let mut first = k;
+    // Openings that follow each other begin where the wall before them ends.
+    while is_opening(first) {
+        if part.wall_before(first) != Vec2::zeros() || part.wall_after(first) != Vec2::zeros() {
+            return true;
+        }
+        first = (first + count - 1) % count;
+        if first == k || !part.walls[(first + 1) % count].is_empty() {
+            return false;
+        }
+    }
+    false
 }
 
 impl Mesh {

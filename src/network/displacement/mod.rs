@@ -2,8 +2,8 @@
 //!
 //! The applied pressure rises. Each meniscus advances through its gate until one of three events \[CieplakRobbins1988;
 //! CieplakRobbins1990\]: it passes the place of largest curvature (burst), it touches a wall ahead (touch), or it meets the meniscus
-//! in the neighboring gate on the wall between them (overlap). The event of the lowest curvature comes first; ties go to the lower
-//! number of the gate. An event fills the whole element ahead. Two menisci that meet become one between the outer walls of both: within
+//! in the neighboring gate on the wall between them (overlap). The event of the lowest curvature comes first. Events of equal curvature take
+//! place at once: all of them fill before it is known what they trap and what follows. An event fills the whole element ahead. Two menisci that meet become one between the outer walls of both: within
 //! one element they fill it; where several lie in between, a grain stands ahead, and the joined meniscus fills all of them once it
 //! bursts or touches. Pressures are curvatures here: times the tension they are p_invading − p_defending.
 //!
@@ -21,7 +21,7 @@ mod standing;
 mod wall_chains;
 mod walls;
 
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, VecDeque};
 use std::sync::Arc;
 
 pub use self::driven::{Advance, FrontId, GateFacts};
@@ -126,6 +126,10 @@ pub struct Displacement {
     held: Vec<f64>,
     fronts: Vec<[Option<Front>; 2]>,
     queue: BinaryHeap<Candidate>,
+    /// Events of the same curvature as the last one that are still to come.
+    tied: VecDeque<Candidate>,
+    /// Elements that events of this curvature have filled.
+    filled: Vec<usize>,
     applied: f64,
     is_outlet: Vec<bool>,
     has_reached_outlet: bool,
@@ -194,6 +198,8 @@ impl Displacement {
             held: vec![f64::NAN; count],
             fronts,
             queue: BinaryHeap::new(),
+            tied: VecDeque::new(),
+            filled: Vec::new(),
             applied: f64::NEG_INFINITY,
             is_outlet: outlets,
             has_reached_outlet: false,
@@ -215,7 +221,13 @@ impl Displacement {
             self.invaded[element] = true;
             self.stop_fronts_into(mesh, element);
         }
-        for &element in elements {
+        self.filled.extend_from_slice(elements);
+    }
+
+    /// What follows from all that events of one curvature have filled: what is trapped now, and where menisci wait next.
+    fn settle(&mut self, mesh: &Mesh) {
+        let elements = std::mem::take(&mut self.filled);
+        for &element in &elements {
             let lost = self.outflow.as_mut().map(|outflow| outflow.remove(mesh, element)).unwrap_or_default();
             for lost in lost.into_iter().filter(|&lost| !self.invaded[lost]).collect::<Vec<_>>() {
                 self.trapped[lost] = true;
@@ -324,47 +336,72 @@ pub fn outline(region: &Region) -> Vec<Vec2> {
     outline::outline(&mesh::loop_of(region))
 }
 
+impl Displacement {
+    /// The next event that takes place, the elements that it fills and its menisci; none among those of the last curvature where `only_tied`.
+    fn next_candidate(&mut self, mesh: &Mesh, only_tied: bool) -> Option<(Candidate, Vec<usize>, Involved)> {
+        loop {
+            if self.tied.is_empty() {
+                if only_tied {
+                    return None;
+                }
+                self.tie()?;
+            }
+            let candidate = self.tied.pop_front()?;
+            let Candidate { gate, to, partner, .. } = candidate;
+            if self.fronts[gate][to].is_none() {
+                continue;
+            }
+            let Some((front, hand)) = partner else {
+                return Some((candidate, vec![mesh.element(gate, to)], Involved::alone((gate, to))));
+            };
+            // Another meniscus may have come in between.
+            let neighbor = self.neighbor(mesh, (gate, to), hand).filter(|neighbor| neighbor.front == front);
+            let Some(neighbor) = neighbor else { continue };
+            let waits_until = if candidate.is_joined {
+                candidate.curvature
+            } else {
+                self.joined_event(mesh, (gate, to), hand, &neighbor)
+            };
+            if waits_until > candidate.curvature {
+                self.queue.push(Candidate { curvature: waits_until, is_joined: true, ..candidate });
+                continue;
+            }
+            let involved = Involved::both((gate, to), hand, &neighbor, candidate.is_joined);
+            return Some((candidate, neighbor.passed, involved));
+        }
+    }
+
+    /// Takes the events of the lowest curvature that is left out of the queue.
+    fn tie(&mut self) -> Option<()> {
+        // Share of a curvature, or of that of a half circle in the gate, that is rounding.
+        const ROUNDING: f64 = 1e-9;
+        let is_allowed = |next: &&Candidate| next.curvature <= self.conditions.largest_curvature;
+        let &Candidate { curvature: lowest, gate, .. } = self.queue.peek().filter(is_allowed)?;
+        let (part, slot) = self.mesh.gates[gate].places[0];
+        let chord = self.mesh.loops[part].crossings[slot].to - self.mesh.loops[part].crossings[slot].from;
+        let rounding = ROUNDING * lowest.abs().max(2.0 / chord.norm());
+        let highest = (lowest + rounding).min(self.conditions.largest_curvature);
+        while self.queue.peek().is_some_and(|next| next.curvature <= highest) {
+            self.tied.extend(self.queue.pop());
+        }
+        Some(())
+    }
+}
+
 /// The next event, which is done; none where no meniscus can move any more.
 impl Iterator for Displacement {
     type Item = Event;
 
     fn next(&mut self) -> Option<Event> {
-        let (candidate, filled, involved) = loop {
-            let candidate =
-                self.queue.peek().copied().filter(|next| next.curvature <= self.conditions.largest_curvature)?;
-            self.queue.pop();
-            let Candidate { gate, to, partner, .. } = candidate;
-            if self.fronts[gate][to].is_none() {
-                continue;
-            }
-            let mesh = self.mesh.clone();
-            match partner {
-                None => break (candidate, vec![mesh.element(gate, to)], Involved::alone((gate, to))),
-                // Another meniscus may have come in between.
-                Some((front, hand)) => {
-                    let Some(neighbor) =
-                        self.neighbor(&mesh, (gate, to), hand).filter(|neighbor| neighbor.front == front)
-                    else {
-                        continue;
-                    };
-                    let waits_until = if candidate.is_joined {
-                        candidate.curvature
-                    } else {
-                        self.joined_event(&mesh, (gate, to), hand, &neighbor)
-                    };
-                    if waits_until > candidate.curvature {
-                        self.queue.push(Candidate { curvature: waits_until, is_joined: true, ..candidate });
-                        continue;
-                    }
-                    let involved = Involved::both((gate, to), hand, &neighbor, candidate.is_joined);
-                    break (candidate, neighbor.passed, involved);
-                }
-            }
-        };
+        let mesh = self.mesh.clone();
+        let (candidate, filled, involved) = self.next_candidate(&mesh, false)?;
         let Candidate { kind, curvature, gate, .. } = candidate;
         self.applied = self.applied.max(curvature);
-        let mesh = self.mesh.clone();
         self.fill(&mesh, &filled);
+        match self.next_candidate(&mesh, true) {
+            Some((next, ..)) => self.tied.push_front(next),
+            None => self.settle(&mesh),
+        }
         let mut elements: Vec<usize> =
             filled.iter().flat_map(|&element| &mesh.elements[element].loops).copied().collect();
         elements.sort_unstable();

@@ -1,0 +1,439 @@
+//! Networks and displacements do not depend on how their drawing is turned, mirrored, shifted or scaled, however regular it is.
+//!
+//! `MENISCUS_PACKS=10000 cargo test --release --test network symmetry -- --nocapture` tries more inputs and prints how many failed.
+
+use std::collections::BTreeMap;
+
+use meniscus::geometry::Geometry;
+use meniscus::geometry::spec::{Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
+use meniscus::math::Vec2;
+use meniscus::network::displacement::{Conditions, Displacement, Events, Phase};
+use meniscus::network::extract;
+use meniscus::network::graph::{Network, Pores};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use crate::invariants::violations;
+
+/// A grain: a disc, or a ring of corners, counter-clockwise.
+#[derive(Debug, Clone)]
+enum Grain {
+    Disc([f64; 2], f64),
+    Ring(Vec<[f64; 2]>),
+}
+
+/// What becomes of opposite sides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Pairs {
+    Walls,
+    Open,
+    Periodic,
+}
+
+/// Grains in a box that begins at the origin; fluids enter through the first side along `flow` (0 or 1) if it is open.
+#[derive(Debug, Clone)]
+struct Scene {
+    size: [f64; 2],
+    grains: Vec<Grain>,
+    sides: [Pairs; 2],
+    flow: usize,
+    angle_deg: f64,
+    trapping: bool,
+}
+
+/// Exchange of both axes, then mirroring along each, then a shift in boxes and a scale.
+#[derive(Debug, Clone, Copy)]
+struct Motion {
+    name: &'static str,
+    exchanges: bool,
+    mirrors: [bool; 2],
+    scale: f64,
+    shift: [f64; 2],
+}
+
+const STILL: Motion = Motion { name: "still", exchanges: false, mirrors: [false; 2], scale: 1.0, shift: [0.0; 2] };
+
+const MOTIONS: [Motion; 9] = [
+    Motion { name: "transposed", exchanges: true, ..STILL },
+    Motion { name: "mirrored in x", mirrors: [true, false], ..STILL },
+    Motion { name: "mirrored in y", mirrors: [false, true], ..STILL },
+    Motion { name: "turned by 90 degrees", exchanges: true, mirrors: [true, false], ..STILL },
+    Motion { name: "turned by 180 degrees", mirrors: [true, true], ..STILL },
+    Motion { name: "turned by 270 degrees", exchanges: true, mirrors: [false, true], ..STILL },
+    Motion { name: "shifted", shift: [0.371, -1.83], ..STILL },
+    Motion { name: "scaled", scale: 3.7e-5, ..STILL },
+    Motion {
+        name: "turned, shifted and scaled",
+        exchanges: true,
+        mirrors: [true, false],
+        scale: 177.0,
+        shift: [-2.1, 0.3],
+    },
+];
+
+impl Motion {
+    fn point(&self, size: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+        let turned = if self.exchanges { [y, x] } else { [x, y] };
+        let box_size = self.size(size);
+        [0, 1].map(|i| {
+            let here = if self.mirrors[i] { box_size[i] - turned[i] } else { turned[i] };
+            self.scale * (here + self.shift[i] * box_size[i])
+        })
+    }
+
+    /// The size of the box before it is scaled.
+    fn size(&self, size: [f64; 2]) -> [f64; 2] {
+        if self.exchanges { [size[1], size[0]] } else { size }
+    }
+
+    fn back(&self, size: [f64; 2], x: Vec2) -> Vec2 {
+        let box_size = self.size(size);
+        let here = [0, 1].map(|i| {
+            let at = x[i] / self.scale - self.shift[i] * box_size[i];
+            if self.mirrors[i] { box_size[i] - at } else { at }
+        });
+        if self.exchanges { Vec2::new(here[1], here[0]) } else { Vec2::new(here[0], here[1]) }
+    }
+
+    /// The number of a side (left, right, bottom, top).
+    fn side(&self, side: usize) -> usize {
+        let (axis, end) = (side / 2, side % 2);
+        let axis = if self.exchanges { 1 - axis } else { axis };
+        2 * axis + if self.mirrors[axis] { 1 - end } else { end }
+    }
+
+    fn is_mirror(&self) -> bool {
+        self.exchanges ^ self.mirrors[0] ^ self.mirrors[1]
+    }
+}
+
+impl Scene {
+    fn geometry(&self, motion: &Motion) -> Geometry {
+        let point = |x: [f64; 2]| motion.point(self.size, x);
+        let shape = |grain: &Grain| match grain {
+            Grain::Disc(center, radius) => {
+                ShapeSpec::Disc(Disc { center: point(*center), radius: motion.scale * radius })
+            }
+            Grain::Ring(corners) => {
+                let mut outer: Vec<[f64; 2]> = corners.iter().map(|&x| point(x)).collect();
+                if motion.is_mirror() {
+                    outer.reverse();
+                }
+                ShapeSpec::Polygon(Polygon { outer, holes: Vec::new(), position: [0.0; 2], rotation_deg: 0.0 })
+            }
+        };
+        let size = motion.size(self.size);
+        let spec = GeometrySpec {
+            min: [0, 1].map(|i| motion.scale * size[i] * motion.shift[i]),
+            max: [0, 1].map(|i| motion.scale * size[i] * (1.0 + motion.shift[i])),
+            solid: SolidSide::Inside,
+            shapes: self.grains.iter().map(shape).collect(),
+        };
+        let pairs = |i: usize| self.sides[if motion.exchanges { 1 - i } else { i }];
+        let walls = [0, 0, 1, 1].map(|i| pairs(i) == Pairs::Walls);
+        Geometry::new(&spec).unwrap().with_sides([0, 1].map(|i| pairs(i) == Pairs::Periodic), walls)
+    }
+
+    fn outcome(&self, motion: &Motion) -> Result<Outcome, String> {
+        let geometry = self.geometry(motion);
+        let mut open = [false; 4];
+        for side in (0..4).filter(|&side| self.sides[side / 2] == Pairs::Open) {
+            open[motion.side(side)] = true;
+        }
+        let network = extract(&geometry, open).map_err(|error| error.to_string())?;
+        let violations = violations(&geometry, &network);
+        if !violations.is_empty() {
+            return Err(format!("violated: {violations:?}"));
+        }
+        Ok(Outcome::new(self, motion, &network))
+    }
+}
+
+/// A network and its displacement, in the frame and the unit of length of the scene.
+#[derive(Debug, Clone)]
+struct Outcome {
+    /// Both contacts, width, entry curvature.
+    throats: Vec<([Vec2; 2], f64, f64)>,
+    /// Inscribed radius, area, number of edges.
+    regions: Vec<(f64, f64, usize)>,
+    openings: usize,
+    /// Applied curvature and filled area after each event.
+    steps: Vec<(f64, f64)>,
+}
+
+impl Outcome {
+    fn new(scene: &Scene, motion: &Motion, network: &Network) -> Self {
+        let conditions = |inlet: bool| {
+            let on = |end: usize| {
+                let mut sides = [false; 4];
+                sides[motion.side(2 * scene.flow + end)] = scene.sides[scene.flow] == Pairs::Open && inlet;
+                sides
+            };
+            Conditions {
+                angle: vec![scene.angle_deg.to_radians(); scene.grains.len() + 4],
+                inlet: on(0),
+                outlet: on(1),
+                trapping: scene.trapping,
+                events: Events::All,
+                largest_curvature: f64::INFINITY,
+                measured: Vec::new(),
+            }
+        };
+        let pores = Pores::merged(network, 0.95);
+        let (length, area) = (motion.scale, motion.scale * motion.scale);
+        let mut state = Displacement::new(network, &pores, conditions(true));
+        let entries = state.entry_curvatures(&conditions(false), network.throats.len());
+        let area_of = |state: &Displacement, element: usize| state.elements()[element].area / area;
+        let begun = (0..state.elements().len()).filter(|&e| state.phase(e) == Phase::Invading);
+        let mut filled: f64 = begun.map(|e| area_of(&state, e)).sum();
+        let mut steps = vec![(f64::NEG_INFINITY, filled)];
+        while let Some(event) = state.next() {
+            filled += event.elements.iter().map(|&e| area_of(&state, e)).sum::<f64>();
+            steps.push((event.applied * length, filled));
+        }
+        let throats = network.throats.iter().zip(entries);
+        let throats = throats.map(|(throat, entry)| {
+            let ends = throat.contacts.map(|x| motion.back(scene.size, x));
+            (ends, throat.width / length, entry * length)
+        });
+        let regions = network.regions.iter();
+        let regions = regions.map(|region| (region.radius / length, region.area / area, region.edges.len()));
+        Self { throats: throats.collect(), regions: regions.collect(), openings: network.openings.len(), steps }
+    }
+
+    /// What differs from another outcome of the same scene.
+    fn difference(&self, other: &Self, scene: &Scene) -> Option<String> {
+        let scale = scene.size[0].max(scene.size[1]);
+        let counts = |it: &Self| [it.throats.len(), it.regions.len(), it.openings];
+        if counts(self) != counts(other) {
+            return Some(format!("counts: {:?} {:?}", counts(self), counts(other)));
+        }
+        let mut left = other.throats.clone();
+        for (ends, width, entry) in &self.throats {
+            let is_near = |a: Vec2, b: Vec2| {
+                (0..2).all(|i| {
+                    let (d, period) = (a[i] - b[i], scene.size[i]);
+                    let whole = if scene.sides[i] == Pairs::Periodic { (d / period).round() * period } else { 0.0 };
+                    (d - whole).abs() < 1e-6 * scale
+                })
+            };
+            let same = left.iter().position(|(others, w, _)| {
+                let both = |j: usize| is_near(ends[0], others[j]) && is_near(ends[1], others[1 - j]);
+                (width - w).abs() < 1e-9 * scale && (both(0) || both(1))
+            });
+            let Some(same) = same else { return Some(format!("throat: {ends:?} {width} has no like")) };
+            let (_, _, there) = left.swap_remove(same);
+            if (entry - there).abs() > 1e-8 * entry.abs() {
+                return Some(format!("entry: {entry} {there} of {ends:?}"));
+            }
+        }
+        let mut left = other.regions.clone();
+        for (radius, area, edges) in &self.regions {
+            let same = left.iter().position(|(r, a, e)| {
+                (radius - r).abs() < 1e-8 * scale && (area - a).abs() < 1e-8 * scale * scale && edges == e
+            });
+            let Some(same) = same else { return Some(format!("region: {radius} {area} {edges} has no like")) };
+            left.swap_remove(same);
+        }
+        self.curve_differs(other).or_else(|| other.curve_differs(self))
+    }
+
+    /// Where the area filled at a curvature is not that of another outcome, up to equal events.
+    fn curve_differs(&self, other: &Self) -> Option<String> {
+        let at = |k: f64| other.steps.partition_point(|step| step.0 <= k);
+        let total: f64 = self.regions.iter().map(|region| region.1).sum();
+        for (i, &(k, filled)) in self.steps.iter().enumerate() {
+            let size = k.abs().max(1.0 / total.sqrt());
+            if self.steps.get(i + 1).is_some_and(|next| next.0 <= k + 1e-7 * size) {
+                continue;
+            }
+            let slack = 1e-6 * size;
+            let [below, above] = if k.is_finite() { [at(k - slack), at(k + slack)] } else { [1, 1] };
+            let range = [below.max(1) - 1, above.max(1) - 1].map(|i| other.steps[i].1);
+            if filled < range[0] - 1e-8 * total || filled > range[1] + 1e-8 * total {
+                return Some(format!("events: at {k} {} not {:?}", filled / total, range.map(|x| x / total)));
+            }
+        }
+        None
+    }
+}
+
+/// A scene of its own for each number.
+fn scene(number: u64) -> Scene {
+    let mut rng = ChaCha8Rng::seed_from_u64(number);
+    let mut pick = |of: usize| ((of as f64 * rng.random::<f64>()) as usize).min(of - 1);
+    let sides = [
+        [Pairs::Open, Pairs::Walls],
+        [Pairs::Walls, Pairs::Open],
+        [Pairs::Open, Pairs::Periodic],
+        [Pairs::Walls, Pairs::Walls],
+        [Pairs::Open, Pairs::Open],
+        [Pairs::Periodic, Pairs::Periodic],
+    ][pick(6)];
+    let flow = usize::from(sides[0] != Pairs::Open);
+    let angle_deg = [0.0, 5.0, 20.0, 40.0, 90.0, 140.0][pick(6)];
+    let trapping = pick(2) == 0;
+    let kind = pick(4);
+    let is_lattice = pick(2) == 0;
+    let (size, places) = if is_lattice { lattice(&mut rng) } else { scattered(&mut rng) };
+    let corners = 3 + (5.0 * rng.random::<f64>()) as usize;
+    let grains = places.into_iter().map(|place| grain(kind, corners, place, is_lattice, &mut rng)).collect();
+    Scene { size, grains, sides, flow, angle_deg, trapping }
+}
+
+/// Sites of a square, hexagonal or staggered lattice with room around each, moved by nearly nothing.
+fn lattice(rng: &mut ChaCha8Rng) -> ([f64; 2], Vec<[f64; 3]>) {
+    let mut pick = |of: usize| ((of as f64 * rng.random::<f64>()) as usize).min(of - 1);
+    let pitch = [1e-4, 1.5e-4, 2e-4, 2.5e-4, 3e-4, 5e-4, 1.0, 0.0][pick(8)];
+    let (columns, rows) = (2 + pick(7), 2 + pick(7));
+    let (staggered, flat) = [(false, 1.0), (true, 0.75_f64.sqrt()), (true, 1.0), (false, 1.0)][pick(4)];
+    let noise = [0.0, 1e-16, 1e-12, 1e-8][pick(4)];
+    let turned = pick(2) == 0;
+    let pitch = if pitch == 0.0 { 1e-4 * (1.0 + 4.0 * rng.random::<f64>()) } else { pitch };
+    let share = if rng.random::<f64>() < 0.5 { 0.4 } else { 0.2 + 0.2 * rng.random::<f64>() };
+    let mut places = Vec::new();
+    for (i, j) in (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j))) {
+        let by = if staggered && j % 2 == 1 { 1.0 } else { 0.5 };
+        let at = [(i as f64 + by) * pitch, (j as f64 + 0.5) * pitch * flat];
+        let at = at.map(|x| x + noise * pitch * (2.0 * rng.random::<f64>() - 1.0));
+        places.push(if turned { [at[1], at[0], share * pitch] } else { [at[0], at[1], share * pitch] });
+    }
+    let size = [(columns as f64 + if staggered { 0.5 } else { 0.0 }) * pitch, rows as f64 * pitch * flat];
+    (if turned { [size[1], size[0]] } else { size }, places)
+}
+
+/// Random places with room around each, in boxes of all shapes.
+fn scattered(rng: &mut ChaCha8Rng) -> ([f64; 2], Vec<[f64; 3]>) {
+    let ratio = [0.25, 0.4, 0.5, 0.8, 1.0, 1.7, 4.0][(7.0 * rng.random::<f64>()) as usize % 7];
+    let size = [1.0, ratio];
+    let tries = [2, 10, 60, 600][(4.0 * rng.random::<f64>()) as usize % 4];
+    let largest = 0.05 + 0.1 * rng.random::<f64>();
+    let mut places: Vec<[f64; 3]> = Vec::new();
+    for _ in 0..tries {
+        let [x, y, r] = [0, 1, 2].map(|_| rng.random::<f64>());
+        let place = [x * size[0], y * size[1], largest * (0.4 + 0.6 * r)];
+        let is_free =
+            |other: &[f64; 3]| (other[0] - place[0]).hypot(other[1] - place[1]) > other[2] + place[2] + 0.2 * largest;
+        let is_inside = (0..2).all(|i| place[i] > place[2] + 0.02 && place[i] < size[i] - place[2] - 0.02);
+        if places.iter().all(is_free) && is_inside {
+            places.push(place);
+        }
+    }
+    if places.is_empty() {
+        places.push([0.5, 0.5 * ratio, 0.1 * ratio]);
+    }
+    (size, places)
+}
+
+fn grain(kind: usize, corners: usize, [x, y, radius]: [f64; 3], is_regular: bool, rng: &mut ChaCha8Rng) -> Grain {
+    let ring = |corners: usize, turn: f64, even: bool, rng: &mut ChaCha8Rng| {
+        let corner = |k: usize| {
+            let apart = if even { 0.0 } else { 0.6 * rng.random::<f64>() };
+            let angle = turn + std::f64::consts::TAU * (k as f64 + apart) / corners as f64;
+            [x + radius * angle.cos(), y + radius * angle.sin()]
+        };
+        Grain::Ring((0..corners).map(corner).collect())
+    };
+    match kind {
+        0 | 1 => Grain::Disc([x, y], radius),
+        2 => {
+            let half = radius * 0.7;
+            Grain::Ring(
+                [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[a, b]| [x + a, y + b]).into(),
+            )
+        }
+        _ if is_regular => ring(corners, 0.0, true, rng),
+        _ => {
+            let turn = std::f64::consts::TAU * rng.random::<f64>();
+            ring(corners, turn, false, rng)
+        }
+    }
+}
+
+/// What fails for a scene.
+fn failures_of(scene: &Scene) -> Vec<(String, String)> {
+    let still = match scene.outcome(&STILL) {
+        Ok(still) => still,
+        Err(error) => return vec![("refused".to_owned(), error)],
+    };
+    let mut found = Vec::new();
+    for motion in &MOTIONS {
+        let difference = match scene.outcome(motion) {
+            Ok(moved) => still.difference(&moved, scene),
+            Err(error) => Some(format!("refused: {error}")),
+        };
+        if let Some(what) = difference {
+            let kind = what.split(':').next().unwrap_or_default().to_owned();
+            found.push((kind, format!("{}: {what}", motion.name)));
+        }
+    }
+    found
+}
+
+/// Whether the order of events is asked for as well. Between polygons it may depend on rounding where menisci are pinned at two edges at once.
+fn has_only_discs(scene: &Scene) -> bool {
+    scene.grains.iter().all(|grain| matches!(grain, Grain::Disc(..)))
+}
+
+/// A number from the environment.
+fn asked(key: &str, default: u64) -> u64 {
+    std::env::var(key).ok().and_then(|count| count.parse().ok()).unwrap_or(default)
+}
+
+#[test]
+fn a_network_and_its_displacement_do_not_depend_on_how_the_drawing_lies() {
+    let (first, count) = (asked("MENISCUS_PACKS_FIRST", 0), asked("MENISCUS_PACKS", 40));
+    let found: Vec<(u64, String, String)> = (first..first + count)
+        .into_par_iter()
+        .flat_map_iter(|number| {
+            let first = failures_of(&scene(number)).into_iter().next();
+            first.map(|(kind, what)| (number, kind, what))
+        })
+        .collect();
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    for (_, kind, _) in &found {
+        *kinds.entry(kind).or_default() += 1;
+    }
+    println!("{count} inputs, {} failed: {kinds:?}", found.len());
+    let counts = |(number, kind, _): &&(u64, String, String)| kind != "events" || has_only_discs(&scene(*number));
+    let failed: Vec<_> = found.iter().filter(counts).collect();
+    assert!(failed.is_empty(), "{} of {}: {failed:#?}", failed.len(), found.len());
+}
+
+#[test]
+fn three_discs_drain_like_their_mirror_image() {
+    let discs = [([0.44, 0.16], 0.06), ([0.38, 0.57], 0.08), ([0.82, 0.13], 0.06)];
+    for angle_deg in [0.0, 5.0, 20.0, 40.0] {
+        let grains = discs.map(|(center, radius)| Grain::Disc(center, radius)).to_vec();
+        let sides = [Pairs::Open, Pairs::Walls];
+        let scene = Scene { size: [1.0, 0.8], grains, sides, flow: 0, angle_deg, trapping: true };
+        let found = failures_of(&scene);
+        assert!(found.is_empty(), "{found:?}");
+    }
+}
+
+/// Asserts that discs have a network, the same however they lie.
+fn has_network(size: [f64; 2], discs: &[[f64; 3]], sides: [Pairs; 2]) -> Outcome {
+    let grains = discs.iter().map(|&[x, y, r]| Grain::Disc([x, y], r)).collect();
+    let scene =
+        Scene { size, grains, sides, flow: usize::from(sides[0] != Pairs::Open), angle_deg: 0.0, trapping: true };
+    let found = failures_of(&scene);
+    assert!(found.is_empty(), "{found:?}");
+    scene.outcome(&STILL).unwrap()
+}
+
+#[test]
+fn posts_on_a_square_and_discs_in_tall_boxes_have_a_network() {
+    let posts = [[1e-4, 1e-4, 4e-5], [3e-4, 1e-4, 4e-5], [1e-4, 3e-4, 4e-5], [3e-4, 3e-4, 4e-5]];
+    let [open, walls] = [Pairs::Open, Pairs::Walls];
+    for sides in [[open, walls], [walls, open], [walls, walls]] {
+        let drained = has_network([4e-4, 4e-4], &posts, sides);
+        if sides.contains(&open) {
+            // Two posts are 120 um apart.
+            assert!((drained.steps[1].0 - 2.0 / 1.2e-4).abs() < 1e-9 * 2.0 / 1.2e-4, "{:?}", drained.steps);
+        }
+        has_network([1.0, 3.0], &[[0.5, 1.5, 0.05]], sides);
+        has_network([1.0, 4.0], &[[0.3, 1.0, 0.15], [0.7, 2.1, 0.12], [0.4, 3.0, 0.15]], sides);
+    }
+}
