@@ -222,7 +222,8 @@ fn what_a_reader_must_know_of_a_network_is_a_warning() {
         let path = folder.path().join("grains.toml");
         let text = format!(
             "format = 1\ntitle = \"Grains\"\n[geometry]\nmin = [0.0, 0.0]\nmax = [3.0e-3, 1.0e-3]\nshapes = [{shapes}]\n\
-             [network]\ninlet = \"left\"\noutlet = \"right\"\n{more}\n"
+             [network]\ninlet = \"left\"\noutlet = \"right\"\n{more}\n\
+             [network.interface]\ntension = 0.03\n[network.wetting.young]\ncontact-angle-deg = 40.0\n"
         );
         std::fs::write(&path, text).unwrap();
         let solver = to_the_end(&loaded(&path, &[]));

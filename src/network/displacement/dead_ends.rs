@@ -30,6 +30,14 @@ struct Mouth {
     length: f64,
 }
 
+impl Mouth {
+    /// The longest dead end first, of one dead end the shortest chord.
+    fn order(a: &Self, b: &Self) -> std::cmp::Ordering {
+        let chord = |mouth: &Self| (mouth.to.point - mouth.from.point).norm();
+        b.length.total_cmp(&a.length).then(chord(a).total_cmp(&chord(b)))
+    }
+}
+
 /// The loop without its dead ends, and these. `center` is that of the inscribed circle of the region. Segments are numbered from
 /// `segments` on, which counts them.
 pub(super) fn cut_dead_ends(whole: Loop, center: Vec2, segments: &mut usize) -> Vec<Loop> {
@@ -62,7 +70,7 @@ fn turns(wall: &[WallPiece]) -> Vec<f64> {
 /// The mouth of the longest dead end of a loop.
 fn mouth(part: &Loop, center: Vec2) -> Option<Mouth> {
     let mut mouths: Vec<Mouth> = (0..part.walls.len()).flat_map(|wall| chords(part, wall)).collect();
-    mouths.sort_by(|a, b| b.length.total_cmp(&a.length));
+    mouths.sort_by(Mouth::order);
     let curves = part.curves();
     mouths.into_iter().find(|mouth| {
         let (p, q) = (mouth.from.point, mouth.to.point);
@@ -119,7 +127,7 @@ fn chords(part: &Loop, wall: usize) -> Vec<Mouth> {
             }
         }
     }
-    found.sort_by(|a, b| b.length.total_cmp(&a.length));
+    found.sort_by(Mouth::order);
     found.truncate(MOST_CHORDS);
     found
 }
