@@ -71,6 +71,9 @@ pub fn relative(solver: &NetworkSolver, states: &[f64]) -> Vec<[f64; 3]> {
     let drive = setting.inlet.and_then(|inlet| drive(setting, inlet / 2));
     let (Some(cycles), Some(drive)) = (solver.cycles(), drive) else { return Vec::new() };
     let whole = along(solver, setting.inlet.unwrap_or_default() / 2);
+    if !(whole > 0.0) {
+        return Vec::new();
+    }
     let displaced = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     let state = |share: &f64| {
         // What the beginning fills is counted as displaced; before it, nothing is.

@@ -1,10 +1,11 @@
 //! The measures of a network.
 
 use super::cycles::{Cycles, Fluid};
-use super::flow::{LEAST_SOLID, along, drive, relative};
+use super::flow::{along, drive, relative};
 use super::permeability::Drive;
 use super::solver::{NetworkSolver, Setting};
 use super::tables::kept;
+use super::warnings::{PERMEABILITIES, notes_on_permeability};
 use crate::solver::Measure;
 
 fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
@@ -58,23 +59,16 @@ fn of_network(setting: &Setting) -> Vec<Measure> {
 
 fn permeabilities(solver: &NetworkSolver) -> Vec<Measure> {
     let setting = solver.setting();
-    let solid = 1.0 - setting.porosity;
-    let range = if solid < LEAST_SOLID {
-        format!(
-            " (WARNING: the solid fraction is {solid:.2}; below {LEAST_SOLID} walls may be far apart, and Stokes flow may differ by up to 30 %)"
-        )
-    } else {
-        String::new()
-    };
     let of_axis = |axis: usize, name| {
         let method = match drive(setting, axis) {
             Some(Drive::Periodic(_)) => "flow through all throats under a mean gradient, periodic sides joined",
             Some(Drive::Sides(_)) => "flow through all throats between the open sides",
             None => "both sides along this axis would have to be open or periodic",
         };
-        measure(name, along(solver, axis), "m2", format!("{method}{range}"))
+        let notes: String = notes_on_permeability(setting, axis).iter().map(|note| format!("; {note}")).collect();
+        measure(name, along(solver, axis), "m2", format!("{method}{notes}"))
     };
-    let mut found = vec![of_axis(0, "permeability-x-m2"), of_axis(1, "permeability-y-m2")];
+    let mut found = vec![of_axis(0, PERMEABILITIES[0]), of_axis(1, PERMEABILITIES[1])];
     if let [[_, wetting, other]] = relative(solver, &[1.0])[..] {
         let method = "permeability of the throats between regions that the phase holds, over that of all, at the end of the last half cycle";
         found.push(measure("relative-permeability-wetting", wetting, "", method));
@@ -188,16 +182,21 @@ fn hysteresis(setting: &Setting, cycles: &Cycles) -> Option<Measure> {
         return None;
     }
     let last = cycles.half_cycles().len() - 2;
-    let (mut before, mut work) = (cycles.outcomes()[last].first_saturation[1], 0.0);
-    for entry in cycles.history().iter().filter(|entry| entry.half_cycle >= last) {
-        work -= entry.applied * (entry.saturation - before);
-        before = entry.saturation;
+    let mut work = 0.0;
+    for (half, outcome) in cycles.outcomes().iter().enumerate().skip(last) {
+        // No pressure holds back what enters through openings at the beginning of either.
+        let mut before = outcome.first_saturation[1];
+        for entry in cycles.history().iter().filter(|entry| entry.half_cycle == half) {
+            work -= entry.applied * (entry.saturation - before);
+            before = entry.saturation;
+        }
     }
     let value = setting.tension? * work;
     Some(measure(
         "hysteresis-work-J-per-m3",
         value,
         "J/m3",
-        "integral of p_n - p_w over the displaced saturation along the last drainage and imbibition: work per pore volume",
+        "integral of p_n - p_w over the saturation that events displaced along the last drainage and imbibition: work per pore volume; what enters \
+         through openings at their beginnings takes no pressure and is left out",
     ))
 }

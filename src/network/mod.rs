@@ -23,5 +23,6 @@ mod pictures;
 pub mod state;
 mod summary;
 mod tables;
+mod warnings;
 
 pub use extract::{ExtractError, extract};

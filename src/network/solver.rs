@@ -14,7 +14,7 @@ use super::cycles::Cycles;
 use super::displacement::{Conditions, Displacement, EventKind};
 use super::graph::{Network, Pores};
 use super::occupation::Occupation;
-use super::{flow, layers, measures, openpnm, pictures, state, summary, tables};
+use super::{flow, layers, measures, openpnm, pictures, state, summary, tables, warnings};
 use crate::case::checked::Side;
 use crate::diagram::Diagram;
 use crate::math::{Bounds, Vec2};
@@ -226,6 +226,10 @@ impl Solver for NetworkSolver {
 
     fn measures(&self, _series: &Series) -> Vec<Measure> {
         measures::all(self)
+    }
+
+    fn warnings(&self, _: &Series) -> Vec<String> {
+        warnings::warnings(&self.setting)
     }
 
     fn diagrams(&self) -> Vec<Diagram> {

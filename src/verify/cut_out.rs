@@ -348,8 +348,9 @@ fn until(path: &[Curve], point: Vec2) -> Vec<Curve> {
 /// Longest arc of one edge in rad: bulges stay below 1.
 const LONGEST_ARC: f64 = 2.5;
 
-/// A closed path as a polygon; curves of no length are left out.
+/// A closed path as a polygon; curves of no length are left out, and coordinates within rounding of an axis lie on it.
 pub(super) fn polygon(path: &[Curve], width: f64) -> CurvedPolygon {
+    let tidy = |x: f64| if x.abs() < ROUNDING * ROUNDING * width { 0.0 } else { x };
     let mut outer = Vec::new();
     for curve in path.iter().filter(|curve| curve.length() > ROUNDING * width) {
         let sweep = match curve {
@@ -359,7 +360,7 @@ pub(super) fn polygon(path: &[Curve], width: f64) -> CurvedPolygon {
         let parts = (sweep.abs() / LONGEST_ARC).ceil().max(1.0);
         for k in 0..parts as usize {
             let point = curve.point(k as f64 / parts);
-            outer.push([point.x, point.y, (0.25 * sweep / parts).tan()]);
+            outer.push([tidy(point.x), tidy(point.y), (0.25 * sweep / parts).tan()]);
         }
     }
     CurvedPolygon { outer, holes: Vec::new(), position: [0.0; 2], rotation_deg: 0.0 }

@@ -158,6 +158,31 @@ fn cases_and_study_load_and_a_case_changed_by_hand_is_kept() {
 }
 
 #[test]
+fn no_case_of_a_cut_out_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let packs = (1..=5).map(|seed| PACK.replace("seed = 3", &format!("seed = {seed}")));
+    let lattices = [("square", 1.0e-4), ("square", 1.3e-4), ("hexagonal", 1.0e-4), ("hexagonal", 0.9e-4)].map(|(kind, radius)| {
+        format!("{{ array = {{ arrangement = \"{kind}\", radius = {radius:e}, gap = 3.0e-5, region = [[1.0e-5, 1.0e-5], [1.59e-3, 1.59e-3]] }} }}")
+    });
+    let (mut cut, mut refused) = (0, Vec::new());
+    for (number, shapes) in packs.chain(lattices).enumerate() {
+        let angle = [40.0, 0.0, 140.0][number % 3];
+        let path = folder.path().join("grains.toml");
+        std::fs::write(&path, case(&shapes, angle, "")).unwrap();
+        let loaded = load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{}", error.render()));
+        let Ok(subject) = Subject::new(&loaded.case) else { continue };
+        let fluids = Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading };
+        let (all, events) = (planned(&subject), planned_events(&subject));
+        cut += all.iter().filter(|one| one.cut_out.is_ok()).count();
+        let plan = Plan { throats: &all, events: &events, fluids: &fluids, spacings: &[8], network: "grains.toml" };
+        let written = write(&folder.path().join(number.to_string()), &plan).unwrap();
+        refused.extend(written.refused.into_iter().chain(written.refused_events).map(|(_, why)| (number, why)));
+    }
+    println!("{cut} cut-outs");
+    assert!(cut > 300 && refused.is_empty(), "{cut}: {refused:?}");
+}
+
+#[test]
 fn throats_are_chosen_by_what_they_are() {
     let folder = tempfile::tempdir().unwrap();
     let subject = subject(folder.path(), PACK, 40.0, &[]);

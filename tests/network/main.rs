@@ -6,6 +6,8 @@ mod support;
 mod arrays;
 mod cases;
 mod channels;
+mod corners;
+mod dead_ends;
 mod displacement;
 mod dynamic;
 mod invariants;

@@ -52,7 +52,7 @@ tables! {
         pub rate: f64,
         /// Pressure at the inlet minus that at the outlet in Pa (required without `rate`).
         pub pressure_drop: f64,
-        /// Largest inflow in one step, in pore volumes (default 0.01).
+        /// Largest inflow in one step, in pore volumes; at most half of the mean area of an element flows in (default 0.01).
         pub largest_step: f64,
     }
 

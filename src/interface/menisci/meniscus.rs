@@ -88,6 +88,19 @@ impl Meniscus {
         meetings(&self.curve(), curve).iter().any(Option::is_some)
     }
 
+    /// The same, but for a point where the meniscus itself stands behind its throat.
+    pub(super) fn touches_ahead(&self, curve: &Curve) -> bool {
+        meetings(&self.curve(), curve).into_iter().flatten().any(|x| !self.stands_behind_at(x))
+    }
+
+    /// Whether a contact behind the throat is at a point. Where solids share a corner, a wall ahead begins there too, on the other side of them.
+    pub(super) fn stands_behind_at(&self, x: Vec2) -> bool {
+        /// Share of the chord within which points are one; where an arc meets a wall at 0 degrees they are rounded to half of the digits.
+        const SAME: f64 = 1e-6;
+        let is_at = |contact: &Contact| contact.advance < 0.0 && (contact.point - x).norm() <= SAME * self.chord();
+        is_at(&self.left) || is_at(&self.right)
+    }
+
     /// The points that two arcs have in common.
     pub(super) fn meetings(&self, other: &Self) -> [Option<Vec2>; 2] {
         // Circles of nearly flat arcs have no center to reckon with.

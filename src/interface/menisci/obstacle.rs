@@ -49,7 +49,7 @@ impl Obstacle {
                         0 => touching_point(curve, &circle),
                         end => Some(curve.point(end as f64 - 1.0)),
                     };
-                    if point.is_some_and(|point| meniscus.holds(point)) {
+                    if point.is_some_and(|point| meniscus.holds(point) && !meniscus.stands_behind_at(point)) {
                         let order = order_on(leg, &place);
                         if first.is_none_or(|(earliest, _)| order < earliest) {
                             first = Some((order, circle.k));

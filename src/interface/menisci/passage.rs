@@ -105,7 +105,7 @@ impl Passage {
     pub fn touch(&self, obstacle: &[Curve], up_to: f64) -> Option<f64> {
         let up_to = up_to * self.scale;
         let lowest = self.lowest.filter(|lowest| lowest.curvature <= up_to)?;
-        if obstacle.iter().any(|curve| self.meniscus(&lowest).touches(curve)) {
+        if obstacle.iter().any(|curve| self.meniscus(&lowest).touches_ahead(curve)) {
             return Some(lowest.curvature / self.scale);
         }
         let obstacle = Obstacle::new(obstacle, self.origin, self.scale);

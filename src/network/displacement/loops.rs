@@ -51,10 +51,10 @@ pub(super) struct Loop {
 
 /// A point of a stretch of wall.
 #[derive(Debug, Clone, Copy)]
-struct WallPoint {
-    piece: usize,
-    u: f64,
-    point: Vec2,
+pub(super) struct WallPoint {
+    pub piece: usize,
+    pub u: f64,
+    pub point: Vec2,
 }
 
 impl WallPoint {
@@ -195,7 +195,7 @@ fn do_cross([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> bool {
 }
 
 /// Whether the segment between two points of the walls of a loop lies in it without meeting any of its curves in between.
-fn holds_segment(curves: &[Curve], p: Vec2, q: Vec2) -> bool {
+pub(super) fn holds_segment(curves: &[Curve], p: Vec2, q: Vec2) -> bool {
     // Share of the segment at both ends that may meet the walls it stands on.
     const AT_ENDS: f64 = 1e-6;
     let segment = Curve::Segment { a: p, b: q };
@@ -233,7 +233,7 @@ pub(super) fn divide(whole: Loop, segments: &mut usize) -> Vec<Loop> {
     done
 }
 
-fn before(wall: &[WallPiece], end: WallPoint) -> Vec<WallPiece> {
+pub(super) fn before(wall: &[WallPiece], end: WallPoint) -> Vec<WallPiece> {
     let mut kept = wall[..end.piece].to_vec();
     if end.u > 0.0 {
         kept.push(WallPiece { curve: wall[end.piece].curve.part(0.0, end.u), ..wall[end.piece] });
@@ -241,7 +241,7 @@ fn before(wall: &[WallPiece], end: WallPoint) -> Vec<WallPiece> {
     kept
 }
 
-fn after(wall: &[WallPiece], start: WallPoint) -> Vec<WallPiece> {
+pub(super) fn after(wall: &[WallPiece], start: WallPoint) -> Vec<WallPiece> {
     let mut kept = Vec::new();
     if start.u < 1.0 {
         kept.push(WallPiece { curve: wall[start.piece].curve.part(start.u, 1.0), ..wall[start.piece] });

@@ -4,6 +4,7 @@
 //! (`loops`), and each throat and each dividing segment is a gate. Where bursts alone act, an element is a pore of the network with its
 //! merged regions, and only the throats that are left are gates.
 
+use super::dead_ends::cut_dead_ends;
 use super::loops::{Crossing, GateId, Loop, divide};
 use crate::math::Vec2;
 use crate::network::graph::{Edge, Network, Pores, Region};
@@ -110,11 +111,12 @@ fn misses_walls(part: &Loop, k: usize) -> bool {
 }
 
 impl Mesh {
-    /// Elements between at most three walls, where segments divide the regions so.
+    /// Elements between at most three walls, where segments divide the regions so; each dead end is one of its own.
     pub fn divided(network: &Network) -> Self {
         let (mut mesh, mut segments) = (Self::default(), 0);
         for (index, region) in network.regions.iter().enumerate() {
-            let parts = divide(loop_of(region), &mut segments);
+            let without = cut_dead_ends(loop_of(region), region.center, &mut segments);
+            let parts: Vec<Loop> = without.into_iter().flat_map(|part| divide(part, &mut segments)).collect();
             let is_whole = parts.len() == 1;
             for part in parts {
                 mesh.area.push(if is_whole { region.area } else { part.area() });

@@ -9,6 +9,7 @@
 //!
 //! Left out: areas swept by menisci between events, overlaps of a joined meniscus with a third one, films and corner flow.
 
+mod dead_ends;
 mod driven;
 mod event;
 mod fronts;

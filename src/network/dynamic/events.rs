@@ -23,6 +23,21 @@ impl ToCome<'_> {
     }
 }
 
+/// A meniscus that begins to wait where an element is full.
+struct Begun {
+    front: FrontId,
+    rise: Rise,
+    /// Largest curvature in 1/m that the full element gives it: of one whose element is cut off, that of the body that filled it.
+    most: f64,
+}
+
+impl Begun {
+    /// Swept area in m² at a curvature in 1/m.
+    fn area(&self, curvature: f64) -> f64 {
+        self.rise.area(curvature.min(self.most))
+    }
+}
+
 impl Dynamic {
     /// Swept area in m² of a meniscus.
     pub(super) fn area_now(&self, (gate, end): FrontId) -> f64 {
@@ -241,16 +256,23 @@ impl Dynamic {
             self.rises[gate][end] = None;
         }
         self.finish(element);
-        let new: Vec<(FrontId, Rise)> = std::mem::take(&mut self.ahead[element])
+        let cut_off = self.trapped();
+        let new: Vec<Begun> = std::mem::take(&mut self.ahead[element])
             .into_iter()
             .filter(|(front, _)| self.displacement.front(*front).is_some())
+            .map(|(front, rise)| {
+                let is_cut_off = cut_off[self.ahead_of(front)];
+                Begun { front, rise, most: if is_cut_off { filling.curvature } else { f64::INFINITY } }
+            })
             .collect();
-        // What they hold too much goes to the one that passes its event first.
-        let first = new.iter().map(|(front, rise)| (rise.end().1, *front)).min_by(|a, b| a.0.total_cmp(&b.0));
-        let curvature = common_curvature(&new, left, first.map_or(f64::INFINITY, |(curvature, _)| curvature));
-        left -= new.iter().map(|(_, rise)| rise.area(curvature)).sum::<f64>();
-        for (front, rise) in new {
-            let mut area = rise.area(curvature);
+        // What they hold too much goes to the one that passes its event first, among those whose element has a way to the outlet.
+        let going_on = new.iter().filter(|begun| begun.most == f64::INFINITY);
+        let first = going_on.map(|it| (it.rise.end().1, it.front)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let curvature = common_curvature(&new, left, first.map_or(filling.curvature, |(curvature, _)| curvature));
+        left -= new.iter().map(|begun| begun.area(curvature)).sum::<f64>();
+        for begun in new {
+            let mut area = begun.area(curvature);
+            let Begun { front, rise, .. } = begun;
             if first.is_some_and(|(_, first)| first == front) {
                 area += std::mem::take(&mut left);
             }
@@ -277,14 +299,14 @@ impl Dynamic {
 }
 
 /// The curvature in 1/m at which menisci hold an area in m² together, at most `most`.
-fn common_curvature(menisci: &[(FrontId, Rise)], area: f64, most: f64) -> f64 {
+fn common_curvature(menisci: &[Begun], area: f64, most: f64) -> f64 {
     const HALVINGS: usize = 80;
-    let held = |k: f64| menisci.iter().map(|(_, rise)| rise.area(k)).sum::<f64>();
+    let held = |k: f64| menisci.iter().map(|begun| begun.area(k)).sum::<f64>();
     let mut high = most;
     if menisci.is_empty() || held(high) <= area {
         return high;
     }
-    let mut low = menisci.iter().map(|(_, rise)| rise.start().1).fold(high, f64::min);
+    let mut low = menisci.iter().map(|begun| begun.rise.start().1).fold(high, f64::min);
     let mut reach = (high - low).max(high.abs()).max(f64::MIN_POSITIVE);
     while held(low) > area && reach.is_finite() {
         low -= reach;

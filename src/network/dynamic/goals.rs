@@ -160,9 +160,13 @@ impl Dynamic {
     pub(super) fn body(&self, element: usize, filling: &super::Filling) -> Body {
         let own = self.displacement.elements()[element].area;
         let bulges: f64 = self.bulges(element).iter().map(|(_, area)| area).sum();
-        let ahead = self.to_come(element);
+        // What the full element cuts off from the outlet lets no meniscus go on.
+        let cut_off = self.trapped_once_full(Some(element));
+        let (stopped, ahead): (Vec<_>, Vec<_>) =
+            self.to_come(element).into_iter().partition(|it| cut_off[self.ahead_of(it.front)]);
+        let stopped: f64 = stopped.iter().map(|it| it.area(filling.curvature)).sum();
         let first = ahead.iter().map(|to_come| to_come.rise.end().1).reduce(f64::min);
-        let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + own - bulges;
+        let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + stopped + own - bulges;
         let full = held(filling.curvature);
         let mut places = vec![(full, filling.curvature)];
         let last = first.map_or(filling.curvature, |first| first.max(filling.curvature));

@@ -365,17 +365,23 @@ impl Dynamic {
     /// For each element whether it holds the defending phase and no other element that does leads on to an outlet.
     #[must_use]
     pub fn trapped(&self) -> Vec<bool> {
+        self.trapped_once_full(None)
+    }
+
+    /// The same once one more element is full.
+    fn trapped_once_full(&self, full: Option<usize>) -> Vec<bool> {
+        let is_invaded = |element: usize| self.is_invaded(element) || full == Some(element);
         let count = self.state.filling.len();
         let mut flows = vec![false; count];
         let mut open: Vec<usize> = (0..count).filter(|&element| self.is_outlet[element]).collect();
         while let Some(element) = open.pop() {
-            if self.is_invaded(element) || std::mem::replace(&mut flows[element], true) {
+            if is_invaded(element) || std::mem::replace(&mut flows[element], true) {
                 continue;
             }
             open.extend(
                 self.displacement.gates_of(element).iter().map(|&(gate, end)| self.gates[gate].elements[1 - end]),
             );
         }
-        (0..count).map(|element| !self.is_invaded(element) && !flows[element]).collect()
+        (0..count).map(|element| !is_invaded(element) && !flows[element]).collect()
     }
 }

@@ -11,7 +11,7 @@ use crate::network::displacement::EventKind;
 use crate::network::laplacian::FlowError;
 use crate::network::occupation::Occupation;
 use crate::network::solver::NetworkSolver;
-use crate::network::{layers, summary};
+use crate::network::{layers, summary, warnings};
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
 use crate::solver::{
     Measure, PartTime, Results, Sample, Series, Solver, SolverError, StateError, Statistics, StepInfo,
@@ -193,7 +193,7 @@ impl Solver for DynamicSolver {
     }
 
     fn warnings(&self, _: &Series) -> Vec<String> {
-        let mut found = Vec::new();
+        let mut found = warnings::warnings(self.still.setting());
         if self.is_closed {
             found.push("the injected phase has no way out any more: the displacement ended there".to_owned());
         }

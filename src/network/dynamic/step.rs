@@ -28,6 +28,8 @@ impl Trial {
     }
 }
 
+/// Most that passes the inlet in one step, over the mean area of an element: the order of events then changes little with shorter steps.
+const LONGEST: f64 = 0.5;
 /// Least length that is taken for that of the next step, over that of the last one.
 const SHORTER: f64 = 0.1;
 /// Largest difference between a curvature, or a pressure, at the end of a step and that which the step took, as a share of its range.
@@ -96,7 +98,8 @@ impl Dynamic {
             Drive::Rate(rate) => rate,
             Drive::Pressure(_) => self.state.inflow.abs(),
         };
-        let longest = self.terms.largest_step * self.pore_area / flow;
+        let element = LONGEST / self.state.filling.len() as f64;
+        let longest = self.terms.largest_step.min(element) * self.pore_area / flow;
         if longest.is_finite() { longest } else { f64::INFINITY }
     }
 

@@ -1,0 +1,79 @@
+//! What a reader must know before trusting a network: what its formulas do not cover, and what does not lead through it.
+
+use super::flow::{LEAST_SOLID, drive};
+use super::setup::SIDES;
+use super::solver::Setting;
+use crate::case::checked::Side;
+
+/// The names of both permeabilities.
+pub const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];
+
+/// The warnings that a network asks for.
+pub fn warnings(setting: &Setting) -> Vec<String> {
+    let names: Vec<&str> =
+        (0..2).filter(|&axis| drive(setting, axis).is_some()).map(|axis| PERMEABILITIES[axis]).collect();
+    let loose = || loose(setting).filter(|_| !names.is_empty()).map(|note| format!("{}: {note}", names.join(", ")));
+    disconnected(setting).or_else(loose).into_iter().collect()
+}
+
+/// What the permeability along an axis, if there is one, does not tell.
+pub fn notes_on_permeability(setting: &Setting, axis: usize) -> Vec<String> {
+    if drive(setting, axis).is_none() {
+        return Vec::new();
+    }
+    loose(setting).into_iter().chain(open_beside(setting, axis)).collect()
+}
+
+fn loose(setting: &Setting) -> Option<String> {
+    let solid = 1.0 - setting.porosity;
+    (solid < LEAST_SOLID).then(|| {
+        format!(
+            "the solid fraction is {solid:.2}; below {LEAST_SOLID} walls may be far apart, and Stokes flow may differ by up to 30 %"
+        )
+    })
+}
+
+/// Flow along an open side passes between a wall and no wall, so that no throat stands for it.
+fn open_beside(setting: &Setting, axis: usize) -> Option<String> {
+    let beside = [2 * (1 - axis), 2 * (1 - axis) + 1];
+    let open: Vec<&str> = beside
+        .into_iter()
+        .filter(|&side| !matches!(setting.sides[side], Side::Wall | Side::Periodic))
+        .filter(|&side| setting.network.openings.iter().any(|opening| opening.side == side))
+        .map(|side| SIDES[side])
+        .collect();
+    (!open.is_empty()).then(|| {
+        format!(
+            "nothing flows along the open side{} {}: this is the permeability of the box as it is cut, not that of the solids; for that, make the sides \
+             periodic or walls",
+            if open.len() == 1 { "" } else { "s" },
+            open.join(" and ")
+        )
+    })
+}
+
+/// Whether the pore space leads from the inlet to the outlet.
+fn disconnected(setting: &Setting) -> Option<String> {
+    let (inlet, outlet) = (setting.inlet?, setting.outlet?);
+    let network = &setting.network;
+    let opens_at = |side: usize| network.openings.iter().filter(move |opening| opening.side == side);
+    let mut beside = vec![Vec::new(); network.regions.len()];
+    for [one, other] in network.throats.iter().map(|throat| throat.regions) {
+        beside[one].push(other);
+        beside[other].push(one);
+    }
+    let mut reached = vec![false; network.regions.len()];
+    let mut open: Vec<usize> = opens_at(inlet).map(|opening| opening.region).collect();
+    while let Some(region) = open.pop() {
+        if !std::mem::replace(&mut reached[region], true) {
+            open.extend(&beside[region]);
+        }
+    }
+    opens_at(outlet).all(|opening| !reached[opening.region]).then(|| {
+        format!(
+            "no way through the pores leads from the inlet ({}) to the outlet ({}): the solids close all of them, so that nothing is displaced \
+             to the outlet; choose other sides, or look at the picture for the shapes that touch",
+            SIDES[inlet], SIDES[outlet]
+        )
+    })
+}
