@@ -1,7 +1,7 @@
 //! A drop that moves along a wall, or that its lines hold (C11 and C12 of the benchmarks): angles, places and speeds of its lines, and forces.
 //!
-//! *Ahead* is the way that the drop is driven: the part of the body force along the wall, less buoyancy, else the motion of the drop relative to its
-//! wall. Lines whose ν_ns points ahead are the advancing ones. The momentum of the drop along a flat wall changes by
+//! *Ahead* is the way that the drop is driven, the same for all of a run: the part of the body force along the wall, less buoyancy; else the stream that
+//! the case gives, relative to the wall; else the way that its lines have gone once that is a spacing. Lines whose ν_ns points ahead are the advancing ones. The momentum of the drop along a flat wall changes by
 //! d(P)/dt = body force less buoyancy + friction of the wall + drag of the other fluid − σ (cos θ_R − cos θ_A): see `force_balance`.
 
 use super::force_balance;
@@ -25,7 +25,7 @@ const WINDOW: f64 = 0.5;
 /// Measured lines belong to followed ones within this distance over h.
 const SAME_LINE: f64 = 6.0;
 
-/// A body force along the wall below this share of the whole does not tell the way ahead.
+/// A body force or a stream along the wall below this share of the whole does not tell the way ahead.
 const DRIVEN: f64 = 1e-3;
 
 /// Columns and measures of its table `[sph.measure.moving-drop]`.
@@ -38,19 +38,15 @@ struct Ends {
     lines: [[f64; 4]; 2],
 }
 
-/// Where the drop is driven to along the wall of its lines.
+/// Where the drop is driven to along the wall of its lines; none where neither a force nor a stream is given and the lines have not moved.
 fn ahead(flow: &Flow, lines: &[Line]) -> Option<Vec2> {
     let along = lines.first()?.outward;
     let m = &flow.setting.method;
     let weight = (m.wetting_fluid.density - m.other_fluid.density) * m.gravity;
-    let drive = weight.dot(&along);
-    if drive.abs() > DRIVEN * weight.norm() {
-        return Some(along * drive.signum());
-    }
-    let p = &flow.state.particles;
     let wall = lines.iter().map(|line| flow.setting.spots.velocity(line.position)).sum::<Vec2>() / lines.len() as f64;
-    let of_drop = (0..p.fluids).filter(|&a| p.phase[a] == Phase::Wetting).map(|a| p.velocity[a] - wall);
-    Some(along * of_drop.sum::<Vec2>().dot(&along).signum())
+    let given = [weight, stream::given(flow, wall)].into_iter();
+    let driving = given.chain(flow.state.gone).find(|by| by.dot(&along).abs() > DRIVEN * by.norm())?;
+    Some(along * driving.dot(&along).signum())
 }
 
 fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {

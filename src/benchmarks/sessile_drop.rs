@@ -1,4 +1,5 @@
-//! Base, height and, under gravity, the angle of a drop on a wall (C1 and C2 of the benchmarks).
+//! Base, height and, under gravity, the angle of a drop on a wall (C1 and C2 of the benchmarks). Half a drop beside a symmetry side counts with its
+//! image.
 //!
 //! Exact under gravity: the Young-Laplace equation of the plane, solved by Runge-Kutta steps from the apex. With the arc length s, the
 //! inclination phi and the depth z below the apex: dx/ds = cos phi, dz/ds = sin phi, dphi/ds = kappa_0 + z/l_c², where
@@ -9,6 +10,7 @@ use crate::interface::cap::cap;
 use crate::interface::contact::{ACCURACY, ContactLine};
 use crate::math::Vec2;
 use crate::solver::Measure;
+use crate::sph::domain::{ImageVelocity, Mirror};
 use crate::sph::flow::Flow;
 use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
@@ -120,13 +122,13 @@ struct Extent {
 }
 
 impl Extent {
-    /// What is seen of it; `h` in m.
-    fn of(seen: &Observation, h: f64) -> Self {
+    /// What is seen of it, with the image of its half beyond a symmetry side.
+    fn of(flow: &Flow, seen: &Observation) -> Self {
         // As for the angle: the contour may lie off by so much, to one side all along. That moves both ends outward, those of a flat drop the farther.
-        let off = ACCURACY * h;
-        let lines: Vec<_> = seen.lines_with_angle().collect();
+        let off = ACCURACY * flow.setting.method.kernel.h;
+        let lines: Vec<ContactLine> = seen.lines_with_angle().copied().chain(image(flow, seen)).collect();
         // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
-        let [a, b] = lines[..] else {
+        let [a, b] = &lines[..] else {
             let none = Length { value: f64::NAN, uncertainty: f64::NAN };
             return Self { base: none, height: none };
         };
@@ -141,13 +143,41 @@ impl Extent {
     }
 }
 
+/// The symmetry side that the interface of a half drop ends at: its only contact line has an image there.
+fn mirror(flow: &Flow, seen: &Observation) -> Option<Mirror> {
+    let [interface] = &seen.interface[..] else { return None };
+    if seen.lines_with_angle().count() != 1 {
+        return None;
+    }
+    let ends = [*interface.points.first()?, *interface.points.last()?];
+    let distance =
+        |mirror: &Mirror| ends.map(|x| (x[mirror.axis] - mirror.at).abs()).into_iter().fold(f64::INFINITY, f64::min);
+    let symmetric = flow.setting.domain.mirrors.iter().filter(|mirror| mirror.image == ImageVelocity::Mirrored);
+    let nearest = symmetric.copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    (distance(&nearest) < flow.setting.method.kernel.support()).then_some(nearest)
+}
+
+/// The image of the contact line of a half drop.
+fn image(flow: &Flow, seen: &Observation) -> Option<ContactLine> {
+    let mirror = mirror(flow, seen)?;
+    let mut line = *seen.lines_with_angle().next()?;
+    line.position[mirror.axis] = 2.0 * mirror.at - line.position[mirror.axis];
+    Some(line)
+}
+
+/// Areas in m² of wetting and non-wetting phase; of a half drop beside a symmetry side of the whole one.
+fn areas(s: &Subject) -> [f64; 2] {
+    let whole = if mirror(s.flow, s.seen).is_some() { 2.0 } else { 1.0 };
+    [whole * s.seen.areas.wetting, whole * s.seen.areas.non_wetting]
+}
+
 fn columns(flow: &Flow, seen: &Observation) -> Columns {
-    let Extent { base, height } = Extent::of(seen, flow.setting.method.kernel.h);
+    let Extent { base, height } = Extent::of(flow, seen);
     vec![(BASE, base.value), (HEIGHT, height.value)]
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let Extent { base, height } = Extent::of(s.seen, s.flow.setting.method.kernel.h);
+    let Extent { base, height } = Extent::of(s.flow, s.seen);
     let of_base = "distance of the two contact points of the fitted meniscus";
     let of_height = "largest distance of the c = 0.5 contour from the line through both contact points";
     let (exact, over) = if s.flow.setting.method.gravity == Vec2::zeros() { as_a_cap(s) } else { under_gravity(s) };
@@ -169,11 +199,11 @@ fn measures(s: &Subject) -> Vec<Measure> {
 fn as_a_cap(s: &Subject) -> (SessileDrop, &'static str) {
     let through_wetting = s.flow.setting.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
     let is_wetting = s.seen.lines_with_angle().map(|line| line.curvature).sum::<f64>() > 0.0;
-    let areas = &s.seen.areas;
+    let [wetting, non_wetting] = areas(s);
     let exact = if is_wetting {
-        cap(areas.wetting, through_wetting)
+        cap(wetting, through_wetting)
     } else {
-        cap(areas.non_wetting, std::f64::consts::PI - through_wetting)
+        cap(non_wetting, std::f64::consts::PI - through_wetting)
     };
     let over = "over that of the circular segment with the same area and the requested angle";
     (SessileDrop { base: exact.base, height: exact.height }, over)
@@ -185,7 +215,7 @@ fn under_gravity(s: &Subject) -> (SessileDrop, &'static str) {
     let force = m.curvature_gradient();
     let is_on_floor = |line: &ContactLine| -(s.flow.setting.wall)(line.position).1.dot(&force.normalize()) > LEVEL;
     let asked_for = m.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
-    let exact = sessile_drop(s.seen.areas.wetting, force.norm().sqrt().recip(), asked_for);
+    let exact = sessile_drop(areas(s)[0], force.norm().sqrt().recip(), asked_for);
     let exact = exact.filter(|_| s.seen.lines_with_angle().all(is_on_floor));
     let over =
         "over that of the Young-Laplace equation with the same area, the requested angle and gravity, on a level floor";

@@ -69,6 +69,10 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
                 readable(case.end)
             ));
         }
+        // When a run is steady is not known before.
+        _ if case.steady.is_some_and(|steady| steady.stop) => {
+            say(format_args!("  run         {} s or less, at most about {steps} steps and {time}", readable(case.end)));
+        }
         _ => say(format_args!("  run         {} s in about {steps} steps, about {time}", readable(case.end))),
     }
     let length = Length::of(case);

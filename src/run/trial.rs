@@ -14,6 +14,9 @@ use crate::solver::{Solver, SolverError};
 /// Steps that are tried; the first ones set up what later ones reuse.
 const TRIAL_STEPS: usize = 5;
 
+/// Quick steps go on for so long, in s: a flow that gathers speed soon takes shorter ones.
+const LOOK: f64 = 0.5;
+
 /// No further step is tried after so long, in s: those of many particles take long, and one of them tells enough.
 const PATIENCE: f64 = 10.0;
 
@@ -35,20 +38,20 @@ pub struct Trial {
     pub memory_bytes: Option<u64>,
 }
 
-/// Does the first steps of a case with its solver at time zero: five, or as many as ten seconds allow, at least one. `tried` is told the
-/// share of the five that is done, after each and before the first.
+/// Does the first steps of a case with its solver at time zero: five, or as many as ten seconds allow, at least one, and more where they are quick.
+/// `tried` is told the share of the five that is done, after each and before the first.
 ///
 /// # Errors
 /// [`SolverError`] of a step that fails.
 pub fn trial(case: &Case, solver: &mut dyn Solver, tried: &mut dyn FnMut(f64)) -> Result<Trial, SolverError> {
-    trial_within(case, solver, PATIENCE, tried)
+    trial_within(case, solver, [LOOK, PATIENCE], tried)
 }
 
-/// [`trial`] with as many steps as `patience` (s) allows.
+/// [`trial`] with five steps or as many as `patience` (s) allows, and more for `look` (s) where nothing else tells how many there will be.
 fn trial_within(
     case: &Case,
     solver: &mut dyn Solver,
-    patience: f64,
+    [look, patience]: [f64; 2],
     tried: &mut dyn FnMut(f64),
 ) -> Result<Trial, SolverError> {
     let clock = Instant::now();
@@ -59,9 +62,14 @@ fn trial_within(
     let until = next(solver);
     let mut info = solver.step(until)?;
     let first_s = clock.elapsed().as_secs_f64();
-    for step in 1..TRIAL_STEPS {
-        tried(step as f64 / TRIAL_STEPS as f64);
-        if solver.time() >= case.end || solver.is_done() || clock.elapsed().as_secs_f64() > patience {
+    for step in 1.. {
+        let took = clock.elapsed().as_secs_f64();
+        if step < TRIAL_STEPS {
+            tried(step as f64 / TRIAL_STEPS as f64);
+        } else if took > look || solver.steps_to(case.end).is_some() {
+            break;
+        }
+        if solver.time() >= case.end || solver.is_done() || took > patience {
             break;
         }
         let until = next(solver);
@@ -76,16 +84,19 @@ fn trial_within(
     let per_step = if more == 0 { first_s } else { (clock.elapsed().as_secs_f64() - first_s) / more as f64 };
     // What a record takes, in time and memory.
     let before_record = clock.elapsed().as_secs_f64();
-    let record = (solver.sample(), solver.snapshot(), solver.state());
+    let record = || (solver.sample(), solver.snapshot().into_owned(), solver.state());
+    let first = record();
     let per_record = clock.elapsed().as_secs_f64() - before_record;
-    // A run needs most memory where it draws its picture while a record is on its way into files.
-    let content = vtk::points(&record.1.particles, record.1.time, compression(&case.output));
+    // A run needs most memory where it draws its picture while one record is on its way into files and the next one waits.
+    let waiting = record();
+    let content = vtk::points(&first.1.particles, first.1.time, compression(&case.output));
+    let grid = first.1.grid.as_ref().map(|grid| vtk::grid(grid, first.1.time, compression(&case.output)));
     let picture = drawn(&case.title, solver, &solver.results());
-    drop((record, content, picture));
+    drop((first, waiting, content, grid, picture));
     // Steps that grow with the time are cut at every record, most of them late in the run.
     let records = case.end / case.output.series_every.min(case.output.vtk_every).min(case.output.restart_every);
     let known = solver.steps_to(case.end).map(|left| (left + solver.steps() as f64 + records).ceil());
-    let steps = known.unwrap_or_else(|| (case.end / info.dt).ceil());
+    let steps = known.unwrap_or_else(|| solver.steps() as f64 + steps_between(&schedule, solver.time(), info.dt));
     Ok(Trial {
         unknowns: solver.statistics().unknowns,
         time_step_s: info.dt,
@@ -94,6 +105,18 @@ fn trial_within(
         duration_s: steps * per_step + records * per_record,
         memory_bytes: memory(),
     })
+}
+
+/// Steps of length `dt` (s) from `time` (s) to the end, all of which land on the records.
+fn steps_between(schedule: &Schedule, mut time: f64, dt: f64) -> f64 {
+    /// A whole number up to rounding is whole.
+    const ROUNDING: f64 = 1e-6;
+    let mut steps = 0.0;
+    while let Some(stop) = schedule.next_after(time) {
+        steps += ((stop.time - time) / dt - ROUNDING).ceil().max(1.0);
+        time = stop.time;
+    }
+    steps
 }
 
 /// The most memory that the program has used so far in bytes, where the system tells.
@@ -112,8 +135,8 @@ mod tests {
     #[test]
     fn a_trial_counts_the_steps_that_are_left() {
         let found = trial(&case(), &mut MockSolver::new(), &mut |_| {}).unwrap();
-        // The mock takes steps of 0.0234 s through 1 s.
-        assert_eq!((found.unknowns, found.steps), (36, 43.0));
+        // The mock takes steps of 0.0234 s, five to each of ten records.
+        assert_eq!((found.unknowns, found.steps), (36, 50.0));
         assert!(found.duration_s > 0.0);
     }
 
@@ -128,8 +151,8 @@ mod tests {
     fn steps_that_take_long_are_tried_once_and_tell_as_much() {
         for (patience, steps) in [(f64::INFINITY, 5), (0.0, 1)] {
             let (mut solver, mut told) = (MockSolver::new(), Vec::new());
-            let found = trial_within(&case(), &mut solver, patience, &mut |share| told.push(share)).unwrap();
-            assert_eq!((solver.steps(), found.steps), (steps, 43.0));
+            let found = trial_within(&case(), &mut solver, [0.0, patience], &mut |share| told.push(share)).unwrap();
+            assert_eq!((solver.steps(), found.steps), (steps, 50.0));
             assert_eq!(told[..2], [0.0, 0.2]);
         }
     }

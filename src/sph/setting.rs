@@ -24,6 +24,10 @@ pub struct Setting {
     pub spots: WallSpots,
     /// Open sides, and periodic ones with a given flow rate.
     pub open: Open,
+    /// Time in s in which the slowest viscous motion decays, infinite with surface tension and without walls.
+    pub viscous_time: f64,
+    /// Time in s since when the present forces act.
+    pub since: f64,
 }
 
 impl Setting {
@@ -48,6 +52,13 @@ impl Setting {
         let step = TURN_OVER * self.method.spacing;
         let curvature = (normal_at(step) - normal_at(-step)).dot(&along) / (2.0 * step);
         if curvature.abs() * self.method.kernel.h < TIGHTEST { curvature } else { 0.0 }
+    }
+
+    /// Whether the pressure of a long step becomes that of its end. Not with surface tension, which keeps steps so short that the pressure
+    /// follows, and not with inlets and outlets, where this is unstable: their buffers have no viscous forces.
+    #[must_use]
+    pub fn has_viscous_pressure(&self) -> bool {
+        self.method.tension == 0.0 && self.open.sides.is_empty()
     }
 
     /// Whether the divergence at the place `x` (m) counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.

@@ -97,6 +97,7 @@ impl SphSolver {
     fn turn_force(&mut self) {
         if let Some(stages) = &self.surroundings.stages {
             self.flow.setting.method.gravity = stages.force(self.flow.state.time);
+            self.flow.setting.since = stages.since(self.flow.state.time);
         }
     }
 

@@ -55,6 +55,12 @@ impl Stages {
         (1..self.axes.len()).filter(|&stage| self.starts_by(stage, time)).count()
     }
 
+    /// Start in s of the stage of the step that begins at `time` (s).
+    #[must_use]
+    pub fn since(&self, time: f64) -> f64 {
+        self.start(self.stage(time))
+    }
+
     /// Body force per mass in m/s² of a stage; none of one that is not there.
     #[must_use]
     pub fn force_of(&self, stage: usize) -> Vec2 {

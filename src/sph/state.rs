@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::math::Vec2;
 use crate::solver::StateError;
 use crate::sph::flow::Flow;
 use crate::sph::open::{GivenFlow, Ledger};
@@ -27,6 +28,8 @@ pub struct FlowState {
     pub ledger: Ledger,
     /// How the given flow through each periodic side of `Open::through` goes on.
     pub given_flows: Vec<GivenFlow>,
+    /// The unit vector along the wall that the contact lines had gone a spacing along, once they had.
+    pub gone: Option<Vec2>,
 }
 
 impl FlowState {
@@ -42,6 +45,7 @@ impl FlowState {
             lines: Vec::new(),
             ledger: Ledger::new(&particles.phase[..particles.fluids], next_id),
             given_flows: vec![GivenFlow::default(); given_flows],
+            gone: None,
             particles,
         }
     }

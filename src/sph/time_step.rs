@@ -31,6 +31,12 @@ const RESTING_CAPILLARY: f64 = 4.0;
 /// Above this density ratio both are halved: at 1000 longer steps throw particles of the liquid into the gas.
 const LIGHT_GAS: f64 = 20.0;
 
+/// Longest implicit step without surface tension over the time in which the slowest viscous motion decays: pressure and flow settle together.
+const VISCOUS: f64 = 0.25;
+
+/// The same over the time since when the forces act, where the pressure is that of the end of the step: what is left to change by then changes slowly.
+const VISCOUS_LATER: f64 = 0.125;
+
 /// A flow slower than this over the capillary speed is near rest.
 const SLOW: f64 = 1e-3;
 
@@ -89,6 +95,12 @@ impl Method {
     #[must_use]
     pub fn pinned_time_step(&self) -> f64 {
         self.time_step_factor.min(1.0) * self.moving_capillary() * self.time_of_waves()
+    }
+
+    /// The largest Δt in s where the slowest viscous motion decays in `viscous_time` (s) and the forces have acted for `age` (s).
+    #[must_use]
+    pub fn viscous_time_step(&self, viscous_time: f64, age: f64) -> f64 {
+        self.time_step_factor * (VISCOUS * viscous_time).max(VISCOUS_LATER * age)
     }
 
     /// Factor of the limit by surface tension in a flow that moves.

@@ -2,6 +2,7 @@
 
 use crate::interface::cap::cap;
 use crate::interface::contact::ContactLine;
+use crate::math::Vec2;
 use crate::solver::Series;
 use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
@@ -19,6 +20,15 @@ const SAME_WALL: f64 = 0.9;
 /// Angles as near as this to 0 or 180 degrees are told apart by the place of the interface to the second order only, in degrees.
 const LIMITING_ANGLE: f64 = 10.0;
 
+/// Speed over sqrt(tension / (density R)) from which currents in a drop at rest are told.
+const LARGEST_CURRENT: f64 = 5e-3;
+
+/// Share of its length by which the interface of a drop that keeps its shape may change.
+const SAME_SHAPE: f64 = 2e-3;
+
+/// Fewest records of the last fifth of the run to judge by.
+const FEWEST: usize = 5;
+
 /// Differences of angles that are rounding, in degrees and in rad.
 const ROUNDING: f64 = 1e-9;
 
@@ -28,7 +38,13 @@ pub fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<String>
     if flow.setting.method.tension == 0.0 {
         return Vec::new();
     }
-    [pieces_and_films(flow, seen, series), low_drop(flow, seen), limiting_angle(flow)].into_iter().flatten().collect()
+    let found = [
+        pieces_and_films(flow, seen, series),
+        low_drop(flow, seen),
+        limiting_angle(flow),
+        parasitic_currents(flow, seen, series),
+    ];
+    found.into_iter().flatten().collect()
 }
 
 /// Pieces and films below the resolution, now or at any record before.
@@ -52,6 +68,39 @@ fn pieces_and_films(flow: &Flow, seen: &Observation, series: &Series) -> Option<
 pub fn most_small_pieces(series: &Series) -> Option<(f64, f64)> {
     let records = series.column("small_pieces").zip(series.column("time_s"));
     records.reduce(|most, record| if record.0 > most.0 { record } else { most })
+}
+
+/// Currents of a thin liquid in a free drop that nothing drives and that keeps its shape.
+fn parasitic_currents(flow: &Flow, seen: &Observation, series: &Series) -> Option<String> {
+    let (m, p) = (&flow.setting.method, &flow.state.particles);
+    let is_driven = m.gravity != Vec2::zeros()
+        || !flow.setting.open.sides.is_empty()
+        || !flow.setting.open.through.is_empty()
+        || p.velocity[p.moving()..].iter().any(|v| *v != Vec2::zeros());
+    let rows = series.rows.len();
+    let late = rows - rows / 5;
+    let last = |column: &str| series.column(column).skip(late).collect::<Vec<f64>>();
+    let (lengths, speeds) = (last("interface_length_m"), last("max_speed_m_per_s"));
+    let (low, high) =
+        lengths.iter().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), l| (low.min(*l), high.max(*l)));
+    if is_driven || lengths.len() < FEWEST || !seen.contact_lines.is_empty() || high - low > SAME_SHAPE * high {
+        return None;
+    }
+    let is_wetting = seen.areas.wetting < seen.areas.non_wetting;
+    let (fluid, area) =
+        if is_wetting { (m.wetting_fluid, seen.areas.wetting) } else { (m.other_fluid, seen.areas.non_wetting) };
+    let radius = (area / std::f64::consts::PI).sqrt();
+    let scale = (m.tension / (fluid.density * radius)).sqrt();
+    let speed = speeds.into_iter().fold(0.0, f64::max);
+    (speed > LARGEST_CURRENT * scale).then(|| {
+        format!(
+            "a drop that keeps its shape has currents of up to {speed:.1e} m/s, Ca = {:.1e}, {:.1} % of sqrt(tension / (density R)): the surface force \
+             drives them where a liquid is thin (Oh = {:.1e}), and slower motions are not a result; compare with a larger viscosity",
+            fluid.viscosity * speed / m.tension,
+            100.0 * speed / scale,
+            fluid.viscosity / (fluid.density * m.tension * radius).sqrt()
+        )
+    })
 }
 
 /// A drop on a plane of the asked-for angle that is only a few spacings high.

@@ -2,7 +2,12 @@
 
 use std::path::Path;
 
+use crate::support::flow::flow;
 use crate::support::program::{assert_code, meniscus, stdout};
+use meniscus::benchmarks::asked_for;
+use meniscus::case::checked::MeasureSet;
+use meniscus::sph::measures::Group;
+use meniscus::sph::observe::Observation;
 use serde_json::Value;
 
 /// A meniscus between plates half a millimeter apart, 16 spacings across.
@@ -84,4 +89,27 @@ fn check_warns_of_low_drops_and_of_coarse_throats() {
     assert!(low.contains("spacings high on a plane"), "{low}");
     let film = told(&[drop, "--set=sph.wetting.young.contact-angle-deg=0.0"]);
     assert!(film.contains("spreads to a film"), "{film}");
+}
+
+/// Base and height in m of a drop on the floor of a box that begins at `left` (m), whose left side is of the given kind.
+fn extent(left: f64, kind: &str) -> Vec<f64> {
+    let flow = flow(&format!(
+        "format = 1\ntitle = \"A drop\"\n[geometry]\nmin = [{left:?}, 0.0]\nmax = [1.0e-3, 1.0e-3]\n[time]\nend = 1.0\n[sph]\nspacing = 4.0e-5\n\
+         [sph.phases.wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n[sph.phases.non-wetting]\ndensity = 1000.0\nviscosity = 5.0e-3\n\
+         [sph.interface]\ntension = 0.02\n[sph.wetting.young]\ncontact-angle-deg = 90.0\n[sph.sides]\nleft = \"{kind}\"\n\
+         [[sph.initial.wetting]]\ndisc = {{ center = [0.0, 0.0], radius = 5.0e-4 }}\n"
+    ));
+    let set = MeasureSet { sessile_drop: true, ..MeasureSet::default() };
+    let columns = |group: &Group| (group.columns)(&flow, &Observation::of(&flow, &[]));
+    asked_for(&set).iter().flat_map(columns).map(|(_, value)| value).collect()
+}
+
+/// Issue: half a drop beside a symmetry side has one contact line, and its base and height vanished.
+#[test]
+fn half_a_drop_beside_a_symmetry_side_has_the_base_and_height_of_the_whole_one() {
+    let (whole, half) = (extent(-1.0e-3, "wall"), extent(0.0, "symmetry"));
+    assert!((whole[0] / 1.0e-3 - 1.0).abs() < 0.01 && (whole[1] / 5.0e-4 - 1.0).abs() < 0.02, "{whole:?}");
+    for (whole, half) in whole.iter().zip(&half) {
+        assert!((half / whole - 1.0).abs() < 5e-3, "{whole} and {half}");
+    }
 }

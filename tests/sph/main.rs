@@ -11,6 +11,7 @@ mod fitted_walls;
 mod open_sides;
 mod poisson;
 mod relative_permeability;
+mod steady_flows;
 mod step;
 mod stream;
 mod terms;

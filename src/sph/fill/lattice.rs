@@ -70,6 +70,11 @@ impl Lattice {
         Bounds { min: self.bounds.min - Vec2::new(by(0), by(2)), max: self.bounds.max + Vec2::new(by(1), by(3)) }
     }
 
+    /// The lattice points of the box.
+    pub fn inside(&self) -> impl Iterator<Item = Vec2> + '_ {
+        self.points(0.0, [false; 4])
+    }
+
     /// The lattice points to a depth of `margin` (m) beyond the sides for which `open` holds, corners at `walls` included.
     pub fn beyond(&self, margin: f64, walls: [bool; 4], open: [bool; 4]) -> impl Iterator<Item = Vec2> + '_ {
         let all = [0, 1, 2, 3].map(|side| walls[side] || open[side]);

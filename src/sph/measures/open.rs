@@ -3,7 +3,7 @@
 use super::subject::{Columns, Subject, measure};
 use crate::solver::Measure;
 use crate::sph::flow::Flow;
-use crate::sph::open::{Drive, GivenFlow, Ledger, OpenSide};
+use crate::sph::open::{GivenFlow, Ledger, OpenSide};
 use crate::sph::particles::Phase;
 
 fn is_open(flow: &Flow) -> bool {
@@ -178,14 +178,11 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
     let (open, ledger, time) = (&flow.setting.open, &flow.state.ledger, flow.state.time);
     let count = |counts: &[[u64; 2]; 4], number: usize| counts[number].iter().sum::<u64>() as f64;
     let through_open_side = |side: &OpenSide| {
-        let (came, left) = (count(&ledger.came, side.number), count(&ledger.left, side.number));
-        let asked = match &side.drive {
-            Drive::Velocity(profile) => Some(profile.flow_rate()),
-            Drive::Pressure(_) => None,
-        };
-        // Particles come in one by one as cells of the lattice, which are what the flow rate is in at an inlet.
-        let area = if asked.is_some() { open.cell } else { flow.setting.method.volume };
-        ((came - left) * area / time, asked)
+        let asked = side.given_pressure().is_none().then(|| side.flow_rate());
+        // By the ways of the rows: counts of particles come in whole layers.
+        let counted =
+            || (count(&ledger.came, side.number) - count(&ledger.left, side.number)) * flow.setting.method.volume;
+        (if asked.is_some() { ledger.passed[side.number] } else { counted() } / time, asked)
     };
     let through_period = |(side, given): (&OpenSide, &GivenFlow)| (given.passed / time, Some(side.flow_rate()));
     let rates = open.sides.iter().map(through_open_side).chain(flow.given_flows().map(through_period));

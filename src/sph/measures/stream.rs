@@ -12,11 +12,15 @@ use crate::math::Vec2;
 use crate::sph::cells::Cells;
 use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
+use crate::sph::open::OpenSide;
 use crate::sph::particles::Phase;
 
 /// The constant in the pressure does nothing only where the interface ends as far out across the force as it begins: by so much of its
 /// length it may not.
 const OPEN: f64 = 0.02;
+
+/// Walls whose mean velocity differs from that of one by this share of it move alike.
+const ALIKE: f64 = 1e-9;
 
 /// The force of the other fluid on the wetting phase along a direction, in N per m of depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +29,27 @@ pub struct StreamForce {
     pub pressure: f64,
     /// By its friction.
     pub friction: f64,
+}
+
+/// The stream that the case gives, relative to a wall that moves with the velocity `wall` (m/s), in its direction: of what passes inlets and periodic
+/// sides; else from high to low given pressures; else of the other walls, and where all move alike, of the fluid that they leave behind.
+#[must_use]
+pub fn given(flow: &Flow, wall: Vec2) -> Vec2 {
+    let (open, p) = (&flow.setting.open, &flow.state.particles);
+    let sum = |of: &dyn Fn(&OpenSide) -> Vec2| open.sides.iter().chain(&open.through).map(of).sum::<Vec2>();
+    let size = flow.setting.domain.bounds.size();
+    let area = p.fluids as f64 * flow.setting.method.volume;
+    let passing = sum(&|side: &OpenSide| side.flow_rate() * size[side.axis()] / area * side.way());
+    if passing != Vec2::zeros() {
+        return passing - wall;
+    }
+    let fall = sum(&|side: &OpenSide| side.given_pressure().unwrap_or(0.0) * side.way());
+    if fall != Vec2::zeros() {
+        return fall;
+    }
+    let of_walls = &p.velocity[p.moving()..];
+    let others = of_walls.iter().sum::<Vec2>() / of_walls.len().max(1) as f64 - wall;
+    if others.norm() > ALIKE * wall.norm() { others } else { -wall }
 }
 
 /// The force of the other fluid on the wetting phase along the unit vector `ahead`.

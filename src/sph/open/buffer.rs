@@ -23,33 +23,75 @@ pub struct Around<'a> {
     pub phase: &'a dyn Fn(Vec2) -> Phase,
 }
 
+/// A row of particles along the normal of a side.
+struct Row {
+    /// Its coordinate along the side in m.
+    y: f64,
+    /// Distance of its particles in m.
+    step: f64,
+    /// Their number.
+    count: usize,
+    /// Whether it lies in an opening.
+    is_open: bool,
+}
+
+/// The rows of a side from its lower end: equal ones fill each opening and each solid between two of them; solids at the ends of the side go on as far as
+/// `around` says.
+fn rows(side: &OpenSide, around: &Around) -> Vec<Row> {
+    let (along, axis) = (1 - side.axis(), side.axis());
+    let (min, max, spacing) = (around.bounds.min[along], around.bounds.max[along], around.step[along]);
+    let deep = (side.depth / around.step[axis]).round() as usize;
+    let solid = |y: f64| Row { y, step: around.step[axis], count: deep, is_open: false };
+    let equal = |from: f64, to: f64, count: usize| {
+        (0..count).map(move |j| from + (to - from) * (j as f64 + 0.5) / count as f64)
+    };
+    // Walls at the ends of the side go on as well; beyond mirrors and periodic sides stand copies.
+    let end = |number: usize, edge: f64, outer: f64| {
+        let length = (outer - edge).abs();
+        let (length, count) = if around.walls[2 * along + number] {
+            let count = ((length + around.support) / spacing).ceil();
+            (count * spacing, count as usize)
+        } else {
+            (length, (length / spacing).round() as usize)
+        };
+        let outwards = if number == 0 { -1.0 } else { 1.0 };
+        equal(edge, edge + outwards * length, count).map(solid).collect::<Vec<Row>>()
+    };
+    let [Some(first), Some(last)] = [side.openings.first(), side.openings.last()] else { return Vec::new() };
+    let mut rows: Vec<Row> = end(0, first.from, min).into_iter().rev().collect();
+    for (i, opening) in side.openings.iter().enumerate() {
+        if let Some(before) = i.checked_sub(1).map(|before| side.openings[before].to) {
+            let count = ((opening.from - before) / spacing).round().max(1.0) as usize;
+            rows.extend(equal(before, opening.from, count).map(solid));
+        }
+        let (step, count) = (side.step_in(opening), side.count_in(opening));
+        let open = |y: f64| Row { y, step, count, is_open: true };
+        rows.extend(equal(opening.from, opening.to, opening.rows(side.row_spacing)).map(open));
+    }
+    rows.extend(end(1, last.to, max));
+    rows
+}
+
 /// Fills the buffers, and carries the walls on beyond the open sides; `wall_depth` in m gets the depths of the new wall particles.
 pub fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: &[OpenSide], around: &Around) {
     let (fluids, before) = (particles.fluids, particles.len());
     let (mut buffer, mut walls) = (Vec::new(), Vec::new());
     for side in sides {
         let (along, axis) = (1 - side.axis(), side.axis());
-        let size = around.bounds.size()[along];
-        let count = (size / around.step[along]).round() as i64;
-        // Walls at the ends of the side go on as well; beyond mirrors and periodic sides stand copies.
-        let more = |end: usize| {
-            if around.walls[2 * along + end] { (around.support / around.step[along]).ceil() as i64 } else { 0 }
-        };
-        let deep = (side.depth / around.step[axis]).round() as i64;
-        for j in -more(0)..count + more(1) {
-            for i in 0..deep {
-                let mut x = Vec2::zeros();
-                x[along] = around.bounds.min[along] + (j as f64 + 0.5) * around.step[along];
-                let x = side.placed(x, (i as f64 + 0.5) * around.step[axis]);
+        for row in rows(side, around) {
+            let mut y = Vec2::zeros();
+            y[along] = row.y;
+            for i in 0..row.count {
+                let x = side.placed(y, (i as f64 + 0.5) * row.step);
                 let d = (around.signed_distance)(x);
-                if d > 0.0 && (0..count).contains(&j) {
+                if row.is_open {
                     buffer.push(particles.len());
                     let at_side = side.placed(x, -0.5 * around.step[axis]);
                     let phase = side.enters.unwrap_or_else(|| (around.phase)(at_side));
                     particles.append(phase, x);
-                } else if d <= 0.0 && d > -around.support {
+                } else if d > -around.support {
                     walls.push(particles.len());
-                    wall_depth.push(-d);
+                    wall_depth.push((-d).max(0.0));
                     particles.append(Phase::Solid, x);
                 }
             }
@@ -57,6 +99,17 @@ pub fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: &[OpenS
     }
     let order: Vec<usize> = (0..fluids).chain(buffer.iter().copied()).chain(fluids..before).chain(walls).collect();
     particles.arrange(&order, fluids, buffer.len());
+}
+
+/// Notes the area that came in through sides with a given velocity, as the particles of their buffers moved from the places `from` (m).
+pub fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSide], ledger: &mut Ledger) {
+    for b in particles.buffer() {
+        let Some(side) = sides.iter().find(|side| side.beyond(from[b]) >= 0.0) else { continue };
+        if side.given_pressure().is_none() {
+            let inwards = side.beyond(from[b]) - side.beyond(particles.position[b]);
+            ledger.passed[side.number] += inwards * side.cell / side.depth_at(from[b]);
+        }
+    }
 }
 
 /// Lets the particles that crossed an open side change from fluid to buffer or back; `spacing` in m.
@@ -78,7 +131,7 @@ pub fn exchange(particles: &mut Particles, sides: &[OpenSide], ledger: &mut Ledg
         if beyond < 0.0 {
             ledger.comes(side.number, particles.phase[b]);
             entered.push((b, side));
-        } else if beyond < side.depth {
+        } else if beyond < side.depth_at(x) {
             buffer.push(b);
         }
     }
@@ -88,7 +141,7 @@ pub fn exchange(particles: &mut Particles, sides: &[OpenSide], ledger: &mut Ledg
     for (b, side) in entered {
         fluid.push(b);
         let x = particles.position[b];
-        let end = side.placed(x, side.beyond(x) + side.depth);
+        let end = side.placed(x, side.beyond(x) + side.depth_at(x));
         let room = ROOM * spacing;
         if buffer.iter().all(|&c| (particles.position[c] - end).norm_squared() > room * room) {
             buffer.push(particles.len());

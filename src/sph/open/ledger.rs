@@ -1,16 +1,19 @@
-//! What passed through the sides, in particles: a particle's mass never changes, so counting them is exact.
+//! What passed through the sides, in particles: a particle's mass never changes, so counting them is exact. At sides with a given velocity also by
+//! the ways of the rows in their buffers, since counts come in whole layers.
 
 use serde::{Deserialize, Serialize};
 
 use crate::sph::particles::Phase;
 
 /// Counts of particles by side (left, right, bottom, top) and phase (wetting, non-wetting).
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
     /// Came in.
     pub came: [[u64; 2]; 4],
     /// Left.
     pub left: [[u64; 2]; 4],
+    /// Area in m² that came in through each side with a given velocity, by the ways of the particles in its buffer.
+    pub passed: [f64; 4],
     /// The name of the next particle.
     pub next_id: u32,
     /// Fluid particles at time zero, by phase.

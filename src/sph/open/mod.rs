@@ -2,7 +2,7 @@
 //!
 //! Beyond an open side stands a *buffer*: particles that count as fluid in every sum, and whose velocity (at inlets) or
 //! pressure (elsewhere) is given. A buffer particle that crosses inwards becomes fluid and a new one is made at the far end of
-//! its file; fluid that crosses outwards becomes buffer, and beyond the far end it goes (method: Tafuni et al. 2018; for the
+//! its row; fluid that crosses outwards becomes buffer, and beyond the far end it goes (method: Tafuni et al. 2018; for the
 //! pressure equation Hirschler et al. 2016).
 
 mod buffer;
@@ -13,7 +13,7 @@ mod profile;
 mod side;
 mod through;
 
-pub use buffer::{Around, exchange, fill};
+pub use buffer::{Around, exchange, fill, note_passed};
 pub use extrapolate::InteriorPoints;
 pub use ledger::Ledger;
 pub use pressure::Prescribed;
@@ -28,6 +28,4 @@ pub struct Open {
     pub sides: Vec<OpenSide>,
     /// Periodic sides with a given flow rate.
     pub through: Vec<OpenSide>,
-    /// Area of a cell of the lattice in m², of which a file of particles brings one per spacing.
-    pub cell: f64,
 }

@@ -9,6 +9,26 @@ pub struct Opening {
     pub to: f64,
 }
 
+impl Opening {
+    /// Width in m.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        self.to - self.from
+    }
+
+    /// How many rows of about `spacing` (m) it has room for.
+    #[must_use]
+    pub fn rows(&self, spacing: f64) -> usize {
+        (self.width() / spacing).round() as usize
+    }
+
+    /// Distance in m of the coordinate `y` (m) from it, 0 within.
+    #[must_use]
+    pub fn distance(&self, y: f64) -> f64 {
+        (self.from - y).max(y - self.to).max(0.0)
+    }
+}
+
 /// Form of a profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shape {
@@ -23,36 +43,50 @@ pub enum Shape {
     },
 }
 
+impl Shape {
+    /// The velocity over its mean at the share `s` of the way through the opening.
+    fn at(self, s: f64) -> f64 {
+        match self {
+            Self::Plug => 1.0,
+            Self::Parabola => 6.0 * s * (1.0 - s),
+            Self::HalfParabola { mirror_above: true } => 1.5 * (1.0 - (1.0 - s).powi(2)),
+            Self::HalfParabola { mirror_above: false } => 1.5 * (1.0 - s.powi(2)),
+        }
+    }
+
+    /// The share of the flow up to there, ∫ of [`Self::at`] from 0 to `s`.
+    fn below(self, s: f64) -> f64 {
+        match self {
+            Self::Plug => s,
+            Self::Parabola => s * s * (3.0 - 2.0 * s),
+            Self::HalfParabola { mirror_above: true } => 0.5 * s * s * (3.0 - s),
+            Self::HalfParabola { mirror_above: false } => 0.5 * s * (3.0 - s * s),
+        }
+    }
+}
+
 /// Velocity inwards along a side.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
     /// Mean velocity over the openings in m/s.
     pub mean: f64,
     /// Form.
     pub shape: Shape,
-    /// The openings; one where the form is a parabola.
-    pub openings: Vec<Opening>,
 }
 
 impl Profile {
-    /// Velocity inwards in m/s at the coordinate `y` (m) along the side, zero outside of the openings.
+    /// Velocity inwards in m/s at the coordinate `y` (m) in an `opening`.
     #[must_use]
-    pub fn at(&self, y: f64) -> f64 {
-        let Some(opening) = self.openings.iter().find(|o| (o.from..=o.to).contains(&y)) else { return 0.0 };
-        let share = (y - opening.from) / (opening.to - opening.from);
-        self.mean
-            * match self.shape {
-                Shape::Plug => 1.0,
-                Shape::Parabola => 6.0 * share * (1.0 - share),
-                Shape::HalfParabola { mirror_above: true } => 1.5 * (1.0 - (1.0 - share).powi(2)),
-                Shape::HalfParabola { mirror_above: false } => 1.5 * (1.0 - share.powi(2)),
-            }
+    pub fn at(&self, opening: &Opening, y: f64) -> f64 {
+        self.mean * self.shape.at((y - opening.from) / opening.width())
     }
 
-    /// Area that comes in per time in m²/s.
+    /// The mean in m/s over the row around `y` (m), if `rows` equal ones fill the `opening`: all of them bring the flow of the profile.
     #[must_use]
-    pub fn flow_rate(&self) -> f64 {
-        self.mean * self.openings.iter().map(|o| o.to - o.from).sum::<f64>()
+    pub fn of_row(&self, opening: &Opening, rows: usize, y: f64) -> f64 {
+        let rows = rows.max(1) as f64;
+        let row = (rows * (y - opening.from) / opening.width()).floor().clamp(0.0, rows - 1.0);
+        self.mean * rows * (self.shape.below((row + 1.0) / rows) - self.shape.below(row / rows))
     }
 }
 
@@ -109,21 +143,37 @@ mod tests {
         }
     }
 
+    const SHAPES: [Shape; 4] = [
+        Shape::Plug,
+        Shape::Parabola,
+        Shape::HalfParabola { mirror_above: true },
+        Shape::HalfParabola { mirror_above: false },
+    ];
+
     #[test]
-    fn every_profile_carries_its_mean_velocity() {
+    fn every_profile_has_its_mean_velocity() {
         let opening = Opening { from: 1.0, to: 3.0 };
-        for shape in [
-            Shape::Plug,
-            Shape::Parabola,
-            Shape::HalfParabola { mirror_above: true },
-            Shape::HalfParabola { mirror_above: false },
-        ] {
-            let profile = Profile { mean: 0.7, shape, openings: vec![opening] };
+        for shape in SHAPES {
+            let profile = Profile { mean: 0.7, shape };
             let n = 1000;
-            let sum: f64 = (0..n).map(|i| profile.at(1.0 + 2.0 * (f64::from(i) + 0.5) / f64::from(n))).sum();
+            let middle = |i: u32| 1.0 + 2.0 * (f64::from(i) + 0.5) / f64::from(n);
+            let mean = (0..n).map(|i| profile.at(&opening, middle(i))).sum::<f64>() / f64::from(n);
             // The midpoint rule is exact to second order for a parabola.
-            assert!((2.0 * sum / f64::from(n) / profile.flow_rate() - 1.0).abs() < 1e-6, "{shape:?}");
-            assert_eq!(profile.at(0.9), 0.0);
+            assert!((mean / 0.7 - 1.0).abs() < 1e-6, "{shape:?}");
+        }
+    }
+
+    #[test]
+    fn rows_bring_the_flow_of_the_profile_however_few_they_are() {
+        let opening = Opening { from: -0.3, to: 1.1 };
+        for shape in SHAPES {
+            let profile = Profile { mean: 0.7, shape };
+            for rows in 1..12 {
+                let width = opening.width() / f64::from(rows);
+                let middle = |i: u32| opening.from + (f64::from(i) + 0.5) * width;
+                let flow: f64 = (0..rows).map(|i| width * profile.of_row(&opening, rows as usize, middle(i))).sum();
+                assert!((flow / (0.7 * opening.width()) - 1.0).abs() < 1e-14, "{shape:?}, {rows} rows");
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! One open side: where it is, what is given there and what comes in.
 
 use crate::math::Vec2;
-use crate::sph::open::Profile;
+use crate::sph::open::{Opening, Profile};
 use crate::sph::particles::Phase;
 
 /// Depth of a buffer over h: particles within the support of the fluid have their own whole support within the buffer.
@@ -29,7 +29,13 @@ pub struct OpenSide {
     pub enters: Option<Phase>,
     /// The phase that the given pressure is that of.
     pub main: Phase,
-    /// Depth of the buffer in m, a whole number of spacings.
+    /// The openings that solids leave of it, each with room for a row of particles at least.
+    pub openings: Vec<Opening>,
+    /// Distance of rows in m that an opening comes nearest to.
+    pub row_spacing: f64,
+    /// V_0 in m², the area of a particle.
+    pub cell: f64,
+    /// Least depth of the buffer in m.
     pub depth: f64,
     /// How the pressure rises.
     pub steps: Option<Staircase>,
@@ -97,6 +103,42 @@ impl OpenSide {
         v
     }
 
+    /// The opening at the coordinate `y` (m) along the side, or the nearest one.
+    #[must_use]
+    pub fn opening(&self, y: f64) -> Option<&Opening> {
+        self.openings.iter().min_by(|a, b| a.distance(y).total_cmp(&b.distance(y)))
+    }
+
+    /// Distance in m of particles in a row of an opening: equal rows fill it, and each particle has its cell.
+    #[must_use]
+    pub fn step_in(&self, opening: &Opening) -> f64 {
+        self.cell * opening.rows(self.row_spacing).max(1) as f64 / opening.width()
+    }
+
+    /// Particles in each row of an opening.
+    #[must_use]
+    pub fn count_in(&self, opening: &Opening) -> usize {
+        /// A whole number up to rounding is whole.
+        const ROUNDING: f64 = 1e-9;
+        (self.depth / self.step_in(opening) - ROUNDING).ceil() as usize
+    }
+
+    /// Depth in m of the buffer at `x`: that of whole rows.
+    #[must_use]
+    pub fn depth_at(&self, x: Vec2) -> f64 {
+        let of = |opening: &Opening| self.count_in(opening) as f64 * self.step_in(opening);
+        self.opening(x[1 - self.axis()]).map_or(self.depth, of)
+    }
+
+    /// The given flow rate inwards in m²/s, 0 where a pressure is given.
+    #[must_use]
+    pub fn flow_rate(&self) -> f64 {
+        match &self.drive {
+            Drive::Velocity(profile) => profile.mean * self.openings.iter().map(Opening::width).sum::<f64>(),
+            Drive::Pressure(_) => 0.0,
+        }
+    }
+
     /// Sets the pressure that holds from `time` (s) on, where it rises in steps.
     pub fn take_step(&mut self, time: f64) {
         if let Some(steps) = self.steps {
@@ -104,13 +146,13 @@ impl OpenSide {
         }
     }
 
-    /// The given velocity in m/s at `x`, none where a pressure is given.
+    /// The given velocity in m/s of the row at `x`, none where a pressure is given.
     #[must_use]
     pub fn given_velocity(&self, x: Vec2) -> Option<Vec2> {
-        match &self.drive {
-            Drive::Velocity(profile) => Some(self.velocity(profile.at(x[1 - self.axis()]))),
-            Drive::Pressure(_) => None,
-        }
+        let Drive::Velocity(profile) = &self.drive else { return None };
+        let (y, none) = (x[1 - self.axis()], Some(Vec2::zeros()));
+        self.opening(y)
+            .map_or(none, |opening| Some(self.velocity(profile.of_row(opening, opening.rows(self.row_spacing), y))))
     }
 
     /// The given pressure in Pa, none where a velocity is given.

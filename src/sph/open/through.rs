@@ -41,20 +41,15 @@ impl OpenSide {
         self.velocity(1.0)
     }
 
-    /// The rate asked for in m²/s.
-    #[must_use]
-    pub fn flow_rate(&self) -> f64 {
-        match &self.drive {
-            Drive::Velocity(profile) => profile.flow_rate(),
-            Drive::Pressure(_) => 0.0,
-        }
-    }
-
     /// The velocity in m/s at `x` (m) of the parabola that is given, if one is.
     #[must_use]
     pub fn parabola(&self, x: Vec2) -> Option<Vec2> {
+        let y = x[1 - self.axis()];
         match &self.drive {
-            Drive::Velocity(profile) if profile.shape != Shape::Plug => self.given_velocity(x),
+            Drive::Velocity(profile) if profile.shape != Shape::Plug => {
+                let opening = self.openings.iter().find(|opening| opening.distance(y) == 0.0);
+                Some(self.velocity(opening.map_or(0.0, |opening| profile.at(opening, y))))
+            }
             _ => None,
         }
     }

@@ -12,7 +12,7 @@ impl Flow {
     /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26], with the given flow rates through
     /// periodic sides.
     pub(super) fn correct(&self, predicted: &Predicted, projected: Projected) -> Corrected {
-        let Projected { mut pressure, density_error_shift, responses } = projected;
+        let Projected { mut pressure, viscous_pressure, density_error_shift, responses } = projected;
         let acceleration = self.pressure_acceleration(&pressure);
         let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);
         let mut velocity: Vec<Vec2> = corrected.collect();
@@ -23,7 +23,7 @@ impl Flow {
         }
         velocity.extend(std::iter::repeat_n(Vec2::zeros(), self.state.particles.open));
         predicted.interior.set_buffer_velocity(&self.state.particles, &self.setting.open.sides, &mut velocity);
-        Corrected { velocity, pressure, density_error_shift, gradient_changes, responses }
+        Corrected { velocity, pressure, viscous_pressure, density_error_shift, gradient_changes, responses }
     }
 
     /// The acceleration of the fluid particles in m/s² by the gradient of a `pressure` (Pa), with the gravity that goes with it and the jump

@@ -123,9 +123,14 @@ impl ViscousMatrix<'_> {
         (1.0 - 2.0 / (dt * self.largest_rate)).max(0.0)
     }
 
+    /// θ Δt in s for a step of length `dt` (s).
+    pub(super) fn weight(&self, dt: f64) -> f64 {
+        dt * theta(dt * self.largest_rate)
+    }
+
     /// The change of the velocity in m/s over `dt` (s) under the `acceleration` (m/s²) of the forces at its beginning.
     pub(super) fn change(&self, acceleration: &[Vec2], dt: f64) -> (Vec<Vec2>, Convergence) {
-        let weight = dt * theta(dt * self.largest_rate);
+        let weight = self.weight(dt);
         let fluids = self.diagonal.len();
         let mut diagonal = vec![Mat2::identity(); fluids];
         each(&mut diagonal, |a| {

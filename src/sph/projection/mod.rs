@@ -23,6 +23,7 @@ use crate::sph::motion::Motion;
 use crate::sph::open::{self, InteriorPoints, Moved};
 use crate::sph::pairs::largest;
 use crate::sph::setting::Setting;
+use crate::sph::wetting::lines::gone;
 
 /// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
 /// fluid answers to that of the buffer by a small share, so that few will do. Without them one does, for the viscous step.
@@ -51,6 +52,8 @@ pub(in crate::sph) struct Corrected {
     pub(in crate::sph) velocity: Vec<Vec2>,
     /// Pressure in Pa, without the mean gradients that drive given flows.
     pressure: Vec<f64>,
+    /// What the pressure that the next step begins with has more, in Pa; empty for nothing.
+    viscous_pressure: Vec<f64>,
     /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
     pub(in crate::sph) density_error_shift: Vec<Vec2>,
     /// By how much the mean gradients that drive given flows change, in Pa/m.
@@ -66,6 +69,8 @@ pub(in crate::sph) struct Damped {
     by_pressure: Vec<Vec2>,
     /// The share of the step beyond the longest explicit one.
     excess: f64,
+    /// θ Δt in s, with the weight θ of the velocity at the end of the step.
+    weight: f64,
     /// Iterations.
     iterations: usize,
 }
@@ -115,14 +120,20 @@ impl Flow {
             let ways = Moved { from, to: &moved.position[..fluids], volume: method.volume, dt };
             given.pass(side, domain, &ways, phase, &mut state.ledger);
         }
-        state.particles.position[..moving].copy_from_slice(&moved.position);
+        let from = std::mem::take(&mut state.particles.position);
+        state.particles.position = moved.position;
+        state.particles.position.extend_from_slice(&from[moving..]);
+        open::note_passed(&from, &state.particles, &open.sides, &mut state.ledger);
         state.particles.velocity[..moving].copy_from_slice(&moved.velocity);
         self.work.set_back += moved.set_back;
         state.time = if dt >= until - state.time { until } else { state.time + dt };
         state.steps += 1;
         state.last_dt = dt;
         state.lines = std::mem::take(&mut self.fields.lines);
-        self.take_up_pressure(corrected.pressure, &corrected.gradient_changes);
+        state.gone = state.gone.or_else(|| gone(&state.lines, method.spacing));
+        let mut pressure = corrected.pressure;
+        pressure.iter_mut().zip(&corrected.viscous_pressure).for_each(|(p, by)| *p += by);
+        self.take_up_pressure(pressure, &corrected.gradient_changes);
         if !self.setting.open.sides.is_empty() {
             let (sides, state) = (&self.setting.open.sides, &mut self.state);
             open::exchange(&mut state.particles, sides, &mut state.ledger, self.setting.method.spacing);

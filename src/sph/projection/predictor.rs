@@ -32,7 +32,12 @@ impl Flow {
         let (place, speed) = largest(particles.len(), |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
         let method = &self.setting.method;
         let pinned = if self.fields.has_pinned_line { method.pinned_time_step() } else { f64::INFINITY };
-        let step = method.time_step(speed, rate).tighter(pinned, "surface tension").tighter(longest, "acceleration");
+        let settled = if self.setting.has_viscous_pressure() { self.state.time - self.setting.since } else { 0.0 };
+        let step = method
+            .time_step(speed, rate)
+            .tighter(pinned, "surface tension")
+            .tighter(method.viscous_time_step(self.setting.viscous_time, settled), "viscosity")
+            .tighter(longest, "acceleration");
         let smallest = self.setting.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
             let place = particles.position.get(place).copied().unwrap_or_default();
@@ -97,7 +102,7 @@ impl Flow {
             });
         }
         each(acceleration, |a| change[a] / dt - by_pressure[a]);
-        Ok(Damped { by_pressure, excess, iterations: found.iterations })
+        Ok(Damped { by_pressure, excess, weight: matrix.weight(dt), iterations: found.iterations })
     }
 
     fn background_acceleration(&self) -> Vec<Vec2> {

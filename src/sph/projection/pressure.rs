@@ -6,6 +6,7 @@ use super::Predicted;
 use super::given_flow::{RESPONSE_RESIDUAL, Response};
 use crate::math::Vec2;
 use crate::solver::SolverError;
+use crate::sph::boundary::shepard;
 use crate::sph::flow::Flow;
 use crate::sph::method::Method;
 use crate::sph::neighborhood::Neighborhood;
@@ -32,6 +33,8 @@ const CORRECTION_RESIDUAL: f64 = 0.01;
 pub(super) struct Projected {
     /// Pressure in Pa.
     pub(super) pressure: Vec<f64>,
+    /// What the pressure that the next step begins with has more, in Pa, see [`Flow::viscous_pressure`].
+    pub(super) viscous_pressure: Vec<f64>,
     /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
     pub(super) density_error_shift: Vec<Vec2>,
     /// What unit gradients along the periodic sides with a given flow do.
@@ -85,6 +88,7 @@ impl Flow {
         self.subtract_divergence_error(predicted, &matrix, &hydrostatic, &mut b);
         let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.state.particles, &self.setting.open.sides, jump, method.kernel.h);
+        let viscous_pressure = self.viscous_pressure(predicted, &matrix, &b);
         let mut others = Vec::new();
         if method.density_error_shifting > 0.0 {
             let mut error = vec![0.0; n];
@@ -103,7 +107,7 @@ impl Flow {
         let responses = ways.iter().zip(potentials).map(|(&way, potential)| self.response(way, potential)).collect();
         // −∇ψ/ρ with the potential ψ in kg/m: the same on both sides of an interface.
         let density_error_shift = found.pop().map_or_else(Vec::new, |potential| self.down(potential));
-        Ok(Projected { pressure, density_error_shift, responses })
+        Ok(Projected { pressure, viscous_pressure, density_error_shift, responses })
     }
 
     /// The change of the velocity of the fluid particles in m/s that makes `velocity` (m/s) over particles and images free of divergence, and
@@ -229,6 +233,26 @@ impl Flow {
                 *b += damped.excess * (laplacian - f.volume[a] * of_gradient[a]);
             }
         });
+    }
+
+    /// θ Δt μ_a/V_a (M φ)_a in Pa with φ = p' − p, which M φ = b − M p gives: by so much the pressure that balances the viscous forces at the end of
+    /// a long step differs from p' (Timmermans, Minev and van de Vosse 1996). Empty after explicit steps and where
+    /// [`Setting::has_viscous_pressure`](crate::sph::setting::Setting::has_viscous_pressure) says so.
+    ///
+    /// The corrector adds −Δt ∇φ/ρ to a velocity with which viscosity held, and takes (1 + θ Δt K) ∇φ = ∇(φ + θ Δt μ M φ/V) for the missing part.
+    /// Without it a long step changes the pressure by a share of what is wrong that falls as 1/Δt.
+    fn viscous_pressure(&self, predicted: &Predicted, matrix: &Matrix, b: &[f64]) -> Vec<f64> {
+        if predicted.damped.excess == 0.0 || !self.setting.has_viscous_pressure() {
+            return Vec::new();
+        }
+        let (f, n) = (&self.fields, b.len());
+        let mut viscosity = f.viscosity.clone();
+        shepard::into_walls(&self.neighborhood.pairs, &f.fluid_volume, self.state.particles.moving(), &mut viscosity);
+        let mut change = vec![0.0; n];
+        matrix.residual(b, &self.state.particles.pressure, &mut change);
+        let weight = predicted.damped.weight;
+        change.iter_mut().enumerate().for_each(|(a, change)| *change *= weight * viscosity[a] / f.volume[a]);
+        change
     }
 
     /// V_0/V_a − 1, the density error of a fluid particle; 0 on others.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::viscous_time::viscous_time;
 use super::{Ground, SetupError, start_phase};
 use crate::case::checked::Sph;
 use crate::geometry::Geometry;
@@ -60,12 +61,15 @@ fn at_rest(pore: &Pore, phase: Option<Phase>, start: (Particles, Vec<f64>)) -> F
         let wall = pore.clone();
         // The same box was good for the particles.
         let Ground { lattice, method, domain } = Ground::of(&pore.geometry, &pore.sph);
+        let viscous_time = viscous_time(&method, &lattice, &domain, |x| wall.wall(phase, x).0);
         let setting = Setting {
             method,
             domain,
             wall: Box::new(move |x| wall.wall(phase, x)),
             spots: WallSpots::default(),
-            open: Open { cell: lattice.volume(), ..Open::default() },
+            open: Open::default(),
+            viscous_time,
+            since: 0.0,
         };
         let (particles, depth) = start.clone();
         Flow::new(setting, particles, depth)

@@ -9,6 +9,7 @@ mod method;
 mod open_sides;
 mod places;
 mod surroundings;
+mod viscous_time;
 mod walls;
 
 use std::sync::Arc;
@@ -21,6 +22,7 @@ use self::method::method;
 use self::open_sides::{inside_of_open_sides, open_sides};
 use self::places::{Filling, places};
 use self::surroundings::surroundings;
+use self::viscous_time::viscous_time;
 use self::walls::{mirrors, wall_spots};
 use crate::case::checked::{Case, Side, Sph};
 use crate::geometry::Geometry;
@@ -29,7 +31,7 @@ use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::fill::{self, Lattice, Region};
 use crate::sph::flow::Flow;
 use crate::sph::method::Method;
-use crate::sph::open::{self, Around, Open};
+use crate::sph::open::{self, Around};
 use crate::sph::particles::{Particles, Phase};
 use crate::sph::setting::Setting;
 use crate::sph::solver::SphSolver;
@@ -155,14 +157,14 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
     if let Some(start) = &sph.initial.network {
         handed_over::set_pressures(&mut particles, sph, &open, start);
     }
-    let open = Open { cell: lattice.volume(), ..open };
+    let viscous_time = viscous_time(&method, &lattice, &domain, |x| geometry.signed_distance(x));
     let surroundings = surroundings(case, sph, &geometry);
     let spots = wall_spots(sph, &geometry).unwrap_or_default();
     let wall: WallQuery = Box::new(move |x| {
         let wall = geometry.wall(inside(x));
         (wall.distance, wall.normal)
     });
-    let setting = Setting { method, domain, wall, spots, open };
+    let setting = Setting { method, domain, wall, spots, open, viscous_time, since: 0.0 };
     Ok(SphSolver::new(Flow::new(setting, particles, depth), surroundings))
 }
 

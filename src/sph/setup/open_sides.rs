@@ -34,6 +34,9 @@ pub(super) fn open_sides(
             drive: open::Drive::Pressure(0.0),
             enters,
             main: Phase::Wetting,
+            openings: Vec::new(),
+            row_spacing: lattice.step[along],
+            cell: lattice.volume(),
             depth: layers * lattice.step[axis],
             steps: None,
         };
@@ -52,11 +55,17 @@ pub(super) fn open_sides(
         if kinds[number] != Side::Periodic {
             goes_on(&side, geometry, &openings, &near_side, lattice.step)?;
         }
+        // No row has room in narrower ones, so that nothing passes there.
+        let openings: Vec<Opening> =
+            openings.into_iter().filter(|opening| opening.rows(lattice.step[along]) > 0).collect();
+        if openings.is_empty() {
+            return Err(SetupError::Blocked(SIDES[number]));
+        }
         side.main = enters.unwrap_or_else(|| main_phase(&openings, |y| phase(near_side(y)), step));
-        let width: f64 = openings.iter().map(|o| o.to - o.from).sum();
+        let width: f64 = openings.iter().map(Opening::width).sum();
         let profile = |mean: f64, form| {
             shape(form, SIDES[number], &openings, [kinds[2 * along], kinds[2 * along + 1]])
-                .map(|shape| open::Drive::Velocity(Profile { mean, shape, openings: openings.clone() }))
+                .map(|shape| open::Drive::Velocity(Profile { mean, shape }))
         };
         side.drive = match given.drive {
             checked::Drive::Pressure(first) => {
@@ -68,6 +77,7 @@ pub(super) fn open_sides(
             checked::Drive::Velocity(mean, form) => profile(mean, form)?,
             checked::Drive::FlowRate(rate, form) => profile(rate / width, form)?,
         };
+        side.openings = openings;
         if kinds[number] == Side::Periodic {
             open.through.push(side);
         } else {

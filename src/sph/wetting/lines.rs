@@ -45,6 +45,15 @@ pub struct Line {
     pub unseen: f64,
 }
 
+/// The unit vector along the wall that the lines have gone at least `way` (m) along, on the mean; none before.
+#[must_use]
+pub fn gone(lines: &[Line], way: f64) -> Option<Vec2> {
+    let along = lines.first()?.outward;
+    let ways = lines.iter().map(|line| line.travel * line.outward.dot(&along));
+    let mean = ways.sum::<f64>() / lines.len() as f64;
+    (mean.abs() >= way).then(|| mean.signum() * along)
+}
+
 /// What the interface tells of a contact line at one time.
 pub trait DetectedLine {
     /// About where the line is: a point of the wall in m.
