@@ -230,9 +230,10 @@ fn any_filter_and_number_of_nodes_runs_or_is_refused_with_a_reason() {
                 let overrides = Overrides::parse(&[spacing, length, method]).unwrap();
                 let Ok(loaded) = load(&named(case), &overrides) else {
                     refused += 1;
-                    // Coarser than the filter, or too fine for fourth differences.
+                    // Coarser than the filter, for particles than half of it, or too fine for fourth differences.
                     let resolution = alpha * f64::from(count);
-                    assert!(resolution < 1.0 || (resolution > 999.9 && fine), "{alpha} {count}");
+                    let coarsest = if fine { 1.0 } else { 2.0 };
+                    assert!(resolution < coarsest || (resolution > 999.9 && fine), "{alpha} {count}");
                     continue;
                 };
                 let mut solver = setup::build(&loaded.case).unwrap();
