@@ -111,7 +111,7 @@ fn the_methods_agree_on_a_droplet_that_spreads() {
 fn direct_and_recursive_sums_move_particles_alike() {
     let places = |sums: &str| {
         let method = format!("thin-film.method={{ particles = {{ integrator = \"explicit\", sums = \"{sums}\" }} }}");
-        let case = loaded(&named("partial-wetting"), &[&method, "thin-film.spacing=4e-5"]).case;
+        let case = loaded(&named("partial-wetting"), &[&method, "thin-film.spacing=2.5e-5"]).case;
         let mut solver = setup::build(&case).unwrap();
         advance(solver.as_mut(), &[1.0e-2]);
         solver.snapshot().particles.points.iter().map(|point| point.x).collect::<Vec<f64>>()

@@ -69,7 +69,9 @@ fn the_default_method_rests_at_the_angle_asked_for() {
 
 #[test]
 fn particles_that_rest_at_another_angle_say_at_which_before_the_run() {
-    for (angle, per_filter, half_width) in [(5.0, 10.0, 6.0e-4), (15.0, 3.0, 6.0e-4), (15.0, 6.0, 6.0e-4), (40.0, 2.0, 5.0e-4)] {
+    for (angle, per_filter, half_width) in
+        [(5.0, 10.0, 6.0e-4), (15.0, 3.0, 6.0e-4), (15.0, 6.0, 6.0e-4), (40.0, 2.0, 5.0e-4)]
+    {
         let set = [
             format!("thin-film.wetting.partial.contact-angle-deg={angle:?}"),
             format!("thin-film.spacing={:e}", 3.0e-5 / per_filter),
