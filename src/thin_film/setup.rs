@@ -105,10 +105,7 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
         about_axis: film.symmetry == FilmSymmetry::Axis,
         rest: film.contact_angle.map(|_| 1.0),
         cap_sides: cap_sides(film),
-        takes_lattice_off: matches!(
-            film.method,
-            FilmMethod::Particles { lattice_energy: LatticeEnergy::TakenOff, .. }
-        ),
+        takes_lattice_off: matches!(film.method, FilmMethod::Particles { lattice_energy: LatticeEnergy::TakenOff, .. }),
         most_droplets: most_droplets(film),
         is_self_similar: film.is_self_similar(),
         equilibrium,
