@@ -227,6 +227,10 @@ pub enum Quantity {
         length: &'static str,
         /// Interfacial tension in N/m.
         tension: f64,
+        /// Least and largest angle in degrees at which all contact lines rest; absent where something drives the flow, or walls differ.
+        at_rest: Option<[f64; 2]>,
+        /// Whether a contact line may rest at other angles, at edges.
+        pins: bool,
     },
     /// A difference of pressures in Pa, compared with its value, or with `scale` in Pa where that is larger.
     Pressure {

@@ -75,6 +75,13 @@ pub struct CapillaryPressure {
 /// docs/numerics/error-bars.md.
 pub const PRESSURE_RESOLUTION: f64 = 0.05;
 
+/// The same of a phase that hardly touches its walls, beyond an angle of [`FLAT_CONTACT`]: the smoothing at the thin gap along the wall adds to that
+/// of the interface.
+pub const PRESSURE_RESOLUTION_FLAT_CONTACT: f64 = 0.14;
+
+/// Contact angle in degrees above which the gap along the wall is too thin for the smoothing.
+pub const FLAT_CONTACT: f64 = 160.0;
+
 /// What lattice and walls leave of it however fine the spacing, over the pressure.
 pub const PRESSURE_FLOOR: f64 = 5e-4;
 
@@ -86,10 +93,23 @@ impl CapillaryPressure {
     }
 }
 
+impl CapillaryPressure {
+    /// The same where interfaces meet walls at the `angle` (degrees) through the wetting phase.
+    #[must_use]
+    pub fn uncertainty_at(&self, angle: f64, tension: f64, h: f64) -> f64 {
+        let share = if angle > FLAT_CONTACT { PRESSURE_RESOLUTION_FLAT_CONTACT } else { PRESSURE_RESOLUTION };
+        self.standard_error.hypot(error_of_share(share, self.value, tension, h))
+    }
+}
+
 /// The error in Pa of a capillary `pressure` (Pa) by the resolution.
 #[must_use]
 pub fn resolution_error(pressure: f64, tension: f64, h: f64) -> f64 {
-    pressure * (PRESSURE_RESOLUTION * (h * pressure / tension).powi(2)).hypot(PRESSURE_FLOOR)
+    error_of_share(PRESSURE_RESOLUTION, pressure, tension, h)
+}
+
+fn error_of_share(share: f64, pressure: f64, tension: f64, h: f64) -> f64 {
+    pressure * (share * (h * pressure / tension).powi(2)).hypot(PRESSURE_FLOOR)
 }
 
 /// Smoothing lengths that are left out beside the interface.

@@ -96,6 +96,13 @@ pub fn finish(opened: &Opened) -> Result<u8, Failure> {
         let (measure, along, of) = (&convergence.measure, &convergence.along, &convergence.of);
         say(format_args!("  order       {order} of {measure} along {along}, {of}"));
     }
+    if written.moving > 0 {
+        say(format_args!(
+            "  not at rest {} of {} runs, marked in the table, hollow in curves",
+            written.moving,
+            written.results.len()
+        ));
+    }
     for note in &written.unknown {
         say(format_args!("  note        {note}"));
     }

@@ -2,7 +2,8 @@
 //!
 //! With the means m₁, m₂, m₃ over three equal windows that end at the last row, an exponential approach leaves |d₂| r/(1 − r), d₁ = m₂ − m₁,
 //! d₂ = m₃ − m₂, r = d₂/d₁, cut off at [`steady::SLOWEST`]. A quantity that swings, so that d₁ and d₂ may differ in sign, is
-//! off by half of its range in the last window at most.
+//! off by half of its range in the last window at most. An angle that goes towards the one at rest is as far from its end as from that: spreading
+//! is a power law, of which three windows tell too little.
 //!
 //! A contact angle can pass its end and turn back: a flow that loses the kinetic energy E can do the work E on an interface of the length L, and
 //! so turn it by up to √(2E/(σL)). E is at most what the whole domain has in the last window.
@@ -20,6 +21,8 @@ pub struct Drift {
     pub rate: f64,
     /// How far the flow may still carry it, in its unit, however little it moves.
     pub by_flow: f64,
+    /// How far it is from the only value at which it can rest, in its unit; 0 where it may rest at others.
+    pub off: f64,
 }
 
 impl Drift {
@@ -29,30 +32,44 @@ impl Drift {
         let index = series.columns.iter().position(|one| one == column)?;
         let windows = last_windows(&series.rows, &SteadyStop::default())?;
         let values = windows.map(|rows| rows.iter().map(|row| row[index]).collect::<Vec<f64>>());
-        let [first, second, third] = [0, 1, 2].map(|i| values[i].iter().sum::<f64>() / values[i].len() as f64);
+        let [first, second, third] = means_of(series, column)?;
         let (before, last) = (second - first, third - second);
         let approach = if before * last > 0.0 { steady::left([first, second, third]) } else { 0.0 };
         let left = approach.max(0.5 * range(&values[2]));
         let rate = slope(windows[2], index);
-        (left.is_finite() && rate.is_finite()).then_some(Self { left, rate, by_flow: 0.0 })
+        (left.is_finite() && rate.is_finite()).then_some(Self { left, rate, by_flow: 0.0, off: 0.0 })
     }
 
     /// The drift of a watched quantity that has come to `value`.
     #[must_use]
     pub fn of_watched(series: &Series, Watched { column, kind }: Watched, value: f64) -> Option<Self> {
         let mut drift = Self::of(series, column)?;
-        if let Quantity::Angle { energy, length, tension } = kind {
+        if let Quantity::Angle { energy, length, tension, at_rest, pins } = kind {
             let length = series.column(length).last().unwrap_or(f64::NAN);
             let turn = (2.0 * energy_to_lose(series, energy) / (tension * length)).sqrt().to_degrees();
             drift.by_flow = if turn.is_finite() { turn } else { 0.0 };
+            let way = at_rest.map_or(0.0, |[least, most]| value.clamp(least, most) - value);
+            if goes(series, column, way) || moved(series, column) > MOVED * way.abs() {
+                drift.left = drift.left.max(way.abs());
+            }
+            drift.off = if pins { 0.0 } else { way.abs() };
         }
         Some(drift.within(kind.range(), value))
+    }
+
+    /// The same for a quantity of a standard uncertainty `known` at one time: what is farther from the only value at which it can rest than its error
+    /// explains has not come to rest, however slowly it moves.
+    #[must_use]
+    pub fn beside(self, known: f64) -> Self {
+        let is_off = self.off > FAR * known && self.off > FARTHEST_ERROR;
+        Self { left: if is_off { self.left.max(self.off) } else { self.left }, ..self }
     }
 
     /// The same for a quantity that changes by `factor` times as much.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
-        Self { left: factor.abs() * self.left, rate: factor * self.rate, by_flow: factor.abs() * self.by_flow }
+        let size = factor.abs();
+        Self { left: size * self.left, rate: factor * self.rate, by_flow: size * self.by_flow, off: size * self.off }
     }
 
     /// The same for a quantity that cannot leave the range `[least, most]`, and has come to `value`.
@@ -60,6 +77,56 @@ impl Drift {
         let possible = (value - least).max(most - value);
         Self { left: self.left.min(possible), by_flow: self.by_flow.min(possible), ..self }
     }
+}
+
+/// Uncertainties by which an angle at rest may be off.
+const FAR: f64 = 3.0;
+
+/// Degrees by which it may be off, however small its bar.
+const FARTHEST_ERROR: f64 = 1.5;
+
+/// Share of the way to its end by which an angle that swings about it, and turns back, moved within three windows.
+const MOVED: f64 = 0.5;
+
+/// Range of a column within the last three windows together.
+fn moved(series: &Series, column: &str) -> f64 {
+    let index = series.columns.iter().position(|one| one == column);
+    let windows = last_windows(&series.rows, &SteadyStop::default());
+    let values = index.zip(windows).map(|(index, windows)| {
+        windows.iter().flat_map(|rows| rows.iter().map(move |row| row[index])).collect::<Vec<f64>>()
+    });
+    values.map_or(0.0, |values| range(&values))
+}
+
+/// Whether a column is on its `way` to an end that is known: its mean goes there from window to window, in the last by more than
+/// [`NOISE`] of the range in the window and by more than [`SLOWEST`] of the way.
+///
+/// Spreading is a power law: an exponential through three windows ends long before the angle at rest.
+fn goes(series: &Series, column: &str, way: f64) -> bool {
+    let Some([first, second, third]) = means_of(series, column) else { return false };
+    let last = last_values(series, column);
+    let (before, now) = ((second - first) * way.signum(), (third - second) * way.signum());
+    before > 0.0 && now > NOISE * range(&last) && now > SLOWEST * way.abs()
+}
+
+/// Share of the range within a window by which its mean moves where that is no noise; a straight line moves by the whole of it.
+const NOISE: f64 = 0.5;
+
+/// Share of the way to its end by which a quantity moves in a window; a slower one rests elsewhere, by its error.
+const SLOWEST: f64 = 0.01;
+
+/// Values of a column in the last window.
+fn last_values(series: &Series, column: &str) -> Vec<f64> {
+    let index = series.columns.iter().position(|one| one == column);
+    let last = last_windows(&series.rows, &SteadyStop::default()).map(|windows| windows[2]);
+    index.zip(last).map(|(index, rows)| rows.iter().map(|row| row[index]).collect()).unwrap_or_default()
+}
+
+/// Means of a column in the last three windows.
+fn means_of(series: &Series, column: &str) -> Option<[f64; 3]> {
+    let index = series.columns.iter().position(|one| one == column)?;
+    let windows = last_windows(&series.rows, &SteadyStop::default())?;
+    Some(windows.map(|rows| rows.iter().map(|row| row[index]).sum::<f64>() / rows.len() as f64))
 }
 
 /// What of the kinetic energy in a column is still to be lost, in its unit; 0 where it does not fall.
@@ -104,7 +171,7 @@ mod tests {
     fn a_quantity_that_swings_may_be_off_by_its_swing_and_one_at_rest_by_nothing() {
         let swing = Drift::of(&series(|t| 60.0 + (40.0 * t).sin()), "angle").unwrap();
         assert!(swing.left > 0.9, "{swing:?}");
-        assert_eq!(Drift::of(&series(|_| 60.0), "angle"), Some(Drift { left: 0.0, rate: 0.0, by_flow: 0.0 }));
+        assert_eq!(Drift::of(&series(|_| 60.0), "angle"), Some(Drift { left: 0.0, rate: 0.0, by_flow: 0.0, off: 0.0 }));
     }
 
     #[test]
@@ -120,7 +187,8 @@ mod tests {
         let turn = |energy: fn(f64) -> f64| {
             let rows = (0..=100).map(|i| f64::from(i) / 100.0).map(|t| vec![t, 22.4, energy(t), 4.0e-3]).collect();
             let columns = ["time_s", "angle", "energy", "length"].map(str::to_owned).to_vec();
-            let kind = Quantity::Angle { energy: "energy", length: "length", tension: 0.02 };
+            let kind =
+                Quantity::Angle { energy: "energy", length: "length", tension: 0.02, at_rest: None, pins: false };
             let found = Drift::of_watched(&Series { columns, rows }, Watched { column: "angle", kind }, 22.4).unwrap();
             assert!(found.left < 1e-12 && found.rate.abs() < 1e-12, "{found:?}");
             found.by_flow
@@ -133,6 +201,62 @@ mod tests {
         let found = turn(|t| 1.0e-7 * (1.0 - t));
         assert!(found > 0.0 && found <= by(0.2e-7), "{found}");
         assert_eq!([turn(|t| 1.0e-7 * t), turn(|_| 1.0e-7)], [0.0, 0.0]);
+    }
+
+    /// The drift of an angle over the time 1 with an angle at rest of `end`, and its value at the end.
+    fn spreading(angle: impl Fn(f64) -> f64, end: [f64; 2]) -> (Drift, f64) {
+        let rows = (1..=100).map(|i| f64::from(i) / 100.0).map(|t| vec![t, angle(t), 0.0, 4.0e-3]).collect();
+        let columns = ["time_s", "angle", "energy", "length"].map(str::to_owned).to_vec();
+        let kind =
+            Quantity::Angle { energy: "energy", length: "length", tension: 0.02, at_rest: Some(end), pins: false };
+        (
+            Drift::of_watched(&Series { columns, rows }, Watched { column: "angle", kind }, angle(1.0)).unwrap(),
+            angle(1.0),
+        )
+    }
+
+    #[test]
+    fn an_angle_that_spreads_by_a_power_law_is_as_far_from_its_end_as_from_the_angle_at_rest() {
+        for exponent in [0.1, 0.2, 3.0 / 7.0, 0.6] {
+            for (end, excess) in [(8.0, 1.1), (10.0, 3.2), (40.0, 5.0), (120.0, 10.0), (60.0, -4.0)] {
+                let (drift, value) = spreading(|t| end + excess * t.powf(-exponent), [end; 2]);
+                assert!(drift.left >= 0.999 * (value - end).abs(), "{exponent} {end} {excess}: {drift:?}");
+                // What a wall of two angles lets rest on the way is nearer.
+                let (less, _) = spreading(|t| end + excess * t.powf(-exponent), [end - 9.0, end + 9.0]);
+                assert!(less.left < drift.left || excess > 9.0, "{exponent} {end} {excess}: {less:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_angle_that_turns_back_is_as_far_from_its_end_as_from_the_angle_at_rest() {
+        for periods in [0.5, 0.75, 1.0, 1.5] {
+            for decay in [0.3, 1.0, 3.0] {
+                let angle = |t: f64| 60.0 + 25.0 * (-decay * t).exp() * (std::f64::consts::TAU * periods * t).cos();
+                let (drift, value) = spreading(angle, [60.0; 2]);
+                assert!(drift.left >= 0.999 * (value - 60.0).abs(), "{periods} {decay}: {value} {drift:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_angle_far_from_the_only_one_at_which_it_rests_is_not_at_rest_however_slow() {
+        let (drift, _) = spreading(|t| 13.17 + 0.01 * (500.0 * t).sin(), [10.0; 2]);
+        assert!(drift.left < 0.05 && drift.beside(0.05).left > 3.1, "{drift:?}");
+        assert_eq!(drift.beside(2.0), drift);
+        let (near, _) = spreading(|_| 61.0, [60.0; 2]);
+        assert_eq!(near.beside(0.05), near);
+    }
+
+    #[test]
+    fn an_angle_at_rest_beside_the_requested_one_has_an_error_and_no_motion() {
+        let noise = |t: f64| 0.02 * (700.0 * t).sin();
+        for rest in [[40.0; 2], [80.0; 2], [59.0, 59.5]] {
+            let (drift, _) = spreading(|t| 60.0 + noise(t), rest);
+            assert!(drift.left < 0.05, "{rest:?}: {drift:?}");
+            let (drift, _) = spreading(|t| 60.0 + noise(t) + 20.0 * (-60.0 * t).exp(), rest);
+            assert!(drift.left < 0.05, "{rest:?}: {drift:?}");
+        }
     }
 
     #[test]

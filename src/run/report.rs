@@ -204,6 +204,7 @@ pub fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) ->
                 (None, Some(with)) => Drift::of(series, with.column).map(|drift| drift.times(with.factor)),
                 (None, None) => None,
             };
+            let drift = drift.map(|drift| drift.beside(at_one_time.unwrap_or(f64::INFINITY)));
             let known = at_one_time.or(kind.and_then(Quantity::small));
             let of_motion = drift.map(|drift| at_one_time.unwrap_or(0.0).hypot(drift.left).hypot(drift.by_flow));
             let uncertainty = of_motion.and_then(finite).or(at_one_time);

@@ -185,7 +185,13 @@ mod tests {
 
     const ANGLE: [Watched; 1] = [Watched {
         column: "contact_angle_deg",
-        kind: Quantity::Angle { energy: "kinetic_energy_J_per_m", length: "interface_length_m", tension: 0.02 },
+        kind: Quantity::Angle {
+            energy: "kinetic_energy_J_per_m",
+            length: "interface_length_m",
+            tension: 0.02,
+            at_rest: None,
+            pins: false,
+        },
     }];
 
     /// A series of one second with one quantity.

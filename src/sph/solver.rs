@@ -49,6 +49,8 @@ pub struct Surroundings {
     pub plates: Vec<Bounds>,
     /// Speeds of the walls at the left, right, bottom and top side in m/s.
     pub wall_speeds: [f64; 4],
+    /// Whether walls may have edges, where contact lines pin: they have not where there are no solids in the box.
+    pub has_edges: bool,
     /// Body forces that act one after the other, where that is what is measured.
     pub stages: Option<Stages>,
     /// Distance of grid nodes in m.
@@ -58,6 +60,18 @@ pub struct Surroundings {
 }
 
 impl SphSolver {
+    /// Least and largest angle in degrees at which every contact line rests, of a flow that nothing but its interface drives.
+    fn angles_at_rest(&self) -> Option<[f64; 2]> {
+        let setting = &self.flow.setting;
+        let is_driven = setting.method.gravity != Vec2::zeros()
+            || !setting.open.sides.is_empty()
+            || !setting.open.through.is_empty()
+            || self.surroundings.wall_speeds != [0.0; 4]
+            || self.surroundings.stages.is_some();
+        let model = setting.method.wetting.filter(|_| !is_driven && setting.method.patches.is_empty())?;
+        Some(model.hysteresis_range().map(f64::to_degrees))
+    }
+
     /// A solver at time zero.
     #[must_use]
     pub fn new(flow: Flow, surroundings: Surroundings) -> Self {
@@ -202,7 +216,14 @@ impl Solver for SphSolver {
             let pressure = Quantity::Pressure { scale: m.tension / size.max() };
             watched.push(Watched { column: "capillary_pressure_Pa", kind: pressure });
             watched.push(Watched { column: "saturation", kind: Quantity::Saturation });
-            let angle = Quantity::Angle { energy, length: "interface_length_m", tension: m.tension };
+            let at_rest = self.angles_at_rest();
+            let angle = Quantity::Angle {
+                energy,
+                length: "interface_length_m",
+                tension: m.tension,
+                at_rest,
+                pins: self.surroundings.has_edges,
+            };
             watched.push(Watched { column: "contact_angle_deg", kind: angle });
         }
         watched

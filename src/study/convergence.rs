@@ -19,7 +19,7 @@ pub struct Convergence {
     pub measure: String,
     /// Name of the parameter.
     pub along: String,
-    /// Error that counts as converged; 0 where none is stated.
+    /// Error that counts as converged: what the study states, and at least the rounding of the measure.
     pub floor: f64,
     /// Parameter and error of each complete run, from the largest parameter to the smallest.
     pub points: Vec<(f64, f64)>,
@@ -44,7 +44,7 @@ impl Convergence {
         self.points.windows(2).all(|pair| pair[1].1 < pair[0].1 || pair[1].1 <= self.floor)
     }
 
-    /// Whether the error has fallen to the floor that is stated.
+    /// Whether the error has fallen to the floor.
     #[must_use]
     pub fn is_at_floor(&self) -> bool {
         self.floor > 0.0 && self.points.last().is_some_and(|(_, error)| *error <= self.floor)
@@ -117,12 +117,15 @@ pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<
             Some((result.number(&trend.along)?, (result.number(&trend.measure)? - reference).abs()))
         };
         let mut points: Vec<(f64, f64)> = results.iter().filter_map(point).collect();
+        let rounding =
+            |result: &&RunResult| result.rounding(&trend.measure, result.run.quantity(&trend.reference).unwrap_or(0.0));
+        let rounding = results.iter().map(rounding).fold(0.0, f64::max);
         points.sort_by(|a, b| b.0.total_cmp(&a.0));
         Convergence {
             of: if of.is_empty() { "all runs".to_owned() } else { of },
             measure: trend.measure.clone(),
             along: trend.along.clone(),
-            floor: trend.floor,
+            floor: trend.floor.max(rounding),
             complete: points.len() == results.len(),
             ended: results.iter().all(|result| result.standing.report().is_some()),
             points,
@@ -187,6 +190,25 @@ mod tests {
         }
         let verdicts: Vec<Verdict> = judgments(&study, &results).iter().map(|judgment| judgment.verdict).collect();
         assert_eq!(verdicts, [Verdict::Met, Verdict::Missed]);
+    }
+
+    #[test]
+    fn an_error_that_is_rounding_has_no_order() {
+        let study = study(
+            "[[axis]]\nname = 'dx'\nkey = 'sph.spacing'\nvalues = [4, 2, 1]\n\
+             [[trend]]\nmeasure = 'm'\nreference = 40.0\nalong = 'dx'\norder = 1.0\n",
+        );
+        for rounding in [[3.0e-14, 1.0e-13, 2.0e-14], [1.0e-10, 4.0e-11, 1.0e-11], [0.0; 3]] {
+            let results = complete(&study, |run| 40.0 + rounding[run.index - 1]);
+            let found = convergences(&study, &study.trends[0], &results).remove(0);
+            assert_eq!((found.order(), found.order_text().as_str()), (None, "at its floor"), "{found:?}");
+            // What is exact but for rounding has converged.
+            assert_eq!(judgments(&study, &results)[0].verdict, Verdict::Met);
+        }
+        // Two errors and one of rounding: the order is that of the two.
+        let results = complete(&study, |run| 40.0 + [1.0e-2, 2.5e-3, 1.0e-13][run.index - 1]);
+        let found = convergences(&study, &study.trends[0], &results).remove(0);
+        assert!((found.order().unwrap() - 2.0).abs() < 1.0e-6, "{found:?}");
     }
 
     #[test]

@@ -17,8 +17,20 @@ const SIZE: (u32, u32) = (720, 480);
 #[error("{0}")]
 pub struct CurveError(String);
 
-/// A point: x, y, and the uncertainty of y.
-type Point = (f64, f64, Option<f64>);
+/// A point of a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// x.
+    pub x: f64,
+    /// y.
+    pub y: f64,
+    /// Uncertainty of y.
+    pub uncertainty: Option<f64>,
+    /// Whether y no longer moved at the end of its run, nor x; other points are hollow.
+    pub is_at_rest: bool,
+    /// Whether y is an error that is rounding, which has no order.
+    pub is_rounding: bool,
+}
 
 /// One line of a curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +59,10 @@ pub fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
             lines.len() - 1
         });
         if fits(curve.x_scale, x) && fits(curve.y_scale, shown_y) {
-            lines[place].points.push((x, shown_y, result.uncertainty(&curve.y)));
+            let is_rounding = curve.error && shown_y <= result.rounding(&curve.y, reference.unwrap_or(0.0));
+            let is_at_rest = [&curve.x, &curve.y].into_iter().all(|name| result.motion(name).is_none());
+            let uncertainty = result.uncertainty(&curve.y);
+            lines[place].points.push(Point { x, y: shown_y, uncertainty, is_at_rest, is_rounding });
         }
         if let Some(reference) = reference.filter(|r| !curve.error && fits(curve.x_scale, x) && fits(curve.y_scale, *r))
         {
@@ -55,7 +70,7 @@ pub fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
         }
     }
     for line in &mut lines {
-        line.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        line.points.sort_by(|a, b| a.x.total_cmp(&b.x));
         line.reference.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
     lines.retain(|line| !line.points.is_empty());
@@ -71,11 +86,11 @@ pub fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, Curve
     if lines.is_empty() {
         return Ok(None);
     }
-    let whiskers = |&(_, y, u): &Point| {
-        let u = u.filter(|_| !curve.error).unwrap_or(0.0);
-        [y - u, y + u]
+    let whiskers = |point: &Point| {
+        let u = point.uncertainty.filter(|_| !curve.error).unwrap_or(0.0);
+        [point.y - u, point.y + u]
     };
-    let all_x = lines.iter().flat_map(|line| line.points.iter().map(|point| point.0));
+    let all_x = lines.iter().flat_map(|line| line.points.iter().map(|point| point.x));
     let all_y = lines
         .iter()
         .flat_map(|line| line.points.iter().flat_map(whiskers).chain(line.reference.iter().map(|point| point.1)));
@@ -104,7 +119,7 @@ pub fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, Curve
 fn distinct(lines: &[Line]) -> Option<Vec<f64>> {
     /// More labels than this would meet.
     const MOST: usize = 8;
-    let mut values: Vec<f64> = lines.iter().flat_map(|line| line.points.iter().map(|point| point.0)).collect();
+    let mut values: Vec<f64> = lines.iter().flat_map(|line| line.points.iter().map(|point| point.x)).collect();
     values.sort_by(f64::total_cmp);
     values.dedup();
     Some(values).filter(|values| values.len() <= MOST)
@@ -126,7 +141,8 @@ fn y_label(curve: &Curve, results: &[RunResult]) -> String {
 /// The name of a line in the legend, with the observed order or slope where the scales show a power law as a straight line.
 fn legend(curve: &Curve, line: &Line) -> String {
     let logarithmic = curve.x_scale == RawScale::Logarithmic && curve.y_scale == RawScale::Logarithmic;
-    let (x, y): (Vec<f64>, Vec<f64>) = line.points.iter().map(|point| (point.0, point.1)).unzip();
+    let counted = line.points.iter().filter(|point| !point.is_rounding);
+    let (x, y): (Vec<f64>, Vec<f64>) = counted.map(|point| (point.x, point.y)).unzip();
     let order = observed_order(&x, &y);
     let word = if curve.error { "order" } else { "slope" };
     let order = (logarithmic && order.is_finite()).then(|| format!("{word} {order:.2}"));
@@ -174,11 +190,17 @@ fn draw<'a>(
         .draw()?;
     for (number, line) in lines.iter().enumerate() {
         let color = color_of(number);
-        let points = || line.points.iter().map(|&(x, y, _)| (x, y));
+        let points = || line.points.iter().map(|point| (point.x, point.y));
         chart.draw_series(LineSeries::new(points(), color.stroke_width(2)))?;
-        chart.draw_series(points().map(|point| Circle::new(point, 4, color.filled())))?;
-        let bars = line.points.iter().filter_map(|&(x, y, u)| Some((x, y, u.filter(|_| !curve.error)?)));
+        let bars = line
+            .points
+            .iter()
+            .filter_map(|point| Some((point.x, point.y, point.uncertainty.filter(|_| !curve.error)?)));
         chart.draw_series(bars.map(|(x, y, u)| PathElement::new([(x, y - u), (x, y + u)], color)))?;
+        // White below the rings of what is not at rest.
+        chart.draw_series(points().map(|point| Circle::new(point, 4, WHITE.filled())))?;
+        let style = |point: &Point| if point.is_at_rest { color.filled() } else { color.stroke_width(2) };
+        chart.draw_series(line.points.iter().map(|point| Circle::new((point.x, point.y), 4, style(point))))?;
         chart.draw_series(DashedLineSeries::new(line.reference.iter().copied(), 6, 4, color.into()))?;
     }
     whole.present()
@@ -188,6 +210,21 @@ fn draw<'a>(
 mod tests {
     use super::super::mock::{complete, study};
     use super::*;
+
+    #[test]
+    fn what_is_not_at_rest_has_hollow_points() {
+        let study = study("[[axis]]\nkey = 'dx'\nvalues = [1, 2, 3]\n[[report.curve]]\nx = 'dx'\ny = 'm'\n");
+        let mut results = complete(&study, |run| run.index as f64);
+        let hollow = |results: &[RunResult]| {
+            let text = svg(&study.report.curves[0], results).unwrap().unwrap();
+            text.matches("<circle").count()
+                - text.lines().filter(|line| line.contains("<circle") && !line.contains("fill=\"none\"")).count()
+        };
+        assert_eq!(hollow(&results), 0);
+        super::super::mock::set_moving(&mut results[1], 0.5);
+        assert_eq!(hollow(&results), 1);
+        assert_eq!(lines(&study.report.curves[0], &results)[0].points.iter().filter(|p| !p.is_at_rest).count(), 1);
+    }
 
     #[test]
     fn a_line_per_value_of_the_series_with_what_it_should_be() {

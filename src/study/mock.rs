@@ -4,7 +4,7 @@ use super::definition::Study;
 use super::load::load;
 use super::results::{RunReport, RunResult, Standing, Total, Unknowns};
 use super::runs::{Run, runs};
-use crate::run::report::{Reading, Status};
+use crate::run::report::{Motion, Reading, Status};
 
 /// A study of these axes, expectations and curves.
 pub fn study(text: &str) -> Study {
@@ -12,6 +12,12 @@ pub fn study(text: &str) -> Study {
     let path = folder.path().join("mock.toml");
     std::fs::write(&path, format!("format = 1\ntitle = \"Mock\"\ncase = \"none.toml\"\n{text}")).unwrap();
     load(&path).unwrap_or_else(|error| panic!("{}", error.render()))
+}
+
+/// Lets the measure `m` of a complete run move at a rate in degrees per s.
+pub fn set_moving(result: &mut RunResult, rate: f64) {
+    let Standing::Complete(report) = &mut result.standing else { panic!("complete") };
+    report.measures.get_mut("m").unwrap().not_at_rest = Some(Motion { rate, unit: "deg/s".into() });
 }
 
 /// Complete runs whose measure `m` in degrees is what `value` says, with an uncertainty of 0.1; NaN is not measured.

@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use super::convergence::Convergence;
 use super::definition::Study;
-use super::results::{RunResult, Standing};
-use super::table::Table;
+use super::results::{RunResult, Standing, moving};
+use super::table::{Table, shown_measures};
 use super::values::shown;
 use super::verdict::{Judgment, Verdict, digits};
 use crate::run::compare::PAGE;
@@ -47,10 +47,14 @@ pub struct Content<'a> {
 pub fn page(content: &Content<'_>) -> String {
     let title = escaped(&content.study.title);
     let done = content.results.iter().filter(|result| result.standing.report().is_some()).count();
+    let moving = match moving(content.results, &shown_measures(content.study, content.results)) {
+        0 => String::new(),
+        some => format!(" {some} of them with measures not at rest, marked in the table and hollow in curves."),
+    };
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n\
-         <body>\n<h1>{title}</h1>\n<p>{done} of {} runs done. The same table with all digits: \
+         <body>\n<h1>{title}</h1>\n<p>{done} of {} runs done.{moving} The same table with all digits: \
          <a href=\"table.csv\">table.csv</a>.</p>\n",
         content.results.len()
     );

@@ -9,7 +9,7 @@ use super::definition::Study;
 use super::folder::StudyFolder;
 use super::page::{Content, page};
 use super::resolution::Resolution;
-use super::results::{RUN_NUMBERS, RunResult, Standing, measures, results};
+use super::results::{RUN_NUMBERS, RunResult, Standing, measures, moving, results};
 use super::runs::PlannedRun;
 use super::table::{self, Table};
 use super::verdict::{Judgment, judgments};
@@ -39,6 +39,8 @@ pub struct StudyReport {
     pub judgments: Vec<Judgment>,
     /// Errors along spacings, with their orders.
     pub convergences: Vec<Convergence>,
+    /// Complete runs with a shown measure that is not at rest.
+    pub moving: usize,
     /// Names in the study file that are neither a parameter nor a measure of its runs, with a way out.
     pub unknown: Vec<String>,
     /// The page.
@@ -98,7 +100,8 @@ pub fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Resul
     let place = path("report.html");
     atomic::write(&place, page(&content).as_bytes())?;
     let unknown = unknown(study, &results);
-    Ok(StudyReport { results, table, judgments, convergences, unknown, page: place })
+    let moving = moving(&results, &table::shown_measures(study, &results));
+    Ok(StudyReport { moving, results, table, judgments, convergences, unknown, page: place })
 }
 
 /// Names that no run has; which measures there are is known when a run is complete.

@@ -9,7 +9,7 @@ use super::folder::StudyFolder;
 use super::runs::{PlannedRun, Run};
 use crate::io::restart;
 use crate::run::compare::DIRECT_RUN;
-use crate::run::report::{REPORT, Reading, Status};
+use crate::run::report::{Motion, REPORT, Reading, Status};
 
 /// What is known of a run besides its measures.
 pub const RUN_NUMBERS: [&str; 5] = ["steps", "unknowns", "wall-time-s", "solver-time-s", "cpu-s"];
@@ -145,6 +145,31 @@ impl RunResult {
     pub fn uncertainty(&self, measure: &str) -> Option<f64> {
         self.standing.report()?.measures.get(measure)?.uncertainty
     }
+}
+
+/// Share of a value below which its error is the rounding of its arithmetic.
+const ROUNDING: f64 = 1.0e-11;
+
+impl RunResult {
+    /// How a measure still moved at the end of its run, where that is by more than its uncertainty.
+    #[must_use]
+    pub fn motion(&self, measure: &str) -> Option<&Motion> {
+        self.standing.report()?.measures.get(measure)?.not_at_rest.as_ref()
+    }
+
+    /// The error of a measure that is rounding: a share of its value, of its `reference` or, for a pure number, of 1.
+    #[must_use]
+    pub fn rounding(&self, measure: &str, reference: f64) -> f64 {
+        let reading = self.standing.report().and_then(|report| report.measures.get(measure));
+        let one = if reading.is_some_and(|reading| reading.unit.is_empty()) { 1.0 } else { 0.0 };
+        ROUNDING * self.number(measure).unwrap_or(0.0).abs().max(reference.abs()).max(one)
+    }
+}
+
+/// How many complete runs have one of the `measures` not at rest.
+#[must_use]
+pub fn moving(results: &[RunResult], measures: &[String]) -> usize {
+    results.iter().filter(|result| measures.iter().any(|measure| result.motion(measure).is_some())).count()
 }
 
 /// All runs with where they stand.

@@ -17,16 +17,18 @@ pub struct Table {
 }
 
 /// The measures that the table shows: those asked for, or all that the runs have.
-fn shown_measures(study: &Study, results: &[RunResult]) -> Vec<String> {
+#[must_use]
+pub fn shown_measures(study: &Study, results: &[RunResult]) -> Vec<String> {
     study.report.measures.clone().unwrap_or_else(|| measures(results).into_keys().collect())
 }
 
 /// The table for other programs: all digits, beside each measure its uncertainty in the run and that by the spacing where they are known,
-/// nothing where there is no value. It does not depend on how often the study was interrupted.
+/// the rate in its unit per s where it is not at rest, nothing where there is no value. It does not depend on how often the study was interrupted.
 #[must_use]
 pub fn full(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
     let names = shown_measures(study, results);
     let has_uncertainty = |name: &str| results.iter().any(|result| result.uncertainty(name).is_some());
+    let moves = |name: &str| results.iter().any(|result| result.motion(name).is_some());
     let mut heads = vec!["run".to_owned()];
     heads.extend(study.parameters().map(|column| column.name.clone()));
     heads.push("status".to_owned());
@@ -34,6 +36,9 @@ pub fn full(study: &Study, results: &[RunResult], resolution: &Resolution) -> Ta
         heads.push(name.clone());
         if has_uncertainty(name) {
             heads.push(format!("{name}-uncertainty"));
+        }
+        if moves(name) {
+            heads.push(format!("{name}-not-at-rest"));
         }
         if resolution.has(name) {
             heads.push(format!("{name}-discretization-uncertainty"));
@@ -50,6 +55,9 @@ pub fn full(study: &Study, results: &[RunResult], resolution: &Resolution) -> Ta
             if has_uncertainty(name) {
                 row.push(text(result.uncertainty(name)));
             }
+            if moves(name) {
+                row.push(text(result.motion(name).map(|motion| motion.rate)));
+            }
             if resolution.has(name) {
                 row.push(text(resolution.uncertainty(result, name)));
             }
@@ -59,7 +67,8 @@ pub fn full(study: &Study, results: &[RunResult], resolution: &Resolution) -> Ta
     Table { heads, rows: results.iter().map(row).collect() }
 }
 
-/// The table for people: four digits with the uncertainty behind them, that by the spacing included, units in the heads.
+/// The table for people: four digits with the uncertainty behind them, that by the spacing included, units in the heads; what is not at rest
+/// is marked.
 #[must_use]
 pub fn short(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
     let names = shown_measures(study, results);
@@ -75,10 +84,14 @@ pub fn short(study: &Study, results: &[RunResult], resolution: &Resolution) -> T
         let both = [result.uncertainty(name), resolution.uncertainty(result, name)];
         both.into_iter().flatten().reduce(f64::hypot)
     };
-    let cell = |result: &RunResult, name: &str| match (result.number(name), uncertainty(result, name)) {
+    let value = |result: &RunResult, name: &str| match (result.number(name), uncertainty(result, name)) {
         (Some(value), Some(uncertainty)) => format!("{} ± {}", digits(value), significant(uncertainty, 2)),
         (Some(value), None) => digits(value),
         (None, _) => "–".to_owned(),
+    };
+    let cell = |result: &RunResult, name: &str| match result.motion(name) {
+        Some(_) => format!("{}, not at rest", value(result, name)),
+        None => value(result, name),
     };
     let row = |result: &RunResult| {
         let mut row: Vec<String> = result.run.parameters.iter().map(|parameter| shown(&parameter.value)).collect();
@@ -150,6 +163,21 @@ mod tests {
              | 1e-5 | done    | 0.3333 ± 0.10 | 10    | 1.500       | –     |\n\
              | 0.25 | partial | –             | –     | –           | –     |\n"
         );
+    }
+
+    #[test]
+    fn what_is_not_at_rest_is_marked_in_both_tables() {
+        let study = study("[[axis]]\nkey = 'dx'\nvalues = [1, 2, 3]\n[report]\nmeasures = ['m']\n");
+        let mut results = complete(&study, |_| 1.0 / 3.0);
+        super::super::mock::set_moving(&mut results[1], -2.5);
+        let csv = String::from_utf8(full(&study, &results, &Resolution::of(&study, &results)).csv().unwrap()).unwrap();
+        assert!(csv.starts_with("run,dx,status,m,m-uncertainty,m-not-at-rest\n"), "{csv}");
+        let last: Vec<&str> = csv.lines().skip(1).map(|row| row.rsplit(',').next().unwrap()).collect();
+        assert_eq!(last, ["", "-2.5", ""]);
+        let people = short(&study, &results, &Resolution::of(&study, &results));
+        let marked: Vec<bool> = people.rows.iter().map(|row| row[2].ends_with(", not at rest")).collect();
+        assert_eq!(marked, [false, true, false]);
+        assert_eq!(super::super::results::moving(&results, &shown_measures(&study, &results)), 1);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Implicit steps of a film on a grid: backward Euler, Newton's method with a line search, and the choice of the step.
 //!
 //! A step solves G(v) = 0 for the heights v at its end. Order 1 in time. Newton's method ends where the residual is small, or where its
-//! next change of the heights is: on fine grids rounding keeps the residual of a fourth derivative from being small. The factors of a
+//! next change of the heights is, or where no change lowers a residual that is the rounding of its terms: on fine grids and in long steps
+//! rounding keeps the residual of a fourth derivative from being small. The factors of a
 //! Jacobian serve as long as each change lowers the residual by a factor: they cost several times a solution with them. No factors are kept
 //! from step to step: a step depends on the heights, the time and the proposed step only, so that a run resumed from them gives the
 //! same bits as an unbroken one.
@@ -38,6 +39,9 @@ pub trait Balance {
 
     /// The norm of the residual in heights.
     fn size(&self, residual: &[f64]) -> f64;
+
+    /// What rounding of its terms leaves of G at `v` at most, in the norm of [`size`](Self::size).
+    fn rounding(&self, v: &[f64], dt: f64) -> f64;
 
     /// The factors of the Jacobian J of G at `v`; none where J is singular.
     fn jacobian(&self, v: &[f64], dt: f64) -> Option<Factors>;
@@ -167,11 +171,15 @@ impl BackwardEuler {
         let mut size = balance.size(&residual);
         let mut kept: Option<Factors> = None;
         let mut factored = 0;
+        let mut ends_by_rounding = false;
         while size >= RESIDUAL {
             let is_new = kept.is_none();
             let factors = match kept.take() {
                 Some(factors) => factors,
-                None if factored == FACTORS => return Err(Some(size)),
+                None if factored == FACTORS => {
+                    ends_by_rounding = size < balance.rounding(&v, dt);
+                    break;
+                }
                 None => balance.jacobian(&v, dt).ok_or(Some(size))?,
             };
             factored += u32::from(is_new);
@@ -182,6 +190,7 @@ impl BackwardEuler {
             let moved = |share: f64| -> Vec<f64> { v.iter().zip(&change).map(|(v, c)| v - share * c).collect() };
             if balance.norm(&change) < RESIDUAL {
                 v = moved(1.0);
+                ends_by_rounding = true;
                 break;
             }
             // Factors of other heights are worth no search: new ones are.
@@ -204,12 +213,16 @@ impl BackwardEuler {
                     kept = (size_there < KEPT * size).then_some(factors);
                     (v, residual, size) = (trial, residual_there, size_there);
                 }
-                None if is_new => return Err(Some(size)),
+                None if is_new => {
+                    ends_by_rounding = size < balance.rounding(&v, dt);
+                    break;
+                }
                 None => {}
             }
         }
         // A NaN is no film either.
-        match (size.is_finite(), balance.acceptable(&v)) {
+        let is_solved = size < RESIDUAL || ends_by_rounding;
+        match (is_solved && size.is_finite(), balance.acceptable(&v)) {
             (false, _) => Err(Some(size)),
             (true, false) => Err(None),
             (true, true) => Ok(v),

@@ -180,6 +180,14 @@ impl Cells {
         curvature.iter().zip(v).map(of).collect()
     }
 
+    /// The sum of the sizes of the terms that a cell's pressure is made of.
+    fn pressure_terms(&self, i: usize, v: &[f64]) -> f64 {
+        let at = |j: usize| v.get(j).map_or(0.0, |v| v.abs());
+        let [before, here, after] = self.laplace_row(i).map(f64::abs);
+        let curvature = before * i.checked_sub(1).map_or(0.0, at) + here * at(i) + after * at(i + 1);
+        curvature + self.layout.model.disjoining_terms(v[i]) + (self.layout.bond * v[i]).abs()
+    }
+
     fn face_mobility(&self, face: usize, v: &[f64], sharp: &[f64]) -> (f64, [f64; 2], [f64; 2]) {
         self.layout.model.mobility([v[face - 1], v[face]], [sharp[face - 1], sharp[face]])
     }
@@ -223,6 +231,20 @@ impl Balance for Cells {
         let mut smoothed = residual.to_vec();
         self.smooth(&mut smoothed);
         self.norm(&smoothed)
+    }
+
+    /// Terms of the residual by their sizes: heights, and flows by the differences of pressures that cancel at rest.
+    fn rounding(&self, v: &[f64], dt: f64) -> f64 {
+        let sharp = self.sharp(v);
+        let pressure: Vec<f64> = (0..v.len()).map(|i| self.pressure_terms(i, v)).collect();
+        let mut terms: Vec<f64> = sharp.iter().map(|h| h.abs()).collect();
+        for face in 1..self.count() {
+            let (mobility, ..) = self.face_mobility(face, v, &sharp);
+            let flow = dt * self.face[face] * mobility.abs() * (pressure[face] + pressure[face - 1]);
+            terms[face - 1] += flow / self.size[face - 1];
+            terms[face] += flow / self.size[face];
+        }
+        f64::EPSILON * self.size(&terms)
     }
 
     fn jacobian(&self, v: &[f64], dt: f64) -> Option<Factors> {

@@ -26,3 +26,4 @@ pub mod similarity;
 pub mod solver;
 pub mod sparse;
 pub mod sums;
+mod warnings;

@@ -44,6 +44,17 @@ impl Model {
         }
     }
 
+    /// The sum of the sizes of the two terms of the disjoining pressure.
+    pub(super) fn disjoining_terms(self, h: f64) -> f64 {
+        match self {
+            Self::Precursor { film, slope, .. } if slope > 0.0 => {
+                let ratio = (film / h).abs();
+                slope * slope / film * (ratio.powi(3) + ratio.powi(2))
+            }
+            _ => 0.0,
+        }
+    }
+
     /// Energy per size W of the disjoining pressure, W' = −Π and W = 0 far above the film.
     pub(super) fn attraction(self, h: f64) -> f64 {
         match self {

@@ -138,6 +138,23 @@ impl Balance for Ring {
         self.norm(&smoothed)
     }
 
+    /// Terms of the flux by their sizes: h, whose differences cancel, and the drive, whose derivatives cancel at rest.
+    fn rounding(&self, v: &[f64], dt: f64) -> f64 {
+        let sizes: Vec<f64> = v.iter().map(|v| v.abs()).collect();
+        let sum = |stencil: [f64; 5]| self.apply(&sizes, &stencil.map(f64::abs));
+        let (sharp, third, slope) = (sum(self.smoothing()), sum(self.third()), sum(self.first()));
+        let state = self.state(v);
+        let pull = (state.xi_squared - self.line.bond).abs();
+        let flux = |i: usize| {
+            let drive = third[i] + pull * slope[i];
+            v[i] * v[i] * (sharp[i] * state.drive[i].abs() + state.sharp[i].abs() * drive)
+        };
+        let flux: Vec<f64> = (0..v.len()).map(flux).collect();
+        let outflow = self.apply(&flux, &self.first().map(f64::abs));
+        let terms: Vec<f64> = sizes.iter().zip(&outflow).map(|(v, outflow)| v + dt * outflow).collect();
+        f64::EPSILON * self.size(&terms)
+    }
+
     fn jacobian(&self, v: &[f64], dt: f64) -> Option<Factors> {
         let n = v.len();
         let state = self.state(v);

@@ -105,10 +105,17 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
         about_axis: film.symmetry == FilmSymmetry::Axis,
         rest: film.contact_angle.map(|_| 1.0),
         cap_sides: cap_sides(film),
+        takes_lattice_off: matches!(film.method, FilmMethod::Particles { lattice_energy: LatticeEnergy::TakenOff, .. }),
+        most_droplets: most_droplets(film),
         is_self_similar: film.is_self_similar(),
         equilibrium,
     };
     Ok(ThinFilmSolver::new(moving, surroundings))
+}
+
+/// Droplets of a film that cannot come apart; one that hangs or rests on a precursor film can.
+fn most_droplets(film: &ThinFilm) -> Option<usize> {
+    (smoothing_length(film).is_some() && film.gravity >= 0.0).then_some(film.droplets.len())
 }
 
 /// Scaled first step on a grid: droplets of half width r and height H first move in times of (3μr/γ)(r/H)³.

@@ -12,6 +12,7 @@ use super::history::{Frame, History, Record};
 use super::measures;
 use super::profile::{Foot, Profile};
 use super::scales::Scales;
+use super::warnings;
 use crate::diagram::Diagram;
 use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Lines, Snapshot, Values};
@@ -48,6 +49,10 @@ pub struct Surroundings {
     /// For a partially wetting droplet that rests as a parabola: directions that its curvature is the sum of, 1 in the plane
     /// and 2 about an axis.
     pub cap_sides: Option<f64>,
+    /// Whether the case takes the energy of the particle lattice off.
+    pub takes_lattice_off: bool,
+    /// Droplets at the start of a film that can only join them: a geometric one that does not hang.
+    pub most_droplets: Option<usize>,
     /// Whether the droplet comes to a self-similar shape by surface tension.
     pub is_self_similar: bool,
     /// The droplet at rest, where its form is known.
@@ -124,10 +129,12 @@ impl ThinFilmSolver {
         self.film.profile(&places)
     }
 
-    /// The scaled contact line on the right.
+    /// The scaled contact line on the right; none where its tangent meets the wall outside of the domain, as that of a film that
+    /// covers the whole of it does.
     #[must_use]
     pub fn foot(&self) -> Option<Foot> {
-        self.profile().foot(self.surroundings.right)
+        let end = self.surroundings.wall[1] / self.surroundings.scales.length;
+        self.profile().foot(self.surroundings.right).filter(|foot| foot.position <= end)
     }
 
     /// The scaled places of the heights in frames: equal steps along the wall.
@@ -299,6 +306,10 @@ impl Solver for ThinFilmSolver {
 
     fn measures(&self, _series: &Series) -> Vec<Measure> {
         measures::all(self)
+    }
+
+    fn warnings(&self, _series: &Series) -> Vec<String> {
+        warnings::all(self)
     }
 
     fn diagrams(&self) -> Vec<Diagram> {

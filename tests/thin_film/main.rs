@@ -9,3 +9,4 @@ mod models;
 mod numerics;
 mod oracle;
 mod range;
+mod rest;

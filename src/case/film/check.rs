@@ -3,9 +3,9 @@
 use super::checked::{FilmEquation, FilmMethod, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm};
 use super::droplets::{Liquid, domain, droplets, liquid};
 use super::equation::{equation, partial_wetting, wetting};
-use super::method::method;
+use super::method::{DefaultMethod, method};
 use super::raw::{RawFilmSymmetry, RawFilmWeights, RawThinFilm};
-use super::resolution::{count, resolution, rounding};
+use super::resolution::{count, particles, resolution, rounding};
 use super::thinness;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
@@ -27,16 +27,24 @@ pub(in crate::case) fn thin_film(
     let contact_angle = wetting(checker, &raw.wetting.clone().unwrap_or_default());
     let particles_can_be =
         symmetry == FilmSymmetry::Plane && equation.is_none_or(|e| matches!(e, FilmEquation::Geometric { .. }));
-    let method = method(checker, &raw.method.clone().unwrap_or_default(), particles_can_be);
+    let default = match contact_angle {
+        Some(None) if particles_can_be => DefaultMethod::Particles,
+        _ => DefaultMethod::FiniteDifferences,
+    };
+    let method = method(checker, &raw.method.clone().unwrap_or_default(), particles_can_be, default);
     if let (Some(equation), Some(Some(_))) = (equation, contact_angle) {
         partial_wetting(checker, equation, symmetry);
     }
     if let (Some(spacing), Some(equation), Some(droplets)) = (spacing, equation, &droplets) {
         resolution(checker, spacing, equation, droplets);
-        if let (FilmEquation::Geometric { smoothing_length }, Some(FilmMethod::FiniteDifferences { .. })) =
-            (equation, method)
-        {
-            rounding(checker, spacing, smoothing_length);
+        match (equation, method) {
+            (FilmEquation::Geometric { smoothing_length }, Some(FilmMethod::FiniteDifferences { .. })) => {
+                rounding(checker, spacing, smoothing_length);
+            }
+            (FilmEquation::Geometric { smoothing_length }, Some(FilmMethod::Particles { .. })) => {
+                particles(checker, spacing, smoothing_length);
+            }
+            _ => {}
         }
     }
     if let (Some(FilmMethod::Particles { lattice_energy: LatticeEnergy::TakenOff, .. }), Some([_, _, ..])) =

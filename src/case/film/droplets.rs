@@ -1,5 +1,6 @@
 //! Checks of the droplets of a thin film, of their liquid and of the wall that they stand on.
 
+use super::bounds::exceeds;
 use super::checked::{FilmDroplet, FilmSymmetry, SCALED};
 use super::raw::{RawDroplet, RawThinFilm};
 use crate::case::preset::{COLD, WARM};
@@ -87,7 +88,7 @@ pub(super) fn droplets(checker: &mut Checker, raw: &[RawDroplet], symmetry: Film
     let mut found: Vec<FilmDroplet> = found.into_iter().collect::<Option<_>>()?;
     found.sort_by(|a, b| a.center.total_cmp(&b.center));
     for pair in found.windows(2) {
-        if pair[0].center + pair[0].half_width > pair[1].center - pair[1].half_width {
+        if exceeds(pair[0].half_width + pair[1].half_width, pair[1].center - pair[0].center) {
             checker.refuse(
                 "thin-film.droplets",
                 format!("the droplets at {:e} and {:e} m overlap", pair[0].center, pair[1].center),

@@ -11,7 +11,20 @@ const DEFAULT_TOLERANCE: f64 = 1.0e-7;
 const STEP_SHARES: (f64, f64) = (1.0e-5, 0.1);
 const DEFAULT_STEP_SHARE: f64 = 0.005;
 
-pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_be: bool) -> Option<FilmMethod> {
+/// The method of a case that names none. Particles rest at a steeper angle than asked for by the energy of their lattice, so that they are
+/// it in complete wetting only.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum DefaultMethod {
+    Particles,
+    FiniteDifferences,
+}
+
+pub(super) fn method(
+    checker: &mut Checker,
+    raw: &RawFilmMethod,
+    particles_can_be: bool,
+    default: DefaultMethod,
+) -> Option<FilmMethod> {
     if let (Some(_), Some(_)) = (&raw.particles, &raw.finite_differences) {
         checker.refuse(
             "thin-film.method",
@@ -28,7 +41,7 @@ pub(super) fn method(checker: &mut Checker, raw: &RawFilmMethod, particles_can_b
         );
         return None;
     }
-    if raw.finite_differences.is_some() || !particles_can_be {
+    if raw.finite_differences.is_some() || (raw.particles.is_none() && default == DefaultMethod::FiniteDifferences) {
         let path = "thin-film.method.finite-differences.step-share";
         let share = raw.finite_differences.as_ref().and_then(|raw| raw.step_share);
         let share = checker.within(path, share, STEP_SHARES, "a share");

@@ -1,9 +1,11 @@
 //! `[thin-film]`: droplets on a flat wall. Keys as written, their checks, the checked film, and the film written out again.
 
+mod bounds;
 mod check;
 pub mod checked;
 mod droplets;
 mod equation;
+mod lattice;
 mod method;
 pub mod raw;
 mod resolution;

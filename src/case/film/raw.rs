@@ -25,7 +25,8 @@ tables! {
         pub equation: RawFilmEquation,
         /// At most one wetting model (default `complete`).
         pub wetting: RawFilmWetting,
-        /// At most one method (default `particles` where possible).
+        /// At most one method (default `particles` for the geometric equation in complete wetting in the plane, else
+        /// `finite-differences`).
         pub method: RawFilmMethod,
         /// Particles and nodes represent the film of their cell, or the height at their position (default `cell`).
         pub weights: RawFilmWeights,
@@ -53,7 +54,7 @@ tables! {
 
     /// The Geometric Thin-Film Equation.
     pub struct RawGeometric {
-        /// Filter length `α` in m: at least 1 spacing, at most 0.4 half widths; on a grid at most 1000 spacings.
+        /// Filter length `α` in m: at least 1 spacing, with particles 2, at most 0.4 half widths; on a grid at most 1000 spacings.
         pub smoothing_length: f64,
     }
 

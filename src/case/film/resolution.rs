@@ -1,13 +1,16 @@
 //! Checks of spacings against droplets, filter, slip length and films on the wall.
 
+use super::bounds::{exceeds, falls_short, is_outside};
 use super::checked::{FilmDroplet, FilmEquation};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 
 /// Most particles or nodes.
 const MOST_UNKNOWNS: f64 = 1.0e7;
-/// Fewest spacings in the filter length: with fewer, the particles do not see one another.
+/// Fewest spacings in the filter length.
 const FEWEST_IN_FILTER: f64 = 1.0;
+/// Fewest of them for particles: with fewer the smoothed film has a peak at each particle, and droplets come apart.
+const FEWEST_BETWEEN_PARTICLES: f64 = 2.0;
 /// Most spacings in the filter length on a grid: fourth differences lose (α/Δx)⁴ roundings of their digits.
 const MOST_IN_FILTER: f64 = 1.0e3;
 /// Filter length over the half width: above, there is no droplet of a given slope.
@@ -24,7 +27,7 @@ const LARGEST_SLIP: f64 = 0.5;
 pub(super) fn resolution(checker: &mut Checker, spacing: f64, equation: FilmEquation, droplets: &[FilmDroplet]) {
     let least = |value: fn(&FilmDroplet) -> f64| droplets.iter().map(value).fold(f64::INFINITY, f64::min);
     let (half_width, height) = (least(|droplet| droplet.half_width), least(|droplet| droplet.height));
-    if half_width < FEWEST_IN_DROPLET * spacing {
+    if falls_short(half_width, FEWEST_IN_DROPLET * spacing) {
         checker.refuse(
             "thin-film.spacing",
             format!(
@@ -51,14 +54,14 @@ pub(super) fn resolution(checker: &mut Checker, spacing: f64, equation: FilmEqua
 
 fn smoothing(checker: &mut Checker, spacing: f64, smoothing: f64, half_width: f64) {
     let ratio = smoothing / spacing;
-    if ratio < FEWEST_IN_FILTER {
+    if falls_short(ratio, FEWEST_IN_FILTER) {
         checker.refuse(
             "thin-film.spacing",
             format!("expected at least one spacing in the smoothing length of {smoothing:e} m, found {ratio:.2}"),
             format!("a spacing of {:.2e} m is usual, a tenth of it", 0.1 * smoothing),
         );
     }
-    if smoothing > LARGEST_SMOOTHING * half_width {
+    if exceeds(smoothing, LARGEST_SMOOTHING * half_width) {
         checker.refuse(
             "thin-film.equation.geometric.smoothing-length",
             format!(
@@ -69,9 +72,22 @@ fn smoothing(checker: &mut Checker, spacing: f64, smoothing: f64, half_width: f6
     }
 }
 
+pub(super) fn particles(checker: &mut Checker, spacing: f64, smoothing: f64) {
+    let ratio = smoothing / spacing;
+    if !falls_short(ratio, FEWEST_IN_FILTER) && falls_short(ratio, FEWEST_BETWEEN_PARTICLES) {
+        checker.refuse(
+            "thin-film.spacing",
+            format!(
+                "particles need at least {FEWEST_BETWEEN_PARTICLES} spacings in the smoothing length of {smoothing:e} m, found {ratio:.2}"
+            ),
+            format!("a spacing of {:.2e} m is usual, a tenth of it; or take [thin-film.method.finite-differences]", 0.1 * smoothing),
+        );
+    }
+}
+
 pub(super) fn rounding(checker: &mut Checker, spacing: f64, smoothing: f64) {
     let ratio = smoothing / spacing;
-    if ratio > MOST_IN_FILTER {
+    if exceeds(ratio, MOST_IN_FILTER) {
         checker.refuse(
             "thin-film.spacing",
             format!("finite differences round off the film where the smoothing length has more than {MOST_IN_FILTER} spacings, found {ratio:.0}"),
@@ -81,7 +97,7 @@ pub(super) fn rounding(checker: &mut Checker, spacing: f64, smoothing: f64) {
 }
 
 fn slip(checker: &mut Checker, equation: &str, slip: f64, height: f64) {
-    if slip > LARGEST_SLIP * height {
+    if exceeds(slip, LARGEST_SLIP * height) {
         checker.refuse(
             format!("thin-film.equation.{equation}.slip-length"),
             format!("expected at most {LARGEST_SLIP} of the height of {height:e} m, found {slip:e} m"),
@@ -93,7 +109,7 @@ fn slip(checker: &mut Checker, equation: &str, slip: f64, height: f64) {
 /// The film on the wall is thin beside the droplets.
 fn film(checker: &mut Checker, equation: &str, film: f64, height: f64) {
     let ratio = film / height;
-    if !(FILMS.0..=FILMS.1).contains(&ratio) {
+    if is_outside(ratio, FILMS) {
         checker.refuse(
             format!("thin-film.equation.{equation}.film-height"),
             format!(
@@ -107,7 +123,7 @@ fn film(checker: &mut Checker, equation: &str, film: f64, height: f64) {
 
 /// The grid sees the contact line, where heights are those of the film or of the slip length.
 fn coarse(checker: &mut Checker, spacing: f64, film: f64) {
-    if spacing > COARSEST_FOR_FILM * film {
+    if exceeds(spacing, COARSEST_FOR_FILM * film) {
         checker.refuse(
             "thin-film.spacing",
             format!("the contact line is {film:.2e} of a droplet wide, a spacing is {spacing:.2e} of it"),
@@ -118,7 +134,7 @@ fn coarse(checker: &mut Checker, spacing: f64, film: f64) {
 
 pub(super) fn count(checker: &mut Checker, geometry: &GeometrySpec, spacing: f64) {
     let count = (geometry.max[0] - geometry.min[0]) / spacing;
-    if count > MOST_UNKNOWNS {
+    if exceeds(count, MOST_UNKNOWNS) {
         checker.refuse(
             "thin-film.spacing",
             format!("{spacing:e} m would give {count:.2e} nodes, more than {MOST_UNKNOWNS:.0e}"),

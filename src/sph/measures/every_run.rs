@@ -44,6 +44,12 @@ fn smallest_distance(flow: &Flow) -> f64 {
     distances.fold(f64::INFINITY, f64::min) / flow.setting.method.spacing
 }
 
+/// The larger of the measured and the requested contact angle in degrees; 0 without one.
+fn flattest_angle(s: &Subject) -> f64 {
+    let requested = s.flow.setting.method.wetting.map_or(0.0, |model| model.static_angle().to_degrees());
+    requested.max(s.seen.angle().mean_deg)
+}
+
 fn two_phases(s: &Subject) -> Vec<Measure> {
     // What came in and left through open sides is no drift.
     let (passed, seen) = (open::net(s.flow), s.seen.areas);
@@ -64,7 +70,11 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
             "capillary-pressure-Pa",
             pressure.value,
             "Pa",
-            Some(pressure.uncertainty(s.flow.setting.method.tension, s.flow.setting.method.kernel.h)),
+            Some(pressure.uncertainty_at(
+                flattest_angle(s),
+                s.flow.setting.method.tension,
+                s.flow.setting.method.kernel.h,
+            )),
             "mean p of the non-wetting less that of the wetting particles farther than 3h from the interface, each taken to the mean height of the interface",
         ),
         measure("interface-length-m", s.seen.interface_length(), "m", None, "length of the c = 0.5 contour"),

@@ -21,6 +21,7 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surro
         outline,
         discs: discs(&case.geometry),
         plates: plates(&case.geometry),
+        has_edges: !case.geometry.shapes.is_empty(),
         wall_speeds: sph.wall_speeds,
         stages: stages(sph, case.end),
         grid_spacing: case.output.grid_ratio * sph.spacing,
