@@ -89,7 +89,9 @@ fn reaches(body: &Body, domain: Bounds) -> bool {
             .iter()
             .any(|part| body.place(part.point(0.5), tolerance) == Place::In)
     });
+    // Where no surface parts the domain, it is covered as a whole or not at all.
     inner
+        || body.place(domain.center(), tolerance) == Place::In
         || body.curves.iter().any(|curve| {
             split(curve, frame.curves.iter(), tolerance)
                 .iter()

@@ -3,12 +3,12 @@
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
 use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring};
-use crate::geometry::import::fill::{Region, filled, regions};
+use crate::geometry::import::fill::{Region, filled, regions, without_slits};
 use crate::geometry::import::format::Format;
 use crate::geometry::import::notes::{Counts, Notes};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
-use crate::geometry::import::{recognize, smooth, units, window};
+use crate::geometry::import::{frame, recognize, smooth, units, window};
 use crate::geometry::rings::{RingFault, crossing, faults};
 use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
@@ -53,9 +53,14 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let mut notes = Notes::new(unit, &drawing);
     let mut refusals = Vec::new();
     let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
-    let outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
+    let mut outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
+    let chip = frame::taken_out(&mut outlines, &drawing.unfilled, &mut notes);
+    let frame = frame.or(chip);
     let mut shapes = Vec::new();
-    for (region, place) in grouped(outlines, format, &mut refusals) {
+    let regions = grouped(outlines, format, &mut refusals).into_iter();
+    let sound =
+        regions.flat_map(|(region, place)| without_slits(region).into_iter().map(move |one| (one, place.clone())));
+    for (region, place) in sound {
         shapes.push(Placed { shape: recognized(region, format, options, &mut notes.counts), place });
     }
     if !refusals.is_empty() {

@@ -62,10 +62,10 @@ pub fn close(pieces: &[Piece], gap: f64) -> Closed {
         let is_clockwise = vertices.first().is_some_and(|vertex| vertex[2] < 0.0);
         return Closed::Circle { center, radius, is_clockwise };
     }
-    if vertices.len() < 2 || !(area(&vertices).abs() > NO_AREA * size * size) {
-        return Closed::Empty;
-    }
-    Closed::Ring(Ring { vertices })
+    let ring = Ring { vertices };
+    // Both lobes of a figure of eight may cancel in its area.
+    let has_area = |ring: &Ring| area(&ring.vertices).abs() > NO_AREA * size * size || ring.width() > ONE_VERTEX * size;
+    if ring.vertices.len() < 2 || !has_area(&ring) { Closed::Empty } else { Closed::Ring(ring) }
 }
 
 /// The diagonal of the box around the vertices.

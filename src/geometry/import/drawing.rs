@@ -69,6 +69,8 @@ pub struct Drawing {
     pub frame: Option<Bounds>,
     /// The layers of the file with the number of entities on each, where the format has layers.
     pub layers: BTreeMap<String, usize>,
+    /// The layer of each closed outline without fill, by its place; an empty name where it is on none.
+    pub unfilled: BTreeMap<String, String>,
     /// What was read and is not used, by kind, with its number: text, hatches, open lines, other layers.
     pub unused: BTreeMap<String, usize>,
     /// What the user should know beside that, one sentence each.

@@ -10,7 +10,11 @@ use crate::geometry::curve::Curve;
 use crate::geometry::import::drawing::{FillRule, Ring};
 use crate::geometry::import::nest::nested;
 use crate::geometry::intersect::meeting_places;
+use crate::geometry::rings::faults;
 use crate::math::{Bounds, Vec2};
+
+/// Areas that agree to this share of that of their box are the same after the boolean operations.
+const SAME_AREA: f64 = 1e-7;
 
 /// An outer ring with its holes.
 pub(crate) type Region = (Ring, Vec<Ring>);
@@ -80,6 +84,29 @@ fn crossing(rings: &[Ring], tolerance: f64) -> Option<(usize, Vec2)> {
         }
     }
     found.map(|(ring, _, at)| (ring, at))
+}
+
+/// A region whose rings touch or run along each other, or along themselves as at a slit of no width, as regions that do not; itself where
+/// it is sound, curved, or more is wrong with it: its area stays the same.
+pub(crate) fn without_slits((outer, holes): Region) -> Vec<Region> {
+    let turned = |ring: &Ring, ccw: bool| if (ring.area() > 0.0) == ccw { ring.clone() } else { ring.reversed() };
+    let rings: Vec<Ring> =
+        std::iter::once(turned(&outer, true)).chain(holes.iter().map(|hole| turned(hole, false))).collect();
+    let curves: Vec<Vec<Curve>> = rings.iter().map(|ring| bulged_ring(&ring.vertices).collect()).collect();
+    let whole = vec![(outer, holes)];
+    if !rings.iter().all(Ring::is_straight) || faults(&curves).is_empty() {
+        return whole;
+    }
+    let Ok(found) = united(&rings, FillRule::EvenOdd) else { return whole };
+    let area: f64 = rings.iter().map(Ring::area).sum();
+    let is_same = (area_of(&found) - area).abs() <= SAME_AREA * rings.iter().map(bounding_area).sum::<f64>();
+    if is_same { found } else { whole }
+}
+
+/// The area of regions.
+fn area_of(regions: &[Region]) -> f64 {
+    let of = |ring: &Ring| ring.area().abs();
+    regions.iter().map(|(outer, holes)| of(outer) - holes.iter().map(of).sum::<f64>()).sum()
 }
 
 /// The union of straight rings.

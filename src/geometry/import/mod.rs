@@ -14,6 +14,7 @@ pub mod dxf;
 pub(crate) mod esri;
 pub(crate) mod fill;
 pub mod format;
+pub(crate) mod frame;
 pub(crate) mod geojson;
 pub mod limits;
 pub(crate) mod list;

@@ -1,13 +1,19 @@
 //! Which rings are outer ones and which are holes: told by what contains what, never by direction alone.
 //!
-//! A ring bounds the filled points where the fill rule says otherwise on its two sides. Containment is that of one vertex: rings are
-//! taken not to cross. A vertical ray from each ring's first vertex meets edges sorted by x, so that the cost is that of the edges
-//! near in x.
+//! A ring bounds the filled points where the fill rule says otherwise on its two sides. Containment is that of a point well inside the
+//! ring, in rings of larger area: rings are taken not to cross, but may touch and run along each other, wherever they begin. A vertical
+//! ray from that point meets edges sorted by x, so that the cost is that of the edges near in x.
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
 use crate::geometry::import::drawing::{FillRule, Ring};
 use crate::math::{Bounds, Vec2};
+
+/// Areas and sides of boxes that agree to this share are the same.
+const SAME: f64 = 1e-9;
+
+/// Where the upright line stands in the box of a ring, as a share of its width: no middle of symmetry, on which vertices lie.
+const ACROSS: f64 = 0.4871;
 
 /// An outer ring and its holes, as indices into the rings.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -57,23 +63,19 @@ fn containing(rings: &[Ring]) -> Vec<Vec<usize>> {
         return around;
     }
     let boxes: Vec<Bounds> = rings.iter().map(Ring::bounds).collect();
-    let mut starts: Vec<(Vec2, usize)> = rings
-        .iter()
-        .enumerate()
-        .filter_map(|(i, ring)| ring.vertices.first().map(|v| (Vec2::new(v[0], v[1]), i)))
-        .collect();
+    let areas: Vec<f64> = rings.iter().map(|ring| ring.area().abs()).collect();
+    let can_contain = |j: usize, i: usize| areas[j] > areas[i] * (1.0 + SAME) && encloses(&boxes[j], &boxes[i]);
+    let mut starts: Vec<(Vec2, usize)> =
+        rings.iter().enumerate().filter_map(|(i, ring)| Some((inner_point(ring, &boxes[i])?, i))).collect();
     starts.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.1.cmp(&b.1)));
     for (j, ring) in rings.iter().enumerate() {
         // Whether each start lies above an odd number of edges of this ring: toggled edge by edge.
         let mut toggled: Vec<usize> = Vec::new();
-        let next = ring.vertices.iter().cycle().skip(1);
-        for ((curve, a), b) in bulged_ring(&ring.vertices).zip(&ring.vertices).zip(next) {
-            for span in spans(&curve, [a[0], b[0]]) {
-                let from = starts.partition_point(|start| start.0.x < span.x.0);
-                let near = starts[from..].iter().take_while(|start| start.0.x < span.x.1);
-                let above = near.filter(|(p, i)| *i != j && encloses(&boxes[j], &boxes[*i]) && span.height(p.x) < p.y);
-                toggled.extend(above.map(|(_, i)| *i));
-            }
+        for span in spans_of(ring) {
+            let from = starts.partition_point(|start| start.0.x < span.x.0);
+            let near = starts[from..].iter().take_while(|start| start.0.x < span.x.1);
+            let above = near.filter(|(p, i)| *i != j && can_contain(j, *i) && span.height(p.x) < p.y);
+            toggled.extend(above.map(|(_, i)| *i));
         }
         toggled.sort_unstable();
         for same in toggled.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1) {
@@ -84,7 +86,25 @@ fn containing(rings: &[Ring]) -> Vec<Vec<usize>> {
 }
 
 fn encloses(outer: &Bounds, inner: &Bounds) -> bool {
+    let outer = outer.grown(SAME * outer.size().max());
     (0..2).all(|i| outer.min[i] <= inner.min[i] && inner.max[i] <= outer.max[i])
+}
+
+/// A point inside of a ring: the middle of its longest part on an upright line through its box.
+fn inner_point(ring: &Ring, bounds: &Bounds) -> Option<Vec2> {
+    let x = bounds.min.x + ACROSS * bounds.size().x;
+    let hit = spans_of(ring).filter(|span| span.x.0 <= x && x < span.x.1);
+    let mut heights: Vec<f64> = hit.map(|span| span.height(x)).collect();
+    heights.sort_by(f64::total_cmp);
+    let longest = heights.chunks_exact(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+    Some(Vec2::new(x, 0.5 * (longest[0] + longest[1])))
+}
+
+/// The pieces of all edges of a ring.
+fn spans_of(ring: &Ring) -> impl Iterator<Item = Span> {
+    let next = ring.vertices.iter().cycle().skip(1);
+    let edges = bulged_ring(&ring.vertices).zip(&ring.vertices).zip(next);
+    edges.flat_map(|((curve, a), b)| spans(&curve, [a[0], b[0]]))
 }
 
 /// A piece of an edge over an interval of x, open on the right.
@@ -180,6 +200,37 @@ mod tests {
         let rings = [square([0.0; 2], 4.0), disc([-2.0, 0.0], 1.0).reversed(), disc([2.0, 0.0], 1.0)];
         assert_eq!(nested(&rings, FillRule::NonZero), [Nested { outer: 0, holes: vec![1] }]);
         assert_eq!(nested(&rings, FillRule::EvenOdd), [Nested { outer: 0, holes: vec![1, 2] }]);
+    }
+
+    #[test]
+    fn a_hole_that_touches_its_ring_is_one_wherever_it_begins_and_however_it_is_mirrored() {
+        let outer = square([5.0, 5.0], 3.0);
+        let holes: [&[[f64; 2]]; 3] = [
+            &[[8.0, 5.0], [6.0, 4.0], [6.0, 6.0]],
+            &[[2.0, 2.0], [4.0, 6.0], [6.0, 4.0]],
+            &[[2.0, 4.0], [8.0, 4.0], [8.0, 6.0], [2.0, 6.0]],
+        ];
+        for (hole, start, turn) in
+            holes.iter().flat_map(|h| (0..h.len()).flat_map(move |s| (0..16).map(move |t| (h, s, t))))
+        {
+            let moved = |ring: &Ring| Ring {
+                vertices: ring
+                    .vertices
+                    .iter()
+                    .map(|&[x, y, _]| {
+                        let x = if turn & 1 == 1 { 10.0 - x } else { x };
+                        if turn & 2 == 2 { [y, x, 0.0] } else { [x, y, 0.0] }
+                    })
+                    .collect(),
+            };
+            let mut vertices: Vec<[f64; 3]> = hole.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+            vertices.rotate_left(start);
+            let inner = moved(&Ring { vertices });
+            let rings = [moved(&outer), if turn & 4 == 4 { inner.reversed() } else { inner }];
+            let (rings, first) = if turn & 8 == 8 { ([rings[1].clone(), rings[0].clone()], 1) } else { (rings, 0) };
+            let found = nested(&rings, FillRule::EvenOdd);
+            assert_eq!(found, [Nested { outer: first, holes: vec![1 - first] }], "{start} {turn}");
+        }
     }
 
     #[test]

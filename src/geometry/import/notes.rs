@@ -78,6 +78,11 @@ impl Notes {
         if unused.is_empty() { "nothing".into() } else { unused.join(", ") }
     }
 
+    /// Adds a sentence behind those of the reader.
+    pub fn add(&mut self, sentence: String) {
+        self.of_reader.push(sentence);
+    }
+
     /// Tells the domain, and where it comes from.
     pub fn domain(&mut self, domain: Bounds, from: &str) {
         let size = domain.size();

@@ -151,7 +151,7 @@ impl Reader<'_> {
         }
         if is_closed {
             let size = extent(&pieces);
-            self.closed(&pieces, CLOSING_GAP * size, record.place());
+            self.closed(&pieces, CLOSING_GAP * size, (record.place(), layer));
         } else {
             let open = self.open.entry(layer.to_owned()).or_default();
             let place = record.place();
@@ -159,7 +159,7 @@ impl Reader<'_> {
         }
     }
 
-    fn closed(&mut self, pieces: &[Piece], gap: f64, place: String) {
+    fn closed(&mut self, pieces: &[Piece], gap: f64, (place, layer): (String, &str)) {
         let outline = match close(pieces, gap) {
             Closed::Circle { center, radius, .. } => Outline::Disc { center, radius },
             Closed::Ring(ring) => {
@@ -170,6 +170,7 @@ impl Reader<'_> {
             }
             Closed::Empty => return self.count("outlines without area", 1),
         };
+        self.drawing.unfilled.insert(place.clone(), layer.to_owned());
         self.drawing.entities.push(Entity { outline, place });
     }
 
@@ -215,12 +216,12 @@ impl Reader<'_> {
     /// Puts lines and arcs of each layer together.
     fn join(&mut self) {
         let mut branches = 0;
-        for open in std::mem::take(&mut self.open).into_values() {
+        for (layer, open) in std::mem::take(&mut self.open) {
             let pieces: Vec<Piece> = open.iter().map(|(piece, _)| piece.clone()).collect();
             let gap = CLOSING_GAP * extent(&pieces);
             let chains = chains(&pieces, gap);
             for (first, ring) in chains.rings {
-                self.closed(&ring, gap, open[first].1.clone());
+                self.closed(&ring, gap, (open[first].1.clone(), &layer));
             }
             self.count("open lines", chains.open);
             self.count("lines drawn twice", chains.doubled);

@@ -78,7 +78,11 @@ impl<'a, 'input> Walk<'a, 'input> {
         self.tally.outlines += usize::from(style.fill == Fill::None);
         self.tally.strokes += usize::from(style.fill != Fill::None && style.has_stroke);
         self.whites.push(style.fill == Fill::White);
-        self.drawing.entities.push(Entity { outline, place: self.lines.place(node) });
+        let at = self.lines.place(node);
+        if style.fill == Fill::None {
+            self.drawing.unfilled.insert(at.clone(), place.layer.unwrap_or_default().to_owned());
+        }
+        self.drawing.entities.push(Entity { outline, place: at });
     }
 }
 
