@@ -22,7 +22,7 @@ const KNOWN: [(&str, &str); 27] = [
     ("geometry/import/svg", "mod walk"),
     ("geometry/pack", "array micromodel mod random"),
     ("network", "cycles moment"),
-    ("network", "dynamic flow layers measures openpnm pictures setup solver state summary tables"),
+    ("network", "dynamic flow layers measures openpnm pictures setup solver state summary tables warnings"),
     ("network/displacement", "driven event fronts involved mod standing"),
     ("network/dynamic", "goals graph known mod step"),
     ("network/dynamic", "measures solver"),
@@ -37,7 +37,7 @@ const KNOWN: [(&str, &str); 27] = [
     ("sph/setup", "frozen mod open_sides"),
     ("study", "measured results runs"),
     ("thin_film", "cells grid ring"),
-    ("thin_film", "diagrams measures solver"),
+    ("thin_film", "diagrams measures solver warnings"),
 ];
 
 /// The folders of the source, from the paths of their files.
