@@ -15,6 +15,7 @@ pub(crate) mod esri;
 pub(crate) mod fill;
 pub mod format;
 pub(crate) mod geojson;
+pub(crate) mod header;
 pub mod limits;
 pub(crate) mod list;
 pub mod mask;
