@@ -1,14 +1,15 @@
 //! GeoJSON: polygons, multipolygons and collections of these; points with a property `radius` are discs.
 //!
-//! RFC 7946 gives coordinates in degrees of longitude and latitude. A pore is not measured in degrees: the unit must be said, and what
+//! RFC 7946 gives coordinates in degrees of longitude and latitude. A pore is not measured in degrees: the unit must be said, by the key or a
+//! member `unit` of the file; a member `domain` sets the domain, and what
 //! names another coordinate reference system is told.
 
 use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 
 use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal};
-use crate::geometry::import::rings;
 use crate::geometry::import::text::quoted;
-use crate::math::Vec2;
+use crate::geometry::import::{rings, units};
+use crate::math::{Bounds, Vec2};
 
 const EXPECTED: &str = "a FeatureCollection, a Feature or a geometry with polygons, or points with a property `radius`";
 
@@ -23,12 +24,9 @@ pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
             for (feature, number) in collection.features.iter().zip(1..) {
                 reader.feature(feature, number);
             }
-            if let Some(system) = collection.foreign_members.as_ref().and_then(|members| members.get("crs")) {
-                let name = system.pointer("/properties/name").and_then(|name| name.as_str()).unwrap_or("without name");
-                reader.drawing.notes.push(format!("the file names the coordinate reference system {name}"));
-            }
         }
     }
+    reader.members(text);
     if reader.bad.is_empty() && reader.drawing.entities.is_empty() {
         reader.refuse("file", "no polygon at all".into(), EXPECTED.into());
     }
@@ -41,7 +39,37 @@ struct Reader {
     bad: Vec<Refusal>,
 }
 
+/// Members beside the geometry: `crs` of the former standard, `unit` and `domain` as this program writes them.
+#[derive(serde::Deserialize, Default)]
+struct Members {
+    crs: Option<serde_json::Value>,
+    unit: Option<serde_json::Value>,
+    domain: Option<serde_json::Value>,
+}
+
 impl Reader {
+    fn members(&mut self, text: &str) {
+        let Members { crs, unit, domain } = serde_json::from_str(text).unwrap_or_default();
+        if let Some(system) = crs {
+            let name = system.pointer("/properties/name").and_then(|name| name.as_str()).unwrap_or("without name");
+            self.drawing.notes.push(format!("the file names the coordinate reference system {name}"));
+        }
+        if let Some(value) = unit {
+            match value.as_str().and_then(units::by_name) {
+                Some(unit) => self.drawing.unit = Some(unit),
+                None => self.refuse("member `unit`", value.to_string(), units::way_out()),
+            }
+        }
+        if let Some(value) = domain {
+            match serde_json::from_value::<[f64; 4]>(value.clone()) {
+                Ok([x0, y0, x1, y1]) => {
+                    self.drawing.frame = Some(Bounds { min: Vec2::new(x0, y0), max: Vec2::new(x1, y1) });
+                }
+                Err(_) => self.refuse("member `domain`", value.to_string(), "[xmin, ymin, xmax, ymax]".into()),
+            }
+        }
+    }
+
     fn refuse(&mut self, place: &str, found: String, expected: String) {
         self.bad.push(Refusal { place: place.into(), found, expected });
     }
@@ -107,7 +135,9 @@ impl Reader {
                 Err(refused) => self.refuse(place, format!("ring {k}: {}", refused.found), refused.expected),
             }
         }
-        if !found.is_empty() {
+        if coordinates.is_empty() {
+            self.count("empty geometries", 1);
+        } else if !found.is_empty() {
             let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
             self.drawing.entities.push(Entity { outline, place: place.into() });
         }
@@ -136,6 +166,19 @@ mod tests {
         assert_eq!(drawing.entities[0].outline, Outline::Disc { center: Vec2::new(1.0, 5.0), radius: 2.0 });
         assert_eq!(drawing.entities[1].place, "feature 2");
         assert_eq!((drawing.unused["points"], drawing.unused["lines"]), (1, 1));
+    }
+
+    #[test]
+    fn unit_and_domain_beside_the_features_are_read_or_refused() {
+        let of = |members: &str| {
+            read(&format!(r#"{{"type": "Polygon", {members} "coordinates": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}}"#))
+        };
+        let drawing = of(r#""unit": "mm", "domain": [-1, -2, 3, 4],"#).unwrap();
+        assert_eq!(drawing.unit.unwrap().meters, 1e-3);
+        assert_eq!(drawing.frame.unwrap().max, Vec2::new(3.0, 4.0));
+        assert!(of("").unwrap().unit.is_none());
+        assert_eq!(of(r#""unit": "ell","#).unwrap_err()[0].place, "member `unit`");
+        assert_eq!(of(r#""domain": [1],"#).unwrap_err()[0].place, "member `domain`");
     }
 
     #[test]

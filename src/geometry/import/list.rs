@@ -1,9 +1,11 @@
-//! Lists of discs: `x y r` per line, separated by spaces, tabs, commas or semicolons; one header line is allowed.
+//! Lists of discs: `x y r` per line, separated by spaces, tabs, commas or semicolons. A header names columns and unit: other orders, and
+//! longer lines, are read by it.
 //!
 //! `columns` picks x, y and radius out of longer lines, and `separator` names the one character that separates them, so that empty
 //! columns and names with spaces keep their places. With `diameters` the third number is a diameter; a header that names one asks for it.
 
 use crate::geometry::import::drawing::{Drawing, Entity, Outline, Refusal};
+use crate::geometry::import::header::{Header, cells};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::text::{Lines, place, words};
 use crate::math::Vec2;
@@ -13,25 +15,28 @@ const EXPECTED: &str = "three numbers `x y r`, the radius above 0, separated by 
 /// Reads the text of a list of discs.
 pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal>> {
     let (mut drawing, mut lines) = (Drawing::default(), Lines::default());
+    let mut header: Option<Header> = None;
     let mut may_be_header = true;
     for (line, row) in (1..).zip(text.lines()) {
         if lines.take_comment(line, row.trim()) {
+            if let Some(found) = Header::of_comment(row.trim(), options).filter(|_| may_be_header) {
+                header = taken(found, (line, row), options, &mut lines);
+            }
             continue;
         }
         let data = row.split('#').next().unwrap_or_default();
         if words(data).next().is_none() {
             continue;
         }
-        let columns = Columns::of(data, options);
-        let is_header = may_be_header && columns.are_words();
+        let names = cells(data.trim(), options.separator);
+        let is_header =
+            may_be_header && names.iter().all(|name| name.parse::<f64>().is_err()) && !has_number(data, options);
         may_be_header = false;
         if is_header {
-            if columns.names_diameter() && options.diameters.is_none() {
-                let way_out = "`diameters = true` where the third column holds diameters, `diameters = false` where it holds radii";
-                lines.refuse(line, row.trim(), way_out.to_owned());
-            }
+            header = taken(Header::of(&names, options), (line, row), options, &mut lines);
             continue;
         }
+        let columns = Columns::of(data, options, header.as_ref());
         match columns.disc(options.diameters.unwrap_or(false)) {
             Some(outline) => drawing.entities.push(Entity { outline, place: place(line) }),
             None => lines.refuse(line, row.trim(), expected(options)),
@@ -40,35 +45,56 @@ pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal
     if lines.bad.is_empty() && drawing.entities.is_empty() {
         lines.bad.push(Refusal { place: place(1), found: "no disc at all".to_owned(), expected: EXPECTED.to_owned() });
     }
+    drawing.unit = header.and_then(|header| header.unit);
     drawing.frame = lines.domain;
     if lines.bad.is_empty() { Ok(drawing) } else { Err(lines.bad) }
+}
+
+/// Whether the columns that hold x, y and radius, or any of a line of others, are numbers.
+fn has_number(data: &str, options: &Options) -> bool {
+    let all: Vec<&str> = match options.separator {
+        Some(separator) => data.split(separator).map(str::trim).collect(),
+        None => words(data).collect(),
+    };
+    let is_number = |word: &&str| word.parse::<f64>().is_ok();
+    match options.columns {
+        Some(columns) => columns.iter().filter_map(|&column| all.get(column)).any(is_number),
+        None => all.iter().any(is_number),
+    }
+}
+
+/// A header that says what is needed; `None`, and a line refused, where it does not.
+fn taken(
+    header: Result<Header, String>,
+    (line, row): (usize, &str),
+    options: &Options,
+    lines: &mut Lines,
+) -> Option<Header> {
+    let expected = match header {
+        Ok(header) if header.is_diameter && options.diameters.is_none() => {
+            "`diameters = true` where the third column holds diameters, `diameters = false` where it holds radii"
+                .to_owned()
+        }
+        Ok(header) => return Some(header),
+        Err(expected) => expected,
+    };
+    lines.refuse(line, row.trim(), expected);
+    None
 }
 
 /// The columns of a line that hold x, y and radius; `None` where the line has others beside the three and nobody picks.
 struct Columns<'t>(Option<[&'t str; 3]>);
 
 impl<'t> Columns<'t> {
-    fn of(data: &'t str, options: &Options) -> Self {
+    fn of(data: &'t str, options: &Options, header: Option<&Header>) -> Self {
         let all: Vec<&str> = match options.separator {
             Some(separator) => data.split(separator).map(str::trim).collect(),
             None => words(data).collect(),
         };
-        match options.columns {
+        match options.columns.or(header.map(|header| header.columns)) {
             Some([x, y, r]) => Self(all.get(x).zip(all.get(y)).zip(all.get(r)).map(|((x, y), r)| [*x, *y, *r])),
             None => Self(all.try_into().ok()),
         }
-    }
-
-    fn are_words(&self) -> bool {
-        self.0.is_some_and(|columns| columns.iter().all(|word| word.parse::<f64>().is_err()))
-    }
-
-    /// Whether the third word of a header is short for a diameter.
-    fn names_diameter(&self) -> bool {
-        self.0.is_some_and(|[_, _, size]| {
-            let name = size.trim_matches(['"', '\'']).to_lowercase();
-            name == "d" || name.starts_with("d_") || name.starts_with("d[") || name.starts_with("diam")
-        })
     }
 
     fn disc(&self, is_diameter: bool) -> Option<Outline> {

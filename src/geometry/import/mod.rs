@@ -16,6 +16,7 @@ pub(crate) mod fill;
 pub mod format;
 pub(crate) mod frame;
 pub(crate) mod geojson;
+pub(crate) mod header;
 pub mod limits;
 pub(crate) mod list;
 pub mod mask;

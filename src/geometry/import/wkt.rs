@@ -1,6 +1,6 @@
 //! Polygons in well-known text: `POLYGON`, `MULTIPOLYGON` and `GEOMETRYCOLLECTION` of these.
 //!
-//! A file may hold several geometries one after the other. Separate polygons may overlap: they are united. Points and lines are
+//! A file may hold several geometries one after the other, also on one line, with or without a comma or semicolon between. Separate polygons may overlap: they are united. Points and lines are
 //! counted and not used.
 
 use std::str::FromStr;
@@ -20,37 +20,23 @@ const DEEPEST: i64 = 32;
 /// Reads well-known text.
 pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
     let (mut drawing, mut lines) = (Drawing::default(), Lines::default());
-    let (mut chunk, mut first, mut depth, mut deepest) = (String::new(), 1, 0_i64, 0_i64);
-    let mut is_finite = true;
+    let mut open = Chunk::default();
     for (line, row) in (1..).zip(text.lines().map(str::trim)) {
-        if lines.take_comment(line, row) || row.is_empty() {
+        if lines.take_comment(line, row) {
             continue;
         }
-        if chunk.is_empty() {
-            (first, depth, deepest, is_finite) = (line, 0, 0, true);
-        }
-        if let Some(word) = not_finite(row) {
+        let row = row.split('#').next().unwrap_or_default();
+        let bad_number = not_finite(row);
+        if let Some(word) = bad_number {
             lines.refuse(line, word, "finite numbers as coordinates".to_owned());
-            is_finite = false;
         }
-        chunk.push_str(row);
-        chunk.push(' ');
-        for c in row.chars() {
-            depth += i64::from(c == '(') - i64::from(c == ')');
-            deepest = deepest.max(depth);
-        }
-        // A geometry ends where its parentheses close; a bare keyword goes on on the next line.
-        let is_empty = row.split_whitespace().next_back().is_some_and(|word| word.eq_ignore_ascii_case("empty"));
-        if depth <= 0 && (chunk.contains('(') || is_empty) {
-            if is_finite {
-                take(&chunk, (first, deepest), &mut drawing, &mut lines);
+        for c in row.chars().chain([' ']) {
+            if open.push(c, line, bad_number.is_none()) {
+                std::mem::take(&mut open).end(&mut drawing, &mut lines);
             }
-            chunk.clear();
         }
     }
-    if !chunk.is_empty() && is_finite {
-        take(&chunk, (first, deepest), &mut drawing, &mut lines);
-    }
+    open.end(&mut drawing, &mut lines);
     if lines.bad.is_empty() && drawing.entities.is_empty() {
         lines.bad.push(Refusal { place: place(1), found: "no polygon at all".into(), expected: EXPECTED.into() });
     }
@@ -62,6 +48,49 @@ pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
 fn not_finite(row: &str) -> Option<&str> {
     let mut words = row.split(|c: char| c.is_whitespace() || "(),".contains(c));
     words.find(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()) && word.parse::<f64>().is_ok())
+}
+
+/// A geometry of which the beginning was read.
+#[derive(Default)]
+struct Chunk {
+    text: String,
+    /// The line where it begins.
+    line: usize,
+    depth: i64,
+    deepest: i64,
+    has_bad_number: bool,
+}
+
+impl Chunk {
+    /// Takes one more character; true where the geometry ends with it: where its parentheses close, behind `EMPTY`, and at a comma or
+    /// semicolon between geometries.
+    fn push(&mut self, c: char, line: usize, is_finite: bool) -> bool {
+        let is_between = self.depth == 0 && (c.is_whitespace() || ",;".contains(c));
+        if is_between && self.text.is_empty() {
+            return false;
+        }
+        if self.text.is_empty() {
+            self.line = line;
+        }
+        let ends_empty = is_between && {
+            let word = self.text.split_whitespace().next_back();
+            word.is_some_and(|word| word.eq_ignore_ascii_case("empty"))
+        };
+        if ends_empty || (is_between && !c.is_whitespace()) {
+            return true;
+        }
+        self.text.push(c);
+        self.has_bad_number |= !is_finite;
+        self.depth += i64::from(c == '(') - i64::from(c == ')');
+        self.deepest = self.deepest.max(self.depth);
+        c == ')' && self.depth <= 0
+    }
+
+    fn end(self, drawing: &mut Drawing, lines: &mut Lines) {
+        if !self.text.trim().is_empty() && !self.has_bad_number {
+            take(&self.text, (self.line, self.deepest), drawing, lines);
+        }
+    }
 }
 
 fn take(chunk: &str, (line, depth): (usize, i64), drawing: &mut Drawing, lines: &mut Lines) {
@@ -103,7 +132,9 @@ fn add(polygon: &wkt::types::Polygon<f64>, line: usize, drawing: &mut Drawing, l
             }),
         }
     }
-    if !found.is_empty() {
+    if polygon.rings().is_empty() {
+        *drawing.unused.entry("empty geometries".to_owned()).or_default() += 1;
+    } else if !found.is_empty() {
         let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
         drawing.entities.push(Entity { outline, place: place(line) });
     }
@@ -122,6 +153,23 @@ mod tests {
         assert_eq!(drawing.entities[3].place, "line 6");
         assert_eq!(drawing.frame.unwrap().max.x, 9.0);
         assert_eq!(drawing.unused["points"], 1);
+    }
+
+    #[test]
+    fn every_geometry_of_a_line_is_read_or_refused_whatever_stands_between() {
+        let (a, b) = ("POLYGON ((0 0, 1 0, 0 1, 0 0))", "POLYGON((3 3, 4 3, 3 4, 3 3))");
+        for between in
+            [" ", "", ";", " ; ", ",", ", ", "\n", "\t", ";\n", " POINT (1 2) ", " POLYGON EMPTY; ", " # note\n"]
+        {
+            let drawing = read(&format!("{a}{between}{b};")).unwrap();
+            assert_eq!(drawing.entities.len(), 2, "{between:?}");
+        }
+        for bad in [
+            "MULTIPOLYGON (((0 0, 1 0, 0 1, 0 0))), ((3 3, 4 3, 3 4, 3 3)))",
+            "POLYGON ((0 0, 1 0, 0 1, 0 0)) and more",
+        ] {
+            assert_eq!(read(bad).unwrap_err()[0].place, "line 1", "{bad}");
+        }
     }
 
     #[test]

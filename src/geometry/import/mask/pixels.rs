@@ -149,6 +149,7 @@ fn tiff(bytes: &[u8]) -> Result<Gray, Refusal> {
     };
     let bits = decoder.find_tag_unsigned_vec::<u16>(Tag::BitsPerSample).map_err(unreadable)?;
     let bits = bits.and_then(|bits| bits.first().copied()).unwrap_or(1).min(64);
+    let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(unreadable)?.unwrap_or(UPRIGHT);
     let result = decoder.read_image().map_err(unreadable)?;
     let pixels = size.0 as usize * size.1 as usize;
     let samples = unpacked(result, bits, size.0 as usize * channels, size.1 as usize)?;
@@ -167,7 +168,36 @@ fn tiff(bytes: &[u8]) -> Result<Gray, Refusal> {
         };
         samples.chunks_exact(channels).map(one).collect()
     };
-    Ok(Gray::from_rows_down(size, values))
+    oriented(size, values, orientation)
+}
+
+/// The orientation of an image whose rows run down and columns to the right.
+const UPRIGHT: u16 = 1;
+
+/// The image as it is seen: tag 274 of TIFF tells at which sides of the picture the first row and the first column of the file lie.
+fn oriented((width, height): (u32, u32), values: Vec<f32>, orientation: u16) -> Result<Gray, Refusal> {
+    let (w, h) = (width as usize, height as usize);
+    // Column and row of the file for those of the picture.
+    let source: fn([usize; 2], [usize; 2]) -> [usize; 2] = match orientation {
+        UPRIGHT => return Ok(Gray::from_rows_down((width, height), values)),
+        2 => |[x, y], [w, _]| [w - 1 - x, y],
+        3 => |[x, y], [w, h]| [w - 1 - x, h - 1 - y],
+        4 => |[x, y], [_, h]| [x, h - 1 - y],
+        5 => |[x, y], _| [y, x],
+        6 => |[x, y], [_, h]| [y, h - 1 - x],
+        7 => |[x, y], [w, h]| [w - 1 - y, h - 1 - x],
+        8 => |[x, y], [w, _]| [w - 1 - y, x],
+        other => return Err(refusal(format!("the orientation {other}"), "1 to 8 in tag 274: export the image again")),
+    };
+    let seen = if orientation < 5 { [w, h] } else { [h, w] };
+    let value = |k: usize| {
+        let [x, y] = source([k % seen[0], k / seen[0]], [w, h]);
+        values[y * w + x]
+    };
+    let turned = (0..w * h).map(value).collect();
+    let mut gray = Gray::from_rows_down((seen[0] as u32, seen[1] as u32), turned);
+    gray.notes.push(format!("the image is turned or mirrored as its orientation {orientation} says"));
+    Ok(gray)
 }
 
 fn palette(map: &[u16], index: f32, bits: u16) -> f32 {
