@@ -5,7 +5,7 @@ use super::flow::{along, drive, relative};
 use super::permeability::Drive;
 use super::solver::{NetworkSolver, Setting};
 use super::tables::kept;
-use super::warnings::{PERMEABILITIES, notes_on_permeability};
+use super::warnings::notes_on_permeability;
 use crate::solver::Measure;
 
 fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
@@ -68,7 +68,7 @@ fn permeabilities(solver: &NetworkSolver) -> Vec<Measure> {
         let notes: String = notes_on_permeability(setting, axis).iter().map(|note| format!("; {note}")).collect();
         measure(name, along(solver, axis), "m2", format!("{method}{notes}"))
     };
-    let mut found = vec![of_axis(0, PERMEABILITIES[0]), of_axis(1, PERMEABILITIES[1])];
+    let mut found = vec![of_axis(0, "permeability-x-m2"), of_axis(1, "permeability-y-m2")];
     if let [[_, wetting, other]] = relative(solver, &[1.0])[..] {
         let method = "permeability of the throats between regions that the phase holds, over that of all, at the end of the last half cycle";
         found.push(measure("relative-permeability-wetting", wetting, "", method));

@@ -6,7 +6,7 @@ use super::solver::Setting;
 use crate::case::checked::Side;
 
 /// The names of both permeabilities.
-pub const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];
+const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];
 
 /// The warnings that a network asks for.
 pub fn warnings(setting: &Setting) -> Vec<String> {

@@ -64,7 +64,15 @@ impl DeadEnd {
             [LENGTH + 1.0, 2.0],
             [-1.0, 2.0],
         ];
-        [lower, upper].map(|ring| polygon(ring.into_iter().map(|x| self.turned(x)).collect())).into()
+        let is_mirrored = self.turns.iter().filter(|&&turn| turn).count() % 2 == 1;
+        let turned = |ring: Vec<[f64; 2]>| {
+            let mut ring: Vec<[f64; 2]> = ring.into_iter().map(|x| self.turned(x)).collect();
+            if is_mirrored {
+                ring.reverse();
+            }
+            polygon(ring)
+        };
+        [lower, upper].map(turned).into()
     }
 
     fn displacement(&self, angle: f64, trapping: bool) -> Displacement {

@@ -63,9 +63,10 @@ pub fn close(pieces: &[Piece], gap: f64) -> Closed {
         return Closed::Circle { center, radius, is_clockwise };
     }
     let ring = Ring { vertices };
-    // Both lobes of a figure of eight may cancel in its area.
-    let has_area = |ring: &Ring| area(&ring.vertices).abs() > NO_AREA * size * size || ring.width() > ONE_VERTEX * size;
-    if ring.vertices.len() < 2 || !has_area(&ring) { Closed::Empty } else { Closed::Ring(ring) }
+    let has_net_area = area(&ring.vertices).abs() > NO_AREA * size * size;
+    // The lobes of a figure of eight, which takes three vertices, may cancel in its area.
+    let has_area = has_net_area || (ring.vertices.len() > 2 && ring.width() > ONE_VERTEX * size);
+    if ring.vertices.len() < 2 || !has_area { Closed::Empty } else { Closed::Ring(ring) }
 }
 
 /// The diagonal of the box around the vertices.

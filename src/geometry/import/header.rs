@@ -96,7 +96,7 @@ pub(crate) fn cells(text: &str, separator: Option<char>) -> Vec<&str> {
     let mut from = 0;
     for (at, _) in text.match_indices(char::is_whitespace).chain([(text.len(), "")]) {
         let rest = text[at..].trim_start();
-        if !(rest.starts_with(['(', '[']) && !text[from..at].trim().is_empty()) {
+        if !rest.starts_with(['(', '[']) || text[from..at].trim().is_empty() {
             found.extend(Some(text[from..at].trim()).filter(|cell| !cell.is_empty()));
             from = at;
         }
