@@ -308,7 +308,7 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n[sph.walls]\nslip-length = {slip}\n"
         )));
         // Three viscous times, density H²/viscosity: the slowest part has decayed by exp(-30), with slip by exp(-24).
-        steps(&mut flow, 120, 2.5e-4);
+        steps(&mut flow, 375, 8e-5);
         let weight = 1000.0 * flow.setting.method.volume * flow.state.particles.fluids as f64 * GRAVITY;
         let all = flow.friction(|_, _| true);
         assert!((all.x / weight - 1.0).abs() < 1e-6, "slip {slip} m: {:.6} of the weight", all.x / weight);
