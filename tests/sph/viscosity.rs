@@ -24,6 +24,7 @@ fn stirred(form: &str, sides: &str) -> Flow {
          [sph.numerics]\nviscous-term = \"{form}\"\ndensity-error-shifting = 0.0\nshifting = 0.0\n{sides}"
     )));
     flow.setting.method.viscous_step = ViscousStep::Implicit;
+    flow.setting.viscous_time = f64::INFINITY;
     let mut dice = Dice::new(1);
     for a in 0..flow.state.particles.fluids {
         flow.state.particles.velocity[a] = 1.0e-3 * dice.vector();
@@ -61,7 +62,6 @@ fn a_channel_starts_as_with_the_explicit_form() {
         let after = |step: ViscousStep, count: usize| {
             let mut flow = flow(&text(form));
             flow.setting.method.viscous_step = step;
-            // Steps as long as these are compared, whatever the limit by viscosity.
             flow.setting.viscous_time = f64::INFINITY;
             steps(&mut flow, count, 5.0e-3 / count as f64);
             flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.x).sum::<f64>()
@@ -78,6 +78,7 @@ fn a_shear_wave_decays_by_the_factor_of_the_method() {
     let shear = |step: ViscousStep, dt: f64| {
         let mut flow = flow(&case(&format!("[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n{PERIODIC}")));
         flow.setting.method.viscous_step = step;
+        flow.setting.viscous_time = f64::INFINITY;
         let wave = |x: Vec2| (std::f64::consts::TAU * x.y / 1.0e-3).cos();
         for a in 0..flow.state.particles.fluids {
             flow.state.particles.velocity[a] = Vec2::new(1.0e-4 * wave(flow.state.particles.position[a]), 0.0);
@@ -149,6 +150,7 @@ fn a_steady_flow_does_not_hang_on_the_step() {
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n",
         ));
         flow.setting.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.viscous_time = f64::INFINITY;
         // Three viscous times density H²/viscosity.
         steps(&mut flow, (0.03 / dt).round() as usize, dt);
         fastest(&flow)
@@ -167,6 +169,7 @@ fn pairs_on_the_edge_of_the_support_do_not_stop_the_viscous_step() {
              [sph.sides]\nspeed = {{ top = 1.0 }}\n[sph.numerics]\nviscous-term = \"szewc\"\n"
         ));
         flow.setting.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.viscous_time = f64::INFINITY;
         steps(&mut flow, 2, 1.0e-4);
     }
 }
@@ -181,6 +184,7 @@ fn a_flow_around_a_cylinder_hardly_hangs_on_the_step() {
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n",
         );
         flow.setting.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.viscous_time = f64::INFINITY;
         // Six times of its slowest mode.
         steps(&mut flow, (0.024 / dt).round() as usize, dt);
         flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.x).sum::<f64>()
@@ -201,6 +205,7 @@ fn no_particle_goes_farther_in_a_step_than_its_limit_allows() {
     for (name, text, limit) in [("drop", drop, 0.3), ("drop, no factor", &slower, 0.25), ("lid", lid, 0.125)] {
         let mut flow = flow(&case(text));
         flow.setting.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.viscous_time = f64::INFINITY;
         for _ in 0..20 {
             flow.step(1.0).unwrap();
             let way = flow.state.particles.fluid_speed() * flow.state.last_dt / flow.setting.method.kernel.h;

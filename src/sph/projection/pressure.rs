@@ -246,6 +246,11 @@ impl Flow {
             return Vec::new();
         }
         let (f, n) = (&self.fields, b.len());
+        let of_fluid = &f.viscosity[..self.state.particles.fluids];
+        // Where the viscosity jumps, long steps would amplify it.
+        if of_fluid.iter().any(|mu| *mu != of_fluid[0]) {
+            return Vec::new();
+        }
         let mut viscosity = f.viscosity.clone();
         shepard::into_walls(&self.neighborhood.pairs, &f.fluid_volume, self.state.particles.moving(), &mut viscosity);
         let mut change = vec![0.0; n];
