@@ -22,9 +22,10 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let case = &source.case;
     let mut solver = built(&source, Mode::New)?;
+    // Those with which a run begins: they do not depend on how many steps are tried.
+    let warnings = setup::warnings(case, solver.as_ref(), &Series::default());
     let found = tried(case, solver.as_mut())?;
     let advice = advice::advice(case, Some(&found));
-    let warnings = setup::warnings(case, solver.as_ref(), &Series::default());
     if arguments.json {
         let told = Told { trial: &found, warnings: &warnings, advice: advice.as_ref() };
         say(told.json().map_err(|error| Failure::new(BUG, &error))?);

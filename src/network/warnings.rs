@@ -71,7 +71,7 @@ fn disconnected(setting: &Setting) -> Option<String> {
     }
     opens_at(outlet).all(|opening| !reached[opening.region]).then(|| {
         format!(
-            "no way through the pores leads from the inlet ({}) to the outlet ({}): the solids close all of them, so that nothing is displaced \
+            "no path through the pores leads from the inlet ({}) to the outlet ({}): the solids close all of them, so that nothing is displaced \
              to the outlet; choose other sides, or look at the picture for the shapes that touch",
             SIDES[inlet], SIDES[outlet]
         )

@@ -14,8 +14,8 @@ use crate::solver::{Solver, SolverError};
 /// Steps that are tried; the first ones set up what later ones reuse.
 const TRIAL_STEPS: usize = 5;
 
-/// Quick steps go on for so long, in s: a flow that gathers speed soon takes shorter ones.
-const LOOK: f64 = 0.5;
+/// The same where nothing else tells how many there will be: a flow that gathers speed soon takes shorter ones.
+const MORE_STEPS: usize = 20;
 
 /// No further step is tried after so long, in s: those of many particles take long, and one of them tells enough.
 const PATIENCE: f64 = 10.0;
@@ -38,20 +38,20 @@ pub struct Trial {
     pub memory_bytes: Option<u64>,
 }
 
-/// Does the first steps of a case with its solver at time zero: five, or as many as ten seconds allow, at least one, and more where they are quick.
-/// `tried` is told the share of the five that is done, after each and before the first.
+/// Does the first steps of a case with its solver at time zero: five, or twenty where nothing else tells how many there will be, or as many as ten
+/// seconds allow, at least one. `tried` gets the share of the five that is done, after each and before the first.
 ///
 /// # Errors
 /// [`SolverError`] of a step that fails.
 pub fn trial(case: &Case, solver: &mut dyn Solver, tried: &mut dyn FnMut(f64)) -> Result<Trial, SolverError> {
-    trial_within(case, solver, [LOOK, PATIENCE], tried)
+    trial_within(case, solver, PATIENCE, tried)
 }
 
-/// [`trial`] with five steps or as many as `patience` (s) allows, and more for `look` (s) where nothing else tells how many there will be.
+/// [`trial`] with as many steps as `patience` (s) allows.
 fn trial_within(
     case: &Case,
     solver: &mut dyn Solver,
-    [look, patience]: [f64; 2],
+    patience: f64,
     tried: &mut dyn FnMut(f64),
 ) -> Result<Trial, SolverError> {
     let clock = Instant::now();
@@ -62,14 +62,10 @@ fn trial_within(
     let until = next(solver);
     let mut info = solver.step(until)?;
     let first_s = clock.elapsed().as_secs_f64();
-    for step in 1.. {
-        let took = clock.elapsed().as_secs_f64();
-        if step < TRIAL_STEPS {
-            tried(step as f64 / TRIAL_STEPS as f64);
-        } else if took > look || solver.steps_to(case.end).is_some() {
-            break;
-        }
-        if solver.time() >= case.end || solver.is_done() || took > patience {
+    let most = if solver.steps_to(case.end).is_some() { TRIAL_STEPS } else { MORE_STEPS };
+    for step in 1..most {
+        tried((step as f64 / TRIAL_STEPS as f64).min(1.0));
+        if solver.time() >= case.end || solver.is_done() || clock.elapsed().as_secs_f64() > patience {
             break;
         }
         let until = next(solver);
@@ -149,9 +145,9 @@ mod tests {
 
     #[test]
     fn steps_that_take_long_are_tried_once_and_tell_as_much() {
-        for (patience, steps) in [(f64::INFINITY, 5), (0.0, 1)] {
+        for (patience, steps) in [(f64::INFINITY, 20), (0.0, 1)] {
             let (mut solver, mut told) = (MockSolver::new(), Vec::new());
-            let found = trial_within(&case(), &mut solver, [0.0, patience], &mut |share| told.push(share)).unwrap();
+            let found = trial_within(&case(), &mut solver, patience, &mut |share| told.push(share)).unwrap();
             assert_eq!((solver.steps(), found.steps), (steps, 50.0));
             assert_eq!(told[..2], [0.0, 0.2]);
         }

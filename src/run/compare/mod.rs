@@ -246,7 +246,7 @@ pub fn check(pair: &Pair<'_>) -> Result<(), CompareError> {
     fitting(pair).map(|_| ())
 }
 
-/// Runs both cases and compares them. `interrupt` stops the direct simulation after the present step, of which `watcher` is told; it can be taken
+/// Runs both cases and compares them. `interrupt` stops the direct simulation after the present step, which is reported to `watcher`; it can be taken
 /// up. The network is run again: it takes seconds.
 ///
 /// # Errors
