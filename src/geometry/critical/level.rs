@@ -163,7 +163,7 @@ fn follow(walls: &Walls, from: &Opposite, t: Vec2) -> (Vec<Stretch>, End) {
             other => return (passed, end(&other)),
         };
         let Some(axis) = axis(walls, &at, t, &along) else { return (passed, End::Rises) };
-        let (until, hits) = first_hit(walls, &axis, at.half);
+        let (until, hits) = first_hit(walls, &axis, &along, at.half);
         let (until, opens) = match leaving(walls, &axis, until) {
             Some(u) => (u, true),
             None => (until, false),
@@ -256,8 +256,12 @@ fn remaining(walls: &Walls, contact: &Contact, along: &Along, t: Vec2) -> f64 {
     }
 }
 
-/// The first place on an axis behind which a third wall is nearer than `half` (m), as a parameter; 1 and `false` where there is none.
-fn first_hit(walls: &Walls, axis: &Curve, half: f64) -> (f64, bool) {
+/// The first place on an axis behind which a third wall is nearer than the two that the passage runs along, at about `half` (m), as a parameter; 1 and
+/// `false` where there is none.
+fn first_hit(walls: &Walls, axis: &Curve, along: &[Along; 2], half: f64) -> (f64, bool) {
+    // Walls that run level within rounding of directions come nearer over a long passage, which is no end of it.
+    let of_both =
+        |x: Vec2| along.iter().map(|along| (contact(walls, along, x).point - x).norm()).fold(f64::INFINITY, f64::min);
     let middle = axis.point(0.5);
     let reach = 0.5 * axis.length() + half + slack(walls, half);
     let mut places = vec![0.0, 1.0];
@@ -269,9 +273,8 @@ fn first_hit(walls: &Walls, axis: &Curve, half: f64) -> (f64, bool) {
     places.sort_by(f64::total_cmp);
     for pair in places.windows(2) {
         let shortest = 10.0 * walls.tolerance / axis.length();
-        if pair[1] - pair[0] > shortest
-            && walls.distance(axis.point(0.5 * (pair[0] + pair[1]))) < half - 2.0 * slack(walls, half)
-        {
+        let x = axis.point(0.5 * (pair[0] + pair[1]));
+        if pair[1] - pair[0] > shortest && walls.distance(x) < half.min(of_both(x)) - 2.0 * slack(walls, half) {
             return (pair[0], true);
         }
     }

@@ -4,8 +4,9 @@
 //! first guess need not name the right pieces. A maximum lies within the triangle of three of its wall points.
 
 use crate::geometry::critical::candidates::Triple;
-use crate::geometry::critical::opposite::{TIE, slack};
+use crate::geometry::critical::opposite::{SAME_DIRECTION, TIE, slack};
 use crate::geometry::critical::walls::{Contact, Shift, Walls, plus};
+use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 
 /// A local maximum of the wall distance.
@@ -19,7 +20,8 @@ pub(crate) struct Maximum {
     pub contacts: Vec<Contact>,
 }
 
-/// Three wall points that leave less than this angle (rad) to a half circle are two opposite ones: the center is within [`TIE`] of their middle.
+/// Three wall points that leave less than this angle (rad) to a half circle are two opposite ones: the center is within [`TIE`] of their middle. Straight
+/// walls have none unless they are parallel.
 const HALF_CIRCLE: f64 = 2.0 * TIE;
 
 const NEWTON_STEPS: usize = 40;
@@ -58,7 +60,11 @@ fn found(walls: &Walls, x: Vec2, radius: f64, nearest: &Contact) -> Option<Maxim
         return None;
     }
     let maximum = at(walls, x, radius);
-    let directions: Vec<Vec2> = maximum.contacts.iter().map(|contact| contact.point - maximum.center).collect();
+    let is_straight = |contact: &Contact| {
+        contact.u > 0.0 && contact.u < 1.0 && matches!(walls.curve(contact.wall, contact.shift), Curve::Segment { .. })
+    };
+    let directions: Vec<(Vec2, bool)> =
+        maximum.contacts.iter().map(|contact| (contact.point - maximum.center, is_straight(contact))).collect();
     surrounded(&directions).then_some(maximum)
 }
 
@@ -78,15 +84,16 @@ pub(crate) fn at(walls: &Walls, center: Vec2, radius: f64) -> Maximum {
     Maximum { center: y, radius, contacts: kept }
 }
 
-/// Whether directions leave no half circle free.
-fn surrounded(directions: &[Vec2]) -> bool {
-    let mut angles: Vec<f64> = directions.iter().map(|v| v.y.atan2(v.x)).collect();
-    angles.sort_by(f64::total_cmp);
-    let gap = |k: usize| match angles.get(k + 1) {
-        Some(next) => next - angles[k],
-        None => angles[0] + std::f64::consts::TAU - angles[k],
-    };
-    (0..angles.len()).all(|k| gap(k) < std::f64::consts::PI - HALF_CIRCLE)
+/// Whether directions, each with whether it leads to within a segment, leave no half circle free.
+fn surrounded(directions: &[(Vec2, bool)]) -> bool {
+    let mut angles: Vec<(f64, bool)> =
+        directions.iter().map(|(v, is_straight)| (v.y.atan2(v.x), *is_straight)).collect();
+    angles.sort_by(|a, b| a.0.total_cmp(&b.0));
+    (0..angles.len()).all(|k| {
+        let ((from, first), (to, second)) = (angles[k], angles[(k + 1) % angles.len()]);
+        let gap = if k + 1 < angles.len() { to - from } else { to + std::f64::consts::TAU - from };
+        gap < std::f64::consts::PI - if first && second { SAME_DIRECTION } else { HALF_CIRCLE }
+    })
 }
 
 /// The point near `x` that is equally far from three walls, and the nearest points there.
@@ -141,19 +148,19 @@ fn closest(walls: &Walls, of: &[(usize, Shift); 3], (wall, shift): (usize, Shift
 
 /// The center of a concave arc, where its points leave no half circle free.
 pub(crate) fn center_of_arc(walls: &Walls, wall: usize) -> Option<Maximum> {
-    let crate::geometry::curve::Curve::Arc { center, radius, sweep, .. } = walls.walls[wall].curve else { return None };
+    let Curve::Arc { center, radius, sweep, .. } = walls.walls[wall].curve else { return None };
     if sweep > 0.0 || !walls.is_within(center) || walls.distance(center) < radius - slack(walls, radius) {
         return None;
     }
     let contacts = walls.contacts(center, radius + slack(walls, radius));
-    let mut directions: Vec<Vec2> = contacts.iter().map(|contact| contact.point - center).collect();
+    let mut directions: Vec<(Vec2, bool)> = contacts.iter().map(|contact| (contact.point - center, false)).collect();
     for contact in &contacts {
         // All points of concentric arcs are nearest.
         let curve = walls.curve(contact.wall, contact.shift);
-        if let crate::geometry::curve::Curve::Arc { center: other, .. } = curve
+        if let Curve::Arc { center: other, .. } = curve
             && (other - center).norm() <= slack(walls, radius)
         {
-            directions.extend((0..=12).map(|k| curve.point(f64::from(k) / 12.0) - center));
+            directions.extend((0..=12).map(|k| (curve.point(f64::from(k) / 12.0) - center, false)));
         }
     }
     surrounded(&directions).then(|| at(walls, center, radius))

@@ -18,6 +18,7 @@ mod loops;
 mod mesh;
 mod outflow;
 mod outline;
+mod sequence;
 mod standing;
 mod wall_chains;
 mod walls;
@@ -335,78 +336,4 @@ impl Displacement {
 #[must_use]
 pub fn outline(region: &Region) -> Vec<Vec2> {
     outline::outline(&mesh::loop_of(region))
-}
-
-impl Displacement {
-    /// The next event that takes place, the elements that it fills and its menisci; none among those of the last curvature where `only_tied`.
-    fn next_candidate(&mut self, mesh: &Mesh, only_tied: bool) -> Option<(Candidate, Vec<usize>, Involved)> {
-        loop {
-            if self.tied.is_empty() {
-                if only_tied {
-                    return None;
-                }
-                self.tie()?;
-            }
-            let candidate = self.tied.pop_front()?;
-            let Candidate { gate, to, partner, .. } = candidate;
-            if self.fronts[gate][to].is_none() {
-                continue;
-            }
-            let Some((front, hand)) = partner else {
-                return Some((candidate, vec![mesh.element(gate, to)], Involved::alone((gate, to))));
-            };
-            // Another meniscus may have come in between.
-            let neighbor = self.neighbor(mesh, (gate, to), hand).filter(|neighbor| neighbor.front == front);
-            let Some(neighbor) = neighbor else { continue };
-            let waits_until = if candidate.is_joined {
-                candidate.curvature
-            } else {
-                self.joined_event(mesh, (gate, to), hand, &neighbor)
-            };
-            if waits_until > candidate.curvature {
-                self.queue.push(Candidate { curvature: waits_until, is_joined: true, ..candidate });
-                continue;
-            }
-            let involved = Involved::both((gate, to), hand, &neighbor, candidate.is_joined);
-            return Some((candidate, neighbor.passed, involved));
-        }
-    }
-
-    /// Takes the events of the lowest curvature that is left out of the queue.
-    fn tie(&mut self) -> Option<()> {
-        // Share of a curvature, or of that of a half circle in the gate, that is rounding.
-        const ROUNDING: f64 = 1e-9;
-        let is_allowed = |next: &&Candidate| next.curvature <= self.conditions.largest_curvature;
-        let &Candidate { curvature: lowest, gate, .. } = self.queue.peek().filter(is_allowed)?;
-        let (part, slot) = self.mesh.gates[gate].places[0];
-        let chord = self.mesh.loops[part].crossings[slot].to - self.mesh.loops[part].crossings[slot].from;
-        let rounding = ROUNDING * lowest.abs().max(2.0 / chord.norm());
-        let highest = (lowest + rounding).min(self.conditions.largest_curvature);
-        while self.queue.peek().is_some_and(|next| next.curvature <= highest) {
-            self.tied.extend(self.queue.pop());
-        }
-        Some(())
-    }
-}
-
-/// The next event, which is done; none where no meniscus can move any more.
-impl Iterator for Displacement {
-    type Item = Event;
-
-    fn next(&mut self) -> Option<Event> {
-        let mesh = self.mesh.clone();
-        let (candidate, filled, involved) = self.next_candidate(&mesh, false)?;
-        let Candidate { kind, curvature, gate, .. } = candidate;
-        self.applied = self.applied.max(curvature);
-        self.fill(&mesh, &filled);
-        match self.next_candidate(&mesh, true) {
-            Some((next, ..)) => self.tied.push_front(next),
-            None => self.settle(&mesh),
-        }
-        let mut elements: Vec<usize> =
-            filled.iter().flat_map(|&element| &mesh.elements[element].loops).copied().collect();
-        elements.sort_unstable();
-        elements.dedup();
-        Some(Event { kind, throat: mesh.gates[gate].throat, elements, curvature, applied: self.applied, involved })
-    }
 }
