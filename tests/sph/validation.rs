@@ -112,6 +112,8 @@ fn a_cap_of_any_angle_rests_with_its_exact_curvature() {
                 "sph.wetting.young.contact-angle-deg=60.0",
                 &format!("sph.surface-force.pressure-jump.curvature={}", 1.0 / radius),
                 &format!("sph.initial.wetting=[{{disc={{center=[0.0,{center}],radius={radius}}}}}]"),
+                "time.end=0.05",
+                "time.steady.stop=false",
             ],
         );
         assert!(found("area-drift").abs() < 1e-5, "{}", found("area-drift"));
