@@ -20,6 +20,9 @@ pub struct ImportArguments {
     /// Layers that are read; all where there is none
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     pub layers: Option<Vec<String>>,
+    /// Ends of lines of a DXF drawing that are so near meet, in units of the drawing
+    #[arg(long, value_name = "LENGTH")]
+    pub join_within: Option<f64>,
     /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white)
     #[arg(long, value_name = "GRAY")]
     pub threshold: Option<f64>,
@@ -54,6 +57,7 @@ impl ImportArguments {
             scale: self.scale,
             window: self.window.map(|[x0, y0, x1, y1]| [[x0, y0], [x1, y1]]),
             layers: self.layers.clone(),
+            join_within: self.join_within,
             threshold: self.threshold,
             pixel_size: self.pixel_size,
             invert: self.invert.then_some(true),

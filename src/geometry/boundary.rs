@@ -150,24 +150,50 @@ pub(crate) fn complement(pores: &[&Body], walls: &[&Body], tolerance: f64) -> Ve
     pieces
 }
 
-/// The part of a body within a box, the sides of the box included.
-pub(crate) fn clip_body(body: &Body, bounds: Bounds, tolerance: f64) -> Body {
-    let frame = Body::of_box(body.shape, bounds);
+/// The surface of a body without what the others cover.
+pub(crate) fn difference(body: &Body, others: &[&Body], tolerance: f64) -> Vec<Curve> {
+    let all = Bodies::new(others, tolerance);
     let mut curves = Vec::new();
-    for (kept, by, is_first) in [(body, &frame, true), (&frame, body, false)] {
+    for part in body.curves.iter().flat_map(|curve| all.split(curve, None)) {
+        let (middle, normal) = (part.point(0.5), part.normal(0.5));
+        let is_kept = all.around(middle).all(|j| match others[j].place(middle, tolerance) {
+            Place::In => false,
+            Place::Out => true,
+            // Beside it, not in it.
+            Place::On(other) => other.dot(&normal) < 0.0,
+        });
+        curves.extend(is_kept.then_some(part));
+    }
+    for piece in union(others, tolerance) {
+        let near = body.curves.near(piece.curve.bounds().grown(tolerance));
+        let parts = split(&piece.curve, near, tolerance).into_iter();
+        let inside = parts.filter(|part| body.place(part.point(0.5), tolerance) == Place::In);
+        curves.extend(inside.map(|part| part.reversed()));
+    }
+    curves
+}
+
+/// The surface of what two bodies both cover.
+pub(crate) fn intersection(one: &Body, other: &Body, tolerance: f64) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    for (kept, by, is_first) in [(one, other, true), (other, one, false)] {
         for curve in kept.curves.iter() {
-            for part in split(curve, by.curves.near(curve.bounds().grown(tolerance)), tolerance) {
-                let keep = match by.place(part.point(0.5), tolerance) {
+            let near = by.curves.near(curve.bounds().grown(tolerance));
+            curves.extend(split(curve, near, tolerance).into_iter().filter(|part| {
+                match by.place(part.point(0.5), tolerance) {
                     Place::In => true,
                     Place::Out => false,
                     Place::On(normal) => is_first && normal.dot(&part.normal(0.5)) > 0.0,
-                };
-                if keep {
-                    curves.push(part);
                 }
-            }
+            }));
         }
     }
+    curves
+}
+
+/// The part of a body within a box, the sides of the box included.
+pub(crate) fn clip_body(body: &Body, bounds: Bounds, tolerance: f64) -> Body {
+    let curves = intersection(body, &Body::of_box(body.shape, bounds), tolerance);
     body.within(bounds, curves)
 }
 

@@ -97,34 +97,34 @@ pub(crate) fn faults(rings: &[Vec<Curve>]) -> Vec<RingFault> {
     found
 }
 
+/// All places where edges of the rings meet elsewhere than at a common vertex.
+pub(crate) fn meetings(rings: &[Vec<Curve>]) -> Vec<Vec2> {
+    let all = Edges::of(rings);
+    let mut found = Vec::new();
+    for (ring, own) in rings.iter().enumerate() {
+        for (i, edge) in own.iter().enumerate() {
+            for (other, j) in all.near(edge).filter(|&near| near > (ring, i)) {
+                let is_own = other == ring;
+                found.extend(if is_own { all.meeting(own, i, j) } else { all.first_place(edge, &rings[other][j]) });
+            }
+        }
+    }
+    found
+}
+
 /// The first two rings that cross, and where: each has a part within the other one and a part outside of it. Rings that touch, and rings within
 /// others, do not.
 pub(crate) fn crossing(rings: &[Vec<Curve>]) -> Option<([usize; 2], Vec2)> {
     let edges = Edges::of(rings);
     let regions: Vec<Region> = rings.iter().map(|ring| Region::of(ring)).collect();
-    for (number, ring) in rings.iter().enumerate() {
-        // By other ring, whether a part of this one was seen within it and outside of it.
-        let mut seen: BTreeMap<usize, [bool; 2]> = BTreeMap::new();
-        for edge in ring {
-            let near: Vec<(usize, usize)> = edges.near(edge).filter(|&(other, _)| other > number).collect();
-            let others: BTreeSet<usize> = near.iter().map(|&(other, _)| other).collect();
-            for other in others {
-                let walls = near.iter().filter(|&&(one, _)| one == other).map(|&(_, j)| &edges.rings[other][j]);
-                for part in split(edge, walls, edges.tolerance) {
-                    let x = part.point(0.5);
-                    if regions[other].curves.distance(x) <= edges.tolerance {
-                        continue;
-                    }
-                    let both = seen.entry(other).or_default();
-                    both[usize::from(regions[other].winding.turns(x).abs() > 0.5)] = true;
-                    if *both == [true; 2] {
-                        return Some(([number, other], part.point(0.0)));
-                    }
-                }
-            }
-        }
-    }
-    None
+    (0..rings.len()).find_map(|number| edges.crossings(number, &regions).into_iter().next())
+}
+
+/// All pairs of rings that cross, with a place of each.
+pub(crate) fn crossings(rings: &[Vec<Curve>]) -> Vec<([usize; 2], Vec2)> {
+    let edges = Edges::of(rings);
+    let regions: Vec<Region> = rings.iter().map(|ring| Region::of(ring)).collect();
+    (0..rings.len()).flat_map(|number| edges.crossings(number, &regions)).collect()
 }
 
 /// What is enclosed by one ring.
@@ -165,6 +165,32 @@ impl<'a> Edges<'a> {
     /// Edges whose box meets that of `curve`, in order.
     fn near(&self, curve: &Curve) -> impl Iterator<Item = (usize, usize)> {
         self.tree.near_in_order(curve.bounds().grown(self.tolerance)).into_iter().map(|index| self.owner[index])
+    }
+
+    /// The rings behind this one that it crosses.
+    fn crossings(&self, number: usize, regions: &[Region]) -> Vec<([usize; 2], Vec2)> {
+        let mut found: BTreeMap<usize, Vec2> = BTreeMap::new();
+        // By other ring, whether a part of this one was seen within it and outside of it.
+        let mut seen: BTreeMap<usize, [bool; 2]> = BTreeMap::new();
+        for edge in &self.rings[number] {
+            let near: Vec<(usize, usize)> = self.near(edge).filter(|&(other, _)| other > number).collect();
+            let others: BTreeSet<usize> = near.iter().map(|&(other, _)| other).collect();
+            for other in others.into_iter().filter(|other| !found.contains_key(other)).collect::<Vec<_>>() {
+                let walls = near.iter().filter(|&&(one, _)| one == other).map(|&(_, j)| &self.rings[other][j]);
+                for part in split(edge, walls, self.tolerance) {
+                    let x = part.point(0.5);
+                    if regions[other].curves.distance(x) <= self.tolerance {
+                        continue;
+                    }
+                    let both = seen.entry(other).or_default();
+                    both[usize::from(regions[other].winding.turns(x).abs() > 0.5)] = true;
+                    if *both == [true; 2] {
+                        found.entry(other).or_insert_with(|| part.point(0.0));
+                    }
+                }
+            }
+        }
+        found.into_iter().map(|(other, at)| ([number, other], at)).collect()
     }
 
     fn self_intersection(&self, ring: usize) -> Option<RingFault> {

@@ -5,5 +5,7 @@ mod contents;
 mod damage;
 mod files;
 mod formats;
+mod invariance;
+mod kinds;
 mod network;
 mod survival;

@@ -7,6 +7,7 @@ mod files;
 mod import;
 mod masks;
 mod measures;
+mod noise;
 mod offset_curves;
 mod packs;
 mod round_trip;

@@ -88,6 +88,8 @@ tables! {
         pub window: [[f64; 2]; 2],
         /// Layers of an SVG or DXF drawing (default: all).
         pub layers: Vec<String>,
+        /// Ends of lines of a DXF drawing that are so near meet, in units of the drawing (default: 1e-6 of its size).
+        pub join_within: f64,
         /// Gray value between solid (0, black) and pore (1, white) of a mask (default: that of the image).
         pub threshold: f64,
         /// Side of a mask pixel in m (required for a mask).

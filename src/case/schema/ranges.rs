@@ -4,7 +4,7 @@
 use crate::input::Range::{self, Above, AtLeast, Between, Within};
 
 /// Tables, by the name of their type, their keys and the ranges of these.
-pub(super) const RANGES: [(&str, &str, Range); 78] = [
+pub(super) const RANGES: [(&str, &str, Range); 79] = [
     ("Array", "gap", Above(0.0)),
     ("Array", "radius", Above(0.0)),
     ("Capsule", "radius", Above(0.0)),
@@ -28,6 +28,7 @@ pub(super) const RANGES: [(&str, &str, Range); 78] = [
     ("RawFluid", "temperature-c", Within(20.0, 25.0)),
     ("RawFluid", "viscosity", Above(0.0)),
     ("RawGeometric", "smoothing-length", Above(0.0)),
+    ("RawGeometry", "join-within", Above(0.0)),
     ("RawGeometry", "pixel-size", Above(0.0)),
     ("RawGeometry", "scale", Above(0.0)),
     ("RawGeometry", "smooth-below-deg", Within(0.0, 90.0)),

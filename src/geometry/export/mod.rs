@@ -7,7 +7,7 @@
 
 mod dxf;
 mod mask;
-mod sheet;
+pub(crate) mod sheet;
 mod svg;
 mod text;
 

@@ -63,7 +63,7 @@ fn rings(curves: &[Curve], tolerance: f64) -> Vec<Ring> {
 }
 
 /// The start of a curve with its bulge; a circle, and an arc of more than three quarters of one, in two halves.
-fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
+pub(crate) fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
     const LARGE: f64 = 1.5 * std::f64::consts::PI;
     let vertex = |curve: &Curve| {
         let p = curve.point(0.0);

@@ -5,10 +5,12 @@ use crate::geometry::curve::Curve;
 use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring};
 use crate::geometry::import::fill::{Region, filled, regions, without_slits};
 use crate::geometry::import::format::Format;
+use crate::geometry::import::nest::{Nested, nested};
 use crate::geometry::import::notes::{Counts, Notes};
 use crate::geometry::import::options::Options;
+use crate::geometry::import::paint::{Painted, solids};
 use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
-use crate::geometry::import::{frame, recognize, smooth, units, window};
+use crate::geometry::import::{frame, overlap, recognize, smooth, units, window};
 use crate::geometry::rings::{RingFault, crossing, faults};
 use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
@@ -54,10 +56,10 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let mut refusals = Vec::new();
     let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
     let mut outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
-    let chip = frame::taken_out(&mut outlines, &drawing.unfilled, &mut notes);
+    let chip = frame::taken_out(&mut outlines, &mut notes);
     let frame = frame.or(chip);
     let mut shapes = Vec::new();
-    let regions = grouped(outlines, format, &mut refusals).into_iter();
+    let regions = grouped(outlines, format, &mut notes, &mut refusals).into_iter();
     let sound =
         regions.flat_map(|(region, place)| without_slits(region).into_iter().map(move |one| (one, place.clone())));
     for (region, place) in sound {
@@ -120,7 +122,7 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
     let size = scale * bounds_of_points(entities.iter().flat_map(corner)).size().max();
     let tolerance = DOUBLED * size;
     let mut found = Vec::with_capacity(entities.len());
-    for Entity { outline, place } in entities {
+    for Entity { outline, paint, place } in entities {
         // The bulge of a vertex is no length.
         let lengths: Vec<f64> = match &outline {
             Outline::Disc { center, radius } => vec![center.x, center.y, *radius],
@@ -139,7 +141,8 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
                 refusals.push(Refusal { place, found, expected: "a radius above 0".into() });
             }
             Outline::Disc { center, radius } => {
-                found.push(Entity { outline: Outline::Disc { center: center * scale, radius: radius * scale }, place });
+                let outline = Outline::Disc { center: center * scale, radius: radius * scale };
+                found.push(Entity { outline, paint, place });
             }
             Outline::Area { rings, rule } => {
                 let mut kept = Vec::with_capacity(rings.len());
@@ -153,7 +156,7 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
                     }
                 }
                 if !kept.is_empty() {
-                    found.push(Entity { outline: Outline::Area { rings: kept, rule }, place });
+                    found.push(Entity { outline: Outline::Area { rings: kept, rule }, paint, place });
                 }
             }
         }
@@ -161,45 +164,51 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
     found
 }
 
-/// The regions that the outlines fill, each entity by itself, or all together in formats without fills.
-fn grouped(entities: Vec<Entity>, format: Format, refusals: &mut Vec<Refusal>) -> Vec<(Region, String)> {
+/// The regions that the outlines fill: each entity by itself, in the order of painting, or all together in formats without fills.
+fn grouped(
+    entities: Vec<Entity>,
+    format: Format,
+    notes: &mut Notes,
+    refusals: &mut Vec<Refusal>,
+) -> Vec<(Region, String)> {
     if format.nests_entities() {
-        return nested_entities(entities);
+        return nested_entities(entities, notes, refusals);
     }
     let mut found = Vec::with_capacity(entities.len());
-    for Entity { outline, place } in entities {
-        match outline {
-            Outline::Disc { center, radius } => found.push(((circle(center, radius), Vec::new()), place)),
-            Outline::Area { mut rings, .. } if rings.len() == 1 && !format.has_fill_rules() => {
-                found.extend(rings.pop().map(|ring| ((ring, Vec::new()), place)));
-            }
-            Outline::Area { rings, .. } if format.begins_with_outer_ring() && outside(&rings).is_some() => {
-                let found = outside(&rings).map_or_else(String::new, |fault| fault.to_string());
-                let expected = "holes within the first ring of their polygon, which is its outer one; rings beside it are polygons of their own";
-                refusals.push(Refusal::new(place, found, expected));
-            }
-            Outline::Area { rings, .. } if format.nests_rings() && crossing_rings(&rings).is_some() => {
-                let found = crossing_rings(&rings).unwrap_or_default();
-                let expected = "rings beside or within each other: unite or subtract them, or give each a record of its own, where they are united";
-                refusals.push(Refusal::new(place, found, expected));
-            }
-            Outline::Area { rings, .. } if !format.has_fill_rules() => {
-                found.extend(regions(&rings, FillRule::EvenOdd).into_iter().map(|region| (region, place.clone())));
-            }
-            Outline::Area { rings, rule } => {
-                let size = bounds_of_points(rings.iter().flat_map(|r| [r.bounds().min, r.bounds().max])).size().max();
-                match filled(&rings, rule, DOUBLED * size) {
-                    Ok(regions) => found.extend(regions.into_iter().map(|region| (region, place.clone()))),
-                    Err(found) => refusals.push(Refusal {
-                        place,
-                        found,
-                        expected: "outlines that do not cross: unite or subtract them in the drawing program".into(),
-                    }),
-                }
-            }
+    for Entity { outline, paint, place } in entities {
+        match regions_of(outline, format) {
+            Ok(regions) => found.push(Painted { regions, paint, place }),
+            Err((found, expected)) => refusals.push(Refusal::new(place, found, expected)),
         }
     }
-    found
+    solids(found, notes, refusals)
+}
+
+/// The regions of one outline; what was found instead, and what was expected.
+fn regions_of(outline: Outline, format: Format) -> Result<Vec<Region>, (String, &'static str)> {
+    let rings_and_rule = match outline {
+        Outline::Disc { center, radius } => return Ok(vec![(circle(center, radius), Vec::new())]),
+        Outline::Area { rings, rule } => (rings, rule),
+    };
+    match rings_and_rule {
+        (rings, _) if rings.len() == 1 && !format.has_fill_rules() => {
+            Ok(rings.into_iter().map(|ring| (ring, Vec::new())).collect())
+        }
+        (rings, _) if format.begins_with_outer_ring() && outside(&rings).is_some() => Err((
+            outside(&rings).map_or_else(String::new, |fault| fault.to_string()),
+            "holes within the first ring of their polygon, which is its outer one; rings beside it are polygons of their own",
+        )),
+        (rings, _) if format.nests_rings() && crossing_rings(&rings).is_some() => Err((
+            crossing_rings(&rings).unwrap_or_default(),
+            "rings beside or within each other: unite or subtract them, or give each a record of its own, where they are united",
+        )),
+        (rings, _) if !format.has_fill_rules() => Ok(regions(&rings, FillRule::EvenOdd)),
+        (rings, rule) => {
+            let size = bounds_of_points(rings.iter().flat_map(|r| [r.bounds().min, r.bounds().max])).size().max();
+            filled(&rings, rule, DOUBLED * size)
+                .map_err(|found| (found, "outlines that do not cross: unite or subtract them in the drawing program"))
+        }
+    }
 }
 
 /// A hole that is not within the first ring, or runs along it.
@@ -222,23 +231,22 @@ fn crossing_rings(rings: &[Ring]) -> Option<String> {
 }
 
 /// All rings of a drawing without fills: those within others are holes, those within holes islands.
-fn nested_entities(entities: Vec<Entity>) -> Vec<(Region, String)> {
-    let (mut rings, mut places) = (Vec::new(), Vec::new());
-    for Entity { outline, place } in entities {
+fn nested_entities(entities: Vec<Entity>, notes: &mut Notes, refusals: &mut Vec<Refusal>) -> Vec<(Region, String)> {
+    let mut all = Vec::new();
+    for Entity { outline, place, .. } in entities {
         let own = match outline {
             Outline::Disc { center, radius } => vec![circle(center, radius)],
             Outline::Area { rings, .. } => rings,
         };
-        places.extend(std::iter::repeat_n(place, own.len()));
-        rings.extend(own);
+        all.extend(own.into_iter().map(|ring| (ring, place.clone())));
     }
-    crate::geometry::import::nest::nested(&rings, FillRule::EvenOdd)
-        .into_iter()
-        .map(|nested| {
-            let holes = nested.holes.iter().map(|&i| rings[i].clone()).collect();
-            ((rings[nested.outer].clone(), holes), places[nested.outer].clone())
-        })
-        .collect()
+    let (rings, places): (Vec<Ring>, Vec<String>) = overlap::resolved(all, notes, refusals).into_iter().unzip();
+    let all = nested(&rings, FillRule::EvenOdd);
+    let region = |nested: Nested| {
+        let holes = nested.holes.iter().map(|&i| rings[i].clone()).collect();
+        ((rings[nested.outer].clone(), holes), places[nested.outer].clone())
+    };
+    all.into_iter().map(region).collect()
 }
 
 /// A circle as a ring of two half circles.

@@ -40,11 +40,28 @@ pub enum Outline {
     },
 }
 
+/// With what a shape is painted.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Paint {
+    /// Any color but white: solid.
+    #[default]
+    Filled,
+    /// White, beside shapes that are not: pore where it covers others.
+    White,
+    /// Nothing: a closed outline.
+    Unfilled {
+        /// Its layer; empty where it is on none.
+        layer: String,
+    },
+}
+
 /// A filled shape and where it stands in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entity {
     /// The shape.
     pub outline: Outline,
+    /// With what it is painted.
+    pub paint: Paint,
     /// Where it stands, for messages: `line 12`, `LWPOLYLINE 2F`, `feature 3`.
     pub place: String,
 }
@@ -69,8 +86,6 @@ pub struct Drawing {
     pub frame: Option<Bounds>,
     /// The layers of the file with the number of entities on each, where the format has layers.
     pub layers: BTreeMap<String, usize>,
-    /// The layer of each closed outline without fill, by its place; an empty name where it is on none.
-    pub unfilled: BTreeMap<String, String>,
     /// What was read and is not used, by kind, with its number: text, hatches, open lines, other layers.
     pub unused: BTreeMap<String, usize>,
     /// What the user should know beside that, one sentence each.

@@ -4,7 +4,7 @@
 //! read here and not by the crate `shapefile`, which allocates by the counts that a record declares and tells holes by direction alone.
 //! Lines, points and patches are counted and not used; z and m are left out.
 
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Unit};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Paint, Refusal, Unit};
 use crate::geometry::import::rings;
 
 /// Bytes of the header of the file.
@@ -53,7 +53,7 @@ pub(crate) fn read(bytes: &[u8], projection: Option<&str>) -> Result<Drawing, Ve
         };
         at += 8 + content.len();
         match record(content, &mut drawing) {
-            Ok(Some(outline)) => drawing.entities.push(Entity { outline, place }),
+            Ok(Some(outline)) => drawing.entities.push(Entity { outline, paint: Paint::Filled, place }),
             Ok(None) => {}
             Err((found, expected)) => bad.push(Refusal { place, found, expected }),
         }

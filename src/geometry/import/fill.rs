@@ -7,6 +7,7 @@ use geo::{Area, LineString, MultiPolygon, Polygon};
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
+use crate::geometry::import::combine;
 use crate::geometry::import::drawing::{FillRule, Ring};
 use crate::geometry::import::nest::nested;
 use crate::geometry::intersect::meeting_places;
@@ -99,14 +100,8 @@ pub(crate) fn without_slits((outer, holes): Region) -> Vec<Region> {
     }
     let Ok(found) = united(&rings, FillRule::EvenOdd) else { return whole };
     let area: f64 = rings.iter().map(Ring::area).sum();
-    let is_same = (area_of(&found) - area).abs() <= SAME_AREA * rings.iter().map(bounding_area).sum::<f64>();
+    let is_same = (combine::area(&found) - area).abs() <= SAME_AREA * rings.iter().map(bounding_area).sum::<f64>();
     if is_same { found } else { whole }
-}
-
-/// The area of regions.
-fn area_of(regions: &[Region]) -> f64 {
-    let of = |ring: &Ring| ring.area().abs();
-    regions.iter().map(|(outer, holes)| of(outer) - holes.iter().map(of).sum::<f64>()).sum()
 }
 
 /// The union of straight rings.

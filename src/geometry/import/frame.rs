@@ -1,37 +1,46 @@
 //! The frame of a chip: an upright rectangle without fill around most of the other shapes. Its inside is the pore.
+//! One filled shape in it is enough; outlines without fill must be some. A rectangle on the layer `domain` is the domain.
 //!
 //! A rectangle on the layer of outlines without fill that it encloses may as well be a plate with holes, as outlines that are not filled
 //! nest: it stays, and a note names it.
 
-use std::collections::BTreeMap;
-
-use crate::geometry::import::drawing::{Entity, Outline, Ring};
+use crate::geometry::import::drawing::{Entity, Outline, Paint, Ring};
 use crate::geometry::import::notes::Notes;
 use crate::math::{Bounds, Vec2};
 
-/// A frame encloses so many shapes at least.
+/// The layer of the rectangle that is the domain.
+pub(crate) const DOMAIN: &str = "domain";
+/// A frame encloses so many outlines without fill at least, or a filled one.
 const FEWEST: usize = 3;
 
 /// Takes the frame out of the outlines, with a note; its box is the domain where the file names none.
-pub(crate) fn taken_out(
-    outlines: &mut Vec<Entity>,
-    unfilled: &BTreeMap<String, String>,
-    notes: &mut Notes,
-) -> Option<Bounds> {
+pub(crate) fn taken_out(outlines: &mut Vec<Entity>, notes: &mut Notes) -> Option<Bounds> {
     let boxes: Vec<Bounds> = outlines.iter().map(bounds).collect();
-    let is_candidate = |i: &usize| unfilled.contains_key(&outlines[*i].place) && is_rectangle(&outlines[*i].outline);
+    let is_domain = |one: &Entity| {
+        let is_named = matches!(&one.paint, Paint::Unfilled { layer } if layer.eq_ignore_ascii_case(DOMAIN));
+        is_named && is_rectangle(&one.outline)
+    };
+    if let Some(domain) = outlines.iter().position(is_domain) {
+        outlines.remove(domain);
+        return Some(boxes[domain]);
+    }
+    let is_candidate =
+        |i: &usize| matches!(outlines[*i].paint, Paint::Unfilled { .. }) && is_rectangle(&outlines[*i].outline);
     let largest =
         (0..outlines.len()).filter(is_candidate).max_by(|a, b| boxes[*a].area().total_cmp(&boxes[*b].area()))?;
     let inside: Vec<usize> =
         (0..outlines.len()).filter(|&i| i != largest && is_in(&boxes[largest], &boxes[i])).collect();
     let others = outlines.len() - 1;
-    if inside.len() < FEWEST || 2 * inside.len() <= others {
+    let is_filled = |i: usize| outlines[i].paint == Paint::Filled;
+    let fewest = if inside.iter().any(|&i| is_filled(i)) { 1 } else { FEWEST };
+    // Within a filled shape it is a hole.
+    let is_hole = (0..outlines.len()).any(|i| i != largest && is_filled(i) && is_in(&boxes[i], &boxes[largest]));
+    if inside.len() < fewest || 2 * inside.len() <= others || is_hole {
         return None;
     }
-    let place = outlines[largest].place.clone();
-    let layer = unfilled.get(&place);
+    let (place, paint) = (outlines[largest].place.clone(), &outlines[largest].paint);
     let told = format!("{place}, a rectangle without fill, encloses {} of the {others} other outlines", inside.len());
-    if inside.iter().any(|&i| unfilled.get(&outlines[i].place) == layer) {
+    if inside.iter().any(|&i| outlines[i].paint == *paint) {
         notes.add(format!(
             "{told} on its own layer: it is read as solid, with them as holes. If it is the frame of the chip, put it on a layer of its own."
         ));

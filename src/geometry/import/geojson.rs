@@ -6,7 +6,7 @@
 
 use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Paint, Refusal};
 use crate::geometry::import::text::quoted;
 use crate::geometry::import::{rings, units};
 use crate::math::{Bounds, Vec2};
@@ -115,7 +115,7 @@ impl Reader {
             match xy(point) {
                 Some([x, y]) => {
                     let outline = Outline::Disc { center: Vec2::new(x, y), radius };
-                    self.drawing.entities.push(Entity { outline, place: place.into() });
+                    self.drawing.entities.push(Entity { outline, paint: Paint::Filled, place: place.into() });
                 }
                 None => self.refuse(place, "a point without x and y".into(), "[x, y]".into()),
             }
@@ -139,7 +139,7 @@ impl Reader {
             self.count("empty geometries", 1);
         } else if !found.is_empty() {
             let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
-            self.drawing.entities.push(Entity { outline, place: place.into() });
+            self.drawing.entities.push(Entity { outline, paint: Paint::Filled, place: place.into() });
         }
     }
 }

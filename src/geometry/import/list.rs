@@ -4,7 +4,7 @@
 //! `columns` picks x, y and radius out of longer lines, and `separator` names the one character that separates them, so that empty
 //! columns and names with spaces keep their places. With `diameters` the third number is a diameter; a header that names one asks for it.
 
-use crate::geometry::import::drawing::{Drawing, Entity, Outline, Refusal};
+use crate::geometry::import::drawing::{Drawing, Entity, Outline, Paint, Refusal};
 use crate::geometry::import::header::{Header, cells};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::text::{Lines, place, words};
@@ -38,7 +38,7 @@ pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal
         }
         let columns = Columns::of(data, options, header.as_ref());
         match columns.disc(options.diameters.unwrap_or(false)) {
-            Some(outline) => drawing.entities.push(Entity { outline, place: place(line) }),
+            Some(outline) => drawing.entities.push(Entity { outline, paint: Paint::Filled, place: place(line) }),
             None => lines.refuse(line, row.trim(), expected(options)),
         }
     }

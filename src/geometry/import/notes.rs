@@ -13,6 +13,7 @@ pub(crate) struct Counts {
     discs: usize,
     polygons: usize,
     curved: usize,
+    holes: usize,
     /// Rings recognized as circles.
     pub recognized: usize,
     smoothed: usize,
@@ -39,7 +40,14 @@ impl Counts {
         for shape in shapes {
             match shape {
                 ShapeSpec::Disc(_) => self.discs += 1,
-                ShapeSpec::Polygon(_) => self.polygons += 1,
+                ShapeSpec::Polygon(polygon) => {
+                    self.polygons += 1;
+                    self.holes += polygon.holes.len();
+                }
+                ShapeSpec::CurvedPolygon(polygon) => {
+                    self.curved += 1;
+                    self.holes += polygon.holes.len();
+                }
                 _ => self.curved += 1,
             }
         }
@@ -104,6 +112,9 @@ impl Notes {
         let mut line = format!("read: {}", read.join(", "));
         if counts.recognized > 0 {
             line += &format!(" ({} recognized in polygons)", of(counts.recognized, "circle"));
+        }
+        if counts.holes > 0 {
+            line += &format!("; they enclose {}", of(counts.holes, "hole"));
         }
         if counts.outside > 0 {
             line += &format!("; outside of the domain: {}", of(counts.outside, "shape"));

@@ -18,6 +18,8 @@ pub struct Options {
     pub window: Option<[[f64; 2]; 2]>,
     /// Layers to read; all where there is none.
     pub layers: Option<Vec<String>>,
+    /// Ends of lines of a DXF drawing that are so near meet, in units of the drawing.
+    pub join_within: Option<f64>,
     /// Gray value between solid and pore, 0 (black) to 1 (white).
     pub threshold: Option<f64>,
     /// Side of a pixel in m.
@@ -66,6 +68,7 @@ impl Options {
             }
         };
         misplaced("layers", self.layers.is_some(), &[Format::Svg, Format::Dxf], "SVG and DXF drawings");
+        misplaced("join-within", self.join_within.is_some(), &[Format::Dxf], "DXF drawings");
         misplaced("threshold", self.threshold.is_some(), &[Format::Mask], "masks (PNG, TIFF)");
         misplaced("pixel-size", self.pixel_size.is_some(), &[Format::Mask], "masks (PNG, TIFF)");
         misplaced("columns", self.columns.is_some(), &[Format::List], "lists of discs");
@@ -101,6 +104,10 @@ impl Options {
             if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
                 refuse(key, format!("expected a length in m above 0, found {value:?}"), "");
             }
+        }
+        if let Some(value) = self.join_within.filter(|v| !(v.is_finite() && *v > 0.0)) {
+            let message = format!("expected a length above 0 in units of the drawing, found {value:?}");
+            refuse("join-within", message, "leave it out to join ends that meet within 1e-6 of the drawing");
         }
         if let Some(name) = &self.unit {
             if self.scale.is_some() {

@@ -23,7 +23,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, format: Format, options: &Options)
         // The case reader, which knows places in TOML, reads these.
         Format::Toml => Err(one("a TOML shape file", "a drawing")),
         Format::Svg => svg::read(text(bytes)?, options.layers.as_deref()),
-        Format::Dxf => dxf::read(bytes, options.layers.as_deref()),
+        Format::Dxf => dxf::read(bytes, options.layers.as_deref(), options.join_within),
         Format::Mask => {
             let (threshold, pixel_size) = (options.threshold, options.pixel_size);
             mask::read(bytes, &MaskOptions { threshold, invert: options.invert.unwrap_or(false), pixel_size })

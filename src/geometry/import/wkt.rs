@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use wkt::Wkt;
 
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Paint, Refusal};
 use crate::geometry::import::rings;
 use crate::geometry::import::text::{Lines, place};
 
@@ -136,7 +136,7 @@ fn add(polygon: &wkt::types::Polygon<f64>, line: usize, drawing: &mut Drawing, l
         *drawing.unused.entry("empty geometries".to_owned()).or_default() += 1;
     } else if !found.is_empty() {
         let outline = Outline::Area { rings: found, rule: FillRule::EvenOdd };
-        drawing.entities.push(Entity { outline, place: place(line) });
+        drawing.entities.push(Entity { outline, paint: Paint::Filled, place: place(line) });
     }
 }
 

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use super::chain::chains;
 use super::entity::{self, CLOSING_GAP, Content, Insert};
+use super::gaps::{Gap, gaps};
 use super::header::{File, Layer, Record};
 use crate::geometry::import::affine::Affine;
 use crate::geometry::import::closing::{Closed, close};
 use crate::geometry::import::contour::Piece;
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Paint, Refusal};
 use crate::geometry::import::limits::Budget;
 use crate::math::Vec2;
 
@@ -20,10 +21,17 @@ const GROUPS_PER_ITEM: usize = 32;
 const MOST_REFUSALS: usize = 20;
 
 /// The drawing of a file.
-pub fn drawing(file: &File, bytes: usize, layers: Option<&[String]>) -> Result<Drawing, Vec<Refusal>> {
+pub fn drawing(
+    file: &File,
+    bytes: usize,
+    layers: Option<&[String]>,
+    join_within: f64,
+) -> Result<Drawing, Vec<Refusal>> {
     let mut reader = Reader {
         file,
         layers,
+        join_within,
+        wide: 0,
         budget: Budget::of_file(bytes),
         inserting: Vec::new(),
         drawing: Drawing { unit: file.unit.clone(), ..Drawing::default() },
@@ -43,6 +51,10 @@ pub fn drawing(file: &File, bytes: usize, layers: Option<&[String]>) -> Result<D
 struct Reader<'a> {
     file: &'a File<'a>,
     layers: Option<&'a [String]>,
+    /// Ends of lines that are so near meet, in units of the drawing.
+    join_within: f64,
+    /// Polylines with a width.
+    wide: usize,
     budget: Budget,
     /// The blocks that are being inserted, against insertions into themselves.
     inserting: Vec<String>,
@@ -126,7 +138,7 @@ impl Reader<'_> {
                 self.count("entities on layers that are off or frozen", 1)
             }
             Content::Insert(insert) => self.insert(&insert, record, map, layer),
-            Content::Contour { pieces, is_closed } => {
+            Content::Contour { .. } | Content::Wide(_) => {
                 *self.drawing.layers.entry(layer.to_owned()).or_default() += 1;
                 let is_chosen = self.layers.map(|layers| layers.iter().any(|name| name == layer));
                 match (is_chosen, state) {
@@ -134,9 +146,20 @@ impl Reader<'_> {
                     (None, Layer { is_frozen: true, .. } | Layer { is_off: true, .. }) => {
                         self.count("entities on layers that are off or frozen", 1)
                     }
-                    _ => self.contour(pieces, is_closed, record, (map, layer)),
+                    _ => self.outlines(content, record, (map, layer)),
                 }
             }
+        }
+    }
+
+    fn outlines(&mut self, content: Content, record: &Record, place: (&Affine, &str)) {
+        match content {
+            Content::Contour { pieces, is_closed } => self.contour(pieces, is_closed, record, place),
+            Content::Wide(outlines) => {
+                self.wide += 1;
+                outlines.into_iter().for_each(|pieces| self.contour(pieces, true, record, place));
+            }
+            Content::Insert(_) | Content::Unused(_) => {}
         }
     }
 
@@ -170,8 +193,8 @@ impl Reader<'_> {
             }
             Closed::Empty => return self.count("outlines without area", 1),
         };
-        self.drawing.unfilled.insert(place.clone(), layer.to_owned());
-        self.drawing.entities.push(Entity { outline, place });
+        let paint = Paint::Unfilled { layer: layer.to_owned() };
+        self.drawing.entities.push(Entity { outline, paint, place });
     }
 
     fn insert(&mut self, insert: &Insert, record: &Record, map: &Affine, layer: &str) {
@@ -218,8 +241,10 @@ impl Reader<'_> {
         let mut branches = 0;
         for (layer, open) in std::mem::take(&mut self.open) {
             let pieces: Vec<Piece> = open.iter().map(|(piece, _)| piece.clone()).collect();
-            let gap = CLOSING_GAP * extent(&pieces);
+            let size = extent(&pieces);
+            let gap = self.join_within.max(CLOSING_GAP * size);
             let chains = chains(&pieces, gap);
+            self.tell_gaps(&chains.free, &open, size);
             for (first, ring) in chains.rings {
                 self.closed(&ring, gap, (open[first].1.clone(), &layer));
             }
@@ -232,6 +257,33 @@ impl Reader<'_> {
                 "At {branches} points more than two lines meet; rings there follow the order of the file and may be others than meant."
             ));
         }
+        if self.wide > 0 {
+            self.drawing.notes.push(format!(
+                "{} polylines have a width: they are solid out to the outer edge of it, closed ones inside too.",
+                self.wide
+            ));
+        }
+    }
+
+    /// Tells the small gaps between free ends of lines.
+    fn tell_gaps(&mut self, free: &[(Vec2, usize)], open: &[(Piece, String)], size: f64) {
+        let ends: Vec<Vec2> = free.iter().map(|(end, _)| *end).collect();
+        let gaps = gaps(&ends, size);
+        let Some(Gap { width, ends: [a, b] }) = gaps.first().copied() else { return };
+        let place = |end: usize| &open[free[end].1].1;
+        let at = ends[a];
+        let between = if place(a) == place(b) {
+            format!("between the ends of {}", place(a))
+        } else {
+            format!("between {} and {}", place(a), place(b))
+        };
+        self.drawing.notes.push(format!(
+            "Lines stay open at {} gaps of up to {width:.3e} drawing units, the widest {between} at ({}, {}): join-within = {:.1e} closes them.",
+            gaps.len(),
+            at.x,
+            at.y,
+            1.1 * width
+        ));
     }
 }
 

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use crate::geometry::import::contour::Piece;
+use crate::geometry::import::nodes::Nodes;
 use crate::math::Vec2;
 
 /// What became of the pieces.
@@ -15,42 +16,12 @@ pub struct Chains {
     pub rings: Vec<(usize, Vec<Piece>)>,
     /// Pieces that belong to no ring.
     pub open: usize,
+    /// Ends of these at which no other piece ends, each with the index of its piece.
+    pub free: Vec<(Vec2, usize)>,
     /// Pieces that lie on another one.
     pub doubled: usize,
     /// Points where more than two pieces meet.
     pub branches: usize,
-}
-
-/// Points that are the same within a gap, numbered in the order in which they come.
-struct Nodes {
-    gap: f64,
-    points: Vec<Vec2>,
-    cells: BTreeMap<[i64; 2], Vec<usize>>,
-}
-
-impl Nodes {
-    fn new(gap: f64) -> Self {
-        // Any positive width keeps equal points together where all lie in one.
-        Self { gap: gap.max(f64::MIN_POSITIVE), points: Vec::new(), cells: BTreeMap::new() }
-    }
-
-    fn number(&mut self, x: Vec2) -> usize {
-        // Cells of twice the gap: a point within it lies in the same cell or in one beside it. The cast saturates.
-        let cell = |v: f64| (v / (2.0 * self.gap)).floor() as i64;
-        let [i, j] = [cell(x.x), cell(x.y)];
-        for di in -1..=1 {
-            for dj in -1..=1 {
-                let near = self.cells.get(&[i.saturating_add(di), j.saturating_add(dj)]);
-                let same = near.into_iter().flatten().find(|&&node| (self.points[node] - x).norm() <= self.gap);
-                if let Some(&node) = same {
-                    return node;
-                }
-            }
-        }
-        self.points.push(x);
-        self.cells.entry([i, j]).or_default().push(self.points.len() - 1);
-        self.points.len() - 1
-    }
 }
 
 /// The chains of pieces; ends within `gap` meet.
@@ -73,6 +44,10 @@ pub fn chains(pieces: &[Piece], gap: f64) -> Chains {
         at_node[a].push(piece);
         at_node[b].push(piece);
     }
+    let is_free = |node: usize| at_node[node].len() == 1;
+    let both = ends.iter().enumerate().filter_map(|(piece, ends)| Some((piece, (*ends)?)));
+    let free = both.flat_map(|(piece, ends)| ends.map(|node| (node, piece))).filter(|(node, _)| is_free(*node));
+    chains.free = free.map(|(node, piece)| (nodes.points[node], piece)).collect();
     chains.open += prune(&mut ends, &at_node);
     chains.branches =
         at_node.iter().filter(|here| here.iter().filter(|&&piece| ends[piece].is_some()).count() > 2).count();

@@ -5,9 +5,11 @@ use std::f64::consts::TAU;
 
 use super::group::Group;
 use super::header::Record;
+use super::wide::{self, Vertex};
 use crate::geometry::import::affine::Affine;
 use crate::geometry::import::contour::{EllipticArc, Piece};
 use crate::geometry::import::drawing::Refusal;
+use crate::geometry::import::limits::is_in_range;
 use crate::geometry::import::spline::{BSpline, through_points};
 use crate::math::{Vec2, perpendicular};
 
@@ -28,6 +30,8 @@ pub enum Content {
         /// Whether they enclose an area.
         is_closed: bool,
     },
+    /// Closed outlines of what a polyline with a width covers.
+    Wide(Vec<Vec<Piece>>),
     /// Copies of a block.
     Insert(Insert),
     /// Nothing that encloses an area, under the name by which it is counted.
@@ -156,6 +160,10 @@ impl<'a> Fields<'a, '_> {
             Content::Contour { pieces, is_closed } => {
                 contour(pieces.iter().map(|piece| piece.mapped(&map)).collect(), is_closed)
             }
+            Content::Wide(outlines) => {
+                let mapped = |pieces: &Vec<Piece>| pieces.iter().map(|piece| piece.mapped(&map)).collect();
+                Content::Wide(outlines.iter().map(mapped).collect())
+            }
             Content::Insert(insert) => Content::Insert(Insert {
                 map: map.after(&insert.map),
                 steps: insert.steps.map(|step| map.turn(step)),
@@ -198,16 +206,19 @@ fn ellipse(fields: &Fields) -> Result<Content, Refusal> {
 }
 
 fn light_polyline(fields: &Fields) -> Result<Content, Refusal> {
-    let mut vertices: Vec<(Vec2, f64)> = Vec::new();
+    let mut vertices: Vec<Vertex> = Vec::new();
+    let constant = fields.real_or(43, 0.0)?;
     for group in fields.0.groups {
         match (group.code, vertices.last_mut()) {
-            (10, _) => vertices.push((Vec2::new(group.real()?, 0.0), 0.0)),
-            (20, Some(vertex)) => vertex.0.y = group.real()?,
-            (42, Some(vertex)) => vertex.1 = group.real()?,
+            (10, _) => vertices.push(Vertex { point: Vec2::new(group.real()?, 0.0), bulge: 0.0, width: [constant; 2] }),
+            (20, Some(vertex)) => vertex.point.y = group.real()?,
+            (40, Some(vertex)) => vertex.width[0] = group.real()?,
+            (41, Some(vertex)) => vertex.width[1] = group.real()?,
+            (42, Some(vertex)) => vertex.bulge = group.real()?,
             _ => {}
         }
     }
-    Ok(from_vertices(&vertices, fields.whole_or(70, 0)? & 1 != 0))
+    from_vertices(fields, &vertices, fields.whole_or(70, 0)? & 1 != 0)
 }
 
 fn polyline(records: &[Record]) -> Result<(Content, usize), Refusal> {
@@ -224,25 +235,41 @@ fn polyline(records: &[Record]) -> Result<(Content, usize), Refusal> {
     if flags & MESH != 0 {
         return Ok((Content::Unused("meshes".to_owned()), taken));
     }
+    let all = [fields.real_or(40, 0.0)?, fields.real_or(41, 0.0)?];
     let mut vertices = Vec::with_capacity(number);
     for vertex in records[1..=number].iter().map(Fields) {
         if vertex.whole_or(70, 0)? & GUIDE == 0 {
-            vertices.push((vertex.point(0)?, vertex.real_or(42, 0.0)?));
+            let width = [vertex.real_or(40, all[0])?, vertex.real_or(41, all[1])?];
+            vertices.push(Vertex { point: vertex.point(0)?, bulge: vertex.real_or(42, 0.0)?, width });
         }
     }
-    Ok((fields.in_plane(from_vertices(&vertices, flags & CLOSED != 0))?, taken))
+    Ok((fields.in_plane(from_vertices(&fields, &vertices, flags & CLOSED != 0)?)?, taken))
 }
 
-fn from_vertices(vertices: &[(Vec2, f64)], is_closed: bool) -> Content {
-    let edge = |(a, bulge): (Vec2, f64), b: Vec2| Piece::from_bulge([a, b], bulge);
-    let mut pieces: Vec<Piece> =
-        vertices.windows(2).filter(|pair| pair[0].0 != pair[1].0).map(|pair| edge(pair[0], pair[1].0)).collect();
-    let (Some(&first), Some(&last)) = (vertices.first(), vertices.last()) else { return contour(pieces, false) };
-    if is_closed && first.0 != last.0 {
-        pieces.push(edge(last, first.0));
+fn from_vertices(fields: &Fields, vertices: &[Vertex], is_closed: bool) -> Result<Content, Refusal> {
+    let is_wide = vertices.iter().any(|vertex| vertex.width != [0.0; 2]);
+    let is_long = vertices.windows(2).any(|pair| pair[0].point != pair[1].point);
+    if is_wide && is_long {
+        let is_good = |v: &Vertex| is_in_range(v.point) && is_in_range(Vec2::from(v.width));
+        if !vertices.iter().all(is_good) {
+            return Err(
+                fields.refusal("a coordinate out of range", "coordinates below 1e38 in the unit of the drawing")
+            );
+        }
+        let is_closed = is_closed || ends_meet(vertices.iter().map(|vertex| vertex.point));
+        return wide::outlines(vertices, is_closed)
+            .map(Content::Wide)
+            .map_err(|(found, expected)| fields.refusal(&found, expected));
     }
-    let is_closed = is_closed || pieces.len() > 1 && ends_meet(vertices.iter().map(|vertex| vertex.0));
-    contour(pieces, is_closed)
+    let edge = |a: Vertex, b: Vec2| Piece::from_bulge([a.point, b], a.bulge);
+    let pairs = vertices.windows(2).filter(|pair| pair[0].point != pair[1].point);
+    let mut pieces: Vec<Piece> = pairs.map(|pair| edge(pair[0], pair[1].point)).collect();
+    let (Some(&first), Some(&last)) = (vertices.first(), vertices.last()) else { return Ok(contour(pieces, false)) };
+    if is_closed && first.point != last.point {
+        pieces.push(edge(last, first.point));
+    }
+    let is_closed = is_closed || pieces.len() > 1 && ends_meet(vertices.iter().map(|vertex| vertex.point));
+    Ok(contour(pieces, is_closed))
 }
 
 /// Whether the last point lies on the first.

@@ -24,7 +24,7 @@ fn file(blocks: &str, entities: &str) -> String {
 }
 
 fn drawn(entities: &str) -> Drawing {
-    read(file("", entities).as_bytes(), None).unwrap()
+    read(file("", entities).as_bytes(), None, None).unwrap()
 }
 
 fn area_of_ring(ring: &Ring) -> f64 {
@@ -144,7 +144,7 @@ const POST: &str = "0 BLOCK; 2 Post; 10 1; 20 0; 0 CIRCLE; 8 0; 10 2; 20 0; 40 0
 fn blocks_are_expanded_turned_scaled_and_repeated() {
     let read_with = |entities: &str| {
         let nested = "0 BLOCK; 2 ROW; 10 0; 20 0; 0 INSERT; 2 post; 10 0; 20 0; 70 2; 44 3; 0 ENDBLK";
-        read(file(&format!("{POST}; {nested}"), entities).as_bytes(), None).unwrap()
+        read(file(&format!("{POST}; {nested}"), entities).as_bytes(), None, None).unwrap()
     };
     assert_discs(&read_with("0 INSERT; 2 POST; 10 5; 20 5"), &[[6.0, 5.0, 0.5]]);
     assert_discs(&read_with("0 INSERT; 2 POST; 10 5; 20 5; 41 2; 42 2; 43 2; 50 90"), &[[5.0, 7.0, 1.0]]);
@@ -166,7 +166,7 @@ fn layers_are_chosen_and_those_off_are_left_out() {
                     0 CIRCLE; 67 1; 10 0; 20 0; 40 5; 0 CIRCLE; 60 1; 10 0; 20 0; 40 6";
     let text = file(blocks, entities);
     let radii = |layers: Option<&[String]>| {
-        let drawing = read(text.as_bytes(), layers).unwrap();
+        let drawing = read(text.as_bytes(), layers, None).unwrap();
         let counts: Vec<_> = drawing.layers.iter().map(|(name, number)| (name.as_str(), *number)).collect();
         assert_eq!(counts, [("0", 1), ("cold", 1), ("dark", 1), ("walls", 1)]);
         discs(&drawing).iter().map(|disc| disc[2]).collect::<Vec<_>>()
@@ -174,13 +174,13 @@ fn layers_are_chosen_and_those_off_are_left_out() {
     assert_eq!(radii(None), [1.0, 4.0]);
     assert_eq!(radii(Some(&["walls".to_owned()])), [1.0]);
     assert_eq!(radii(Some(&["dark".to_owned(), "cold".to_owned()])), [2.0, 3.0], "layers that are named are read");
-    let unused = read(text.as_bytes(), None).unwrap().unused;
+    let unused = read(text.as_bytes(), None, None).unwrap().unused;
     let unused: Vec<_> = unused.iter().map(|(kind, number)| (kind.as_str(), *number)).collect();
     assert_eq!(
         unused,
         [("entities in paper space", 1), ("entities on layers that are off or frozen", 2), ("invisible entities", 1)]
     );
-    let refusals = read(text.as_bytes(), Some(&["posts".to_owned()])).unwrap_err();
+    let refusals = read(text.as_bytes(), Some(&["posts".to_owned()]), None).unwrap_err();
     assert_eq!(
         refusals[0].to_string(),
         "layers: found `posts`, which is not in the file, expected one of `0`, `cold`, `dark`, `walls`"
@@ -215,7 +215,7 @@ fn units_are_those_of_the_header_and_places_those_of_handles() {
     assert_eq!(drawing.entities[0].place, "CIRCLE 2F");
     assert_eq!(drawing.entities[1].place, "CIRCLE at line 68");
     let old = lines("0 SECTION; 2 ENTITIES; 0 CIRCLE; 10 3; 20 4; 40 2; 0 ENDSEC; 0 EOF");
-    assert!(read(old.as_bytes(), None).unwrap().unit.is_none());
+    assert!(read(old.as_bytes(), None, None).unwrap().unit.is_none());
 }
 
 /// The drawing of another program: the crate `dxf` writes it.
@@ -250,7 +250,7 @@ fn text_and_binary_files_of_another_program_are_the_same_drawing() {
     let (mut text, mut binary) = (Vec::new(), Vec::new());
     other.save(&mut text).unwrap();
     other.save_binary(&mut binary).unwrap();
-    let [text, binary] = [text, binary].map(|bytes| read(&bytes, None).unwrap());
+    let [text, binary] = [text, binary].map(|bytes| read(&bytes, None, None).unwrap());
     assert_eq!(text.entities, binary.entities);
     assert_eq!(text.unit.as_ref().map(|unit| unit.meters), Some(1e-6));
     assert_eq!(text.unit, binary.unit);
@@ -314,7 +314,7 @@ fn bad_files_are_refused_with_place_and_reason() {
         ),
     ];
     for (blocks, entities, expected) in cases {
-        let refusals = read(file(blocks, entities).as_bytes(), None).expect_err(entities);
+        let refusals = read(file(blocks, entities).as_bytes(), None, None).expect_err(entities);
         assert!(refusals[0].to_string().contains(expected), "{}\n{expected}", refusals[0]);
     }
     let whole = file("", "0 CIRCLE; 10 3; 20 4; 40 2");
@@ -328,11 +328,11 @@ fn bad_files_are_refused_with_place_and_reason() {
         (whole.replace("ENDSEC\n0\nEOF\n", "LINE\n"), "end of the file: found a section without an end"),
         (broken, at_line.as_str()),
     ] {
-        let found = read(text.as_bytes(), None).unwrap_err()[0].to_string();
+        let found = read(text.as_bytes(), None, None).unwrap_err()[0].to_string();
         assert!(found.starts_with(expected), "{found}\n{expected}");
     }
     let two = file("", "0 CIRCLE; 10 a; 20 4; 40 2; 0 CIRCLE; 10 b; 20 4; 40 2");
-    assert_eq!(read(two.as_bytes(), None).unwrap_err().len(), 2, "all mistakes at once");
+    assert_eq!(read(two.as_bytes(), None, None).unwrap_err().len(), 2, "all mistakes at once");
 }
 
 #[test]
@@ -341,7 +341,7 @@ fn five_thousand_circles_take_milliseconds() {
         (0..5000).map(|i| format!("0 CIRCLE; 5 {i:X}; 8 walls; 10 {}; 20 {}; 40 0.4;", i % 70, i / 70)).collect();
     let text = file("", &circles);
     let begin = std::time::Instant::now();
-    assert_eq!(read(text.as_bytes(), None).unwrap().entities.len(), 5000);
+    assert_eq!(read(text.as_bytes(), None, None).unwrap().entities.len(), 5000);
     // Aim .05 s; wide, for a debug build on a busy machine.
     let taken = begin.elapsed().as_secs_f64();
     assert!(taken < 2.0, "{taken} s");
@@ -364,7 +364,7 @@ proptest! {
         let at = at.min(bytes.len());
         let end = (at + cut).min(bytes.len());
         bytes.splice(at..end, with.bytes());
-        let _ = read(&bytes, None);
+        let _ = read(&bytes, None, None);
     }
 
     #[test]
@@ -380,6 +380,6 @@ proptest! {
             bytes[at] = byte;
         }
         bytes.truncate(end.max(30));
-        let _ = read(&bytes, None);
+        let _ = read(&bytes, None, None);
     }
 }

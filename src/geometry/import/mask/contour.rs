@@ -65,9 +65,19 @@ impl Grid<'_> {
 
     /// Where the line passes.
     pub fn point(&self, at: Crossing) -> Vec2 {
+        self.point_within(at, 0.0)
+    }
+
+    /// The same, but clear of the pixel centers, where lines may touch.
+    pub fn apart(&self, at: Crossing) -> Vec2 {
+        const CLEAR: f64 = 0.05;
+        self.point_within(at, CLEAR)
+    }
+
+    fn point_within(&self, at: Crossing, clear: f64) -> Vec2 {
         let (a, b) = (at.solid as usize, self.pore(at));
         let t = (self.share(a) - 0.5) / (self.share(a) - self.share(b));
-        self.center(a).lerp(&self.center(b), t.clamp(0.0, 1.0))
+        self.center(a).lerp(&self.center(b), t.clamp(clear, 1.0 - clear))
     }
 
     /// The middle between the two pixels.

@@ -15,6 +15,9 @@ mod contour;
 mod outlines;
 mod pixels;
 mod smooth;
+mod wall;
+
+use outlines::Outlines;
 
 use crate::geometry::import::drawing::{Drawing, Refusal, Unit};
 use crate::math::{Bounds, Vec2};
@@ -48,7 +51,7 @@ pub fn read(bytes: &[u8], options: &MaskOptions) -> Result<Drawing, Vec<Refusal>
     }
     let image = pixels::decode(bytes).map_err(|refusal| vec![refusal])?;
     let (solid, mut notes) = image.solid(threshold, options.invert).map_err(|refusal| vec![refusal])?;
-    let (entities, dropped) = outlines::outlines(&solid);
+    let Outlines { entities, specks, rough } = outlines::outlines(&solid);
     let share = solid.mean();
     let kind = if options.invert { "bright" } else { "dark" };
     notes.insert(
@@ -61,8 +64,13 @@ pub fn read(bytes: &[u8], options: &MaskOptions) -> Result<Drawing, Vec<Refusal>
         ),
     );
     let mut unused = std::collections::BTreeMap::new();
-    if dropped > 0 {
-        unused.insert(format!("specks below {} pixels", outlines::SPECK), dropped);
+    if specks > 0 {
+        unused.insert(format!("specks below {} pixels", wall::SPECK), specks);
+    }
+    if rough > 0 {
+        notes.push(format!(
+            "at {rough} narrow places smooth walls would cross: the straight edges of the contour are kept there; a finer image has fewer"
+        ));
     }
     Ok(Drawing {
         entities,

@@ -6,194 +6,135 @@
 
 use rayon::prelude::*;
 
-use super::arcs::{self, Vertex};
-use super::circle::{self, Noise};
 use super::contour::{Crossing, Grid, Line};
 use super::pixels::Solid;
-use super::smooth::{moved_out, resampled, smoothed, tangents};
-use crate::geometry::curve::cross;
-use crate::geometry::import::drawing::{Entity, FillRule, Outline, Ring};
+use super::wall::{At, Wall, visits};
+use crate::geometry::body::bulged_ring;
+use crate::geometry::curve::Curve;
+use crate::geometry::import::drawing::{Entity, FillRule, Outline, Paint, Ring};
+use crate::geometry::rings::{RingFault, faults, meetings};
 use crate::math::Vec2;
 
-/// Grains and holes of less than this many pixels are specks: a disc of two pixels radius has 12.6.
-pub(super) const SPECK: f64 = 12.0;
+/// Around a place where walls meet, crossings within so many pixels are rough, at first; then twice as many, and so on.
+const ROUGH: f64 = 2.0;
+/// So often rough places grow before whole lines are rough.
+const ROUNDS: i32 = 6;
 
-/// Distance of points along a line before it is smoothed, in pixels: below that of crossings, .8 in the mean.
-const SPACING: f64 = 0.7;
-
-/// Lengths over which noise is averaged, each √2 times the one before, in points.
-const REACHES: i32 = 16;
-
-/// A line as arcs with the area that it holds.
-struct Wall {
-    vertices: Vec<Vertex>,
-    /// Above 0 around a grain, below 0 around a hole; of closed lines only.
-    area: f64,
-    /// Center of the disc that it is.
-    center: Option<Vec2>,
+/// What the lines of an image are.
+pub(super) struct Outlines {
+    /// The grains.
+    pub entities: Vec<Entity>,
+    /// Specks, which are left out.
+    pub specks: usize,
+    /// Places where smooth walls would meet, so that the contour is kept there.
+    pub rough: usize,
 }
 
-/// The grains of an image, and the number of specks left out.
-pub(super) fn outlines(solid: &Solid) -> (Vec<Entity>, usize) {
+/// The rings of a grain, outer one first, with the lines that each is made of.
+struct Grain {
+    first: usize,
+    rings: Vec<(Ring, Vec<usize>)>,
+}
+
+/// The grains of an image.
+pub(super) fn outlines(solid: &Solid) -> Outlines {
     let grid = Grid { solid };
     let lines = grid.lines();
     let visits = visits(&grid, &lines);
-    let walls: Vec<Option<Wall>> = lines.par_iter().map(|line| wall(&grid, line, &visits)).collect();
-    let dropped = walls.iter().filter(|wall| wall.is_none()).count();
     let owner = owners(&grid, &lines);
+    // What becomes of each line at its crossings; all is smooth where the list is empty.
+    let mut rough: Vec<Vec<At>> = vec![Vec::new(); lines.len()];
+    let wall = |k: usize, rough: &[Vec<At>]| Wall::of(&grid, &lines[k], &visits, &rough[k]);
+    let mut walls: Vec<Option<Wall>> = (0..lines.len()).into_par_iter().map(|k| wall(k, &rough)).collect();
+    let mut found = grains(&grid, &lines, &walls, &owner);
+    let mut places = 0;
+    for round in 0..=ROUNDS {
+        let faulty: Vec<(Vec<Vec2>, Vec<usize>)> = found.par_iter().filter_map(faulty_places).collect();
+        places = places.max(faulty.iter().map(|(at, _)| at.len().max(1)).sum());
+        let mut changed: Vec<usize> = Vec::new();
+        for (at, of) in faulty {
+            for k in of {
+                let near = |p: Vec2| {
+                    at.is_empty() || round == ROUNDS || at.iter().any(|q| (p - q).norm() < ROUGH * 2.0_f64.powi(round))
+                };
+                let marked: Vec<bool> = lines[k].crossings.iter().map(|&at| near(grid.point(at))).collect();
+                if marked.contains(&true) {
+                    rough[k].resize(marked.len(), At::Smooth);
+                    for known in rough[k].iter_mut().zip(marked).filter(|(_, is_near)| *is_near).map(|(known, _)| known)
+                    {
+                        *known = if *known == At::Smooth && round < ROUNDS { At::Kept } else { At::Fixed };
+                    }
+                    changed.push(k);
+                }
+            }
+        }
+        if changed.is_empty() {
+            break;
+        }
+        let remade: Vec<(usize, Option<Wall>)> = changed.into_par_iter().map(|k| (k, wall(k, &rough))).collect();
+        remade.into_iter().for_each(|(k, wall)| walls[k] = wall);
+        found = grains(&grid, &lines, &walls, &owner);
+    }
+    let specks = walls.iter().filter(|wall| wall.is_none()).count();
+    let entities = found.into_iter().map(|grain| entity(&grid, &lines, &walls, grain)).collect();
+    Outlines { entities, specks, rough: places }
+}
+
+/// Where the rings of a grain meet that must not, and their lines; none where they are sound. No place: a hole that is not within its ring.
+fn faulty_places(grain: &Grain) -> Option<(Vec<Vec2>, Vec<usize>)> {
+    let curves: Vec<Vec<Curve>> = grain.rings.iter().map(|(ring, _)| bulged_ring(&ring.vertices).collect()).collect();
+    let found = faults(&curves);
+    if found.is_empty() {
+        return None;
+    }
+    let whole: Vec<usize> = found
+        .iter()
+        .flat_map(|fault| match fault {
+            RingFault::SelfIntersection { ring, .. } => vec![*ring],
+            RingFault::NotContained { hole, .. } => vec![0, *hole],
+            RingFault::OnALine { rings, .. } | RingFault::OnAnArea { rings, .. } => rings.to_vec(),
+        })
+        .collect();
+    let mut lines: Vec<usize> = whole.iter().flat_map(|&ring| grain.rings[ring].1.iter().copied()).collect();
+    lines.sort_unstable();
+    lines.dedup();
+    Some((meetings(&curves), lines))
+}
+
+/// The grains of the walls, in the order of their first lines.
+fn grains(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>], owner: &[Option<usize>]) -> Vec<Grain> {
     // The open lines come first; `owners` names the first line of each grain that leaves the image.
-    let mut rings: Vec<Vec<Ring>> = vec![Vec::new(); lines.len() + 1];
-    for (first, ring) in across_edges(&grid, &lines, &walls) {
-        rings[first].push(ring);
+    let mut rings: Vec<Vec<(Ring, Vec<usize>)>> = vec![Vec::new(); lines.len() + 1];
+    for (first, ring, of) in across_edges(grid, lines, walls) {
+        rings[first].push((ring, of));
     }
     for (index, wall) in walls.iter().enumerate().filter(|(index, _)| lines[*index].is_closed) {
         let Some(wall) = wall else { continue };
         if wall.area > 0.0 {
-            rings[index].insert(0, wall.ring());
+            rings[index].insert(0, (wall.ring(), vec![index]));
         } else if let Some(owner) = owner[index] {
-            rings[owner].push(wall.ring());
+            rings[owner].push((wall.ring(), vec![index]));
         }
     }
-    let mut entities = Vec::new();
-    for (index, rings) in rings.into_iter().enumerate().filter(|(_, rings)| !rings.is_empty()) {
-        let wall = walls.get(index).and_then(Option::as_ref);
-        let disc = wall.filter(|wall| rings.len() == 1 && lines[index].is_closed && wall.center.is_some());
-        let outline = match disc.and_then(|wall| Some((wall.center?, wall.radius()))) {
-            Some((center, radius)) => Outline::Disc { center, radius },
-            None => Outline::Area { rings, rule: FillRule::EvenOdd },
-        };
-        let place = lines.get(index).and_then(|line| line.crossings.first()).map_or_else(
-            || "the edge of the image".to_owned(),
-            |&at| {
-                let p = grid.center(at.solid as usize);
-                format!("pixel ({}, {})", p.x.floor(), solid.height as f64 - 1.0 - p.y.floor())
-            },
-        );
-        entities.push(Entity { outline, place });
-    }
-    (entities, dropped)
+    let all = rings.into_iter().enumerate().filter(|(_, rings)| !rings.is_empty());
+    all.map(|(first, rings)| Grain { first, rings }).collect()
 }
 
-/// How often the lines pass each pixel: one that several lines pass is shared among them.
-fn visits(grid: &Grid<'_>, lines: &[Line]) -> Vec<u8> {
-    let mut visits = vec![0_u8; grid.solid.share.len()];
-    for &at in lines.iter().flat_map(|line| &line.crossings) {
-        for node in cell(grid, at) {
-            visits[node] = visits[node].saturating_add(1);
-        }
-    }
-    visits
-}
-
-/// The pixels at the corners of the cell that a line enters.
-fn cell(grid: &Grid<'_>, at: Crossing) -> impl Iterator<Item = usize> {
-    let beside = [at.solid as usize, grid.pore(at)];
-    beside.into_iter().chain(grid.ahead(at).into_iter().flatten())
-}
-
-/// ½ ∮ (x dy − y dx) of the line of points, closed by a straight edge.
-fn polygon_area(points: &[Vec2]) -> f64 {
-    let Some(&origin) = points.first() else { return 0.0 };
-    points.windows(2).map(|w| 0.5 * cross(w[0] - origin, w[1] - origin)).sum()
-}
-
-/// A line, smoothed; none where it is a speck.
-fn wall(grid: &Grid<'_>, line: &Line, visits: &[u8]) -> Option<Wall> {
-    let points: Vec<Vec2> = line.crossings.iter().map(|&at| grid.point(at)).collect();
-    let middles: Vec<Vec2> = line.crossings.iter().map(|&at| grid.middle(at)).collect();
-    // Partly covered pixels beside the line, and whether there are any.
-    let (mut partly, mut is_gray) = (0.0, false);
-    for node in line.crossings.iter().flat_map(|&at| cell(grid, at)) {
-        let share = grid.share(node);
-        let amount = if grid.is_solid(node) { share - 1.0 } else { share };
-        partly += amount / f64::from(visits[node]);
-        is_gray |= amount.abs() > 1e-3;
-    }
-    let pixels = line.turns as f64 / 8.0 + partly;
-    let noise = if is_gray { circle::GRAY } else { circle::BINARY };
-    if line.is_closed {
-        let area = polygon_area(&middles) + pixels;
-        if area.abs() < SPECK {
-            return None;
-        }
-        let center = circle::center(&points, area.abs(), noise);
-        if let Some(center) = center {
-            return Some(Wall { vertices: circle_vertices(center, area), area, center: Some(center) });
-        }
-        let mut vertices = smooth_arcs(&points, true, noise, |line| area - polygon_area(line));
-        set_area(&mut vertices, area);
-        Some(Wall { vertices, area, center: None })
-    } else {
-        // Between the line and that through the middles, closed along the edges of the image.
-        let lack = |line: &[Vec2]| {
-            pixels - polygon_area(&line.iter().chain(middles.iter().rev()).copied().collect::<Vec<_>>())
-        };
-        Some(Wall { vertices: smooth_arcs(&points, false, noise, lack), area: 0.0, center: None })
-    }
-}
-
-/// A circle as two arcs, counter-clockwise around a grain.
-fn circle_vertices(center: Vec2, area: f64) -> Vec<Vertex> {
-    let radius = (area.abs() / std::f64::consts::PI).sqrt();
-    let turn = area.signum();
-    [1.0, -1.0]
-        .map(|side| Vertex {
-            point: center + Vec2::new(side * radius, 0.0),
-            bulge: turn,
-            tangent: Vec2::new(0.0, side * turn),
-        })
-        .to_vec()
-}
-
-/// The smoothest line within the noise, as arcs, moved out so that it lacks no area; `lack` tells what a line lacks, in px².
-fn smooth_arcs(points: &[Vec2], is_closed: bool, noise: Noise, lack: impl Fn(&[Vec2]) -> f64) -> Vec<Vertex> {
-    let even = resampled(points, is_closed, SPACING);
-    let length: f64 = even.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-    let candidate = |step: i32| {
-        let smooth = smoothed(&even, is_closed, 2.0_f64.powf(0.5 * f64::from(step)));
-        let along = tangents(&smooth, is_closed);
-        let moved = moved_out(&smooth, &along, lack(&smooth) / length);
-        (moved, along)
+fn entity(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>], Grain { first, rings }: Grain) -> Entity {
+    let wall = walls.get(first).and_then(Option::as_ref);
+    let disc = wall.filter(|wall| rings.len() == 1 && lines[first].is_closed && wall.center.is_some());
+    let outline = match disc.and_then(|wall| Some((wall.center?, wall.radius()))) {
+        Some((center, radius)) => Outline::Disc { center, radius },
+        None => Outline::Area { rings: rings.into_iter().map(|(ring, _)| ring).collect(), rule: FillRule::EvenOdd },
     };
-    let is_within = |(moved, along): &(Vec<Vec2>, Vec<Vec2>)| {
-        let rests = moved.iter().zip(along).zip(&even).map(|((q, t), p)| cross(*t, p - q));
-        let (most, squares) = rests.fold((0.0_f64, 0.0), |(most, squares), r| (most.max(r.abs()), squares + r * r));
-        most <= noise.most && squares <= noise.rms * noise.rms * even.len() as f64
-    };
-    let (mut good, mut bad) = (0, REACHES);
-    let mut best = candidate(good);
-    while bad - good > 1 {
-        let middle = (good + bad) / 2;
-        let tried = candidate(middle);
-        if is_within(&tried) {
-            (good, best) = (middle, tried);
-        } else {
-            bad = middle;
-        }
-    }
-    arcs::arcs((&best.0, &best.1), is_closed, noise.rms)
-}
-
-/// Moves a closed chain out until it holds the area.
-fn set_area(vertices: &mut [Vertex], area: f64) {
-    // One step meets the area but for a circle of the step's radius; the second meets that.
-    for _ in 0..3 {
-        let length = arcs::length(vertices, true);
-        if length > 0.0 {
-            let by = (area - arcs::area(vertices, true)) / length;
-            arcs::move_out(vertices, by);
-        }
-    }
-}
-
-impl Wall {
-    fn ring(&self) -> Ring {
-        arcs::ring(&self.vertices)
-    }
-
-    fn radius(&self) -> f64 {
-        (self.area.abs() / std::f64::consts::PI).sqrt()
-    }
+    let place = lines.get(first).and_then(|line| line.crossings.first()).map_or_else(
+        || "the edge of the image".to_owned(),
+        |&at| {
+            let p = grid.center(at.solid as usize);
+            format!("pixel ({}, {})", p.x.floor(), grid.solid.height as f64 - 1.0 - p.y.floor())
+        },
+    );
+    Entity { outline, paint: Paint::Filled, place }
 }
 
 /// For each hole the line of the grain that it lies in: seen from its first pixel to the left, the next line is the grain's, or that
@@ -288,8 +229,8 @@ fn edge_owner(grid: &Grid<'_>, lines: &[Line], group: &[usize], row: usize) -> u
     starts.get(place).or(starts.first()).map_or(lines.len(), |start| group[start.1])
 }
 
-/// Rings of the grains that leave the image, closed outside of it, each with the index of its first line.
-fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<(usize, Ring)> {
+/// Rings of the grains that leave the image, closed outside of it, each with the index of its first line and all its lines.
+fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<(usize, Ring, Vec<usize>)> {
     let (w, h) = (grid.solid.width as f64, grid.solid.height as f64);
     // Far enough for every distance that is asked for within the image.
     let beyond = w.max(h);
@@ -304,7 +245,7 @@ fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<
     let straight = |p: Vec2| [p.x, p.y, 0.0];
     if lines.iter().all(|line| line.is_closed) {
         return if grid.is_solid(0) {
-            vec![(lines.len(), Ring { vertices: corners.map(straight).to_vec() })]
+            vec![(lines.len(), Ring { vertices: corners.map(straight).to_vec() }, Vec::new())]
         } else {
             Vec::new()
         };
@@ -313,9 +254,10 @@ fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<
     let mut done = vec![false; lines.len()];
     let mut rings = Vec::new();
     for first in (0..lines.len()).filter(|&k| !lines[k].is_closed) {
-        let (mut ring, mut at) = (Ring::default(), first);
+        let (mut ring, mut at, mut of) = (Ring::default(), first, Vec::new());
         while !done[at] {
             done[at] = true;
+            of.push(at);
             let (Some(start), Some(end)) = (lines[at].crossings.first(), lines[at].crossings.last()) else { break };
             let Some(wall) = &walls[at] else { break };
             let (Some(head), Some(tail)) = (wall.vertices.first(), wall.vertices.last()) else { break };
@@ -337,7 +279,7 @@ fn across_edges(grid: &Grid<'_>, lines: &[Line], walls: &[Option<Wall>]) -> Vec<
             at = follower;
         }
         if ring.vertices.len() > 2 {
-            rings.push((first, ring));
+            rings.push((first, ring, of));
         }
     }
     rings

@@ -2,11 +2,11 @@
 //!
 //! Source: Scalable Vector Graphics 1.1, 2nd ed., W3C 2011, chapters 5 to 11 and appendix F.6. The lower left corner of the page becomes
 //! the origin. Circles stay exact under all maps that keep circles. What is left out: text, images, filters, clips and masks (told in
-//! notes), the width of strokes, and the order of painting: a shape is solid wherever it is filled, and white ones are
-//! paper where others are not white.
+//! notes) and the width of strokes. White shapes are pore where others are not white.
 
 mod page;
 mod path;
+mod placement;
 mod shape;
 mod style;
 mod walk;

@@ -51,12 +51,16 @@ impl Viewport {
         let Some(text) = node.attribute(name).filter(|text| !text.trim().is_empty() && text.trim() != "auto") else {
             return Ok(None);
         };
-        let found = || format!("{name}=\"{text}\"");
-        let Length { number, unit } = Length::from_str(text.trim()).map_err(|_| found())?;
+        self.value(text.trim(), along).map(Some).ok_or_else(|| format!("{name}=\"{text}\""))
+    }
+
+    /// A length in user units; none where it is not known.
+    pub fn value(&self, text: &str, along: Along) -> Option<f64> {
+        let Length { number, unit } = Length::from_str(text).ok()?;
         let value = match (unit, unit_of(unit)) {
             (LengthUnit::None, _) => number,
             (LengthUnit::Percent, _) => {
-                let size = self.size.ok_or_else(found)?;
+                let size = self.size?;
                 let whole = match along {
                     Along::X => size.x,
                     Along::Y => size.y,
@@ -64,17 +68,15 @@ impl Viewport {
                 };
                 0.01 * number * whole
             }
-            (_, Some((_, meters))) => number * (meters / PIXEL),
-            (_, None) => return Err(found()),
+            (_, unit) => number * (unit?.1 / PIXEL),
         };
-        if value.is_finite() { Ok(Some(value)) } else { Err(found()) }
+        value.is_finite().then_some(value)
     }
 }
 
-/// The attribute `transform` as a map.
-pub fn transform(node: Node, name: &str) -> Result<Affine, String> {
-    let Some(text) = node.attribute(name) else { return Ok(Affine::identity()) };
-    let found = || format!("{name}=\"{}\"", shortened(text));
+/// The text of an attribute `transform` as a map.
+pub fn transform(text: &str) -> Result<Affine, String> {
+    let found = || shortened(text);
     let Transform { a, b, c, d, e, f } = Transform::from_str(text).map_err(|_| found())?;
     if [a, b, c, d, e, f].iter().any(|number| !number.is_finite()) {
         return Err(found());

@@ -1,5 +1,5 @@
-//! What of the style of an SVG element decides whether it is a shape: `display`, `visibility`, fill, stroke and fill rule, from
-//! attributes, `style` and style sheets.
+//! What of the style of an SVG element decides whether it is a shape, and where: `display`, `visibility`, fill, stroke, fill rule
+//! and transform, from attributes, `style` and style sheets.
 //!
 //! Selectors may name an element, an id and classes (`circle.grain`, `#a`, `*`); those with combinators or conditions are counted and
 //! left out. Media rules are left out.
@@ -9,10 +9,11 @@ use std::collections::BTreeMap;
 use roxmltree::{Document, Node};
 use svgtypes::{Color, Paint};
 
+use super::placement::REFUSED;
 use crate::geometry::import::drawing::FillRule;
 
-/// The properties that matter here.
-const PROPERTIES: [&str; 9] = [
+/// The properties that matter here, as attributes too.
+const PROPERTIES: [&str; 14] = [
     "display",
     "visibility",
     "fill",
@@ -22,7 +23,21 @@ const PROPERTIES: [&str; 9] = [
     "stroke-width",
     "stroke-opacity",
     "opacity",
+    "clip-path",
+    "mask",
+    "transform",
+    "transform-origin",
+    "transform-box",
 ];
+
+/// Where a property stands: numbers of attributes need no unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// An attribute of the element.
+    Attribute,
+    /// Its `style`, or a style sheet.
+    Css,
+}
 
 /// Rules for one class, id or kind of element; each is tried at each of its elements.
 pub const MOST_RULES: usize = 200;
@@ -51,6 +66,8 @@ pub struct Style {
     pub rule: FillRule,
     /// Whether its outline is drawn.
     pub has_stroke: bool,
+    /// Whether it has a clip or a mask of its own.
+    pub is_clipped: bool,
     paint: [Fill; 2],
     opacity: [f64; 2],
     stroke_width: f64,
@@ -64,6 +81,7 @@ impl Default for Style {
             fill: Fill::Other,
             rule: FillRule::NonZero,
             has_stroke: false,
+            is_clipped: false,
             paint: [Fill::Other, Fill::None],
             opacity: [1.0; 2],
             stroke_width: 1.0,
@@ -74,8 +92,8 @@ impl Default for Style {
 impl Style {
     /// The style of an element within one of this style.
     pub fn of_child(&self, node: Node, sheet: &StyleSheet) -> Self {
-        let mut style = Self { is_removed: false, ..*self };
-        sheet.for_each(node, |name, value| style.set(name, value, self));
+        let mut style = Self { is_removed: false, is_clipped: false, ..*self };
+        sheet.for_each(node, |_, name, value| style.set(name, value, self));
         style.fill = if style.opacity[0] > 0.0 { style.paint[0] } else { Fill::None };
         style.has_stroke = style.paint[1] != Fill::None && style.opacity[1] > 0.0 && style.stroke_width > 0.0;
         style
@@ -94,6 +112,7 @@ impl Style {
             "fill-rule" => self.rule = if value == "evenodd" { FillRule::EvenOdd } else { FillRule::NonZero },
             "fill-opacity" => self.opacity[0] = number(value).unwrap_or(parent.opacity[0]),
             "stroke-opacity" => self.opacity[1] = number(value).unwrap_or(parent.opacity[1]),
+            "clip-path" | "mask" => self.is_clipped |= value != "none",
             "stroke-width" => self.stroke_width = number(value).unwrap_or(parent.stroke_width),
             _ => {}
         }
@@ -188,10 +207,10 @@ impl StyleSheet {
     }
 
     /// Gives each property of an element to `set`, the strongest last.
-    fn for_each(&self, node: Node, mut set: impl FnMut(&str, &str)) {
+    pub fn for_each(&self, node: Node, mut set: impl FnMut(Source, &str, &str)) {
         for name in PROPERTIES {
             if let Some(value) = node.attribute(name) {
-                set(name, value.trim());
+                set(Source::Attribute, name, value.trim());
             }
         }
         if !self.rules.is_empty() {
@@ -204,12 +223,12 @@ impl StyleSheet {
             let mut rules: Vec<&Rule> = rules.filter(|rule| rule.selector.matches(node)).collect();
             rules.sort_by_key(|rule| rule.rank);
             for (name, value) in rules.iter().flat_map(|rule| &rule.properties) {
-                set(name, value);
+                set(Source::Css, name, value);
             }
         }
         if let Some(text) = node.attribute("style") {
             for (name, value) in pairs(text) {
-                set(name, value);
+                set(Source::Css, name, value);
             }
         }
     }
@@ -271,7 +290,8 @@ fn pairs(text: &str) -> impl Iterator<Item = (&str, &str)> {
     text.split(';').filter_map(|declaration| {
         let (name, value) = declaration.split_once(':')?;
         let value = value.split('!').next().unwrap_or_default().trim();
-        PROPERTIES.contains(&name.trim()).then_some((name.trim(), value))
+        let name = name.trim();
+        (PROPERTIES.contains(&name) || REFUSED.contains(&name)).then_some((name, value))
     })
 }
 

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::geometry::curve::Curve;
-use crate::geometry::import::drawing::{FillRule, Outline, Ring};
+use crate::geometry::import::drawing::{FillRule, Outline, Paint, Ring};
 use crate::math::Vec2;
 
 fn page(attributes: &str, content: &str) -> String {
@@ -252,12 +252,13 @@ fn closed_outlines_without_fill_are_shapes_and_open_ones_are_not() {
 }
 
 #[test]
-fn white_shapes_are_paper_only_where_others_are_not_white() {
+fn shapes_are_white_only_where_others_are_not() {
     let white = "<rect width='100' height='50' style='fill: #ffffff'/>";
     assert_eq!(drawn(white).entities.len(), 1);
-    let drawing = drawn(&format!("{white}<circle r='3'/>"));
-    assert_eq!(disc(&drawing).1, 3.0);
-    assert_eq!(drawing.unused["white shapes"], 1);
+    assert_eq!(drawn(white).entities[0].paint, Paint::Filled);
+    let drawing = drawn(&format!("{white}<circle r='3'/><circle r='2' fill='none' stroke='red'/>"));
+    let paints: Vec<&Paint> = drawing.entities.iter().map(|entity| &entity.paint).collect();
+    assert_eq!(paints, [&Paint::White, &Paint::Filled, &Paint::Unfilled { layer: String::new() }]);
 }
 
 #[test]

@@ -8,10 +8,11 @@ use roxmltree::{Document, Node};
 
 use super::Lines;
 use super::page::{self, Along, Page, Viewport};
+use super::placement;
 use super::shape;
 use super::style::{self, Style, StyleSheet};
 use crate::geometry::import::affine::Affine;
-use crate::geometry::import::drawing::{Drawing, Refusal};
+use crate::geometry::import::drawing::{Drawing, Paint, Refusal};
 use crate::geometry::import::limits::Budget;
 use crate::math::Vec2;
 
@@ -72,7 +73,6 @@ pub fn drawing(
         budget: Budget::of_file(bytes),
         copying: Vec::new(),
         drawing: Drawing { unit: page.unit.clone(), frame: page.frame, ..Drawing::default() },
-        whites: Vec::new(),
         tally: Tally::default(),
         refusals: Vec::new(),
         is_over: false,
@@ -86,6 +86,9 @@ pub fn drawing(
         depth: 0,
     };
     let style = start.style.of_child(root, &sheet);
+    if walk.map(root, Viewport { size: None }).is_some_and(|map| map != Affine::identity()) {
+        walk.refuse(root, "a transform of the page", "transforms of groups and shapes: put all into a group (`g`)");
+    }
     walk.children(root, &Place { style, ..start.clone() });
     walk.finish()
 }
@@ -104,7 +107,6 @@ struct Place<'a> {
 /// What is told in notes.
 #[derive(Default)]
 struct Tally {
-    outlines: usize,
     strokes: usize,
     clipped: usize,
     not_closed: usize,
@@ -120,8 +122,6 @@ struct Walk<'a, 'input> {
     /// The elements that are being copied, against copies of themselves.
     copying: Vec<Node<'a, 'input>>,
     drawing: Drawing,
-    /// Which of the entities are white.
-    whites: Vec<bool>,
     tally: Tally,
     refusals: Vec<Refusal>,
     /// Whether the rest of the file is no longer looked at.
@@ -160,18 +160,13 @@ impl<'a, 'input> Walk<'a, 'input> {
         if !self.budget.spend(1) {
             return self.refuse_size(node);
         }
-        let own = match page::transform(node, "transform") {
-            Ok(own) => own,
-            Err(found) => return self.refuse(node, found, "matrix, translate, scale, rotate, skewX or skewY"),
-        };
+        let Some(own) = self.map(node, parent.viewport) else { return };
         let style = parent.style.of_child(node, self.sheet);
         let mut place = Place { map: parent.map.after(&own), style, depth: parent.depth + 1, ..parent.clone() };
         if style.is_removed {
             return self.count("hidden elements");
         }
-        self.tally.clipped += usize::from(
-            ["clip-path", "mask"].iter().any(|name| node.attribute(*name).is_some_and(|value| value != "none")),
-        );
+        self.tally.clipped += usize::from(style.is_clipped);
         match name {
             "g" | "a" => {
                 self.enter_layer(node, parent, &mut place);
@@ -194,6 +189,11 @@ impl<'a, 'input> Walk<'a, 'input> {
             }
             _ => {}
         }
+    }
+
+    /// The map of an element; none, and told, where it is not understood.
+    fn map(&mut self, node: Node, viewport: Viewport) -> Option<Affine> {
+        placement::map(node, self.sheet, viewport).map_err(|(found, expected)| self.refuse(node, found, expected)).ok()
     }
 
     fn refuse_size(&mut self, node: Node) {
@@ -288,6 +288,7 @@ impl<'a, 'input> Walk<'a, 'input> {
         self.copying.push(target);
         if matches!(target.tag_name().name(), "symbol" | "svg") {
             place.style = place.style.of_child(target, self.sheet);
+            place.map = place.map.after(&self.map(target, place.viewport).unwrap_or_else(Affine::identity));
             if self.viewport(target, node, &mut place).is_some() {
                 self.children(target, &place);
             }
@@ -311,16 +312,15 @@ impl<'a, 'input> Walk<'a, 'input> {
             return Err(self.refusals);
         }
         let drawing = &mut self.drawing;
-        let whites = self.whites.iter().filter(|is_white| **is_white).count();
-        if whites > 0 && whites < self.whites.len() {
-            let mut is_white = self.whites.iter();
-            drawing.entities.retain(|_| is_white.next() == Some(&false));
-            drawing.unused.insert("white shapes".to_owned(), whites);
-            drawing.notes.push(format!(
-                "{whites} white shapes are taken for paper, as others are not white; give what is pore no fill, or choose layers."
-            ));
+        let number = |paint: fn(&Paint) -> bool| drawing.entities.iter().filter(|one| paint(&one.paint)).count();
+        let (white, unfilled) =
+            (number(|paint| *paint == Paint::White), number(|paint| matches!(paint, Paint::Unfilled { .. })));
+        let is_white = white == drawing.entities.len();
+        let outlines = if white + unfilled == drawing.entities.len() { unfilled } else { 0 };
+        if is_white {
+            drawing.entities.iter_mut().for_each(|one| one.paint = Paint::Filled);
         }
-        let Tally { outlines, strokes, clipped, not_closed } = self.tally;
+        let Tally { strokes, clipped, not_closed } = self.tally;
         let told = [
             (outlines, "closed outlines without fill are taken for shapes"),
             (not_closed, "open outlines with a fill are closed by a straight line, as they are drawn"),

@@ -4,7 +4,7 @@ use roxmltree::Node;
 
 use super::{Place, Walk};
 use crate::geometry::import::closing::{Closed, close};
-use crate::geometry::import::drawing::{Entity, FillRule, Outline, Ring};
+use crate::geometry::import::drawing::{Entity, FillRule, Outline, Paint, Ring};
 use crate::geometry::import::svg::shape;
 use crate::geometry::import::svg::style::Fill;
 use crate::math::Vec2;
@@ -75,14 +75,13 @@ impl<'a, 'input> Walk<'a, 'input> {
             (&[(center, radius)], 1) => Outline::Disc { center, radius },
             _ => Outline::Area { rings, rule },
         };
-        self.tally.outlines += usize::from(style.fill == Fill::None);
         self.tally.strokes += usize::from(style.fill != Fill::None && style.has_stroke);
-        self.whites.push(style.fill == Fill::White);
-        let at = self.lines.place(node);
-        if style.fill == Fill::None {
-            self.drawing.unfilled.insert(at.clone(), place.layer.unwrap_or_default().to_owned());
-        }
-        self.drawing.entities.push(Entity { outline, place: at });
+        let paint = match style.fill {
+            Fill::None => Paint::Unfilled { layer: place.layer.unwrap_or_default().to_owned() },
+            Fill::White => Paint::White,
+            Fill::Other => Paint::Filled,
+        };
+        self.drawing.entities.push(Entity { outline, paint, place: self.lines.place(node) });
     }
 }
 

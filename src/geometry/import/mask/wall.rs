@@ -1,0 +1,218 @@
+//! One contour line as a wall of arcs that holds the area of its pixels: the smoothest line within the noise, and the contour itself at rough places.
+
+use super::arcs::{self, Vertex};
+use super::circle::{self, Noise};
+use super::contour::{Crossing, Grid, Line};
+use super::smooth::{moved_out, resampled, smoothed, tangents};
+use crate::geometry::curve::cross;
+use crate::geometry::import::drawing::Ring;
+use crate::math::Vec2;
+
+/// Grains and holes of less than this many pixels are specks: a disc of two pixels radius has 12.6.
+pub(super) const SPECK: f64 = 12.0;
+
+/// Distance of points along a line before it is smoothed, in pixels: below that of crossings, .8 in the mean.
+const SPACING: f64 = 0.7;
+
+/// Lengths over which noise is averaged, each √2 times the one before, in points.
+const REACHES: i32 = 16;
+
+/// The farthest that the smooth parts of a line with rough places move for its area, in pixels.
+const FARTHEST: f64 = 0.25;
+
+/// What becomes of the line at a crossing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum At {
+    /// It is smoothed.
+    Smooth,
+    /// The contour is kept and moves with the line for its area.
+    Kept,
+    /// The contour is kept where it is.
+    Fixed,
+}
+
+/// A line as arcs with the area that it holds.
+pub(super) struct Wall {
+    pub vertices: Vec<Vertex>,
+    /// Above 0 around a grain, below 0 around a hole; of closed lines only.
+    pub area: f64,
+    /// Center of the disc that it is.
+    pub center: Option<Vec2>,
+}
+
+/// How often the lines pass each pixel: one that several lines pass is shared among them.
+pub(super) fn visits(grid: &Grid<'_>, lines: &[Line]) -> Vec<u8> {
+    let mut visits = vec![0_u8; grid.solid.share.len()];
+    for &at in lines.iter().flat_map(|line| &line.crossings) {
+        for node in cell(grid, at) {
+            visits[node] = visits[node].saturating_add(1);
+        }
+    }
+    visits
+}
+
+/// The pixels at the corners of the cell that a line enters.
+fn cell(grid: &Grid<'_>, at: Crossing) -> impl Iterator<Item = usize> {
+    let beside = [at.solid as usize, grid.pore(at)];
+    beside.into_iter().chain(grid.ahead(at).into_iter().flatten())
+}
+
+/// ½ ∮ (x dy − y dx) of the line of points, closed by a straight edge.
+fn polygon_area(points: &[Vec2]) -> f64 {
+    let Some(&origin) = points.first() else { return 0.0 };
+    points.windows(2).map(|w| 0.5 * cross(w[0] - origin, w[1] - origin)).sum()
+}
+
+impl Wall {
+    /// A line as each of its crossings says, all of them smooth where none is told; nothing where it is a speck.
+    pub fn of(grid: &Grid<'_>, line: &Line, visits: &[u8], rough: &[At]) -> Option<Self> {
+        let points: Vec<Vec2> = line.crossings.iter().map(|&at| grid.point(at)).collect();
+        let middles: Vec<Vec2> = line.crossings.iter().map(|&at| grid.middle(at)).collect();
+        // Partly covered pixels beside the line, and whether there are any.
+        let (mut partly, mut is_gray) = (0.0, false);
+        for node in line.crossings.iter().flat_map(|&at| cell(grid, at)) {
+            let share = grid.share(node);
+            let amount = if grid.is_solid(node) { share - 1.0 } else { share };
+            partly += amount / f64::from(visits[node]);
+            is_gray |= amount.abs() > 1e-3;
+        }
+        let pixels = line.turns as f64 / 8.0 + partly;
+        let noise = if is_gray { circle::GRAY } else { circle::BINARY };
+        if !line.is_closed {
+            // Between the line and that through the middles, closed along the edges of the image.
+            let lack = |line: &[Vec2]| {
+                pixels - polygon_area(&line.iter().chain(middles.iter().rev()).copied().collect::<Vec<_>>())
+            };
+            let smooth = smooth(&points, false, noise, lack);
+            return Some(Self {
+                vertices: vertices(grid, line, &points, &smooth, rough, noise),
+                area: 0.0,
+                center: None,
+            });
+        }
+        let area = polygon_area(&middles) + pixels;
+        if area.abs() < SPECK {
+            return None;
+        }
+        let center = circle::center(&points, area.abs(), noise).filter(|_| rough.is_empty());
+        if let Some(center) = center {
+            return Some(Self { vertices: circle_vertices(center, area), area, center: Some(center) });
+        }
+        let smooth = smooth(&points, true, noise, |line| area - polygon_area(line));
+        let mut vertices = vertices(grid, line, &points, &smooth, rough, noise);
+        set_area(&mut vertices, area, if rough.is_empty() { f64::INFINITY } else { FARTHEST });
+        Some(Self { vertices, area, center: None })
+    }
+
+    pub fn ring(&self) -> Ring {
+        arcs::ring(&self.vertices)
+    }
+
+    pub fn radius(&self) -> f64 {
+        (self.area.abs() / std::f64::consts::PI).sqrt()
+    }
+}
+
+/// A circle as two arcs, counter-clockwise around a grain.
+fn circle_vertices(center: Vec2, area: f64) -> Vec<Vertex> {
+    let radius = (area.abs() / std::f64::consts::PI).sqrt();
+    let turn = area.signum();
+    [1.0, -1.0]
+        .map(|side| Vertex {
+            point: center + Vec2::new(side * radius, 0.0),
+            bulge: turn,
+            tangent: Vec2::new(0.0, side * turn),
+        })
+        .to_vec()
+}
+
+/// Points at even distances with the tangents there.
+type Smooth = (Vec<Vec2>, Vec<Vec2>);
+
+/// The smoothest line within the noise, moved out so that it lacks no area; `lack` tells what a line lacks, in px².
+fn smooth(points: &[Vec2], is_closed: bool, noise: Noise, lack: impl Fn(&[Vec2]) -> f64) -> Smooth {
+    let even = resampled(points, is_closed, SPACING);
+    let length: f64 = even.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+    let candidate = |step: i32| {
+        let smooth = smoothed(&even, is_closed, 2.0_f64.powf(0.5 * f64::from(step)));
+        let along = tangents(&smooth, is_closed);
+        let moved = moved_out(&smooth, &along, lack(&smooth) / length);
+        (moved, along)
+    };
+    let is_within = |(moved, along): &Smooth| {
+        let rests = moved.iter().zip(along).zip(&even).map(|((q, t), p)| cross(*t, p - q));
+        let (most, squares) = rests.fold((0.0_f64, 0.0), |(most, squares), r| (most.max(r.abs()), squares + r * r));
+        most <= noise.most && squares <= noise.rms * noise.rms * even.len() as f64
+    };
+    let (mut good, mut bad) = (0, REACHES);
+    let mut best = candidate(good);
+    while bad - good > 1 {
+        let middle = (good + bad) / 2;
+        let tried = candidate(middle);
+        if is_within(&tried) {
+            (good, best) = (middle, tried);
+        } else {
+            bad = middle;
+        }
+    }
+    best
+}
+
+/// The smooth line as arcs; where crossings are rough, the contour through them as straight edges.
+fn vertices(grid: &Grid<'_>, line: &Line, points: &[Vec2], smooth: &Smooth, rough: &[At], noise: Noise) -> Vec<Vertex> {
+    if rough.is_empty() {
+        return arcs::arcs((&smooth.0, &smooth.1), line.is_closed, noise.rms);
+    }
+    // How far along the contour each crossing lies, and the end.
+    let mut far = vec![0.0];
+    for k in 0..points.len() {
+        far.push(far[k] + (points[(k + 1) % points.len()] - points[k]).norm());
+    }
+    let length = far[if line.is_closed { points.len() } else { points.len() - 1 }];
+    let step = length / (smooth.0.len() - usize::from(!line.is_closed)) as f64;
+    let is_rough = |s: f64| {
+        let next = far.partition_point(|&far| far <= s);
+        [next - 1, next].into_iter().any(|k| rough[k % rough.len()] > At::Smooth)
+    };
+    // Smooth points, and crossings instead of those at rough places, in order.
+    let mut places: Vec<(f64, Option<usize>, usize)> = Vec::new();
+    places.extend((0..smooth.0.len()).map(|k| (k as f64 * step, Some(k), 0)).filter(|(s, ..)| !is_rough(*s)));
+    places.extend((0..rough.len()).filter(|&k| rough[k] > At::Smooth).map(|k| (far[k], None, k)));
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if line.is_closed {
+        let first = places.iter().position(|place| place.1.is_none()).unwrap_or(0);
+        places.rotate_left(first);
+    }
+    let mut found = Vec::new();
+    for run in places.chunk_by(|a, b| a.1.is_some() == b.1.is_some()) {
+        let smooth_run: Vec<usize> = run.iter().filter_map(|place| place.1).collect();
+        if smooth_run.is_empty() {
+            let n = rough.len();
+            let apart = |k: usize| grid.apart(line.crossings[k % n]);
+            // Without a tangent a vertex stays in place; lines leave the image at right angles.
+            let along = |k: usize| match rough[k] {
+                At::Kept if line.is_closed => (apart(k + 1) - apart(k + n - 1)).try_normalize(0.0),
+                _ => None,
+            };
+            let corner =
+                |k: usize| Vertex { point: apart(k), bulge: 0.0, tangent: along(k).unwrap_or_else(Vec2::zeros) };
+            found.extend(run.iter().map(|place| corner(place.2)));
+        } else {
+            let pick = |from: &[Vec2]| smooth_run.iter().map(|&k| from[k]).collect::<Vec<_>>();
+            found.extend(arcs::arcs((&pick(&smooth.0), &pick(&smooth.1)), false, noise.rms));
+        }
+    }
+    found
+}
+
+/// Moves a closed chain out until it holds the area, by at most `farthest`.
+fn set_area(vertices: &mut [Vertex], area: f64, farthest: f64) {
+    // One step meets the area but for a circle of the step's radius; the second meets that.
+    for _ in 0..3 {
+        let length = arcs::movable_length(vertices);
+        if length > 0.0 {
+            let by = (area - arcs::area(vertices, true)) / length;
+            arcs::move_out(vertices, by.clamp(-farthest, farthest));
+        }
+    }
+}

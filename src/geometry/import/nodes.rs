@@ -1,0 +1,40 @@
+//! Ends of lines that are one point.
+
+use std::collections::BTreeMap;
+
+use crate::math::Vec2;
+
+/// Points that are the same within a gap, numbered in the order in which they come.
+pub(crate) struct Nodes {
+    gap: f64,
+    /// The points.
+    pub points: Vec<Vec2>,
+    cells: BTreeMap<[i64; 2], Vec<usize>>,
+}
+
+impl Nodes {
+    /// No points yet.
+    pub fn new(gap: f64) -> Self {
+        // Any positive width keeps equal points together where all lie in one.
+        Self { gap: gap.max(f64::MIN_POSITIVE), points: Vec::new(), cells: BTreeMap::new() }
+    }
+
+    /// The number of a point.
+    pub fn number(&mut self, x: Vec2) -> usize {
+        // Cells of twice the gap: a point within it lies in the same cell or in one beside it. The cast saturates.
+        let cell = |v: f64| (v / (2.0 * self.gap)).floor() as i64;
+        let [i, j] = [cell(x.x), cell(x.y)];
+        for di in -1..=1 {
+            for dj in -1..=1 {
+                let near = self.cells.get(&[i.saturating_add(di), j.saturating_add(dj)]);
+                let same = near.into_iter().flatten().find(|&&node| (self.points[node] - x).norm() <= self.gap);
+                if let Some(&node) = same {
+                    return node;
+                }
+            }
+        }
+        self.points.push(x);
+        self.cells.entry([i, j]).or_default().push(self.points.len() - 1);
+        self.points.len() - 1
+    }
+}

@@ -1,0 +1,131 @@
+//! Outlines without fills that cross each other, as in DXF: united, or a hole that overshoots.
+//!
+//! Of two outlines that cross, the smaller one is a hole in the larger one, or an island in a hole, where it lies in it for the most part; what
+//! overshoots of it is left out. Else both are united.
+
+use crate::geometry::body::bulged_ring;
+use crate::geometry::curve::Curve;
+use crate::geometry::import::combine::{Solid, area};
+use crate::geometry::import::drawing::{Refusal, Ring};
+use crate::geometry::import::fill::Region;
+use crate::geometry::import::notes::Notes;
+use crate::geometry::rings::{crossings, faults};
+use crate::math::Vec2;
+
+/// Share of the smaller outline within the larger one above which it is a hole.
+const HOLE: f64 = 0.5;
+/// Lengths below this share of the size of the drawing count as none where outlines meet.
+const TOLERANCE: f64 = 1e-9;
+/// So often outlines are united and cut until none cross.
+const ROUNDS: usize = 4;
+/// So many places are named in a note.
+const NAMED: usize = 3;
+
+/// A ring and where it stands.
+pub(crate) type Placed = (Ring, String);
+
+/// The rings without crossings; what was done is told.
+pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut Vec<Refusal>) -> Vec<Placed> {
+    let size = rings.iter().map(|(ring, _)| ring.bounds()).reduce(|a, b| a.united(&b)).map_or(0.0, |b| b.size().max());
+    let tolerance = TOLERANCE * size;
+    let (mut holes, mut united) = (Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        let pairs = crossing_pairs(&rings);
+        if pairs.is_empty() {
+            break;
+        }
+        let solids: Vec<Option<Solid>> = rings.iter().map(|(ring, _)| Solid::of(&(ring.clone(), Vec::new()))).collect();
+        let (mut together, mut cut): (Vec<[usize; 2]>, Vec<[usize; 2]>) = (Vec::new(), Vec::new());
+        for &(pair, at) in &pairs {
+            let [small, large] =
+                if rings[pair[0]].0.area().abs() < rings[pair[1]].0.area().abs() { pair } else { [pair[1], pair[0]] };
+            let both = solids[small].as_ref().zip(solids[large].as_ref());
+            match both.and_then(|(small, large)| small.within(large, tolerance)) {
+                Some(inner) if area(&inner) > HOLE * rings[small].0.area().abs() => cut.push([small, large]),
+                Some(_) => together.push([small, large]),
+                None => refusals.push(refusal(&rings, pair, at)),
+            }
+        }
+        let mut changed: Vec<Option<Vec<Placed>>> = vec![None; rings.len()];
+        // What is united may lie otherwise in the outlines around it: those wait for the next round.
+        for group in groups(&together, rings.len()) {
+            let parts: Vec<Solid> =
+                group.iter().filter_map(|&i| Solid::of(&(rings[i].0.clone(), Vec::new()))).collect();
+            let Some(all) = Solid::united(&parts, tolerance) else {
+                refusals.push(refusal(&rings, [group[0], group[1]], rings[group[0]].0.bounds().center()));
+                continue;
+            };
+            united.push(format!("{} and {}", rings[group[0]].1, rings[group[1]].1));
+            let place = rings[group[0]].1.clone();
+            group.iter().for_each(|&i| changed[i] = Some(Vec::new()));
+            changed[group[0]] = Some(placed(all, &place));
+        }
+        for [small, large] in cut {
+            if changed[small].is_some() || changed[large].is_some() {
+                continue;
+            }
+            let both = solids[small].as_ref().zip(solids[large].as_ref());
+            let Some(inner) = both.and_then(|(small, large)| small.within(large, tolerance)) else { continue };
+            holes.push(format!("{} in {}", rings[small].1, rings[large].1));
+            changed[small] = Some(placed(inner, &rings[small].1));
+        }
+        if changed.iter().all(Option::is_none) {
+            break;
+        }
+        let with = rings.into_iter().zip(changed);
+        rings = with.flat_map(|(ring, new)| new.unwrap_or_else(|| vec![ring])).collect();
+    }
+    for (places, told) in [
+        (united, "outlines that overlap are united"),
+        (
+            holes,
+            "outlines that overshoot the outline around most of their area are holes in it; to unite them, draw them as one",
+        ),
+    ] {
+        if !places.is_empty() {
+            let more = if places.len() > NAMED { ", ..." } else { "" };
+            let named = places.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
+            notes.add(format!("{} {told}: {named}{more}.", places.len()));
+        }
+    }
+    rings
+}
+
+fn refusal(rings: &[Placed], [a, b]: [usize; 2], at: Vec2) -> Refusal {
+    let found =
+        format!("an outline that crosses that of {} near ({:e}, {:e}) m and touches it", rings[b].1, at.x, at.y);
+    Refusal::new(rings[a].1.clone(), found, "outlines that cross or keep apart: unite or subtract them in the drawing")
+}
+
+/// Pairs of rings, each sound by itself, that cross.
+fn crossing_pairs(rings: &[Placed]) -> Vec<([usize; 2], Vec2)> {
+    let curves: Vec<Vec<Curve>> = rings.iter().map(|(ring, _)| bulged_ring(&ring.vertices).collect()).collect();
+    let pairs = crossings(&curves);
+    let is_sound = |i: usize| faults(std::slice::from_ref(&curves[i])).is_empty();
+    pairs.into_iter().filter(|([a, b], _)| is_sound(*a) && is_sound(*b)).collect()
+}
+
+/// Rings that belong together by their pairs, two or more in each group.
+fn groups(pairs: &[[usize; 2]], count: usize) -> Vec<Vec<usize>> {
+    let mut first: Vec<usize> = (0..count).collect();
+    let find = |first: &[usize], mut i: usize| {
+        while first[i] != i {
+            i = first[i];
+        }
+        i
+    };
+    for &[a, b] in pairs {
+        let (a, b) = (find(&first, a), find(&first, b));
+        first[a.max(b)] = a.min(b);
+    }
+    let mut groups = vec![Vec::new(); count];
+    (0..count).for_each(|i| groups[find(&first, i)].push(i));
+    groups.retain(|group| group.len() > 1);
+    groups
+}
+
+/// All rings of regions, in which holes are rings of their own.
+fn placed(regions: Vec<Region>, place: &str) -> Vec<Placed> {
+    let rings = regions.into_iter().flat_map(|(outer, holes)| std::iter::once(outer).chain(holes));
+    rings.map(|ring| (ring, place.to_owned())).collect()
+}

@@ -1,0 +1,118 @@
+//! Shapes in the order of painting: white ones, and outlines without fill on larger filled shapes, are pore where they cover those below.
+
+use crate::geometry::import::combine::{Solid, area};
+use crate::geometry::import::drawing::{Paint, Refusal};
+use crate::geometry::import::fill::{Region, without_slits};
+use crate::geometry::import::notes::Notes;
+use crate::geometry::tree::Tree;
+use crate::math::Bounds;
+
+/// Areas that agree to this share are the same: nothing was covered.
+const SAME: f64 = 1e-12;
+/// Lengths below this share of the size of the drawing count as none where outlines meet.
+const TOLERANCE: f64 = 1e-9;
+
+/// What one shape of the file fills.
+pub(crate) struct Painted {
+    /// Its regions.
+    pub regions: Vec<Region>,
+    /// With what.
+    pub paint: Paint,
+    /// Where it stands.
+    pub place: String,
+}
+
+/// What remains solid, each region with the place of its shape.
+pub(crate) fn solids(mut all: Vec<Painted>, notes: &mut Notes, refusals: &mut Vec<Refusal>) -> Vec<(Region, String)> {
+    let is_mixed = all.iter().any(|one| one.paint == Paint::Filled);
+    if is_mixed && all.iter().any(|one| one.paint != Paint::Filled) {
+        cut(&mut all, notes, refusals);
+    }
+    let each = all.into_iter().filter(|one| one.paint != Paint::White);
+    each.flat_map(|one| one.regions.into_iter().map(move |region| (region, one.place.clone()))).collect()
+}
+
+fn bounds(one: &Painted) -> Bounds {
+    let all = one.regions.iter().map(|(outer, _)| outer.bounds()).reduce(|a, b| a.united(&b));
+    all.unwrap_or(Bounds { min: Default::default(), max: Default::default() })
+}
+
+fn cut(all: &mut [Painted], notes: &mut Notes, refusals: &mut Vec<Refusal>) {
+    for one in all.iter_mut() {
+        one.regions = std::mem::take(&mut one.regions).into_iter().flat_map(without_slits).collect();
+    }
+    let boxes: Vec<Bounds> = all.iter().map(bounds).collect();
+    let areas: Vec<f64> = all.iter().map(|one| area(&one.regions)).collect();
+    let tree = Tree::over(boxes.iter().copied());
+    let size = boxes.iter().copied().reduce(|a, b| a.united(&b)).map_or(0.0, |all| all.size().max());
+    let (mut white, mut holes, mut frames, mut shapes) = (0, 0, 0, 0);
+    for k in 0..all.len() {
+        let is_white = match all[k].paint {
+            Paint::Filled => continue,
+            Paint::White => true,
+            Paint::Unfilled { .. } => false,
+        };
+        let cutters: Vec<Solid> = all[k].regions.iter().filter_map(Solid::of).collect();
+        let below = tree.near_in_order(boxes[k]).into_iter().filter(|&i| {
+            i < k && all[i].paint == Paint::Filled && (is_white || areas[i] > areas[k]) && !all[i].regions.is_empty()
+        });
+        let mut covers = 0;
+        for i in below.collect::<Vec<_>>() {
+            match without(&all[i].regions, &cutters, TOLERANCE * size) {
+                Ok(None) => {}
+                Ok(Some(left)) => {
+                    all[i].regions = left;
+                    covers += 1;
+                }
+                Err(()) => {
+                    let found = format!("an outline that touches that of {} in a point", all[i].place);
+                    let expected = "outlines that cross or keep apart: move one of them a little";
+                    refusals.push(Refusal::new(all[k].place.clone(), found, expected));
+                }
+            }
+        }
+        let encloses =
+            |i: usize| i != k && all[i].paint == Paint::Filled && areas[i] < areas[k] && is_in(&boxes[k], &boxes[i]);
+        match (is_white, covers > 0) {
+            (true, _) => white += 1,
+            (false, true) => {
+                holes += 1;
+                all[k].paint = Paint::White;
+            }
+            (false, false) if tree.near(boxes[k]).any(encloses) => {
+                frames += 1;
+                all[k].paint = Paint::White;
+            }
+            (false, false) => shapes += 1,
+        }
+    }
+    for (number, told) in [
+        (white, "white shapes are pore where they cover what is painted before them"),
+        (holes, "outlines without fill on larger filled shapes are pore"),
+        (frames, "outlines without fill around filled shapes are no solid"),
+        (shapes, "closed outlines without fill are taken for shapes"),
+    ] {
+        if number > 0 {
+            notes.add(format!("{number} {told}."));
+        }
+    }
+}
+
+fn is_in(outer: &Bounds, inner: &Bounds) -> bool {
+    outer.contains(inner.min) && outer.contains(inner.max)
+}
+
+/// The regions without what the cutters cover; nothing where they cover nothing, an error where it cannot be told.
+fn without(regions: &[Region], cutters: &[Solid], tolerance: f64) -> Result<Option<Vec<Region>>, ()> {
+    let before = area(regions);
+    let mut left = Vec::new();
+    for region in regions {
+        let solid = Solid::of(region).ok_or(())?;
+        if cutters.iter().any(|cutter| cutter.bounds().overlaps(&solid.bounds())) {
+            left.extend(solid.without(cutters, tolerance).ok_or(())?);
+        } else {
+            left.push(region.clone());
+        }
+    }
+    Ok((area(&left) < before * (1.0 - SAME)).then_some(left))
+}
