@@ -9,8 +9,8 @@ use super::ExportError;
 use super::sheet::{Sheet, rings_of};
 use crate::geometry::import::combine::Solid;
 use crate::geometry::import::drawing::{FillRule, Outline, Ring};
-use crate::geometry::import::fill::regions;
 use crate::geometry::import::frame::DOMAIN;
+use crate::geometry::import::nest::regions;
 use crate::geometry::tree::Tree;
 use crate::math::Bounds;
 

@@ -3,7 +3,7 @@
 use crate::geometry::body::Body;
 use crate::geometry::boundary::{Piece, chains, clip_body, followers};
 use crate::geometry::curve::Curve;
-use crate::geometry::import::drawing::{FillRule, Outline, Ring};
+use crate::geometry::import::drawing::{FillRule, Outline, Ring, vertices};
 use crate::geometry::solid::Geometry;
 use crate::geometry::spec::{GeometrySpec, SolidSide};
 use crate::math::{Bounds, Vec2};
@@ -60,22 +60,6 @@ fn rings(curves: &[Curve], tolerance: f64) -> Vec<Ring> {
     let next = followers(&pieces, tolerance);
     let chains = chains(&pieces, &next).into_iter().filter(|(_, is_closed)| *is_closed);
     chains.map(|(chain, _)| Ring { vertices: chain.iter().flat_map(|&i| vertices(&curves[i])).collect() }).collect()
-}
-
-/// The start of a curve with its bulge; a circle, and an arc of more than three quarters of one, in two halves.
-pub(crate) fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
-    const LARGE: f64 = 1.5 * std::f64::consts::PI;
-    let vertex = |curve: &Curve| {
-        let p = curve.point(0.0);
-        let bulge = if let Curve::Arc { sweep, .. } = curve { (0.25 * sweep).tan() } else { 0.0 };
-        [p.x, p.y, bulge]
-    };
-    match curve {
-        Curve::Arc { sweep, .. } if sweep.abs() > LARGE => {
-            vec![vertex(&curve.part(0.0, 0.5)), vertex(&curve.part(0.5, 1.0))]
-        }
-        _ => vec![vertex(curve)],
-    }
 }
 
 /// The edges of a ring.

@@ -2,17 +2,17 @@
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring};
-use crate::geometry::import::fill::{Region, filled, regions, without_slits};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring, shape_of};
+use crate::geometry::import::fill::{filled, without_slits};
 use crate::geometry::import::format::Format;
-use crate::geometry::import::nest::{Nested, nested};
+use crate::geometry::import::nest::{Nested, Region, nested, regions};
 use crate::geometry::import::notes::{Counts, Notes};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::paint::{Painted, solids};
 use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
 use crate::geometry::import::{frame, overlap, recognize, smooth, units, window};
 use crate::geometry::rings::{RingFault, crossing, faults};
-use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
+use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2};
 
@@ -289,21 +289,6 @@ fn recognized((outer, holes): Region, format: Format, options: &Options, counts:
     let outer = refine(outer);
     let holes = holes.into_iter().map(refine).collect();
     shape_of(outer, holes)
-}
-
-/// The polygon of these rings, turned as polygons want them, with arcs where it has some.
-pub(crate) fn shape_of(outer: Ring, holes: Vec<Ring>) -> ShapeSpec {
-    let turned = |ring: Ring, ccw: bool| if (ring.area() > 0.0) == ccw { ring } else { ring.reversed() };
-    let outer = turned(outer, true);
-    let holes: Vec<Ring> = holes.into_iter().map(|hole| turned(hole, false)).collect();
-    let (position, rotation_deg) = ([0.0; 2], 0.0);
-    if outer.is_straight() && holes.iter().all(Ring::is_straight) {
-        let points = |ring: Ring| ring.vertices.into_iter().map(|[x, y, _]| [x, y]).collect();
-        let holes = holes.into_iter().map(points).collect();
-        return ShapeSpec::Polygon(Polygon { outer: points(outer), holes, position, rotation_deg });
-    }
-    let holes = holes.into_iter().map(|hole| hole.vertices).collect();
-    ShapeSpec::CurvedPolygon(CurvedPolygon { outer: outer.vertices, holes, position, rotation_deg })
 }
 
 /// The problem of a window beside the drawing.

@@ -3,10 +3,8 @@
 use crate::geometry::body::Body;
 use crate::geometry::boundary::{difference, intersection, union};
 use crate::geometry::curve::{Curve, cross};
-use crate::geometry::export::sheet::vertices;
-use crate::geometry::import::build::shape_of;
-use crate::geometry::import::drawing::{FillRule, Ring};
-use crate::geometry::import::fill::{Region, regions};
+use crate::geometry::import::drawing::{FillRule, Ring, shape_of, vertices};
+use crate::geometry::import::nest::{Region, regions};
 use crate::geometry::import::nodes::Nodes;
 use crate::math::Bounds;
 

@@ -6,9 +6,8 @@
 
 use crate::geometry::body::{Body, bulged_ring};
 use crate::geometry::curve::Curve;
-use crate::geometry::import::build::shape_of;
-use crate::geometry::import::drawing::{FillRule, Ring};
-use crate::geometry::import::fill::regions;
+use crate::geometry::import::drawing::{FillRule, Ring, shape_of};
+use crate::geometry::import::nest::regions;
 use crate::geometry::import::window::ON_SIDE;
 use crate::geometry::spec::GeometrySpec;
 use crate::math::{Bounds, Vec2};

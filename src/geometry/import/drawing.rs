@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::geometry::curve::Curve;
+use crate::geometry::spec::{CurvedPolygon, Polygon, ShapeSpec};
 use crate::math::{Bounds, Vec2};
 
 /// A closed ring of segments and circular arcs.
@@ -113,5 +115,36 @@ impl Refusal {
 impl std::fmt::Display for Refusal {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}: found {}, expected {}", self.place, self.found, self.expected)
+    }
+}
+
+/// The polygon of these rings, turned as polygons want them, with arcs where it has some.
+pub(crate) fn shape_of(outer: Ring, holes: Vec<Ring>) -> ShapeSpec {
+    let turned = |ring: Ring, ccw: bool| if (ring.area() > 0.0) == ccw { ring } else { ring.reversed() };
+    let outer = turned(outer, true);
+    let holes: Vec<Ring> = holes.into_iter().map(|hole| turned(hole, false)).collect();
+    let (position, rotation_deg) = ([0.0; 2], 0.0);
+    if outer.is_straight() && holes.iter().all(Ring::is_straight) {
+        let points = |ring: Ring| ring.vertices.into_iter().map(|[x, y, _]| [x, y]).collect();
+        let holes = holes.into_iter().map(points).collect();
+        return ShapeSpec::Polygon(Polygon { outer: points(outer), holes, position, rotation_deg });
+    }
+    let holes = holes.into_iter().map(|hole| hole.vertices).collect();
+    ShapeSpec::CurvedPolygon(CurvedPolygon { outer: outer.vertices, holes, position, rotation_deg })
+}
+
+/// The start of a curve with its bulge; a circle, and an arc of more than three quarters of one, in two halves.
+pub(crate) fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
+    const LARGE: f64 = 1.5 * std::f64::consts::PI;
+    let vertex = |curve: &Curve| {
+        let p = curve.point(0.0);
+        let bulge = if let Curve::Arc { sweep, .. } = curve { (0.25 * sweep).tan() } else { 0.0 };
+        [p.x, p.y, bulge]
+    };
+    match curve {
+        Curve::Arc { sweep, .. } if sweep.abs() > LARGE => {
+            vec![vertex(&curve.part(0.0, 0.5)), vertex(&curve.part(0.5, 1.0))]
+        }
+        _ => vec![vertex(curve)],
     }
 }

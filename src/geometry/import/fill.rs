@@ -9,16 +9,13 @@ use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
 use crate::geometry::import::combine;
 use crate::geometry::import::drawing::{FillRule, Ring};
-use crate::geometry::import::nest::nested;
+use crate::geometry::import::nest::{Region, regions};
 use crate::geometry::intersect::meeting_places;
 use crate::geometry::rings::faults;
 use crate::math::{Bounds, Vec2};
 
 /// Areas that agree to this share of that of their box are the same after the boolean operations.
 const SAME_AREA: f64 = 1e-7;
-
-/// An outer ring with its holes.
-pub(crate) type Region = (Ring, Vec<Ring>);
 
 /// The regions that rings fill which may cross each other and themselves.
 ///
@@ -36,12 +33,6 @@ pub(crate) fn filled(rings: &[Ring], rule: FillRule, tolerance: f64) -> Result<V
         return Ok(rings.iter().map(|ring| (ring.clone(), Vec::new())).collect());
     }
     Err(format!("curved outlines that cross: ring {ring} at ({:e}, {:e})", at.x, at.y))
-}
-
-/// The regions of rings that do not cross.
-pub(crate) fn regions(rings: &[Ring], rule: FillRule) -> Vec<Region> {
-    let take = |i: usize| rings[i].clone();
-    nested(rings, rule).into_iter().map(|n| (take(n.outer), n.holes.into_iter().map(take).collect())).collect()
 }
 
 /// The first edge, by ring, that meets another one away from a shared vertex.

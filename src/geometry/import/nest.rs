@@ -167,6 +167,15 @@ fn spans(curve: &Curve, ends: [f64; 2]) -> Vec<Span> {
     }
 }
 
+/// An outer ring with its holes.
+pub(crate) type Region = (Ring, Vec<Ring>);
+
+/// The regions of rings that do not cross.
+pub(crate) fn regions(rings: &[Ring], rule: FillRule) -> Vec<Region> {
+    let take = |i: usize| rings[i].clone();
+    nested(rings, rule).into_iter().map(|n| (take(n.outer), n.holes.into_iter().map(take).collect())).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

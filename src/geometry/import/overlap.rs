@@ -7,7 +7,7 @@ use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
 use crate::geometry::import::combine::{Solid, area};
 use crate::geometry::import::drawing::{Refusal, Ring};
-use crate::geometry::import::fill::Region;
+use crate::geometry::import::nest::Region;
 use crate::geometry::import::notes::Notes;
 use crate::geometry::rings::{crossings, faults};
 use crate::math::Vec2;

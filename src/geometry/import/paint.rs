@@ -2,7 +2,8 @@
 
 use crate::geometry::import::combine::{Solid, area};
 use crate::geometry::import::drawing::{Paint, Refusal};
-use crate::geometry::import::fill::{Region, without_slits};
+use crate::geometry::import::fill::without_slits;
+use crate::geometry::import::nest::Region;
 use crate::geometry::import::notes::Notes;
 use crate::geometry::tree::Tree;
 use crate::math::Bounds;

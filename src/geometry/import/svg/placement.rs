@@ -11,13 +11,10 @@ use svgtypes::{Angle, AngleUnit};
 
 use super::page::{self, Along, Viewport, shortened};
 use super::shape::SHAPES;
-use super::style::{Source, StyleSheet};
+use super::style::{REFUSED, Source, StyleSheet};
 use crate::geometry::import::affine::Affine;
 use crate::math::Vec2;
 
-/// Properties that would move or reshape an element where a style sheet sets them.
-pub const REFUSED: [&str; 14] =
-    ["translate", "rotate", "scale", "offset-path", "cx", "cy", "r", "rx", "ry", "x", "y", "width", "height", "d"];
 /// So many of them move any element; the others are those of shapes.
 const OF_ALL: usize = 4;
 

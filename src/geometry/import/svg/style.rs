@@ -6,10 +6,13 @@
 
 use std::collections::BTreeMap;
 
+/// Properties that would move or reshape an element where a style sheet sets them.
+pub const REFUSED: [&str; 14] =
+    ["translate", "rotate", "scale", "offset-path", "cx", "cy", "r", "rx", "ry", "x", "y", "width", "height", "d"];
+
 use roxmltree::{Document, Node};
 use svgtypes::{Color, Paint};
 
-use super::placement::REFUSED;
 use crate::geometry::import::drawing::FillRule;
 
 /// The properties that matter here, as attributes too.
