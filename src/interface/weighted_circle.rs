@@ -5,11 +5,11 @@
 //!
 //! A circle through points (u, v) in the frame of tangent and normal obeys v = a + b u + k (u² + v²)/2 with curvature
 //! k/√(1 + b² − 2ka): linear in a, b and k, and exact for circles. At a wall the circle leaves the contact point with the
-//! angle θ of the wetting law, so that only its curvature, maybe what that varies by, and the place of the contact point along the wall are free.
+//! angle θ of the wetting law, so that only its curvature and the place of the contact point along the wall are free.
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use crate::math::{Vec2, perpendicular};
 
@@ -103,84 +103,41 @@ pub struct WallFrame {
     pub normal: Vec2,
 }
 
-/// A curve that leaves a wall at the contact angle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FromContact {
-    /// Curvature k in 1/m at the wall.
-    pub curvature: f64,
-    /// What the curvature varies by along the curve in 1/m², 0 for a circle.
-    pub slope: f64,
-    /// Way δ in m along ν from the given contact point to where the curve leaves the wall.
-    pub shift: f64,
-}
-
-/// The circle that leaves the wall at `contact` + δ ν with the `angle` (rad), δ in m, which is fitted too.
+/// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.
 ///
 /// `contact` in m from the point that `near` is relative to. With the contact point right, the circle
 /// v = k (u² + v²)/2 passes through it; a fit of v = a + k (u² + v²)/2 misses it by a, and Newton's method moves it until a = 0. At 0 and
 /// 180 degrees the circle touches the wall: moved along the wall by δ the circle then moves by k u δ alone, which is what the points
 /// farther from the wall tell. None where the points do not determine the fit.
 #[must_use]
-pub fn fit_from_contact(near: &[WeightedPoint], contact: Vec2, wall: WallFrame, angle: f64) -> Option<FromContact> {
-    from_contact::<2>(near, contact, wall, angle)
-}
-
-/// The same for a curve whose curvature k + k' s varies with the way s from the wall, v = k (u² + v²)/2 + k' (u² + v²)^(3/2)/6 to that order; a circle
-/// where there are few points.
-#[must_use]
-pub fn fit_bent_from_contact(
-    near: &[WeightedPoint],
-    contact: Vec2,
-    wall: WallFrame,
-    angle: f64,
-) -> Option<FromContact> {
-    if near.len() < FEWEST {
-        return from_contact::<2>(near, contact, wall, angle);
-    }
-    from_contact::<3>(near, contact, wall, angle)
-}
-
-/// The fit of `N` unknowns: the miss, the curvature, and what it varies by.
-fn from_contact<const N: usize>(
-    near: &[WeightedPoint],
-    contact: Vec2,
-    WallFrame { outward, normal }: WallFrame,
-    angle: f64,
-) -> Option<FromContact> {
+pub fn fit_from_contact(near: &[WeightedPoint], contact: Vec2, wall: WallFrame, angle: f64) -> Option<(f64, f64)> {
+    let WallFrame { outward, normal } = wall;
     let (sin, cos) = angle.clamp(0.0, PI).sin_cos();
     let extent = near.iter().map(|q| (q.x - contact).norm()).fold(0.0, f64::max);
     let mut delta = 0.0;
     let mut found = None;
     for _ in 0..ITERATIONS {
-        let mut matrix = SMatrix::<f64, N, N>::zeros();
-        let [mut missed, mut moved, mut moved_on] = [SVector::<f64, N>::zeros(); 3];
+        let (mut matrix, mut missed, mut moved) = (Matrix2::zeros(), Vector2::zeros(), Vector2::zeros());
         for q in near {
             let x = q.x - contact;
             let (along, above) = (x.dot(&outward) - delta, x.dot(&normal));
-            let way = along.hypot(above);
-            // In units of the stencil, so that the matrix is well scaled.
-            let terms = [1.0, 0.5 * (way / extent).powi(2), (way / extent).powi(3) / 6.0];
-            let row = SVector::<f64, N>::from_fn(|i, _| terms[i]);
+            let row = Vector2::new(1.0, 0.5 * (along * along + above * above));
             matrix += q.weight * row * row.transpose();
             missed -= q.weight * (sin * along + cos * above) * row;
             moved += q.weight * along * row;
-            moved_on += q.weight * 0.5 * way * along * row;
         }
         let matrix = matrix.cholesky()?;
-        let fitted = matrix.solve(&missed);
-        let curvature = fitted[1] / extent.powi(2);
-        let slope = if N > 2 { fitted[N - 1] / extent.powi(3) } else { 0.0 };
-        found = Some((curvature, slope));
-        // Beyond the top of a low drop the curve would move backwards: there the angle alone says how far.
-        let bent = curvature * matrix.solve(&moved)[0] + slope * matrix.solve(&moved_on)[0];
-        let moves = (sin + bent).max(0.5 * sin);
-        let step = -fitted[0] / moves;
-        if !(step.abs() > CONVERGED * extent) || !(moves > 0.0) {
+        let [offset, kappa] = matrix.solve(&missed).into();
+        found = Some(kappa);
+        // Beyond the top of a low drop the circle would move backwards: there the angle alone says how far.
+        let slope = (sin + kappa * matrix.solve(&moved)[0]).max(0.5 * sin);
+        let step = -offset / slope;
+        if !(step.abs() > CONVERGED * extent) || !(slope > 0.0) {
             break;
         }
         delta += step.clamp(-0.5 * extent, 0.5 * extent);
     }
-    found.map(|(curvature, slope)| FromContact { curvature, slope, shift: delta })
+    found.map(|kappa| (kappa, delta))
 }
 
 /// Angle in rad at which the circle through `anchor` (m, from the point that `near` is relative to) meets the wall with the
@@ -190,11 +147,11 @@ fn from_contact<const N: usize>(
 #[must_use]
 pub fn angle_through(near: &[WeightedPoint], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {
     let tangent = -perpendicular(normal);
-    let (mut matrix, mut right) = (SMatrix::<f64, 2, 2>::zeros(), SVector::<f64, 2>::zeros());
+    let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
     for q in near {
         let x = q.x - anchor;
         let (u, v) = (x.dot(&tangent), x.dot(&normal));
-        let row = SVector::<f64, 2>::new(u, 0.5 * (u * u + v * v));
+        let row = Vector2::new(u, 0.5 * (u * u + v * v));
         matrix += q.weight * row * row.transpose();
         right += q.weight * v * row;
     }

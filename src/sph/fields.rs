@@ -13,7 +13,7 @@ use crate::sph::particles::{Particles, Phase};
 use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;
 use crate::sph::surface_force::SurfaceForce;
-use crate::sph::surface_force::fit::InterfaceFit;
+use crate::sph::surface_force::fit::{Fitted, InterfaceFit};
 use crate::sph::surface_force::jump::{InterfaceCurvature, Jump};
 use crate::sph::surface_force::points::{PointFields, Resolution, interface_points};
 use crate::sph::surface_force::stencils::Interface;
@@ -288,7 +288,8 @@ impl Fields {
         let mut side = sharp.to_vec();
         shepard::into_walls(pairs, &self.fluid_volume, moving, &mut side);
         let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
-        let curvature = InterfaceCurvature { at: |x: Vec2| given.or_else(|| fit.curvature(x)), gradient };
+        let given = given.map(|curvature| Fitted { curvature, turning: None });
+        let curvature = InterfaceCurvature { at: |x: Vec2| given.or_else(|| fit.at(x)), gradient, h: resolution.h };
         let jump = Jump::new(particles, neighborhood, domain, &side, &curvature);
         for (kappa, found) in self.curvature.iter_mut().zip(&jump.curvature) {
             *kappa = if found.is_nan() { 0.0 } else { *found };

@@ -182,36 +182,6 @@ fn a_step_of_the_viscosity_in_a_stretched_fluid_bears_the_step_of_the_stress() {
     assert!((step - wanted).norm() < 1e-3 * wanted.norm(), "{step:?}");
 }
 
-#[test]
-fn the_step_of_the_stress_goes_on_up_to_a_wall() {
-    // A fluid that is stretched along a wall, which holds the velocity of its surface, with a step of the viscosity across it.
-    let cloud = Cloud::new(24, false, 0.0);
-    let (left, right, floor) = (1.0, 10.0, 0.25);
-    let gradient = Matrix2::new(1.0, 0.0, 0.0, -1.0);
-    for lean in [-0.5, 0.0, 0.7] {
-        let n = cloud.points.len();
-        let place = |x: Vec2| x.x - 0.5 - lean * (x.y - 0.4);
-        let of_place = |x: &Vec2| if x.y < floor { 0.0 } else { if place(*x) < 0.0 { left } else { right } };
-        let (volume, density) = (vec![cloud.lattice_volume; n], vec![1.0; n]);
-        let viscosity: Vec<f64> = cloud.points.iter().map(of_place).collect();
-        let viscous = Viscous { volume: &volume, density: &density, viscosity: &viscosity };
-        let v_ab = |a: usize, b: usize| {
-            let v_b = if viscosity[b] > 0.0 { cloud.points[b] } else { Vec2::zeros() };
-            gradient * (cloud.points[a] - v_b)
-        };
-        let mut force = vec![Vec2::zeros(); n];
-        viscous.transposed(&cloud.pairs, v_ab, &mut force);
-        let rows = cloud.points.iter().zip(&force).filter(|(x, _)| x.y > floor && x.y < 0.7 && (x.x - 0.5).abs() < 0.3);
-        let sum: Vec2 = rows.map(|(_, force)| *force * cloud.lattice_volume).sum();
-        // (∇v)ᵀ·∇μ, ∇μ = [μ] (1, −lean) on the line.
-        let rows =
-            cloud.points.iter().filter(|x| x.y > floor && x.y < 0.7).map(|x| (x.y / cloud.spacing).floor() as i64);
-        let height = rows.collect::<std::collections::BTreeSet<_>>().len() as f64 * cloud.spacing;
-        let wanted = (right - left) * height * Vec2::new(1.0, lean);
-        assert!((sum - wanted).norm() < 0.06 * wanted.norm(), "{lean}: {sum:?} for {wanted:?}");
-    }
-}
-
 /// Smoothed color, normal, unit normal and curvature of the region where `color` is 1.
 struct Interface {
     normal: Vec<Vec2>,

@@ -142,9 +142,10 @@ impl DetectedLine for InterfaceLine<'_> {
 
     fn meets(&self, angle: f64) -> Vec2 {
         let wall = WallFrame { outward: self.outward, normal: self.normal };
-        let shift = fit_from_contact(&self.near, Vec2::zeros(), wall, angle).map(|fit| fit.shift);
+        let shift = fit_from_contact(&self.near, Vec2::zeros(), wall, angle);
         // A fit that runs away along the wall is no better than the straight continuation.
-        let shift = shift.filter(|shift| shift.abs() < ONE_LINE * self.interface.h).unwrap_or(0.0);
+        let shift =
+            shift.map(|(_, shift)| shift).filter(|shift| shift.abs() < ONE_LINE * self.interface.h).unwrap_or(0.0);
         let x = self.place + shift * self.outward;
         let (distance, normal) = (self.interface.wall)(x);
         x - distance * normal

@@ -7,6 +7,7 @@ use crate::sph::domain::Domain;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::pairs::{GRAIN, Pairs, each};
 use crate::sph::particles::Particles;
+use crate::sph::surface_force::fit::{Fitted, Turning};
 use crate::sph::surface_force::stencils::{SMOOTHNESS, STENCIL_RADIUS};
 
 /// Passes of the smoothing of the curvature along the interface.
@@ -21,6 +22,15 @@ const LOSS_OF_THE_FIT: f64 = STENCIL_RADIUS * STENCIL_RADIUS / (4 * SMOOTHNESS +
 /// How often the loss of all passes is given back, so that it makes up for those of color and fit too.
 const DECONVOLUTION: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 * LOSS_OF_A_PASS);
 
+/// Fits held to the angle whose contact lines are farther apart than this, over h, are of different lines.
+const ONE_LINE: f64 = 2.0;
+
+/// Spread of the ways in a regression, over h², that is added to it: one of few ways does not run away.
+const LEAST_SPREAD: f64 = 0.02;
+
+/// Largest correction of a curvature over 1/h.
+const LARGEST_CORRECTION: f64 = 0.5;
+
 /// What decides the jump of each pair; slices over particles and images.
 #[derive(Debug, Clone)]
 pub struct Jump {
@@ -33,11 +43,13 @@ pub struct Jump {
 }
 
 /// The curvature of an interface.
-pub struct InterfaceCurvature<F: Fn(Vec2) -> Option<f64> + Sync> {
-    /// That near a place (m) in 1/m, none where there is no interface.
+pub struct InterfaceCurvature<F: Fn(Vec2) -> Option<Fitted> + Sync> {
+    /// That near a place (m), none where there is no interface.
     pub at: F,
     /// Its gradient at rest in 1/m².
     pub gradient: Vec2,
+    /// Smoothing length in m.
+    pub h: f64,
 }
 
 impl Jump {
@@ -48,7 +60,7 @@ impl Jump {
         neighborhood: &Neighborhood,
         domain: &Domain,
         color: &[f64],
-        interface: &InterfaceCurvature<impl Fn(Vec2) -> Option<f64> + Sync>,
+        interface: &InterfaceCurvature<impl Fn(Vec2) -> Option<Fitted> + Sync>,
     ) -> Self {
         let (Neighborhood { pairs, images }, position) = (neighborhood, &particles.position);
         let (n, fluids) = (pairs.rows(), particles.moving());
@@ -56,13 +68,25 @@ impl Jump {
         images.extend(&mut side);
         let mut is_across = vec![false; n];
         each(&mut is_across, |a| pairs.of(a).any(|ab| side[ab.b] != side[a]));
-        let on_fluid: Vec<f64> = (0..fluids)
+        let fitted: Vec<Option<Fitted>> = (0..fluids)
             .into_par_iter()
             .with_min_len(GRAIN / 8)
-            .map(|a| if is_across[a] { (interface.at)(position[a]).unwrap_or(f64::NAN) } else { f64::NAN })
+            .map(|a| if is_across[a] { (interface.at)(position[a]) } else { None })
             .collect();
         let rest =
             |a: usize, b: usize| interface.gradient.dot(&domain.separation(position[a], position[images.source(b)]));
+        let apart = |x: Vec2, y: Vec2| domain.separation(x, y).norm();
+        let mut on_fluid = vec![f64::NAN; fluids];
+        each(&mut on_fluid, |a| {
+            let Some(Fitted { curvature, turning }) = fitted[a] else { return f64::NAN };
+            let Some(here) = turning else { return curvature };
+            let neighbors = pairs.of(a).filter_map(|ab| {
+                let there = fitted.get(images.source(ab.b))?.as_ref()?.turning?;
+                let same = there.side == here.side && apart(there.line, here.line) < ONE_LINE * interface.h;
+                same.then(|| (ab.w, Turning { mean: there.mean + rest(a, ab.b), ..there }))
+            });
+            curvature + here.share * turned(here, neighbors, pairs.w_self, interface.h)
+        });
         let mut curvature = smoothed(on_fluid, neighborhood, &rest);
         curvature.resize(n, f64::NAN);
         // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
@@ -98,6 +122,23 @@ impl Jump {
         };
         kappa * step
     }
+}
+
+/// What the curvature in 1/m is greater by at the end of a way from the wall than the mean of the way: s dκ̄/ds, with the slope of a linear
+/// regression over the `neighbors` and their weights.
+fn turned(here: Turning, neighbors: impl Iterator<Item = (f64, Turning)>, own_weight: f64, h: f64) -> f64 {
+    let (mut norm, mut s, mut k, mut ss, mut sk) = (own_weight, 0.0, 0.0, 0.0, 0.0);
+    for (w, there) in neighbors {
+        let (ds, dk) = (there.way - here.way, there.mean - here.mean);
+        norm += w;
+        s += w * ds;
+        k += w * dk;
+        ss += w * ds * ds;
+        sk += w * ds * dk;
+    }
+    let (s, k) = (s / norm, k / norm);
+    let slope = (sk / norm - s * k) / (ss / norm - s * s + LEAST_SPREAD * h * h);
+    (here.way * slope).clamp(-LARGEST_CORRECTION / h, LARGEST_CORRECTION / h)
 }
 
 /// The curvature without the noise of single fits: S κ + g (S κ − S² κ), S the average over fluid particles that have one.
@@ -136,4 +177,28 @@ fn average_at(a: usize, pairs: &Pairs, own: Option<f64>, curvature: impl Fn(usiz
         if kappa.is_nan() { (sum, norm) } else { (sum + ab.w * kappa, norm + ab.w) }
     });
     if norm > 0.0 { sum / norm } else { f64::NAN }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The mean on the way s of a curvature 3 + 2s.
+    fn held(way: f64) -> Turning {
+        Turning { mean: 3.0 + way, way, share: 1.0, side: 1.0, line: Vec2::zeros() }
+    }
+
+    #[test]
+    fn the_curvature_at_the_end_of_a_way_is_found_from_the_means_of_ways() {
+        const H: f64 = 0.15;
+        for way in [0.0, 0.1, 0.3] {
+            let neighbors = (0..10).map(|i| (1.0, held(0.05 * f64::from(i))));
+            let more = turned(held(way), neighbors, 1.0, H);
+            assert!((more - way).abs() < 0.03 * way + 1e-12, "{more} at {way}");
+        }
+        // At rest nothing changes; a single way tells no slope.
+        let rest = |way: f64| Turning { mean: 3.0, ..held(way) };
+        assert_eq!(turned(rest(0.2), (0..10).map(|i| (1.0, rest(0.05 * f64::from(i)))), 1.0, H), 0.0);
+        assert_eq!(turned(held(0.2), std::iter::empty(), 1.0, H), 0.0);
+    }
 }

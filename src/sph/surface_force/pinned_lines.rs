@@ -59,7 +59,7 @@ impl InterfaceLine<'_> {
         for _ in 0..STEPS {
             let wall = WallFrame { outward: self.side * perpendicular(end.normal), normal: end.normal };
             let pulled = angle_pulled(self.into_wetting, wall, angle);
-            let way = fit_from_contact(&near, end.contact, wall, pulled)?.shift;
+            let (_, way) = fit_from_contact(&near, end.contact, wall, pulled)?;
             if way.abs() < SAME_PLACE * interface.h {
                 break;
             }

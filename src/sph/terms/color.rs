@@ -42,11 +42,7 @@ pub fn consistent_gradient(
         }
         let plain: Vec2 = pairs.of(a).map(|ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w).sum();
         let moment: Mat2 = pairs.of(a).map(|ab| -fluid_volume[ab.b] * ab.grad_w * r_ab(a, ab.b).transpose()).sum();
-        correction(moment).map_or(plain, |inverse| inverse * plain)
+        let is_regular = moment.determinant() > SMALLEST_DETERMINANT;
+        moment.try_inverse().filter(|_| is_regular).map_or(plain, |inverse| inverse * plain)
     });
-}
-
-/// What makes a gradient with this moment matrix exact for linear fields: its inverse, none where it is near singular.
-pub(super) fn correction(moment: Mat2) -> Option<Mat2> {
-    moment.try_inverse().filter(|_| moment.determinant() > SMALLEST_DETERMINANT)
 }

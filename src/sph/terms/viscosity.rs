@@ -1,8 +1,7 @@
 //! Viscous acceleration: the paper's form (Szewc et al. 2012) and that of Morris et al. 1997.
 
-use crate::math::{Mat2, Vec2};
+use crate::math::Vec2;
 use crate::sph::pairs::{Pair, Pairs, each};
-use crate::sph::terms::color::correction;
 
 /// What the viscous sums need of the particles; slices over particles and images.
 pub struct Viscous<'a> {
@@ -27,38 +26,18 @@ impl Viscous<'_> {
     /// Adds (1/ρ_a) (∇v)ᵀ_a·s_a, s_a = Σ_b V_b 2 (μ_ab − μ_a) ∇_a W_ab, with the harmonic mean μ_ab: what Morris's form lacks of the
     /// divergence of the viscous stress, ∇·(μ(∇v + ∇vᵀ)) = ∇·(μ∇v) + (∇v)ᵀ·∇μ for ∇·v = 0.
     ///
-    /// Zero where the viscosity is even. With it a fluid that turns as a whole feels no force at a jump of the viscosity. Beside walls, which have neither
-    /// viscosity nor a velocity that goes on as that of the fluid does, both gradients are those of the fluid, exact for linear fields.
+    /// Zero where the viscosity is even. With it a fluid that turns as a whole feels no force at a jump of the viscosity.
     pub fn transposed(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, acceleration: &mut [Vec2]) {
         let mut force = vec![Vec2::zeros(); acceleration.len()];
         each(&mut force, |a| {
-            let step = self.step_of_viscosity(pairs, a);
-            if step == Vec2::zeros() {
+            let toward = self.step_of_viscosity(pairs, a);
+            if toward == Vec2::zeros() {
                 return Vec2::zeros();
             }
             // ∂_i v_j s_j = −Σ_b V_b (v_ab·s) ∂_i W_ab
-            let along = |ab: &Pair, s: &Vec2| -self.volume[ab.b] * v_ab(a, ab.b).dot(s) * ab.grad_w;
-            match self.correction_beside_walls(pairs, a) {
-                None => pairs.of(a).map(|ab| along(&ab, &step)).sum::<Vec2>(),
-                Some(correction) => {
-                    let step = correction * step;
-                    let fluid = pairs.of(a).filter(|ab| self.viscosity[ab.b] > 0.0);
-                    correction * fluid.map(|ab| along(&ab, &step)).sum::<Vec2>()
-                }
-            }
+            -pairs.of(a).map(|ab| self.volume[ab.b] * v_ab(a, ab.b).dot(&toward) * ab.grad_w).sum::<Vec2>()
         });
         acceleration.iter_mut().zip(&force).zip(self.density).for_each(|((sum, force), rho)| *sum += force / *rho);
-    }
-
-    /// What makes a gradient over the fluid alone exact for linear fields (Bonet & Lok 1999), none where a particle sees no wall.
-    fn correction_beside_walls(&self, pairs: &Pairs, a: usize) -> Option<Mat2> {
-        if pairs.of(a).all(|ab| self.viscosity[ab.b] > 0.0) {
-            return None;
-        }
-        // r_ab is parallel to ∇_a W_ab, and the slope their ratio.
-        let fluid = pairs.of(a).filter(|ab| self.viscosity[ab.b] > 0.0 && ab.slope != 0.0);
-        let moment = fluid.map(|ab| -self.volume[ab.b] / ab.slope * ab.grad_w * ab.grad_w.transpose()).sum();
-        Some(correction(moment).unwrap_or_else(Mat2::identity))
     }
 
     /// Σ_b 8 m_b (η_a + η_b)/(ρ_a + ρ_b) (v_ab·r_ab)/(|r_ab|² + ζ²) ∇_a W_ab with η = μ/ρ [Huber2013, Eq. 16].
@@ -93,8 +72,7 @@ impl Viscous<'_> {
         if s == 0.0 {
             return 0.0;
         }
-        let larger = self.correction_beside_walls(pairs, a).map_or(1.0, |correction| correction.norm_squared());
-        larger * self.volume[a] * s * pairs.of(a).map(|ab| self.volume[ab.b] * ab.grad_w.norm()).sum::<f64>()
+        self.volume[a] * s * pairs.of(a).map(|ab| self.volume[ab.b] * ab.grad_w.norm()).sum::<f64>()
     }
 
     /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: what Morris's form multiplies v_ab with in the force that b
