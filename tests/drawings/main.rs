@@ -7,5 +7,6 @@ mod files;
 mod formats;
 mod invariance;
 mod kinds;
+mod kinds_of_networks;
 mod network;
 mod survival;

@@ -1,0 +1,110 @@
+//! Drawings whose networks were refused or drained wrongly: lattices of posts, tall boxes, mirror images, corners that touch, rows of one pixel and
+//! dead ends, each with what a symmetry or a closed form gives.
+
+use meniscus::geometry::Geometry;
+use meniscus::geometry::import::Options;
+use meniscus::geometry::spec::GeometrySpec;
+use meniscus::network::displacement::{Conditions, Displacement, Events, Phase};
+use meniscus::network::extract;
+use meniscus::network::graph::Pores;
+
+use crate::contents::imported;
+
+/// Left, right, bottom and top.
+const LEFT_RIGHT: [usize; 2] = [0, 1];
+const RIGHT_LEFT: [usize; 2] = [1, 0];
+const BOTTOM_TOP: [usize; 2] = [2, 3];
+
+fn read(name: &str) -> GeometrySpec {
+    let pixel_size = name.ends_with("png").then_some(1e-6);
+    imported(&format!("kinds/{name}"), &Options { pixel_size, ..Options::default() }).spec
+}
+
+/// Curvatures in 1/m at breakthrough and at the end, and the share that is left of the defending phase.
+fn drained(name: &str, [inlet, outlet]: [usize; 2], angle_deg: f64, trapping: bool) -> [f64; 3] {
+    let spec = read(name);
+    let is_open = [0, 1, 2, 3].map(|side| side == inlet || side == outlet);
+    let geometry = Geometry::new(&spec).unwrap().with_wall_sides(is_open.map(|is_open| !is_open));
+    let network = extract(&geometry, is_open).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let conditions = Conditions {
+        angle: vec![angle_deg.to_radians(); spec.shapes.len() + 4],
+        inlet: [0, 1, 2, 3].map(|side| side == inlet),
+        outlet: [0, 1, 2, 3].map(|side| side == outlet),
+        trapping,
+        events: Events::All,
+        largest_curvature: f64::INFINITY,
+        measured: Vec::new(),
+    };
+    let mut state = Displacement::new(&network, &Pores::merged(&network, 0.95), conditions);
+    let (mut breakthrough, mut last) = (f64::INFINITY, 0.0);
+    while let Some(event) = state.next() {
+        last = event.applied;
+        if state.reached_outlet() {
+            breakthrough = breakthrough.min(last);
+        }
+    }
+    let elements = || state.elements().iter().enumerate();
+    let all: f64 = elements().map(|(_, element)| element.area).sum();
+    let left: f64 = elements().filter(|(k, _)| state.phase(*k) == Phase::Defending).map(|(_, it)| it.area).sum();
+    [breakthrough, last, left / all]
+}
+
+fn assert_near(name: &str, found: f64, right: f64, share: f64) {
+    assert!((found - right).abs() <= share * right.abs(), "{name}: {found} for {right}");
+}
+
+#[test]
+fn a_lattice_of_posts_drains_alike_along_both_axes() {
+    let [along, across] = [LEFT_RIGHT, BOTTOM_TOP].map(|sides| drained("posts.xyr", sides, 0.0, true)[0]);
+    // Two over the gap of 120 um.
+    assert_near("posts.xyr, left to right", along, 2.0 / 1.2e-4, 1e-9);
+    assert_near("posts.xyr, bottom to top", across, 2.0 / 1.2e-4, 1e-9);
+    drained("post.xyr", BOTTOM_TOP, 0.0, true);
+}
+
+#[test]
+fn a_tall_box_drains_like_the_same_box_on_its_side() {
+    for angle in [0.0, 40.0] {
+        let (tall, wide) = (drained("tall.xyr", BOTTOM_TOP, angle, true), drained("wide.xyr", LEFT_RIGHT, angle, true));
+        (0..2).for_each(|k| assert_near("tall.xyr and wide.xyr", tall[k], wide[k], 1e-9));
+        assert!((tall[2] - wide[2]).abs() < 1e-9, "{tall:?} {wide:?}");
+    }
+}
+
+#[test]
+fn discs_drain_like_their_mirror_image() {
+    for angle in [0.0, 5.0, 20.0, 40.0] {
+        let a = drained("mirror_a.xyr", LEFT_RIGHT, angle, true);
+        let b = drained("mirror_b.xyr", RIGHT_LEFT, angle, true);
+        (0..2).for_each(|k| assert_near("mirror_a.xyr and mirror_b.xyr", a[k], b[k], 1e-9));
+        assert!((a[2] - b[2]).abs() < 1e-9, "{angle} degrees: {a:?} {b:?}");
+    }
+}
+
+#[test]
+fn grains_that_share_a_corner_let_nothing_through() {
+    for (angle, right) in [(30.0_f64, (1.0 + 30.0_f64.to_radians().cos()) / 0.2), (0.0, 10.0)] {
+        assert_near("corner-contact.wkt", drained("corner-contact.wkt", LEFT_RIGHT, angle, true)[0], right, 1e-9);
+    }
+}
+
+#[test]
+fn a_row_of_one_pixel_of_pore_along_a_side_has_a_network() {
+    for name in ["left", "right", "bottom", "top", "two-rows", "smallest", "blobs-150"] {
+        let [breakthrough, ..] = drained(&format!("row-{name}.png"), LEFT_RIGHT, 0.0, true);
+        assert!(breakthrough.is_finite(), "{name}");
+    }
+    let [bottom, top] = ["row-bottom.png", "row-top.png"].map(|name| drained(name, LEFT_RIGHT, 0.0, true)[0]);
+    // The fits of contours do not see pixels from both sides alike.
+    assert_near("row-bottom.png and row-top.png", bottom, top, 1e-4);
+}
+
+#[test]
+fn a_dead_end_keeps_what_cannot_leave_it_and_drains_at_the_pressure_of_its_width() {
+    let [.., left] = drained("dead-end.wkt", LEFT_RIGHT, 30.0, true);
+    // 200 by 300 um beside a channel of 200 um by 3 mm.
+    assert!((left - 1.0 / 11.0).abs() < 1e-9, "{left}");
+    let [_, last, left] = drained("narrow.wkt", LEFT_RIGHT, 30.0, false);
+    assert_near("narrow.wkt", last, 2.0 * 30.0_f64.to_radians().cos() / 5e-5, 1e-9);
+    assert_eq!(left, 0.0);
+}
