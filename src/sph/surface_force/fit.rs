@@ -99,13 +99,15 @@ impl<'a> InterfaceFit<'a> {
     /// The same with what held fits say of the way from the wall.
     #[must_use]
     pub fn at(&self, x: Vec2) -> Option<Fitted> {
-        let (sum, count, turning) = self
-            .interface
-            .nearest(x)
-            .into_iter()
-            .filter_map(|(p, from_p)| self.fitted_at(p, from_p, x))
-            .fold((0.0, 0, None), |(sum, count, turning), at| (sum + at.curvature, count + 1, turning.or(at.turning)));
-        (count > 0).then(|| Fitted { curvature: sum / f64::from(count), turning })
+        let nearest = self.interface.nearest(x).into_iter();
+        let found: Vec<Fitted> = nearest.filter_map(|(p, from_p)| self.fitted_at(p, from_p, x)).collect();
+        let curvature = found.iter().map(|fitted| fitted.curvature).sum::<f64>() / found.len() as f64;
+        match found[..] {
+            [] => None,
+            [one] => Some(one),
+            // Equally near points, on an axis of symmetry, may belong to different contact lines.
+            _ => Some(Fitted { curvature, turning: None }),
+        }
     }
 
     /// The curvature at `x` from the stencil near the point `p`, from which x lies at `from_p`.
