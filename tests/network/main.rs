@@ -10,6 +10,7 @@ mod corners;
 mod dead_ends;
 mod displacement;
 mod dynamic;
+mod generated;
 mod invariants;
 mod packs;
 mod permeability;

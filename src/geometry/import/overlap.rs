@@ -24,7 +24,7 @@ const NAMED: usize = 3;
 /// A ring and where it stands.
 pub(crate) type Placed = (Ring, String);
 
-/// The rings without crossings; what was done is told.
+/// The rings without crossings; notes say what was done.
 pub(crate) fn resolved(mut rings: Vec<Placed>, notes: &mut Notes, refusals: &mut Vec<Refusal>) -> Vec<Placed> {
     let size = rings.iter().map(|(ring, _)| ring.bounds()).reduce(|a, b| a.united(&b)).map_or(0.0, |b| b.size().max());
     let tolerance = TOLERANCE * size;

@@ -7,7 +7,7 @@
 //! At a pinned contact line the fit answers to the place of the interface stiffly, and not by the gradient of an energy: taken at the beginning
 //! of a step, it feeds the waves of a thin liquid. There the points are those of the end of the step.
 //!
-//! From the way s along the interface, a fit held to the angle returns the mean curvature κ̄ of \[0, s\], because its tangent at the wall
+//! From the way s along the interface, a fit constrained to the contact angle returns the mean curvature κ̄ of \[0, s\], because its tangent at the wall
 //! is given: the interface turns by s κ̄(s) on this way, and has the curvature d(s κ̄)/ds = κ̄ + s dκ̄/ds. At rest both are the same. Where
 //! viscous stress bends the interface, the sum of κ̄ is more than the interface turns, and would pull at a moving line.
 //!
@@ -38,7 +38,7 @@ const SAME_NORMAL: f64 = 1e-4;
 /// The angle in rad at which the interface is to meet the wall at a point of it (m), with ν_ns there.
 pub type AngleAt<'a> = dyn Fn(Vec2, Vec2) -> f64 + Sync + 'a;
 
-/// What a fit that is held to the angle says of the way from the wall.
+/// What a fit constrained to the contact angle says of the interface between the wall and a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turning {
     /// Mean curvature in 1/m of the way.

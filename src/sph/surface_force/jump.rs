@@ -22,7 +22,7 @@ const LOSS_OF_THE_FIT: f64 = STENCIL_RADIUS * STENCIL_RADIUS / (4 * SMOOTHNESS +
 /// How often the loss of all passes is given back, so that it makes up for those of color and fit too.
 const DECONVOLUTION: f64 = 1.0 + (LOSS_OF_THE_FIT + LINE_MOMENT) / (PASSES as f64 * LOSS_OF_A_PASS);
 
-/// Fits held to the angle whose contact lines are farther apart than this, over h, are of different lines.
+/// Constrained fits whose contact lines are farther apart than this, over h, are of different lines.
 const ONE_LINE: f64 = 2.0;
 
 /// Spread of the ways in a regression, over h², that is added to it: one of few ways does not run away.

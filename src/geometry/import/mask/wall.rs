@@ -64,7 +64,7 @@ fn polygon_area(points: &[Vec2]) -> f64 {
 }
 
 impl Wall {
-    /// A line as each of its crossings says, all of them smooth where none is told; nothing where it is a speck.
+    /// A line as its crossings are marked, all of them smooth without marks; nothing where it is a speck.
     pub fn of(grid: &Grid<'_>, line: &Line, visits: &[u8], rough: &[At]) -> Option<Self> {
         let points: Vec<Vec2> = line.crossings.iter().map(|&at| grid.point(at)).collect();
         let middles: Vec<Vec2> = line.crossings.iter().map(|&at| grid.middle(at)).collect();
