@@ -87,6 +87,16 @@ impl Sph {
     pub fn acting_tension(&self) -> f64 {
         if self.measure.relative_permeability { 0.0 } else { self.tension }
     }
+
+    /// Whether contact lines slip by a spacing, with an angle that does not make up for it.
+    #[must_use]
+    pub fn has_lines_that_slip_by_a_spacing(&self) -> bool {
+        let law = self.wetting_model.filter(|law| !matches!(law, Wetting::Cox(_) | Wetting::CoxVoinov(_)));
+        law.is_some()
+            && self.acting_tension() > 0.0
+            && self.walls.line_slip_length == self.spacing
+            && self.walls.slip_length == 0.0
+    }
 }
 
 /// A Newtonian fluid.

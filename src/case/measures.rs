@@ -23,7 +23,7 @@ const WITH_TENSION: &[&str] = &[
     "most-small-pieces",
 ];
 /// Those of one with a wetting model too.
-const WITH_WETTING: &[&str] = &["contact-angle-deg", "requested-angle-deg"];
+const WITH_WETTING: &[&str] = &["contact-angle-deg", "requested-angle-deg", "line-slip-length-m"];
 /// Those of one with open sides, or with a given flow through periodic ones.
 const OPEN_SIDES: &[&str] = &["balance-error", "open-area-drift", "inflow-m2-per-s"];
 /// Those of two phases between open sides.

@@ -83,6 +83,14 @@ pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     }
     say(format_args!("  L           = {} m, {}", readable(length.value), length.name));
     say(format_args!("  U           = {} m/s, {formula}", readable(speed)));
+    if let Model::Sph(sph) = &case.model
+        && sph.has_lines_that_slip_by_a_spacing()
+    {
+        say(format_args!(
+            "  lines       contact lines slip by one spacing, and their speeds depend on it: give sph.walls.slip-length, or sph.wetting.cox with \
+             the slip length of the wall in nanometers; states of rest do not depend on it"
+        ));
+    }
     advice.iter().for_each(tell_advice);
     for warning in warnings {
         say(format_args!("  WARNING     {warning}"));

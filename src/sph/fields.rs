@@ -307,7 +307,7 @@ impl Fields {
 fn follow(setting: &Setting, state: &FlowState, seen: &[impl DetectedLine]) -> Vec<Line> {
     let Setting { method, domain, spots, .. } = setting;
     let Some(base) = method.wetting else { return Vec::new() };
-    let (h, viscosity) = (method.kernel.h, method.wetting_fluid.viscosity);
+    let h = method.kernel.h;
     // Nothing happens at a line faster than an interface of the size h moves.
     let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
     let following = Following {
@@ -315,7 +315,9 @@ fn follow(setting: &Setting, state: &FlowState, seen: &[impl DetectedLine]) -> V
         model: &|x| spots.model(method, x).unwrap_or(base),
         wall_velocity: &|x| spots.velocity(x),
         tension: method.tension,
-        viscosity,
+        viscosity: method.wetting_fluid.viscosity,
+        other_viscosity: method.other_fluid.viscosity,
+        slip_length: method.no_slip.line_slip_length,
         h,
         mean_over,
     };

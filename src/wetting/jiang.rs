@@ -33,7 +33,8 @@ mod tests {
     fn angles_are_the_published_ones() {
         let model = Jiang { contact_angle_deg: 46.8 };
         for (capillary, expected) in [(1e-4, 47.81), (1e-3, 51.75), (1e-2, 68.95)] {
-            let line = LineState { present: 0.0, speed: capillary, tension: 1.0, viscosity: 1.0, length: 1.0 };
+            let line =
+                LineState { present: 0.0, speed: capillary, tension: 1.0, viscosity: 1.0, ..LineState::default() };
             let found = model.angle(&line).to_degrees();
             assert!((found - expected).abs() < 0.006, "{capillary}: {found}");
         }

@@ -8,7 +8,7 @@
 use crate::input::{Checker, Problem, Range};
 
 /// What a law sees of a contact line.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LineState {
     /// Angle in rad, through the wetting phase, at which the interface meets the wall where the line stands.
     pub present: f64,
@@ -18,8 +18,12 @@ pub struct LineState {
     pub tension: f64,
     /// Dynamic viscosity of the wetting phase in Pa s.
     pub viscosity: f64,
+    /// Dynamic viscosity of the other phase in Pa s.
+    pub other_viscosity: f64,
     /// Length in m over which the numerical method sees the angle: that of the circle fit, the smoothing length h.
     pub length: f64,
+    /// Slip length in m that the flow has on walls near the line.
+    pub slip_length: f64,
 }
 
 impl LineState {

@@ -5,6 +5,7 @@
 //! wall has which law is said by `case`; lines that last from step to step, and their forces, are in `sph::wetting`.
 
 mod bracke;
+mod cox;
 mod cox_voinov;
 mod hysteresis;
 mod jiang;
@@ -21,6 +22,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use bracke::Bracke;
+pub use cox::Cox;
 pub use cox_voinov::CoxVoinov;
 pub use hysteresis::Hysteresis;
 pub use jiang::Jiang;
@@ -157,6 +159,7 @@ laws! {
         pub tadmor: Tadmor,
         pub line_friction: LineFriction,
         pub molecular_kinetic: MolecularKinetic,
+        pub cox: Cox,
         pub cox_voinov: CoxVoinov,
         pub kistler: Kistler,
         pub jiang: Jiang,

@@ -64,7 +64,7 @@ mod tests {
             MolecularKinetic { contact_angle_deg: 57.3, frequency: 1.0e6, jump_length: 1.0e-9, temperature_c: 19.85 };
         let friction = BOLTZMANN * kelvin(model.temperature_c) / (model.frequency * model.jump_length.powi(3));
         let linear = LineFriction { contact_angle_deg: 57.3, friction };
-        let line = LineState { present: 1.0, speed: 2.0e-5, tension: 0.03, viscosity: 1.0e-3, length: 1.0e-5 };
+        let line = LineState { present: 1.0, speed: 2.0e-5, tension: 0.03, viscosity: 1.0e-3, ..LineState::default() };
         let (found, expected) = (model.angle(&line), linear.angle(&line));
         let rest = model.static_angle();
         // asinh(x) = x - x^3/6 at x = 1e-2.

@@ -33,7 +33,15 @@ fn models(degrees: f64) -> Vec<Wetting> {
 }
 
 fn line(speed: f64) -> LineState {
-    LineState { present: 1.3, speed, tension: 0.02, viscosity: 1.0e-3, length: 1.0e-4 }
+    LineState {
+        present: 1.3,
+        speed,
+        tension: 0.02,
+        viscosity: 1.0e-3,
+        other_viscosity: 1.0e-3,
+        length: 1.0e-4,
+        slip_length: 1.0e-4,
+    }
 }
 
 #[test]

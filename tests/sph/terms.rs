@@ -3,6 +3,7 @@
 use crate::support::cloud::{Cloud, Dice};
 use meniscus::math::Vec2;
 use meniscus::sph::neighborhood::Neighborhood;
+use meniscus::sph::terms::transposed_stress::TransposedStress;
 use meniscus::sph::terms::viscosity::Viscous;
 use meniscus::sph::terms::{color, curvature, divergence, pressure_gradient, surface_tension};
 use meniscus::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
@@ -140,46 +141,98 @@ fn viscosity_of_a_parabola_is_its_second_derivative_on_the_lattice() {
     }
 }
 
-/// The viscous forces in N/m³ of the velocity `gradient`·x on a lattice whose viscosity (Pa s) is `of_place`.
-fn viscous_force(cloud: &Cloud, of_place: impl Fn(Vec2) -> f64, gradient: Matrix2<f64>) -> Vec<Vec2> {
+/// The forces in N/m by Morris's form and by the transposed stress on a cloud whose viscosity (Pa s) is `of_place`, .1 or 10, both by particle.
+fn viscous_forces(cloud: &Cloud, of_place: impl Fn(Vec2) -> f64, velocity: &[Vec2]) -> [Vec<Vec2>; 2] {
     let n = cloud.points.len();
-    let (volume, density) = (vec![cloud.lattice_volume; n], vec![1.0; n]);
+    let density = vec![1.0; n];
     let viscosity: Vec<f64> = cloud.points.iter().map(|&x| of_place(x)).collect();
-    let viscous = Viscous { volume: &volume, density: &density, viscosity: &viscosity };
-    let v_ab = |a: usize, b: usize| gradient * (cloud.points[a] - cloud.points[b]);
-    let mut force = vec![Vec2::zeros(); n];
-    viscous.morris(&cloud.pairs, v_ab, &mut force);
-    viscous.transposed(&cloud.pairs, v_ab, &mut force);
-    force
+    let viscous = Viscous { volume: &cloud.volume, density: &density, viscosity: &viscosity };
+    let mut by_morris = vec![Vec2::zeros(); n];
+    viscous.morris(&cloud.pairs, |a, b| velocity[a] - velocity[b], &mut by_morris);
+    by_morris.iter_mut().zip(&cloud.volume).for_each(|(f, volume)| *f *= *volume);
+    let stress = TransposedStress::new(&cloud.pairs, &cloud.volume, &viscosity, n, [0.1, 10.0]).unwrap();
+    let mut transposed = vec![Vec2::zeros(); n];
+    stress.add_force(velocity, &mut transposed);
+    [by_morris, transposed]
+}
+
+/// A disc of 10 Pa s in a fluid of .1 Pa s.
+fn viscous_disc(x: Vec2) -> f64 {
+    if (x - Vec2::repeat(0.5)).norm() < 0.3 { 10.0 } else { 0.1 }
+}
+
+fn power(velocity: &[Vec2], force: &[Vec2]) -> f64 {
+    velocity.iter().zip(force).map(|(v, f)| v.dot(f)).sum()
 }
 
 #[test]
-fn a_fluid_that_turns_as_a_whole_feels_no_viscous_force_at_a_jump_of_the_viscosity() {
-    let cloud = Cloud::new(24, false, 0.0);
-    let of_place = |x: Vec2| if (x - Vec2::repeat(0.5)).norm() < 0.3 { 10.0 } else { 0.1 };
-    let force = viscous_force(&cloud, of_place, Matrix2::new(0.0, -1.0, 1.0, 0.0));
-    for a in cloud.inner() {
-        // Morris's form alone: up to about the viscosity over the spacing, 10·24. What is left is ζ² in its denominators.
-        assert!(force[a].norm() < 0.1, "{:?}", force[a]);
+fn the_transposed_stress_keeps_momentum_and_is_symmetric() {
+    let cloud = Cloud::new(24, true, 0.3);
+    let mut dice = Dice::new(5);
+    let [one, other] = [0, 1].map(|_| cloud.points.iter().map(|_| dice.vector()).collect::<Vec<Vec2>>());
+    let [of_one, of_other] = [&one, &other].map(|v| viscous_forces(&cloud, viscous_disc, v)[1].clone());
+    let (sum, size) = (of_one.iter().sum::<Vec2>(), of_one.iter().map(|force| force.norm()).sum::<f64>());
+    assert!(sum.norm() < ROUNDING * size, "{sum:?} of {size}");
+    let (there, back) = (power(&other, &of_one), power(&one, &of_other));
+    assert!((there - back).abs() < 1e-9 * power(&one, &of_one).abs(), "{there} {back}");
+}
+
+#[test]
+fn both_parts_of_the_viscous_stress_take_energy_from_every_motion() {
+    for shaken in [0.0, 0.3] {
+        let cloud = Cloud::new(24, true, shaken);
+        let wave = |k: f64, x: &Vec2| {
+            let [u, v] = [x.x, x.y].map(|t| (k * std::f64::consts::TAU * t).sin());
+            Vec2::new(v, u)
+        };
+        let mut dice = Dice::new(7);
+        let mut motions: Vec<Vec<Vec2>> =
+            (0..5).map(|_| cloud.points.iter().map(|_| dice.vector()).collect()).collect();
+        motions.extend([1.0, 2.0, 5.0].map(|k| cloud.points.iter().map(|x| wave(k, x)).collect()));
+        for velocity in motions {
+            let [morris, transposed] =
+                viscous_forces(&cloud, viscous_disc, &velocity).map(|force| power(&velocity, &force));
+            assert!(morris < 0.0 && morris + transposed < 0.0, "{morris} {transposed}");
+        }
+    }
+}
+
+#[test]
+fn a_viscous_disc_that_turns_as_a_whole_is_slowed_by_the_fluid_around_it_alone() {
+    // The fluid around it turns with it: what is left is the friction between both, of twice the smaller viscosity, in a band of a spacing.
+    for shaken in [0.0, 0.3] {
+        let cloud = Cloud::new(48, true, shaken);
+        let turns = |x: &Vec2| {
+            Vec2::new(-(x.y - 0.5), x.x - 0.5) * if (x - Vec2::repeat(0.5)).norm() < 0.4 { 1.0 } else { 0.0 }
+        };
+        let velocity: Vec<Vec2> = cloud.points.iter().map(turns).collect();
+        let within = |force: &[Vec2]| {
+            let inner = |a: &usize| (cloud.points[*a] - Vec2::repeat(0.5)).norm() < 0.34;
+            (0..force.len()).filter(inner).map(|a| velocity[a].dot(&force[a])).sum::<f64>()
+        };
+        let [morris, transposed] = viscous_forces(&cloud, viscous_disc, &velocity).map(|force| within(&force));
+        // 2 mu over the area of the disc is what Morris's form alone takes.
+        assert!(morris < -4.0, "{morris}");
+        assert!((morris + transposed).abs() < 0.02 * morris.abs(), "{morris} {transposed}, shaken {shaken}");
     }
 }
 
 #[test]
 fn a_step_of_the_viscosity_in_a_stretched_fluid_bears_the_step_of_the_stress() {
-    let cloud = Cloud::new(24, false, 0.0);
-    let (below, above) = (1.0, 10.0);
-    let force = viscous_force(&cloud, |x| if x.y < 0.5 { below } else { above }, Matrix2::new(-1.0, 0.5, 0.0, 1.0));
-    let column = cloud.inner()[0];
-    let x = cloud.points[column].x;
-    let step: Vec2 = cloud
-        .inner()
-        .into_iter()
-        .filter(|&a| (cloud.points[a].x - x).abs() < 1e-9)
-        .map(|a| force[a] * cloud.spacing)
-        .sum();
-    // The step of 2μ D·e_y, with 2D = ∇v + ∇vᵀ = ((−2, .5), (.5, 2)); ζ² takes 1e-4 off.
-    let wanted = (above - below) * Vec2::new(0.5, 2.0);
-    assert!((step - wanted).norm() < 1e-3 * wanted.norm(), "{step:?}");
+    let gradient = Matrix2::new(-1.0, 0.5, 0.0, 1.0);
+    let of_place = |x: Vec2| if x.y < 0.5 { 0.1 } else { 10.0 };
+    for (shaken, tolerance) in [(0.0, 1e-3), (0.3, 0.03)] {
+        let cloud = Cloud::new(48, false, shaken);
+        let velocity: Vec<Vec2> = cloud.points.iter().map(|x| gradient * x).collect();
+        let forces = viscous_forces(&cloud, of_place, &velocity);
+        let half = 0.25..0.75;
+        let meant = (0..cloud.points.len())
+            .filter(|a| half.contains(&cloud.points[*a].x) && half.contains(&cloud.points[*a].y));
+        let step: Vec2 = meant.map(|a| forces[0][a] + forces[1][a]).sum::<Vec2>() / 0.5;
+        // The step of 2μ D·e_y, with 2D = ∇v + ∇vᵀ = ((−2, .5), (.5, 2)).
+        let wanted = 9.9 * Vec2::new(0.5, 2.0);
+        assert!((step - wanted).norm() < tolerance * wanted.norm(), "{step:?}, shaken {shaken}");
+    }
 }
 
 /// Smoothed color, normal, unit normal and curvature of the region where `color` is 1.
@@ -285,6 +338,8 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
         wall_velocity: &|_| Vec2::zeros(),
         tension: 0.03,
         viscosity: 1.0,
+        other_viscosity: 1.0,
+        slip_length: 1.0,
         h: cloud.kernel.h,
         mean_over: 1.0,
     };

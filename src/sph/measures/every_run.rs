@@ -116,6 +116,8 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
         let mean = angles.iter().sum::<f64>() / angles.len() as f64;
         let method = "mean over the contact lines of the static angle of the wetting model at their places";
         found.push(measure("requested-angle-deg", mean, "deg", None, method));
+        let method = "slip length of walls near contact lines; with a static angle the speed of a line depends on it";
+        found.push(measure("line-slip-length-m", s.flow.setting.method.no_slip.line_slip_length, "m", None, method));
     }
     found
 }

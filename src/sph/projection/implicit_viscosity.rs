@@ -2,7 +2,8 @@
 //!
 //! The forces F(v) at the beginning of the step, that of the pressure before among them, give the change δ of the velocity,
 //! (m + θ Δt K) δ = Δt F(v), with the viscous matrix K: by −K v alone this is the θ method. What of the viscous force K leaves out (the
-//! transposed gradient, images in Szewc's form) goes explicitly, in long steps with as much on the diagonal as outweighs it. Where F = 0, δ = 0: rest and steady flow do not hang on the step.
+//! transposed stress, images in Szewc's form) goes explicitly: with the transposed stress at most 2K acts, which stays stable. Where F = 0,
+//! δ = 0: rest and steady flow do not depend on the step.
 //!
 //! θ = 1/(1 − e^{−z}) − 1/z with the largest rate z/Δt [Liniger1970] is exact for a mode of that rate, the trapezoidal rule for short
 //! steps and backward Euler for long ones, and no mode changes its sign.
@@ -27,10 +28,6 @@ const ITERATIONS: usize = 2000;
 /// Below this product of step and rate θ is taken from its series, whose next term is z³/720.
 const SHORT: f64 = 1e-2;
 
-/// Up to this product of step and rate the transposed part is stable by itself: measured on a drop a hundred times as viscous as the
-/// fluid around it.
-const LARGEST_EXPLICIT: f64 = 10.0;
-
 /// K over the masses, m^{-1/2} K m^{-1/2} in 1/s, over fluid particles. Walls and buffers stand still in it: what it acts on is a
 /// change of the velocity, and theirs is given.
 pub(super) struct ViscousMatrix<'a> {
@@ -44,8 +41,6 @@ pub(super) struct ViscousMatrix<'a> {
     coupling: Vec<f32>,
     /// Diagonal blocks.
     diagonal: Vec<Mat2>,
-    /// What outweighs the transposed part of the stress, in 1/s.
-    explicit: Vec<f64>,
     /// A bound of the rates in 1/s at which viscosity slows motions, by Gershgorin's theorem.
     largest_rate: f64,
 }
@@ -57,11 +52,13 @@ impl Flow {
             (&self.neighborhood.pairs, &self.neighborhood.images, self.state.particles.fluids, &self.fields);
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let is_central = self.setting.method.viscous_term == ViscousTerm::Szewc;
+        let transposed = self.transposed_stress();
         let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
         let inverse_root: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();
         let strength = |a: usize, ab: &Pair| {
             if !is_central {
-                return viscous.coupling(a, ab);
+                let stiffer = transposed.as_ref().map_or(1.0, |stress| stress.stiffness(a, ab.b));
+                return stiffer * viscous.coupling(a, ab);
             }
             let steepness = ab.grad_w.norm_squared();
             // At the edge of the support the quotient exceeds single precision; the force of such a pair is nothing.
@@ -107,13 +104,9 @@ impl Flow {
                 *diagonal /= root_mass[a] * root_mass[a];
             }
         });
-        let mut explicit = vec![0.0; fluids];
-        if self.setting.method.viscous_term == ViscousTerm::Stress {
-            each(&mut explicit, |a| viscous.weight_of_transposed(pairs, a) / (root_mass[a] * root_mass[a]));
-        }
         let rate = |a: usize| 2.0 * diagonal[a].symmetric_eigenvalues().max();
         let largest_rate = largest(fluids, rate).map_or(0.0, |l| l.1);
-        ViscousMatrix { pairs, images, is_central, root_mass, coupling, diagonal, explicit, largest_rate }
+        ViscousMatrix { pairs, images, is_central, root_mass, coupling, diagonal, largest_rate }
     }
 }
 
@@ -133,10 +126,7 @@ impl ViscousMatrix<'_> {
         let weight = self.weight(dt);
         let fluids = self.diagonal.len();
         let mut diagonal = vec![Mat2::identity(); fluids];
-        each(&mut diagonal, |a| {
-            let excess = (self.explicit[a] - LARGEST_EXPLICIT / dt).max(0.0);
-            Mat2::from_diagonal_element(1.0 + weight * excess) + weight * self.diagonal[a]
-        });
+        each(&mut diagonal, |a| Mat2::identity() + weight * self.diagonal[a]);
         let mut inverse = vec![Mat2::zeros(); fluids];
         each(&mut inverse, |a| diagonal[a].try_inverse().unwrap_or_else(Mat2::identity));
         let system = System { viscous: self, weight, diagonal };
@@ -161,7 +151,7 @@ fn theta(z: f64) -> f64 {
 struct System<'a> {
     viscous: &'a ViscousMatrix<'a>,
     weight: f64,
-    /// Diagonal blocks, with what outweighs the explicit part.
+    /// Diagonal blocks.
     diagonal: Vec<Mat2>,
 }
 

@@ -4,6 +4,7 @@ use crate::math::{Mat2, Vec2};
 use crate::sph::boundary::no_slip::WallDepth;
 use crate::sph::flow::Flow;
 use crate::sph::method::ViscousTerm;
+use crate::sph::terms::transposed_stress::TransposedStress;
 use crate::sph::terms::viscosity::Viscous;
 
 impl Flow {
@@ -16,12 +17,30 @@ impl Flow {
         match self.setting.method.viscous_term {
             ViscousTerm::Stress => {
                 viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration);
-                viscous.transposed(&self.neighborhood.pairs, v_ab, &mut acceleration);
+                if let Some(stress) = self.transposed_stress() {
+                    let mut force = vec![Vec2::zeros(); fluids];
+                    stress.add_force(velocity, &mut force);
+                    acceleration
+                        .iter_mut()
+                        .enumerate()
+                        .for_each(|(a, by)| *by += force[a] / (f.density[a] * f.volume[a]));
+                }
             }
             ViscousTerm::Morris => viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration),
             ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, &mut acceleration),
         }
         acceleration
+    }
+
+    /// The transposed part of the stress, where the method has it and the fluids differ in viscosity.
+    pub(super) fn transposed_stress(&self) -> Option<TransposedStress<'_>> {
+        let (method, f) = (&self.setting.method, &self.fields);
+        let viscosities = [method.wetting_fluid.viscosity, method.other_fluid.viscosity];
+        if method.viscous_term != ViscousTerm::Stress {
+            return None;
+        }
+        let moving = self.state.particles.moving();
+        TransposedStress::new(&self.neighborhood.pairs, &f.volume, &f.viscosity, moving, viscosities)
     }
 
     /// The largest viscous rate in 1/s, see [`Viscous::rate`].
@@ -50,7 +69,7 @@ impl Flow {
         };
         let mut acceleration = vec![Vec2::zeros(); fluids];
         match self.setting.method.viscous_term {
-            // Walls take the viscosity of the fluid that sees them, so that the transposed part does not act there.
+            // The transposed part has no force on walls.
             ViscousTerm::Morris | ViscousTerm::Stress => {
                 viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration)
             }

@@ -13,4 +13,5 @@ pub mod pressure_gradient;
 pub mod sharpening;
 pub mod shifting;
 pub mod surface_tension;
+pub mod transposed_stress;
 pub mod viscosity;

@@ -23,23 +23,6 @@ impl Viscous<'_> {
         });
     }
 
-    /// Adds (1/ρ_a) (∇v)ᵀ_a·s_a, s_a = Σ_b V_b 2 (μ_ab − μ_a) ∇_a W_ab, with the harmonic mean μ_ab: what Morris's form lacks of the
-    /// divergence of the viscous stress, ∇·(μ(∇v + ∇vᵀ)) = ∇·(μ∇v) + (∇v)ᵀ·∇μ for ∇·v = 0.
-    ///
-    /// Zero where the viscosity is even. With it a fluid that turns as a whole feels no force at a jump of the viscosity.
-    pub fn transposed(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, acceleration: &mut [Vec2]) {
-        let mut force = vec![Vec2::zeros(); acceleration.len()];
-        each(&mut force, |a| {
-            let toward = self.step_of_viscosity(pairs, a);
-            if toward == Vec2::zeros() {
-                return Vec2::zeros();
-            }
-            // ∂_i v_j s_j = −Σ_b V_b (v_ab·s) ∂_i W_ab
-            -pairs.of(a).map(|ab| self.volume[ab.b] * v_ab(a, ab.b).dot(&toward) * ab.grad_w).sum::<Vec2>()
-        });
-        acceleration.iter_mut().zip(&force).zip(self.density).for_each(|((sum, force), rho)| *sum += force / *rho);
-    }
-
     /// Σ_b 8 m_b (η_a + η_b)/(ρ_a + ρ_b) (v_ab·r_ab)/(|r_ab|² + ζ²) ∇_a W_ab with η = μ/ρ [Huber2013, Eq. 16].
     ///
     /// r_ab and ∇_a W_ab are parallel, so that (v_ab·r_ab)/(|r_ab|² + ζ²) is (v_ab·∇_a W_ab) over |∇_a W_ab|², times the slope.
@@ -53,26 +36,6 @@ impl Viscous<'_> {
             let along = if steepness > 0.0 { v_ab(a, b).dot(&ab.grad_w) * ab.slope / steepness } else { 0.0 };
             8.0 * m_b * self.both_kinematic(a, b) / (rho_a + rho_b) * along * ab.grad_w
         });
-    }
-
-    /// s_a = Σ_b V_b 2 (μ_ab − μ_a) ∇_a W_ab in Pa s/m, nothing where the viscosity is even.
-    fn step_of_viscosity(&self, pairs: &Pairs, a: usize) -> Vec2 {
-        let is_other = |b: usize| self.viscosity[b] > 0.0 && self.viscosity[b] != self.viscosity[a];
-        if !pairs.of(a).any(|ab| is_other(ab.b)) {
-            return Vec2::zeros();
-        }
-        let step = |b: usize| 2.0 * self.volume[b] * (self.mean_viscosity(a, b) - self.viscosity[a]);
-        pairs.of(a).map(|ab| step(ab.b) * ab.grad_w).sum()
-    }
-
-    /// V_a |s_a| Σ_b V_b |∇_a W_ab| in Pa s, the sum over b of the sizes of what [`Self::transposed`] multiplies v_b with in the force on a.
-    #[must_use]
-    pub fn weight_of_transposed(&self, pairs: &Pairs, a: usize) -> f64 {
-        let s = self.step_of_viscosity(pairs, a).norm();
-        if s == 0.0 {
-            return 0.0;
-        }
-        self.volume[a] * s * pairs.of(a).map(|ab| self.volume[ab.b] * ab.grad_w.norm()).sum::<f64>()
     }
 
     /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: what Morris's form multiplies v_ab with in the force that b

@@ -80,6 +80,10 @@ pub struct Following<'a> {
     pub tension: f64,
     /// Dynamic viscosity of the wetting phase in Pa s.
     pub viscosity: f64,
+    /// Dynamic viscosity of the other phase in Pa s.
+    pub other_viscosity: f64,
+    /// Slip length in m of walls near lines.
+    pub slip_length: f64,
     /// Smoothing length h in m.
     pub h: f64,
     /// τ in s.
@@ -139,7 +143,15 @@ impl Following<'_> {
         let model = (self.model)(place);
         let anchor = known.map(|line| line.anchor).filter(|_| model.holds());
         let present = seen.present(anchor);
-        let state = LineState { present, speed, tension: self.tension, viscosity: self.viscosity, length: self.h };
+        let state = LineState {
+            present,
+            speed,
+            tension: self.tension,
+            viscosity: self.viscosity,
+            other_viscosity: self.other_viscosity,
+            length: self.h,
+            slip_length: self.slip_length,
+        };
         let angle = model.angle(&state);
         let is_held = model.holds() && angle == present;
         let position = match anchor {
@@ -204,6 +216,8 @@ mod tests {
             wall_velocity: &|_| Vec2::new(wall, 0.0),
             tension: 1.0,
             viscosity: 1.0,
+            other_viscosity: 1.0,
+            slip_length: 1.0,
             h: H,
             mean_over: 1.0,
         };
