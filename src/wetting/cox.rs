@@ -49,11 +49,8 @@ impl Law for Cox {
         let mut angle = static_angle;
         for _ in 0..STEPS {
             let missing = wanted - turned(angle);
-            if missing > 0.0 {
-                low = angle
-            } else {
-                high = angle
-            }
+            let bound = if missing > 0.0 { &mut low } else { &mut high };
+            *bound = angle;
             let newton = angle + missing / inverse_of_f(angle, q);
             let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
             if (next - angle).abs() < TOLERANCE {
@@ -72,7 +69,8 @@ impl Law for Cox {
 /// g(b) − g(a) = ∫ dθ/f(θ, q) from a to b in rad, by Simpson's rule.
 fn bending(a: f64, b: f64, q: f64) -> f64 {
     let h = (b - a) / INTERVALS as f64;
-    let inner = (1..INTERVALS).map(|i| if i % 2 == 1 { 4.0 } else { 2.0 } * inverse_of_f(a + i as f64 * h, q));
+    let weight = |i: usize| if i % 2 == 1 { 4.0 } else { 2.0 };
+    let inner = (1..INTERVALS).map(|i| weight(i) * inverse_of_f(a + i as f64 * h, q));
     h / 3.0 * (inverse_of_f(a, q) + inner.sum::<f64>() + inverse_of_f(b, q))
 }
 

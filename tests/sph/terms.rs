@@ -151,9 +151,7 @@ fn viscous_forces(cloud: &Cloud, of_place: impl Fn(Vec2) -> f64, velocity: &[Vec
     viscous.morris(&cloud.pairs, |a, b| velocity[a] - velocity[b], &mut by_morris);
     by_morris.iter_mut().zip(&cloud.volume).for_each(|(f, volume)| *f *= *volume);
     let stress = TransposedStress::new(&cloud.pairs, &cloud.volume, &viscosity, n, [0.1, 10.0]).unwrap();
-    let mut transposed = vec![Vec2::zeros(); n];
-    stress.add_force(velocity, &mut transposed);
-    [by_morris, transposed]
+    [by_morris, stress.force(velocity, n)]
 }
 
 /// A disc of 10 Pa s in a fluid of .1 Pa s.

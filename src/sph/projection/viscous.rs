@@ -18,12 +18,9 @@ impl Flow {
             ViscousTerm::Stress => {
                 viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration);
                 if let Some(stress) = self.transposed_stress() {
-                    let mut force = vec![Vec2::zeros(); fluids];
-                    stress.add_force(velocity, &mut force);
-                    acceleration
-                        .iter_mut()
-                        .enumerate()
-                        .for_each(|(a, by)| *by += force[a] / (f.density[a] * f.volume[a]));
+                    let forces = stress.force(velocity, fluids);
+                    let both = acceleration.iter_mut().zip(forces).enumerate();
+                    both.for_each(|(a, (by, force))| *by += force / (f.density[a] * f.volume[a]));
                 }
             }
             ViscousTerm::Morris => viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration),

@@ -30,6 +30,7 @@ pub struct TransposedStress<'a> {
     viscosity: &'a [f64],
     /// The smaller viscosity of both fluids in Pa s.
     least: f64,
+    /// The neighbors of each moving particle.
     around: Vec<Around>,
 }
 
@@ -64,9 +65,11 @@ impl<'a> TransposedStress<'a> {
         let mut stress = Self { pairs, volume, viscosity, least, around: Vec::new() };
         let mut around = vec![Around::new(Mat2::zeros(), Mat2::zeros()); moving];
         each(&mut around, |a| {
-            let along = |ab: &Pair| ab.grad_w * (ab.grad_w.transpose() * (-volume[ab.b] / ab.slope));
-            let same: Mat2 = stress.same_fluid(a, moving).map(|ab| along(&ab)).sum();
-            let others = stress.neighbors(a).filter(|ab| ab.b >= moving).map(|ab| along(&ab)).sum::<Mat2>();
+            let (mut same, mut others) = (Mat2::zeros(), Mat2::zeros());
+            for ab in stress.neighbors(a) {
+                let sum = if ab.b < moving { &mut same } else { &mut others };
+                *sum += ab.grad_w * (ab.grad_w.transpose() * (-volume[ab.b] / ab.slope));
+            }
             Around::new(same, others)
         });
         stress.around = around;
@@ -81,19 +84,20 @@ impl<'a> TransposedStress<'a> {
         if is_same_fluid { 0.5 * (self.around[a].stiffness + self.around[b].stiffness) } else { 1.0 }
     }
 
-    /// Adds V_a Σ_b V_b (S_a + S_b)·∇_a W_ab in N/m, over neighbors of the same fluid, to `force` on the first particles. `velocity` in m/s
-    /// is that of all moving ones.
-    pub fn add_force(&self, velocity: &[Vec2], force: &mut [Vec2]) {
+    /// V_a Σ_b V_b (S_a + S_b)·∇_a W_ab in N/m, over neighbors of the same fluid: the force on each of the first `count` particles. `velocity`
+    /// in m/s is that of all moving ones.
+    #[must_use]
+    pub fn force(&self, velocity: &[Vec2], count: usize) -> Vec<Vec2> {
         let moving = self.around.len();
         let mut stress = vec![Mat2::zeros(); moving];
         each(&mut stress, |a| self.stress(a, velocity));
-        let mut sum = vec![Vec2::zeros(); force.len()];
-        each(&mut sum, |a| {
+        let mut force = vec![Vec2::zeros(); count];
+        each(&mut force, |a| {
             self.same_fluid(a, moving)
                 .map(|ab| self.volume[a] * self.volume[ab.b] * ((stress[a] + stress[ab.b]) * ab.grad_w))
                 .sum()
         });
-        force.iter_mut().zip(&sum).for_each(|(force, sum)| *force += sum);
+        force
     }
 
     /// S_a = Δμ_a (tr M D + (1 − tr M/2) (D:A) A − G M) N⁻¹ in Pa, N the moment of the same fluid: half of the derivative of P_a by G.
