@@ -7,12 +7,13 @@ mod diffsol;
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use meniscus::case::film::{FilmIntegrator, FilmWeights, LatticeEnergy};
 use meniscus::thin_film::backward_euler::StepRule;
-use meniscus::thin_film::droplet::{Droplet, WeightRule, particles};
+use meniscus::thin_film::droplet::{Droplet, particles};
 use meniscus::thin_film::grid::{Equation, GridFilm};
 use meniscus::thin_film::kernel::Kernel;
-use meniscus::thin_film::ode::{Implicit, Integrator, Method, Tolerance};
-use meniscus::thin_film::particles::{LatticeEnergy, ParticleMethod, Pull};
+use meniscus::thin_film::ode::{Implicit, Integrator, Tolerance};
+use meniscus::thin_film::particles::{ParticleMethod, Pull};
 use meniscus::thin_film::ring::{Line, Ring};
 use meniscus::thin_film::sums::{FastSums, Smoothed, direct_sums};
 
@@ -27,7 +28,7 @@ fn sums(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("sums");
     group.sample_size(10);
     for count in [100_u64, 1000, 10_000, 100_000, 1_000_000] {
-        let masses = particles(&[DROPLET], 1.0 / count as f64, WeightRule::Point);
+        let masses = particles(&[DROPLET], 1.0 / count as f64, FilmWeights::Point);
         let kernel = Kernel::new(ALPHA);
         let mut out = Smoothed::new(masses.x.len());
         let mut fast = FastSums::new(kernel);
@@ -48,11 +49,11 @@ fn stiff_steps(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("stiff-step");
     group.sample_size(10);
     for count in [200_u64, 20_000] {
-        let masses = particles(&[DROPLET], 1.0 / count as f64, WeightRule::Point);
+        let masses = particles(&[DROPLET], 1.0 / count as f64, FilmWeights::Point);
         let mut method =
             ParticleMethod::new(Kernel::new(ALPHA), &masses, Pull { wetting: 1.16, bond: 0.0 }, LatticeEnergy::Kept);
         let tolerance = Tolerance { absolute: 1.0e-7, relative: 0.0 };
-        let start = Integrator::new(Method::Stiff, tolerance, masses.x.clone(), 1.0e-6);
+        let start = Integrator::new(FilmIntegrator::Stiff, tolerance, masses.x.clone(), 1.0e-6);
         group.throughput(Throughput::Elements(count));
         group.bench_function(BenchmarkId::new("factor", count), |bencher| {
             bencher.iter(|| method.factor(black_box(&masses.x), 1.0e6).is_some());
@@ -68,9 +69,9 @@ fn stiff_steps(criterion: &mut Criterion) {
 fn whole_films(criterion: &mut Criterion) {
     const TOLERANCE: f64 = 1.0e-7;
     const FIRST_STEP: f64 = 1.0e-6;
-    let masses = particles(&[DROPLET], 0.00125, WeightRule::Cell);
+    let masses = particles(&[DROPLET], 0.00125, FilmWeights::Cell);
     let method = ParticleMethod::new(Kernel::new(ALPHA), &masses, Pull::default(), LatticeEnergy::Kept);
-    let ours = |kind: Method, end: f64| {
+    let ours = |kind: FilmIntegrator, end: f64| {
         let tolerance = Tolerance { absolute: TOLERANCE, relative: 0.0 };
         let mut state = Integrator::new(kind, tolerance, masses.x.clone(), FIRST_STEP);
         let (mut method, mut steps) = (method.clone(), 0);
@@ -89,9 +90,9 @@ fn whole_films(criterion: &mut Criterion) {
         println!("{name}: {steps} steps, last particle at {:.8}", x[x.len() - 1]);
         group.bench_function(name, |bencher| bencher.iter(film));
     };
-    time("rodas", &|| ours(Method::Stiff, 50.0));
+    time("rodas", &|| ours(FilmIntegrator::Stiff, 50.0));
     time("esdirk34", &|| oracle(esdirk34, 50.0));
-    time("dormand-prince", &|| ours(Method::Explicit, 1.0));
+    time("dormand-prince", &|| ours(FilmIntegrator::Explicit, 1.0));
     time("tsit45", &|| oracle(tsit45, 1.0));
     group.finish();
 }
@@ -102,7 +103,7 @@ fn grid_steps(criterion: &mut Criterion) {
     for count in [1000_usize, 100_000] {
         let alpha = if count > 10_000 { 0.01 } else { ALPHA };
         let line = Line { from: -1.0, count, spacing: 2.0 / count as f64, alpha, wetting: 1.16, bond: 0.0 };
-        let (ring, height) = Ring::new(line, &[DROPLET], WeightRule::Cell).unwrap();
+        let (ring, height) = Ring::new(line, &[DROPLET], FilmWeights::Cell).unwrap();
         let start = GridFilm::new(Equation::Ring(ring), height, StepRule::fixed(1.0e-6));
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::new("ring", count), |bencher| {

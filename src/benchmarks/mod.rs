@@ -37,7 +37,7 @@ mod taylor_green;
 mod throat_entry;
 mod waves;
 
-use crate::case::checked::MeasureSet;
+use crate::case::MeasureSet;
 use crate::sph::measures::Group;
 
 /// The groups of measures that a case asks for.

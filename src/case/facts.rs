@@ -1,7 +1,8 @@
 //! Checks of a case that need its real geometry: whether the spacing resolves the narrowest throat, and whether the
 //! initial phases lie in the pore.
 
-use super::checked::{Case, Model, Sph};
+use super::case_file::{Case, Model};
+use super::sph::Sph;
 use crate::input::Problem;
 use crate::math::Vec2;
 

@@ -1,12 +1,72 @@
 //! Checks of `[sph.initial]`: which phase is where at time zero, and how it moves.
 
-use super::checked::{Initial, InitialVelocity, Sides};
+use std::path::PathBuf;
+
+use super::fluid::RawPhase;
 use super::network::state::Start;
-use super::raw::{RawInitial, RawPhase};
 use super::shapes::shape_problems;
-use crate::geometry::spec::GeometrySpec;
+use super::side::Sides;
+use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::input::Checker;
+use crate::input::tables::{Empty, Key, tables};
 use crate::math::Vec2;
+
+tables! {
+    /// The state at time zero.
+    pub struct RawInitial {
+        /// Phase outside of the shapes (default `non-wetting`).
+        pub background: RawPhase,
+        /// Shapes filled with the phase that is not the background; each holds a particle of the pore (required with
+        /// two fluids).
+        pub wetting: Vec<ShapeSpec>,
+        /// File with the state of a network of the same geometry, in place of `background` and `wetting`.
+        pub network: PathBuf,
+        /// Initial velocity: at most one field (default `rest`).
+        pub velocity: RawVelocity,
+    }
+
+    /// Initial velocity fields; exactly one of them.
+    pub struct RawVelocity {
+        /// No motion.
+        pub rest: Empty,
+        /// Uniform velocity in m/s.
+        pub uniform: [f64; 2],
+        /// Taylor-Green vortices, one period per domain.
+        pub taylor_green: RawTaylorGreen,
+    }
+
+    /// Taylor-Green vortices.
+    pub struct RawTaylorGreen {
+        /// Largest speed in m/s.
+        pub speed: f64 => Key::positive("a speed in m/s").example("speed = 1.0 # m/s"),
+    }
+}
+
+/// Initial state.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Initial {
+    /// The wetting phase is the union of these shapes (`[[sph.initial.wetting]]`) ...
+    pub wetting: Vec<ShapeSpec>,
+    /// ... or, where true, all that is outside of them (`sph.initial.background = "wetting"`).
+    pub wetting_is_background: bool,
+    /// The state of a network that says it instead (`sph.initial.network`).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub network: Option<Start>,
+    /// Initial velocity.
+    pub velocity: InitialVelocity,
+}
+
+/// Initial velocity fields.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum InitialVelocity {
+    /// At rest.
+    Rest,
+    /// The same velocity everywhere, in m/s.
+    Uniform(Vec2),
+    /// Taylor-Green vortices of the given speed in m/s, one period per domain.
+    TaylorGreen(f64),
+}
 
 /// The state at time zero by shapes.
 pub(super) fn initial(
@@ -73,10 +133,7 @@ pub(super) fn from_network(
 fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> {
     const PATH: &str = "sph.initial.velocity";
     let Some(raw) = &raw.velocity else { return Some(InitialVelocity::Rest) };
-    let speed = raw.taylor_green.as_ref().map(|raw| {
-        let path = format!("{PATH}.taylor-green.speed");
-        checker.require_positive(&path, raw.speed, "speed = 1.0 # m/s", "a speed in m/s")
-    });
+    let speed = raw.taylor_green.as_ref().map(|raw| raw.speed);
     match (raw.rest, raw.uniform, speed) {
         (Some(_), None, None) => Some(InitialVelocity::Rest),
         (None, Some(velocity), None) => Some(InitialVelocity::Uniform(Vec2::from(velocity))),
@@ -89,6 +146,28 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
                 "choose one of `rest`, `uniform`, `taylor-green`",
             );
             None
+        }
+    }
+}
+
+/// The table of an initial state; `two_phases` where it says which phase is where.
+pub(super) fn raw_initial(initial: &Initial, two_phases: bool) -> RawInitial {
+    let by_shapes = two_phases && initial.network.is_none();
+    let background = if initial.wetting_is_background { RawPhase::Wetting } else { RawPhase::NonWetting };
+    RawInitial {
+        background: by_shapes.then_some(background),
+        wetting: by_shapes.then(|| initial.wetting.clone()),
+        network: initial.network.as_ref().map(|start| start.file.clone()),
+        velocity: Some(raw_velocity(&initial.velocity)),
+    }
+}
+
+fn raw_velocity(velocity: &InitialVelocity) -> RawVelocity {
+    match *velocity {
+        InitialVelocity::Rest => RawVelocity { rest: Some(Empty {}), ..RawVelocity::default() },
+        InitialVelocity::Uniform(velocity) => RawVelocity { uniform: Some(velocity.into()), ..RawVelocity::default() },
+        InitialVelocity::TaylorGreen(speed) => {
+            RawVelocity { taylor_green: Some(RawTaylorGreen { speed: Some(speed) }), ..RawVelocity::default() }
         }
     }
 }

@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::check;
-use super::checked::{Case, Model};
+use super::case_file::{self, Case, Model, RawCase};
 use super::kind::other_than_a_case;
 use super::magnitude::magnitudes;
 use super::network::state::Start;
-use super::raw::{RawCase, RawGeometry, RawShapeFile};
-use super::{film, network, permeability, relative_permeability, resolve, shapes, sph, start, steady};
+use super::shapes::{RawGeometry, RawShapeFile};
+use super::{film, network, permeability, records, relative_permeability, shapes, sph, start};
 use crate::geometry::ShapeFileError;
 use crate::geometry::import::{self, Beyond, Format, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
@@ -103,13 +102,13 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     document.refuse(other_than_a_case(text).into_iter().collect())?;
     let reading = document.read::<RawCase>();
     let mut checker = Checker::default();
-    let raw = &reading.value;
+    let raw = one_model(&mut checker, reading.value.clone()).in_range(&mut checker, "");
+    let raw = &raw;
     checker.format(raw.format);
-    let title = checker.require("title", raw.title.clone(), "title = \"what the case shows\"");
     let mut sources: Vec<PathBuf> = origin.path().map(Path::to_path_buf).into_iter().collect();
     let mut elsewhere = Vec::new();
     let geometry = match &raw.geometry {
-        None => checker.require::<Imported>("geometry", None, "[geometry] with file, or min, max and shapes"),
+        None => None,
         Some(geometry) => read_geometry(&mut checker, geometry, origin, &mut sources, &mut elsewhere),
     };
     let (geometry, mut notes) = geometry.map_or((None, Vec::new()), |read| (Some(read.spec), read.notes));
@@ -127,27 +126,27 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     let start = start::start(&mut checker, raw, (folder, given), geometry.as_ref(), &mut sources);
     let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
     let model = model(&mut checker, &RawCase { network, ..raw.clone() }, geometry.as_ref(), start);
-    shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref());
+    shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref().and_then(Model::sides));
     permeability::permeability(&mut checker, model.as_ref(), geometry.as_ref());
     relative_permeability::relative_permeability(&mut checker, model.as_ref());
-    let end = check::end(&mut checker, raw, model.as_ref());
-    let output = check::output(&mut checker, raw, end, in_spacings(geometry.as_ref(), model.as_ref()));
-    let steady = steady::steady(&mut checker, raw, end, &output);
+    let end = records::end(&mut checker, raw, model.as_ref());
+    let output = records::output(&mut checker, raw, end, in_spacings(geometry.as_ref(), model.as_ref()));
+    let steady = records::steady(&mut checker, raw, end, &output);
     permeability::records(&mut checker, model.as_ref(), (end, steady.is_some()), &output);
     relative_permeability::records(&mut checker, model.as_ref(), (end, steady.is_some()), &output);
-    let expect = check::expectations(&mut checker, raw, model.as_ref(), geometry.as_ref());
+    let expect = records::expectations(&mut checker, raw, model.as_ref(), geometry.as_ref());
     magnitudes(&mut checker, "sph", raw.sph.as_ref());
     magnitudes(&mut checker, "thin-film", raw.thin_film.as_ref());
     magnitudes(&mut checker, "network", raw.network.as_ref());
     let mut mistakes = reading.refuse(checker.problems);
     mistakes.append(&mut elsewhere);
     let (Some(title), Some(geometry), Some(model), Some(end), true) =
-        (title, geometry, model, end, mistakes.is_empty())
+        (raw.title.clone(), geometry, model, end, mistakes.is_empty())
     else {
         return Err(InputError { mistakes });
     };
     let case = Case { title, geometry, model, end, steady, output, expect };
-    let resolved = resolve::text(&case);
+    let resolved = case_file::text(&case);
     Ok(Loaded { case, resolved, sources, notes, document })
 }
 
@@ -164,21 +163,26 @@ fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>, 
         (None, None, Some(raw)) => {
             network::network(checker, raw, geometry, start).map(|network| Model::Network(Box::new(network)))
         }
-        (None, None, None) => {
+        _ if checker.is_refused("sph") || checker.is_refused("thin-film") || checker.is_refused("network") => None,
+        _ => {
             checker.refuse("sph", "expected a model, found none", "add the table [sph], [thin-film] or [network]");
             None
         }
-        (sph, film, network) => {
-            let given = [("sph", sph.is_some()), ("thin-film", film.is_some()), ("network", network.is_some())];
-            let names: Vec<&str> = given.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
-            checker.refuse(
-                names.last().copied().unwrap_or_default(),
-                format!("expected exactly one model, found `{}`", names.join("` and `")),
-                "use [sph], direct simulation, [thin-film], a droplet on a flat wall, or [network], slow displacement in many pores",
-            );
-            None
-        }
     }
+}
+
+/// The case as it is written, or without its models where it has several.
+fn one_model(checker: &mut Checker, raw: RawCase) -> RawCase {
+    let given =
+        [("sph", raw.sph.is_some()), ("thin-film", raw.thin_film.is_some()), ("network", raw.network.is_some())];
+    let names: Vec<&str> = given.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
+    let (Some(last), true) = (names.last(), names.len() > 1) else { return raw };
+    checker.refuse(
+        *last,
+        format!("expected exactly one model, found `{}`", names.join("` and `")),
+        "use [sph], direct simulation, [thin-film], a droplet on a flat wall, or [network], slow displacement in many pores",
+    );
+    RawCase { sph: None, thin_film: None, network: None, ..raw }
 }
 
 /// Cuts the shapes at the sides of the window that are open or periodic.

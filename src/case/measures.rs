@@ -1,8 +1,11 @@
-//! The measures of each solver by name, and the groups of them that a case can ask for; each is a table `[sph.measure.NAME]`.
+//! The measures of each solver by name, and the groups of them that a case can ask for are in `measure_groups`.
 
-use super::checked::{Drive, Model, Side, Sph};
-use super::film::checked::{FilmEquation, FilmMethod, ThinFilm};
-use super::raw::{Empty, RawMeasures};
+use super::case_file::Model;
+use super::film::{FilmEquation, FilmMethod, ThinFilm};
+use super::measure_groups::Offer;
+use super::open::Drive;
+use super::side::Side;
+use super::sph::Sph;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::nearest;
 
@@ -114,23 +117,6 @@ const COMPARISON: &[&str] = &[
     "direct-cpu-s",
 ];
 
-/// Measures that come together, and what a case must have for them.
-#[derive(Debug)]
-pub struct Offer {
-    /// Names.
-    pub names: &'static [&'static str],
-    /// What gives them, such as `[sph.measure.jurin]`.
-    pub given_by: String,
-    /// Whether the case has that.
-    pub is_given: bool,
-}
-
-impl Offer {
-    fn new(names: &'static [&'static str], given_by: &str, is_given: bool) -> Self {
-        Self { names, given_by: given_by.to_owned(), is_given }
-    }
-}
-
 /// All measures that the solver of a model knows, those that the case does not have among them; `geometry` is missing where it was wrong,
 /// `is_steady` where the case has `[time.steady]`.
 #[must_use]
@@ -204,8 +190,8 @@ fn of_permeability(sph: &Sph) -> [Offer; 2] {
 /// The measures of a thin film.
 fn of_film(film: &ThinFilm) -> [Offer; 7] {
     let has_angle = film.contact_angle.is_some();
-    let is_particles = matches!(film.method, FilmMethod::Particles { .. });
-    let is_known = has_angle && matches!(film.equation, FilmEquation::Geometric { .. }) && film.droplets.len() == 1;
+    let is_particles = matches!(film.method, FilmMethod::Particles(_));
+    let is_known = has_angle && matches!(film.equation, FilmEquation::Geometric(_)) && film.droplets.len() == 1;
     [
         Offer::new(THIN_FILM, "a thin film", true),
         Offer::new(FILM_PARTICLES, "[thin-film.method.particles]", is_particles),
@@ -242,83 +228,4 @@ pub fn unmeasured(name: &str, offers: &[Offer]) -> Option<(String, String)> {
     let meant = nearest(name, offers.iter().flat_map(|offer| offer.names.iter().copied()));
     let meant = meant.map_or(String::new(), |meant| format!("did you mean `{meant}`? "));
     Some((format!("unknown measure `{name}`"), format!("{meant}measured in this case: {list}")))
-}
-
-/// The set of groups, and its way from a case file and back into one.
-macro_rules! groups {
-    ($($(#[$doc:meta])* $group:ident: [$($name:literal),*],)*) => {
-        /// Named groups of measures a case can ask for; each is a table `[sph.measure.NAME]`.
-        #[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
-        pub struct MeasureSet {
-            $($(#[$doc])* pub $group: bool,)*
-        }
-
-        impl MeasureSet {
-            /// The groups whose tables are there.
-            pub(super) fn from_raw(raw: &RawMeasures) -> Self {
-                Self { $($group: raw.$group.is_some(),)* }
-            }
-
-            /// The names of the measures of each group, and whether it is asked for.
-            fn offers(&self) -> Vec<Offer> {
-                vec![$(Offer {
-                    names: &[$($name),*],
-                    given_by: format!("[sph.measure.{}]", stringify!($group).replace('_', "-")),
-                    is_given: self.$group,
-                },)*]
-            }
-
-            /// A table for each group that is asked for.
-            pub(super) fn to_raw(&self) -> RawMeasures {
-                RawMeasures { $($group: self.$group.then_some(Empty {}),)* }
-            }
-        }
-    };
-}
-
-groups! {
-    /// `base-m`, `height-m` and their ratios to the exact ones of a drop on a straight wall.
-    sessile_drop: ["base-m", "height-m", "base-ratio", "height-ratio"],
-    /// `laplace-jump-ratio`, `parasitic-capillary-number` of a free drop.
-    laplace_drop: ["laplace-jump-ratio", "parasitic-capillary-number", "radius-scatter-ratio"],
-    /// `velocity-l2-error` against plane Poiseuille flow driven by gravity.
-    poiseuille: ["velocity-l2-error", "slip-length-m"],
-    /// `decay-rate-error` against the Taylor-Green vortex.
-    taylor_green: ["decay-rate-error"],
-    /// `filling-angle-deg`, `neck-half-width-m`, `capillary-pressure-ratio` of a bridge between two discs.
-    capillary_bridge: ["filling-angle-deg", "neck-half-width-m", "capillary-pressure-ratio", "filling-angle-ratio"],
-    /// `interface-curvature-ratio`, `capillary-pressure-ratio` of the menisci between four discs.
-    four_discs: ["interface-curvature-per-m", "interface-curvature-ratio", "capillary-pressure-ratio"],
-    /// Wetted part and height of a drop on a disc.
-    drop_on_disc: ["half-angle-deg", "half-angle-ratio", "height-ratio"],
-    /// Period and decay of a free drop that oscillates between two ellipses.
-    oscillating_drop: ["period-s", "decay-rate", "period-ratio", "decay-rate-ratio"],
-    /// Amplitude of a standing wave on a flat interface.
-    capillary_wave: ["wave-rms-error"],
-    /// Height, speed and roundness of a bubble (the wetting phase) that rises.
-    rising_bubble: ["rise-center-m", "max-rise-velocity", "min-circularity"],
-    /// Deformation of a drop between two moving walls.
-    shear_drop: ["deformation", "deformation-ratio"],
-    /// Velocity and flow rates of two layers between plates.
-    layered_poiseuille: ["layered-velocity-l2-error", "wetting-flow-rate-ratio", "non-wetting-flow-rate-ratio"],
-    /// Extreme velocities on the center lines of a lid-driven cavity.
-    cavity: ["u-min", "v-max", "v-min"],
-    /// Drag on the solids of a periodic cell that a body force drives fluid through.
-    cylinder_array: ["drag-over-mu-u", "mean-velocity-m-per-s", "permeability-m2", "unsteady-share"],
-    /// Permeability tensor of a periodic cell by a body force along each axis in turn: see `of_permeability`.
-    permeability: [],
-    /// Relative permeability of each phase with the other one as a part of the solid.
-    relative_permeability: ["permeability-m2", "relative-permeability-wetting", "relative-permeability-non-wetting", "saturation", "unsteady-share"],
-    /// Capillary pressure of a meniscus in the throat between two bodies; between discs over the exact entry pressure.
-    throat_entry: ["entry-pressure-Pa", "entry-pressure-ratio", "entry-curvature-ratio"],
-    /// Difference of the mean levels on both sides of a plate.
-    jurin: ["rise-difference-m", "rise-ratio"],
-    /// Angles, speeds and forces of a drop that moves or is held on a wall.
-    moving_drop: ["advancing-angle-deg", "receding-angle-deg", "advancing-speed-m-per-s", "receding-speed-m-per-s", "advancing-way-m-per-s", "receding-way-m-per-s", "advancing-capillary-number", "receding-capillary-number", "advancing-wall-angle-deg", "receding-wall-angle-deg", "adhesion-tension-N-per-m", "retention-N-per-m", "wall-retention-N-per-m", "stream-drag-N-per-m", "net-drag-N-per-m", "drag-over-retention", "drag-over-wall-retention", "momentum-balance-error", "detachment-time-s"],
-    /// Exponent of a drop that spreads.
-    spreading: ["spreading-exponent"],
-    /// Filled length of a slit between two open sides.
-    slit_filling: ["filled-length-m", "filling-ratio", "filling-error"],
-    /// Height of the meniscus that rises from an open side.
-    capillary_rise: ["peak-apex-m", "peak-time-s", "minimum-apex-m", "minimum-time-s", "final-apex-m"],
 }

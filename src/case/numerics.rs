@@ -1,8 +1,60 @@
-//! Checks of `[sph.numerics]`, and its defaults.
+//! `[sph.numerics]`: parameters of the method, and their defaults.
 
-use super::checked::{Numerics, SurfaceForce, ViscousStep, ViscousTerm};
-use super::raw::{RawNumerics, RawViscousStep, RawViscousTerm};
-use crate::input::Checker;
+use super::surface_force::SurfaceForce;
+use crate::input::tables::{Key, checked_tables, words};
+
+checked_tables! {
+    /// Parameters of the method.
+    pub struct RawNumerics for Numerics {
+        /// Form of the viscous term (default `stress`).
+        pub viscous_term: ViscousTerm,
+        /// Viscous force from the velocity at the end or the beginning of the step (default `implicit`).
+        pub viscous_step: ViscousStep,
+        /// Density-error correction in the pressure equation: largest share of the error removed per step (default 0.2;
+        /// with `csf` 0.02; without tension 0).
+        pub density_error_correction: f64 => Key::within("a share", 0.0, 1.0),
+        /// Density-error correction by particle shifting: share of the error removed per step (default 0; without
+        /// tension 0.2).
+        pub density_error_shifting: f64 => Key::within("a share", 0.0, 1.0),
+        /// Background pressure over `σ/h`, or over `ρ v²` without tension (default 0; with `csf` 0.5).
+        pub background_pressure: f64 => Key::within("a factor", 0.0, 1.0e3),
+        /// Strength of particle shifting (default 2; with `csf` 0).
+        pub shifting: f64 => Key::within("a factor", 0.0, 100.0),
+        /// Strength of the anti-clustering force in particle shifting (default 0.2; with `csf` or without tension 0).
+        pub anti_clustering: f64 => Key::within("a factor", 0.0, 1.0),
+        /// Largest stretch `β` of velocity differences at walls; sets the slip without a slip length (default 10.0).
+        pub wall_stretch: f64 => Key::within("a factor", 1.0, 1.0e3),
+        /// Wall particles follow walls that the lattice does not fit (default true).
+        pub fitted_walls: bool,
+        /// Particles follow the initial interface where the lattice does not fit it (default true; with `csf` or
+        /// without tension false).
+        pub fitted_interface: bool,
+        /// Largest relative residual of the pressure solve (default 1e-6).
+        pub pressure_tolerance: f64 => Key::within("a relative residual", 1.0e-13, 0.1),
+        /// Factor on all limits of the time step; of that by velocity up to a Courant number of 0.3 (default 1).
+        pub time_step_factor: f64 => Key::within("a factor", 1.0e-3, 10.0),
+    }
+}
+
+words! {
+    /// Forms of the viscous term.
+    pub enum ViscousTerm {
+        /// Szewc et al. 2012; Huber et al. 2013, Eq. 16.
+        Szewc,
+        /// Morris et al. 1997 with the harmonic mean of the viscosities.
+        Morris,
+        /// The same with the transposed velocity gradient where the viscosity changes.
+        Stress,
+    }
+
+    /// How viscosity goes on in time.
+    pub enum ViscousStep {
+        /// By the velocity at the end of the step: no limit of the time step.
+        Implicit,
+        /// By the velocity at its beginning: steps are short where the fluid is thick or the spacing fine.
+        Explicit,
+    }
+}
 
 /// Defaults by what flows. The paper's surface force keeps its particles in order by background pressure and the density-error correction in the pressure equation,
 /// the others by shifting and either that correction or the one by shifting (docs/numerics).
@@ -32,69 +84,4 @@ pub(super) fn default(surface_force: Option<SurfaceForce>) -> Numerics {
 /// Defaults of the flows beside a frozen interface: those of one fluid, with particles along the interface.
 pub(super) fn beside_frozen_interface() -> Numerics {
     Numerics { fitted_interface: true, ..default(None) }
-}
-
-pub(super) fn numerics(checker: &mut Checker, raw: &RawNumerics, default: Numerics) -> Numerics {
-    let mut within = |key: &str, given: Option<f64>, range: (f64, f64), what: &str, default: f64| {
-        checker.within(&format!("sph.numerics.{key}"), given, range, what).unwrap_or(default)
-    };
-    Numerics {
-        viscous_term: match raw.viscous_term {
-            None => default.viscous_term,
-            Some(RawViscousTerm::Stress) => ViscousTerm::Stress,
-            Some(RawViscousTerm::Morris) => ViscousTerm::Morris,
-            Some(RawViscousTerm::Szewc) => ViscousTerm::Szewc,
-        },
-        viscous_step: match raw.viscous_step {
-            None => default.viscous_step,
-            Some(RawViscousStep::Implicit) => ViscousStep::Implicit,
-            Some(RawViscousStep::Explicit) => ViscousStep::Explicit,
-        },
-        density_error_correction: within(
-            "density-error-correction",
-            raw.density_error_correction,
-            (0.0, 1.0),
-            "a share",
-            default.density_error_correction,
-        ),
-        density_error_shifting: within(
-            "density-error-shifting",
-            raw.density_error_shifting,
-            (0.0, 1.0),
-            "a share",
-            default.density_error_shifting,
-        ),
-        background_pressure: within(
-            "background-pressure",
-            raw.background_pressure,
-            (0.0, 1.0e3),
-            "a factor",
-            default.background_pressure,
-        ),
-        shifting: within("shifting", raw.shifting, (0.0, 100.0), "a factor", default.shifting),
-        anti_clustering: within(
-            "anti-clustering",
-            raw.anti_clustering,
-            (0.0, 1.0),
-            "a factor",
-            default.anti_clustering,
-        ),
-        wall_stretch: within("wall-stretch", raw.wall_stretch, (1.0, 1.0e3), "a factor", default.wall_stretch),
-        fitted_walls: raw.fitted_walls.unwrap_or(default.fitted_walls),
-        fitted_interface: raw.fitted_interface.unwrap_or(default.fitted_interface),
-        pressure_tolerance: within(
-            "pressure-tolerance",
-            raw.pressure_tolerance,
-            (1.0e-13, 0.1),
-            "a relative residual",
-            default.pressure_tolerance,
-        ),
-        time_step_factor: within(
-            "time-step-factor",
-            raw.time_step_factor,
-            (1.0e-3, 10.0),
-            "a factor",
-            default.time_step_factor,
-        ),
-    }
 }

@@ -1,14 +1,92 @@
-//! Checks of `[sph.sides.open]`: what is given at inlets, outlets and periodic sides with a flow, and what cannot work.
+//! `[sph.sides.open]`: what is given at inlets, outlets and periodic sides with a flow, and what cannot work.
 
-use super::checked::{Drive, Open, PressureSteps, Profile, SIDES};
-use super::raw::{RawOpenSide, RawPhase, RawProfile, RawSide, RawSides};
+use super::fluid::RawPhase;
+use super::side::{SIDES, Side, Sides};
 use crate::input::Checker;
+use crate::input::tables::{Key, checked_tables, tables, words};
+
+tables! {
+    /// The open sides: a table for each side that fluid passes through.
+    pub struct RawOpenSides {
+        /// Flow through the side.
+        pub left: RawOpenSide,
+        /// Flow through the side.
+        pub right: RawOpenSide,
+        /// Flow through the side.
+        pub bottom: RawOpenSide,
+        /// Flow through the side.
+        pub top: RawOpenSide,
+    }
+
+    /// An inlet, an outlet, or a periodic side with a given flow; one of pressure, velocity and flow rate.
+    pub struct RawOpenSide {
+        /// Dirichlet pressure in Pa, in the phase that enters (default 0 at an outlet).
+        pub pressure: f64,
+        /// A pressure that rises in equal steps.
+        pub pressure_steps: RawPressureSteps,
+        /// Mean inward velocity over the opening in m/s.
+        pub velocity: f64 => Key::positive("a mean velocity inwards in m/s"),
+        /// Inward flow rate per depth in m²/s.
+        pub flow_rate: f64 => Key::positive("a flow rate inwards in m2/s"),
+        /// Velocity profile over the opening; at periodic sides the initial one (default `plug`).
+        pub profile: Profile,
+        /// Phase that enters (default: the phase there at time zero).
+        pub phase: RawPhase,
+    }
+}
+
+checked_tables! {
+    /// A pressure that rises in equal steps, each held for the same time.
+    pub struct RawPressureSteps for PressureSteps {
+        /// Pressure rise per step in Pa.
+        pub rise: f64 => Key::positive("a step in Pa").example("rise = 20.0"),
+        /// Time for which each pressure is held, in s.
+        pub every_time: f64 => Key::positive("a time in s").example("every-time = 1.0e-3"),
+    }
+}
+
+words! {
+    /// How the velocity of an inlet is spread over its side.
+    pub enum Profile {
+        /// The same everywhere.
+        Plug,
+        /// A parabola that vanishes at walls.
+        Parabolic,
+    }
+}
+
+/// What drives the flow through an open side, and what comes in.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Open {
+    /// What is given at the side.
+    pub drive: Drive,
+    /// Whether the phase that comes in is the wetting one; absent: what stands at the side at the start.
+    pub enters_wetting: Option<bool>,
+    /// How a given pressure rises in steps.
+    pub pressure_steps: Option<PressureSteps>,
+}
+
+/// What is given at an open side.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Drive {
+    /// A pressure in Pa.
+    Pressure(f64),
+    /// The mean velocity inwards in m/s.
+    Velocity(f64, Profile),
+    /// The area that comes in per time in m²/s.
+    FlowRate(f64, Profile),
+}
 
 /// The flow through the left, right, bottom and top side; none where a mistake was found.
-pub(super) fn open(checker: &mut Checker, raw: &RawSides, two_phases: bool) -> Option<[Option<Open>; 4]> {
+pub(super) fn open(
+    checker: &mut Checker,
+    sides: &Sides,
+    tables: RawOpenSides,
+    two_phases: bool,
+) -> Option<[Option<Open>; 4]> {
     let before = checker.problems.len();
-    let kinds = [raw.left, raw.right, raw.bottom, raw.top].map(|side| side.unwrap_or(RawSide::Wall));
-    let tables = raw.open.clone().unwrap_or_default();
+    let kinds = [sides.left, sides.right, sides.bottom, sides.top];
     let tables = [tables.left, tables.right, tables.bottom, tables.top];
     let mut open = [None; 4];
     for (i, table) in tables.iter().enumerate() {
@@ -16,12 +94,12 @@ pub(super) fn open(checker: &mut Checker, raw: &RawSides, two_phases: bool) -> O
         if let Some(table) = table {
             phase(checker, SIDES[i], table, two_phases);
         }
-        if table.as_ref().is_some_and(|table| table.profile == Some(RawProfile::Parabolic)) {
+        if table.as_ref().is_some_and(|table| table.profile == Some(Profile::Parabolic)) {
             parabola(checker, i, kinds);
         }
     }
     for pair in [[0, 1], [2, 3]] {
-        if pair.iter().all(|&i| kinds[i] == RawSide::Periodic && tables[i].is_some()) {
+        if pair.iter().all(|&i| kinds[i] == Side::Periodic && tables[i].is_some()) {
             checker.refuse(
                 at(SIDES[pair[1]]),
                 format!("both `{}` and `{}` have a flow, and they are one side", SIDES[pair[0]], SIDES[pair[1]]),
@@ -37,17 +115,17 @@ fn at(side: &str) -> String {
     format!("sph.sides.open.{side}")
 }
 
-fn is_open(kind: RawSide) -> bool {
-    matches!(kind, RawSide::Inlet | RawSide::Outlet)
+fn is_open(kind: Side) -> bool {
+    matches!(kind, Side::Inlet | Side::Outlet)
 }
 
-fn side(checker: &mut Checker, (name, kind): (&str, RawSide), raw: Option<&RawOpenSide>) -> Option<Open> {
+fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenSide>) -> Option<Open> {
     let path = at(name);
     let given = raw.map_or([false; 3], |raw| [raw.pressure.is_some(), raw.velocity.is_some(), raw.flow_rate.is_some()]);
     let (allowed, example): ([bool; 3], &str) = match kind {
-        RawSide::Inlet => ([true; 3], "velocity in m/s, flow-rate in m2/s or pressure in Pa"),
-        RawSide::Outlet => ([true, false, false], "pressure in Pa"),
-        RawSide::Periodic => ([false, true, true], "velocity in m/s or flow-rate in m2/s"),
+        Side::Inlet => ([true; 3], "velocity in m/s, flow-rate in m2/s or pressure in Pa"),
+        Side::Outlet => ([true, false, false], "pressure in Pa"),
+        Side::Periodic => ([false, true, true], "velocity in m/s or flow-rate in m2/s"),
         _ => {
             if raw.is_some() {
                 checker.refuse(
@@ -59,14 +137,15 @@ fn side(checker: &mut Checker, (name, kind): (&str, RawSide), raw: Option<&RawOp
             return None;
         }
     };
-    if kind == RawSide::Periodic && raw.is_none() {
+    if kind == Side::Periodic && raw.is_none() {
         return None;
     }
     let count = given.iter().filter(|given| **given).count();
     // An outlet to the open air needs no more than its name.
-    let needed = usize::from(kind != RawSide::Outlet);
+    let needed = usize::from(kind != Side::Outlet);
     let is_wrong = given.iter().zip(allowed).any(|(given, allowed)| *given && !allowed);
-    if is_wrong || count > 1 || count < needed {
+    let is_refused = checker.is_refused(&path);
+    if is_wrong || count > 1 || (count < needed && !is_refused) {
         let kind = format!("{kind:?}").to_lowercase();
         let found = ["pressure", "velocity", "flow-rate"].iter().zip(given).filter(|(_, given)| *given);
         let found: Vec<&str> = found.map(|(key, _)| *key).collect();
@@ -79,18 +158,13 @@ fn side(checker: &mut Checker, (name, kind): (&str, RawSide), raw: Option<&RawOp
         return None;
     }
     let raw = raw.cloned().unwrap_or_default();
-    let shape = match raw.profile {
-        None | Some(RawProfile::Plug) => Profile::Plug,
-        Some(RawProfile::Parabolic) => Profile::Parabolic,
-    };
-    let velocity = checker.positive(&format!("{path}.velocity"), raw.velocity, "a mean velocity inwards in m/s");
-    let rate = checker.positive(&format!("{path}.flow-rate"), raw.flow_rate, "a flow rate inwards in m2/s");
-    let drive = match (velocity, rate) {
+    let shape = raw.profile.unwrap_or(Profile::Plug);
+    let drive = match (raw.velocity, raw.flow_rate) {
         (Some(velocity), _) => Drive::Velocity(velocity, shape),
         (_, Some(rate)) => Drive::FlowRate(rate, shape),
         _ => Drive::Pressure(raw.pressure.unwrap_or(0.0)),
     };
-    if raw.profile.is_some() && raw.velocity.is_none() && raw.flow_rate.is_none() {
+    if raw.profile.is_some() && raw.velocity.is_none() && raw.flow_rate.is_none() && !is_refused {
         checker.refuse(
             format!("{path}.profile"),
             "a profile needs a velocity or a flow rate",
@@ -112,10 +186,7 @@ fn pressure_steps(checker: &mut Checker, side: &str, raw: &RawOpenSide) -> Optio
         );
         return None;
     }
-    let rise = checker.require_positive(&format!("{path}.rise"), steps.rise, "rise = 20.0", "a step in Pa");
-    let every = format!("{path}.every-time");
-    let every_time = checker.require_positive(&every, steps.every_time, "every-time = 1.0e-3", "a time in s");
-    Some(PressureSteps { rise: rise?, every_time: every_time? })
+    steps.clone().complete()
 }
 
 fn phase(checker: &mut Checker, name: &str, raw: &RawOpenSide, two_phases: bool) {
@@ -129,9 +200,9 @@ fn phase(checker: &mut Checker, name: &str, raw: &RawOpenSide, two_phases: bool)
 }
 
 /// A parabola ends at walls; it may have its top on a mirror.
-fn parabola(checker: &mut Checker, side: usize, kinds: [RawSide; 4]) {
+fn parabola(checker: &mut Checker, side: usize, kinds: [Side; 4]) {
     let across = if side < 2 { [2, 3] } else { [0, 1] };
-    if across.iter().any(|&i| kinds[i] == RawSide::Periodic) || across.iter().all(|&i| kinds[i] == RawSide::Symmetry) {
+    if across.iter().any(|&i| kinds[i] == Side::Periodic) || across.iter().all(|&i| kinds[i] == Side::Symmetry) {
         checker.refuse(
             format!("{}.profile", at(SIDES[side])),
             "a parabola needs a wall at one end at least",
@@ -140,7 +211,7 @@ fn parabola(checker: &mut Checker, side: usize, kinds: [RawSide; 4]) {
     }
 }
 
-fn together(checker: &mut Checker, kinds: [RawSide; 4], open: [Option<Open>; 4]) {
+fn together(checker: &mut Checker, kinds: [Side; 4], open: [Option<Open>; 4]) {
     let sides: Vec<usize> = (0..4).filter(|&i| is_open(kinds[i])).collect();
     let [first, rest @ ..] = sides.as_slice() else { return };
     for &i in rest.iter().filter(|&&i| i / 2 != first / 2) {
@@ -162,5 +233,24 @@ fn together(checker: &mut Checker, kinds: [RawSide; 4], open: [Option<Open>; 4])
             "fluid flows in at given velocities everywhere and has no way out",
             "make one side an \"outlet\"",
         );
+    }
+}
+
+/// The table of an open side.
+pub(super) fn raw_open(open: Open) -> RawOpenSide {
+    let given = match open.drive {
+        Drive::Pressure(pressure) => RawOpenSide { pressure: Some(pressure), ..RawOpenSide::default() },
+        Drive::Velocity(mean, shape) => {
+            RawOpenSide { velocity: Some(mean), profile: Some(shape), ..RawOpenSide::default() }
+        }
+        Drive::FlowRate(rate, shape) => {
+            RawOpenSide { flow_rate: Some(rate), profile: Some(shape), ..RawOpenSide::default() }
+        }
+    };
+    let phase = |wetting| if wetting { RawPhase::Wetting } else { RawPhase::NonWetting };
+    RawOpenSide {
+        phase: open.enters_wetting.map(phase),
+        pressure_steps: open.pressure_steps.map(RawPressureSteps::from),
+        ..given
     }
 }

@@ -1,6 +1,9 @@
 //! Checks of `[sph.measure.permeability]`: one fluid, periodic sides, and a force along each axis that they let through.
 
-use super::checked::{Model, Output, SIDES, Side, Sph};
+use super::case_file::Model;
+use super::output::Output;
+use super::side::{SIDES, Side};
+use super::sph::Sph;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 

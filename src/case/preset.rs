@@ -2,37 +2,36 @@
 //!
 //! Values of the usual tables (water: IAPWS; alkanes: NIST), rounded to the digits given; pressure is atmospheric.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::input::tables::words;
 
-/// A fluid with known properties.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Preset {
-    /// Hexane.
-    NHexane,
-    /// Heptane.
-    NHeptane,
-    /// Octane.
-    NOctane,
-    /// Nonane.
-    NNonane,
-    /// Decane.
-    NDecane,
-    /// Undecane.
-    NUndecane,
-    /// Dodecane.
-    NDodecane,
-    /// Tridecane.
-    NTridecane,
-    /// Hexadecane.
-    NHexadecane,
-    /// Water.
-    Water,
-    /// Air at atmospheric pressure.
-    Air,
-    /// Glycerol.
-    Glycerol,
+words! {
+    /// A fluid with known properties.
+    pub enum Preset {
+        /// Hexane.
+        NHexane,
+        /// Heptane.
+        NHeptane,
+        /// Octane.
+        NOctane,
+        /// Nonane.
+        NNonane,
+        /// Decane.
+        NDecane,
+        /// Undecane.
+        NUndecane,
+        /// Dodecane.
+        NDodecane,
+        /// Tridecane.
+        NTridecane,
+        /// Hexadecane.
+        NHexadecane,
+        /// Water.
+        Water,
+        /// Air at atmospheric pressure.
+        Air,
+        /// Glycerol.
+        Glycerol,
+    }
 }
 
 /// Properties of a fluid at one temperature.

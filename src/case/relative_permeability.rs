@@ -1,7 +1,12 @@
 //! Checks of `[sph.measure.relative-permeability]`: two phases, walls at rest without slip, and a force along one axis with periodic sides.
 
-use super::checked::{InitialVelocity, MeasureSet, Model, Output, SIDES, Side, Sph};
+use super::case_file::Model;
+use super::initial::InitialVelocity;
+use super::measure_groups::MeasureSet;
+use super::output::Output;
 use super::permeability::{few_records, no_side_is_driven};
+use super::side::{SIDES, Side};
+use super::sph::Sph;
 use crate::input::Checker;
 
 /// Flows that follow one another: of the whole pore and of each phase.

@@ -1,12 +1,9 @@
 //! What editors and new users start from: the JSON schema of a case file and a commented starter case.
 
-mod ranges;
-
 use serde_json::{Map, Value, json};
 
-use super::raw::RawCase;
+use super::case_file::RawCase;
 use crate::wetting::laws;
-use ranges::RANGES;
 
 /// Tables that hold exactly one of some tables or keys, each an alternative: the type, and the keys that are none.
 const EXACTLY_ONE: [(&str, &[&str]); 4] =
@@ -18,56 +15,17 @@ const AT_MOST_ONE: [&str; 2] = ["RawFilmMethod", "RawFilmWetting"];
 /// The models of a case, exactly one of them.
 const MODELS: [&str; 3] = ["sph", "thin-film", "network"];
 
-/// Keys that their table requires.
-const REQUIRED: [(&str, &[&str]); 15] = [
-    ("RawDroplet", &["half-width", "height"]),
-    ("RawExpectation", &["measure", "value", "tolerance"]),
-    ("RawGeometric", &["smoothing-length"]),
-    ("RawMeasured", &["geometry-hash"]),
-    ("RawMeasuredThroat", &["index", "formula-curvature", "entry-curvature"]),
-    ("RawPartialWetting", &["contact-angle-deg"]),
-    ("RawPhases", &["wetting"]),
-    ("RawPrecursor", &["film-height"]),
-    ("RawPressureSteps", &["rise", "every-time"]),
-    ("RawSlip", &["slip-length"]),
-    ("RawSph", &["spacing", "phases"]),
-    ("RawStripes", &["width"]),
-    ("RawTaylorGreen", &["speed"]),
-    ("RawThinFilm", &["spacing", "droplets", "equation"]),
-    ("RawTime", &["end"]),
-];
-
 /// The JSON schema of a case file: every key with its unit in its description, the ranges of numbers, and of models that exclude each other a
 /// branch for each.
 #[must_use]
 pub fn schema() -> Value {
     let mut schema = schemars::schema_for!(RawCase).to_value();
     without_null(&mut schema);
-    schema["required"] = json!(["format", "title", "geometry"]);
     schema["properties"]["format"]["const"] = json!(1);
     let models = branches(&schema["properties"], &MODELS);
     schema["oneOf"] = models;
-    for (table, key, range) in RANGES {
-        let key = &mut schema["$defs"][table]["properties"][key];
-        // Of several numbers each has the range.
-        let number = if key["type"] == "array" { &mut key["items"] } else { key };
-        for (keyword, limit) in range.keywords() {
-            number[keyword] = limit;
-        }
-    }
-    for (table, required) in REQUIRED {
-        schema["$defs"][table]["required"] = json!(required);
-    }
     for law in laws() {
         schema["$defs"]["RawWetting"]["properties"][&law.key]["description"] = json!(law.about);
-        let table = &mut schema["$defs"][law.type_name];
-        for (key, quantity) in &law.keys {
-            for (keyword, limit) in quantity.range.keywords() {
-                table["properties"][key][keyword] = limit;
-            }
-        }
-        let required = law.keys.iter().filter(|(_, quantity)| quantity.default.is_none()).map(|(key, _)| key);
-        table["required"] = required.cloned().collect();
     }
     for (table, others) in EXACTLY_ONE {
         let keys = schema["$defs"][table]["properties"].as_object().into_iter().flat_map(Map::keys);

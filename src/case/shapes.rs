@@ -1,14 +1,74 @@
 //! Domain and solids of a case or of a shape file: which keys go together, and what the shapes themselves say.
 
-use super::checked::{Model, Side};
-use super::network::raw::{RawNetworkSide, RawNetworkSides};
-use super::raw::{RawGeometry, RawShapeFile, RawSide, RawSides};
-use crate::geometry::import::{Beyond, Options};
-use crate::geometry::spec::{GeometrySpec, ShapeSpec};
+use std::path::PathBuf;
+
+use super::network::{RawNetworkSide, RawNetworkSides};
+use super::side::{Side, Sides};
+use super::sides::RawSides;
+use crate::geometry::import::{Beyond, Options, options};
+use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
+use crate::input::tables::{Key, tables};
 use crate::input::{Checker, Problem};
+
+tables! {
+    /// A shape file: domain and solids.
+    pub struct RawShapeFile {
+        /// Version of the format: 1.
+        pub format: u32 => Key::required("format = 1"),
+        /// Lower left corner of the domain in m.
+        pub min: [f64; 2],
+        /// Upper right corner of the domain in m.
+        pub max: [f64; 2],
+        /// Whether the shapes are solid (`inside`, the default) or the pore (`outside`).
+        pub solid: SolidSide,
+        /// The shapes; overlaps are united.
+        pub shapes: Vec<ShapeSpec>,
+    }
+
+    /// Domain and solids of a case.
+    pub struct RawGeometry {
+        /// Shape file or drawing.
+        pub file: PathBuf,
+        /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px (default: that of the file).
+        pub unit: String,
+        /// Drawing unit in m, in place of `unit`.
+        pub scale: f64 => options::SCALE,
+        /// Lower left and upper right corner in m of the part that becomes the domain (default: all).
+        pub window: [[f64; 2]; 2],
+        /// Layers of an SVG or DXF drawing (default: all).
+        pub layers: Vec<String>,
+        /// Ends of lines of a DXF drawing that are so near meet, in units of the drawing (default: 1e-6 of its size).
+        pub join_within: f64 => options::JOIN_WITHIN,
+        /// Gray value between solid (0, black) and pore (1, white) of a mask (default: that of the image).
+        pub threshold: f64 => options::THRESHOLD,
+        /// Side of a mask pixel in m (required for a mask).
+        pub pixel_size: f64 => options::PIXEL_SIZE,
+        /// Exchanges solid and pore of the file (default false).
+        pub invert: bool,
+        /// Reads polygons with vertices on a circle as discs (default true).
+        pub recognize_circles: bool,
+        /// Polygon corners that turn by less become arcs; 0: none (default 20.0).
+        pub smooth_below_deg: f64 => options::SMOOTH_BELOW,
+        /// Columns of x, y and radius in a disc list, from 0 (default `[0, 1, 2]`).
+        pub columns: [usize; 3],
+        /// Separator of a disc list (default: any usual one).
+        pub separator: char,
+        /// The third column of a disc list holds diameters; required if its header names them (default false).
+        pub diameters: bool,
+        /// Lower left corner of the domain in m (default: that of the file).
+        pub min: [f64; 2],
+        /// Upper right corner of the domain in m (default: that of the file).
+        pub max: [f64; 2],
+        /// Whether the inside or the outside of the shapes is solid; with `file` use `invert` (default `inside`).
+        pub solid: SolidSide,
+        /// The shapes, united; not with `file`.
+        pub shapes: Vec<ShapeSpec>,
+    }
+}
 
 /// The geometry of a shape file.
 pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<GeometrySpec> {
+    let raw = raw.in_range(checker, "");
     checker.format(raw.format);
     let RawShapeFile { format: _, min, max, solid, shapes } = raw;
     let keys = RawGeometry { min, max, solid, shapes, ..RawGeometry::default() };
@@ -129,9 +189,9 @@ pub(super) fn options(raw: &RawGeometry) -> Options {
 pub(super) fn beyond(sides: Option<&RawSides>) -> [Beyond; 4] {
     let Some(sides) = sides else { return [Beyond::Whole; 4] };
     [sides.left, sides.right, sides.bottom, sides.top].map(|side| match side {
-        Some(RawSide::Inlet | RawSide::Outlet) => Beyond::Straight,
-        Some(RawSide::Periodic) => Beyond::Nothing,
-        None | Some(RawSide::Wall | RawSide::Image | RawSide::Symmetry) => Beyond::Whole,
+        Some(Side::Inlet | Side::Outlet) => Beyond::Straight,
+        Some(Side::Periodic) => Beyond::Nothing,
+        None | Some(Side::Wall | Side::Image | Side::Symmetry) => Beyond::Whole,
     })
 }
 
@@ -161,12 +221,8 @@ pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &R
 }
 
 /// Refuses shapes whose images beyond periodic sides would be too many.
-pub(super) fn refuse_images(checker: &mut Checker, geometry: Option<&GeometrySpec>, model: Option<&Model>) {
-    let sides = match model {
-        Some(Model::Sph(sph)) => &sph.sides,
-        Some(Model::Network(network)) => &network.sides,
-        Some(Model::ThinFilm(_)) | None => return,
-    };
+pub(super) fn refuse_images(checker: &mut Checker, geometry: Option<&GeometrySpec>, sides: Option<&Sides>) {
+    let Some(sides) = sides else { return };
     let periodic = [sides.left == Side::Periodic, sides.bottom == Side::Periodic];
     for problem in geometry.map_or_else(Vec::new, |geometry| geometry.periodic_problems(periodic)) {
         checker.refuse(format!("geometry.{}", problem.path), problem.message, problem.help);

@@ -1,16 +1,65 @@
-//! Checks of `[sph.sides]` and `[sph.walls]`: what stands at the sides of the domain, and what walls are like.
+//! `[sph.sides]` and `[sph.walls]`: what stands at the sides of the domain, and what walls are like.
 
-use super::checked::{Side, Sides, Walls};
-use super::raw::{RawSide, RawSides, RawWalls};
-use crate::input::{Checker, Range};
+use super::open::{Open, RawOpenSides, raw_open};
+use super::side::{Side, Sides};
+use crate::input::Checker;
+use crate::input::tables::{Key, tables};
 
+tables! {
+    /// The four sides of the domain.
+    pub struct RawSides {
+        /// Kind of the side (default `wall`).
+        pub left: Side,
+        /// Kind of the side (default `wall`).
+        pub right: Side,
+        /// Kind of the side (default `wall`).
+        pub bottom: Side,
+        /// Kind of the side (default `wall`).
+        pub top: Side,
+        /// Speed of each wall side along itself (default: at rest).
+        pub speed: RawWallSpeeds,
+        /// What drives the flow through open sides, and what enters.
+        pub open: RawOpenSides,
+    }
+
+    /// Speeds of the walls at the sides, each along itself.
+    pub struct RawWallSpeeds {
+        /// Speed along the side, towards positive x or y, in m/s (default 0.0).
+        pub left: f64,
+        /// Speed along the side, towards positive x or y, in m/s (default 0.0).
+        pub right: f64,
+        /// Speed along the side, towards positive x or y, in m/s (default 0.0).
+        pub bottom: f64,
+        /// Speed along the side, towards positive x or y, in m/s (default 0.0).
+        pub top: f64,
+    }
+
+    /// What all walls are like, those of shapes and those at the sides.
+    pub struct RawWalls {
+        /// Navier slip length of all walls in m (default 0.0).
+        pub slip_length: f64 => Key::not_negative("a slip length in m"),
+        /// Slip length near contact lines in m; needs a wetting model (default: `slip-length`, else one spacing).
+        pub line_slip_length: f64 => Key::not_negative("a slip length in m"),
+    }
+}
+
+/// What all walls are like, those of shapes and those at the sides.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Walls {
+    /// Navier's slip length in m.
+    pub slip_length: f64,
+    /// The same near contact lines.
+    pub line_slip_length: f64,
+}
+
+/// The kinds of the sides.
 pub(super) fn sides(checker: &mut Checker, raw: &RawSides) -> Sides {
     let given = [("left", raw.left), ("right", raw.right), ("bottom", raw.bottom), ("top", raw.top)];
     for pair in given.chunks_exact(2) {
         let [(a, side_a), (b, side_b)] = pair else { continue };
         let (one, other, missing) = match (side_a, side_b) {
-            (Some(RawSide::Periodic), side) if *side != Some(RawSide::Periodic) => (a, b, side),
-            (side, Some(RawSide::Periodic)) if *side != Some(RawSide::Periodic) => (b, a, side),
+            (Some(Side::Periodic), side) if *side != Some(Side::Periodic) => (a, b, side),
+            (side, Some(Side::Periodic)) if *side != Some(Side::Periodic) => (b, a, side),
             _ => continue,
         };
         let found = if missing.is_none() { "is a wall by default" } else { "is not" };
@@ -20,14 +69,7 @@ pub(super) fn sides(checker: &mut Checker, raw: &RawSides) -> Sides {
             format!("set {other} = \"periodic\" too"),
         );
     }
-    let side = |side: Option<RawSide>| match side {
-        None | Some(RawSide::Wall) => Side::Wall,
-        Some(RawSide::Periodic) => Side::Periodic,
-        Some(RawSide::Image) => Side::Image,
-        Some(RawSide::Symmetry) => Side::Symmetry,
-        Some(RawSide::Inlet) => Side::Inlet,
-        Some(RawSide::Outlet) => Side::Outlet,
-    };
+    let side = |side: Option<Side>| side.unwrap_or(Side::Wall);
     Sides { left: side(raw.left), right: side(raw.right), bottom: side(raw.bottom), top: side(raw.top) }
 }
 
@@ -41,7 +83,7 @@ pub(super) fn wall_speeds(checker: &mut Checker, raw: &RawSides) -> [f64; 4] {
         ("top", raw.top, speed.top),
     ];
     sides.map(|(key, side, speed)| {
-        if speed.is_some() && side.is_some_and(|side| side != RawSide::Wall) {
+        if speed.is_some() && side.is_some_and(|side| side != Side::Wall) {
             checker.refuse(
                 format!("sph.sides.speed.{key}"),
                 format!("the side `{key}` is not a wall and cannot move"),
@@ -55,11 +97,7 @@ pub(super) fn wall_speeds(checker: &mut Checker, raw: &RawSides) -> [f64; 4] {
 /// Slip lengths; `has_lines` where contact lines can stand on the walls, `spacing` in m.
 pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spacing: Option<f64>) -> Walls {
     const LINE: &str = "sph.walls.line-slip-length";
-    let mut length =
-        |path: &str, given: Option<f64>| checker.in_range(path, given, Range::AtLeast(0.0), "a slip length in m");
-    let slip_length = length("sph.walls.slip-length", raw.slip_length);
-    let of_lines = length(LINE, raw.line_slip_length);
-    if of_lines.is_some() && !has_lines {
+    if raw.line_slip_length.is_some() && !has_lines {
         checker.refuse(
             LINE,
             "there are no contact lines without a wetting model",
@@ -68,5 +106,32 @@ pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spac
     }
     // A contact line on walls of which nothing is said slips by a spacing, so that it does not run over the particles next to them.
     let unsaid = if has_lines { spacing.unwrap_or_default() } else { 0.0 };
-    Walls { slip_length: slip_length.unwrap_or_default(), line_slip_length: of_lines.or(slip_length).unwrap_or(unsaid) }
+    Walls {
+        slip_length: raw.slip_length.unwrap_or_default(),
+        line_slip_length: raw.line_slip_length.or(raw.slip_length).unwrap_or(unsaid),
+    }
+}
+
+/// The table of the sides.
+pub(super) fn raw_sides(sides: &Sides, speeds: [f64; 4], open: [Option<Open>; 4]) -> RawSides {
+    // A side that is not a wall has no speed, not even 0.
+    let given = |side, speed| (side == Side::Wall && speed != 0.0).then_some(speed);
+    let [left, right, bottom, top] = speeds;
+    let speed = RawWallSpeeds {
+        left: given(sides.left, left),
+        right: given(sides.right, right),
+        bottom: given(sides.bottom, bottom),
+        top: given(sides.top, top),
+    };
+    RawSides {
+        left: Some(sides.left),
+        right: Some(sides.right),
+        bottom: Some(sides.bottom),
+        top: Some(sides.top),
+        speed: Some(speed),
+        open: open.iter().any(Option::is_some).then(|| {
+            let [left, right, bottom, top] = open.map(|open| open.map(raw_open));
+            RawOpenSides { left, right, bottom, top }
+        }),
+    }
 }

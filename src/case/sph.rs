@@ -1,26 +1,120 @@
-//! Checks of `[sph]`: ranges of every value, and which values go together.
+//! `[sph]`: direct simulation by incompressible SPH. Its table, the checks of its parts together, and the table of a checked simulation.
 
-use super::checked::{Fluid, LineDelta, MeasureSet, Sph, SurfaceForce};
+use super::fluid::{Fluid, RawFluid, RawInterface, RawPhases, density_ratio, fluid};
+use super::initial::{self, Initial, RawInitial, raw_initial};
+use super::measure_groups::{MeasureSet, RawMeasures};
 use super::network::state::Start;
-use super::preset::{COLD, WARM};
-use super::raw::{RawCsf, RawFluid, RawLineDelta, RawSph};
-use super::sides::{sides, wall_speeds, walls};
-use super::{initial, numerics, wetting};
+use super::numerics::{self, Numerics, RawNumerics};
+use super::open::{Open, open};
+use super::side::Sides;
+use super::sides::{RawSides, RawWalls, Walls, raw_sides, sides, wall_speeds, walls};
+use super::surface_force::{RawSurfaceForce, SurfaceForce, interface, raw_surface_force};
+use super::wetting::{self, RawWetting, WettingPatch};
 use crate::geometry::spec::GeometrySpec;
-use crate::input::{Checker, Range};
+use crate::input::Checker;
+use crate::input::tables::{Key, tables};
 use crate::math::Vec2;
+use crate::wetting::Wetting;
+
+tables! {
+    /// Direct simulation by incompressible SPH.
+    pub struct RawSph {
+        /// Initial particle spacing `dx` in m: at least 10 across the domain, 5 across the narrowest throat; at most
+        /// 2e7 particles, and no more than the free memory holds (1.6 kB each).
+        pub spacing: f64 => Key::positive("a spacing in m").example("spacing = 2.0e-5 # m"),
+        /// Smoothing length over spacing, `h/dx` (default 1.5).
+        pub smoothing_ratio: f64 => Key::within("smoothing length over spacing", 1.0, 3.0),
+        /// Length of the dimensionless numbers in m (default: the shorter of narrowest throat and root of the drop
+        /// area; else the shorter side).
+        pub reference_length: f64 => Key::positive("a length in m"),
+        /// Body force per mass along x and y in m/s² (default `[0.0, 0.0]`).
+        pub gravity: [f64; 2],
+        /// The one or two fluids.
+        pub phases: RawPhases => Key::required(PHASES),
+        /// Interface between the fluids.
+        pub interface: RawInterface,
+        /// Model of the surface force, one table (default `pressure-jump`).
+        pub surface_force: RawSurfaceForce,
+        /// Wetting model, one table (default: none).
+        pub wetting: RawWetting,
+        /// The four sides of the domain (default: walls).
+        pub sides: RawSides,
+        /// Slip of all walls, those of shapes and those at the sides.
+        pub walls: RawWalls,
+        /// Phases and velocity at time zero.
+        pub initial: RawInitial,
+        /// Parameters of the method, which rarely need a change.
+        pub numerics: RawNumerics,
+        /// Groups of measures for the report, one empty table each.
+        pub measure: RawMeasures,
+    }
+}
+
+/// Direct simulation by incompressible SPH (`[sph]`).
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Sph {
+    /// Initial particle spacing dx in m.
+    pub spacing: f64,
+    /// Smoothing length over spacing, h/dx.
+    pub smoothing_ratio: f64,
+    /// The phase through which angles are measured, color 1.
+    pub wetting: Fluid,
+    /// The other phase, color 0; absent in single-phase flow.
+    pub non_wetting: Option<Fluid>,
+    /// Interfacial tension in N/m; 0 in single-phase flow.
+    pub tension: f64,
+    /// Form of the surface force; absent where the tension is 0.
+    pub surface_force: Option<SurfaceForce>,
+    /// Wetting model; absent: no line force.
+    pub wetting_model: Option<Wetting>,
+    /// Parts of the walls with angles of their own.
+    pub wetting_patches: Vec<WettingPatch>,
+    /// The length L of the dimensionless numbers in m, where the case gives one.
+    pub reference_length: Option<f64>,
+    /// Body force per mass in m/s².
+    pub gravity: Vec2,
+    /// What stands at the four sides of the domain.
+    pub sides: Sides,
+    /// What all walls are like.
+    pub walls: Walls,
+    /// Speeds in m/s of the walls at the left, right, bottom and top side, along x or y.
+    pub wall_speeds: [f64; 4],
+    /// What drives the flow through the left, right, bottom and top side, where it is open or periodic with a given flow.
+    pub open: [Option<Open>; 4],
+    /// Initial phases and velocity.
+    pub initial: Initial,
+    /// Parameters of the method with a default that rarely needs a change (`[sph.numerics]`).
+    pub numerics: Numerics,
+    /// What the report measures beyond what every run has (`[sph.measure]`).
+    pub measure: MeasureSet,
+}
+
+impl Sph {
+    /// The tension in N/m of an interface that moves; 0 where it is frozen.
+    #[must_use]
+    pub fn acting_tension(&self) -> f64 {
+        if self.measure.relative_permeability { 0.0 } else { self.tension }
+    }
+
+    /// Whether contact lines slip by a spacing, with an angle that does not make up for it.
+    #[must_use]
+    pub fn has_lines_that_slip_by_a_spacing(&self) -> bool {
+        let law = self.wetting_model.filter(|law| !matches!(law, Wetting::Cox(_) | Wetting::CoxVoinov(_)));
+        law.is_some()
+            && self.acting_tension() > 0.0
+            && self.walls.line_slip_length == self.spacing
+            && self.walls.slip_length == 0.0
+    }
+}
+
+/// The fluids in a case file.
+const PHASES: &str = "[sph.phases.wetting] with preset, or density and viscosity";
 
 /// Most particles that a run may have: their pairs then fill the memory of a large machine.
 const MOST_PARTICLES: f64 = 2.0e7;
 
 /// Fewest particles across the domain: below, the kernels of opposite sides overlap.
 const FEWEST_ACROSS: f64 = 10.0;
-
-/// Smoothing length over spacing: below 1 too few neighbors, above 3 hundreds of them.
-const SMOOTHING_RATIO: (f64, f64) = (1.0, 3.0);
-
-/// Largest ratio of densities for which the pressure solve is known to converge.
-const LARGEST_DENSITY_RATIO: f64 = 1.0e4;
 
 /// Checks `[sph]`; `geometry` is missing where it was wrong.
 pub(super) fn sph(
@@ -29,29 +123,23 @@ pub(super) fn sph(
     geometry: Option<&GeometrySpec>,
     start: Option<Start>,
 ) -> Option<Sph> {
-    let spacing = checker.require_positive("sph.spacing", raw.spacing, "spacing = 2.0e-5 # m", "a spacing in m");
+    let spacing = raw.spacing;
     if let (Some(spacing), Some(geometry)) = (spacing, geometry) {
         particle_count(checker, spacing, geometry);
     }
-    let ratio =
-        checker.within("sph.smoothing-ratio", raw.smoothing_ratio, SMOOTHING_RATIO, "smoothing length over spacing");
-    let reference_length = raw.reference_length.and_then(|length| {
-        let example = "reference-length = 1.0e-3 # m";
-        checker.require_positive("sph.reference-length", Some(length), example, "a length in m")
-    });
     let phases = raw.phases.clone().unwrap_or_default();
-    let fluid_of_drop = phases.wetting.as_ref().map(|fluid| self::fluid(checker, "sph.phases.wetting", fluid));
-    let liquid = checker.require(
-        "sph.phases.wetting",
-        fluid_of_drop,
-        "[sph.phases.wetting] with preset, or density and viscosity",
-    );
-    let other = phases.non_wetting.as_ref().map(|fluid| self::fluid(checker, "sph.phases.non-wetting", fluid));
+    let fluid_of_drop = phases.wetting.as_ref().map(|raw| fluid(checker, "sph.phases.wetting", raw));
+    let liquid = checker.require("sph.phases.wetting", fluid_of_drop, PHASES);
+    let other = phases.non_wetting.as_ref().map(|raw| fluid(checker, "sph.phases.non-wetting", raw));
     if let (Some(Some(a)), Some(Some(b))) = (&liquid, &other) {
         density_ratio(checker, a, b);
     }
     let two_phases = other.is_some();
-    let (tension, surface_force) = if two_phases { interface(checker, raw) } else { (Some(0.0), None) };
+    let (tension, surface_force) = if two_phases {
+        interface(checker, raw.interface.as_ref(), raw.surface_force.as_ref())
+    } else {
+        (Some(0.0), None)
+    };
     let wetting_model =
         if two_phases { wetting::model(checker, "sph.wetting", raw.wetting.as_ref(), tension) } else { None };
     if !two_phases {
@@ -59,8 +147,8 @@ pub(super) fn sph(
     }
     let raw_sides = raw.sides.clone().unwrap_or_default();
     let wall_speeds = wall_speeds(checker, &raw_sides);
-    let open = super::open::open(checker, &raw_sides, two_phases);
     let sides = sides(checker, &raw_sides);
+    let open = open(checker, &sides, raw_sides.open.unwrap_or_default(), two_phases);
     let patches = match wetting_model {
         Some(model) => wetting::patches(checker, "sph.wetting", raw.wetting.as_ref(), model, Some(&sides), geometry),
         None => Vec::new(),
@@ -76,10 +164,10 @@ pub(super) fn sph(
         true => numerics::beside_frozen_interface(),
         false => numerics::default(surface_force),
     };
-    let numerics = numerics::numerics(checker, &raw.numerics.clone().unwrap_or_default(), default);
+    let numerics = raw.numerics.clone().unwrap_or_default().or(default);
     Some(Sph {
         spacing: spacing?,
-        smoothing_ratio: ratio.unwrap_or(DEFAULT_SMOOTHING_RATIO),
+        smoothing_ratio: raw.smoothing_ratio.unwrap_or(DEFAULT_SMOOTHING_RATIO),
         wetting: liquid??,
         non_wetting: match other {
             Some(other) => Some(other?),
@@ -89,7 +177,7 @@ pub(super) fn sph(
         surface_force,
         wetting_model,
         wetting_patches: patches,
-        reference_length,
+        reference_length: raw.reference_length,
         gravity: Vec2::from(raw.gravity.unwrap_or_default()),
         sides,
         walls,
@@ -100,9 +188,6 @@ pub(super) fn sph(
         measure,
     })
 }
-
-/// The surface force of a case that names none.
-const DEFAULT_SURFACE_FORCE: SurfaceForce = SurfaceForce::PressureJump { curvature: None };
 
 /// h/dx of the paper's examples.
 const DEFAULT_SMOOTHING_RATIO: f64 = 1.5;
@@ -131,86 +216,6 @@ fn particle_count(checker: &mut Checker, spacing: f64, geometry: &GeometrySpec) 
     }
 }
 
-pub(super) fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
-    let path = format!("{at}.temperature-c");
-    let celsius = checker.within(&path, raw.temperature_c, (COLD, WARM), "a temperature in degrees Celsius");
-    if raw.temperature_c.is_some() && raw.preset.is_none() {
-        checker.refuse(
-            path,
-            "a temperature needs a preset",
-            "add `preset`, or give the density and viscosity at that temperature",
-        );
-    }
-    if raw.preset.is_none() && raw.density.is_none() && raw.viscosity.is_none() {
-        let help = "add preset = \"water\", or density in kg/m3 and viscosity in Pa s";
-        checker.refuse(format!("{at}.preset"), format!("expected a fluid in [{at}], found no property"), help);
-        return None;
-    }
-    let preset = raw.preset.map(|preset| preset.at(celsius.unwrap_or(COLD)));
-    let mut property = |key: &str, given: Option<f64>, known: Option<f64>, example: &str, what: &str| {
-        let path = format!("{at}.{key}");
-        checker.require_positive(&path, given.or(known), example, what)
-    };
-    let density =
-        property("density", raw.density, preset.map(|p| p.density), "density = 998.2 # kg/m3", "a density in kg/m3");
-    let viscosity = property(
-        "viscosity",
-        raw.viscosity,
-        preset.map(|p| p.viscosity),
-        "viscosity = 1.0e-3 # Pa s",
-        "a viscosity in Pa s",
-    );
-    Some(Fluid { density: density?, viscosity: viscosity? })
-}
-
-fn density_ratio(checker: &mut Checker, wetting: &Fluid, other: &Fluid) {
-    let ratio = wetting.density / other.density;
-    if !(1.0 / LARGEST_DENSITY_RATIO..=LARGEST_DENSITY_RATIO).contains(&ratio) {
-        checker.refuse(
-            "sph.phases.non-wetting.density",
-            format!("the density ratio of the phases is {ratio:.3e}, expected 1e-4 to 1e4"),
-            "densities are in kg/m3: water has 998, air 1.2",
-        );
-    }
-}
-
-fn interface(checker: &mut Checker, raw: &RawSph) -> (Option<f64>, Option<SurfaceForce>) {
-    const PATH: &str = "sph.interface.tension";
-    let tension = checker.require(PATH, raw.interface.as_ref().and_then(|i| i.tension), "tension = 0.0276 # N/m");
-    let tension = checker.in_range(PATH, tension, Range::AtLeast(0.0), "a tension in N/m");
-    let force = raw.surface_force.as_ref();
-    let chosen = match force.map(|force| (force.csf.is_some(), force.pressure_jump.is_some())) {
-        None => DEFAULT_SURFACE_FORCE,
-        Some((true, false)) => SurfaceForce::Csf { line_delta: line_delta(force.and_then(|force| force.csf.as_ref())) },
-        Some((false, true)) => SurfaceForce::PressureJump {
-            curvature: force.and_then(|force| force.pressure_jump.as_ref()).and_then(|jump| jump.curvature),
-        },
-        Some((both, _)) => {
-            checker.refuse(
-                "sph.surface-force",
-                format!("expected exactly one surface force, found {}", if both { "two" } else { "none" }),
-                "keep one of the tables [sph.surface-force.pressure-jump] and [sph.surface-force.csf]",
-            );
-            DEFAULT_SURFACE_FORCE
-        }
-    };
-    if force.is_some() && tension == Some(0.0) {
-        checker.refuse(
-            "sph.surface-force",
-            "a surface force needs a tension above 0",
-            "raise sph.interface.tension, or leave this table out",
-        );
-    }
-    (tension, tension.filter(|tension| *tension > 0.0).map(|_| chosen))
-}
-
-fn line_delta(raw: Option<&RawCsf>) -> LineDelta {
-    match raw.and_then(|raw| raw.line_delta) {
-        Some(RawLineDelta::Local) => LineDelta::Local,
-        Some(RawLineDelta::Normalized) | None => LineDelta::Normalized,
-    }
-}
-
 fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
     let initial = raw.initial.as_ref();
     let given = [
@@ -227,5 +232,28 @@ fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
             format!("`{path}` needs two phases, and there is no [sph.phases.non-wetting]"),
             "add the second phase, or leave this out",
         );
+    }
+}
+
+/// The table that loads to the same.
+pub(super) fn raw(sph: &Sph) -> RawSph {
+    let two_phases = sph.non_wetting.is_some();
+    RawSph {
+        spacing: Some(sph.spacing),
+        smoothing_ratio: Some(sph.smoothing_ratio),
+        reference_length: sph.reference_length,
+        gravity: Some(sph.gravity.into()),
+        phases: Some(RawPhases { wetting: Some(sph.wetting.into()), non_wetting: sph.non_wetting.map(RawFluid::from) }),
+        interface: two_phases.then_some(RawInterface { tension: Some(sph.tension) }),
+        surface_force: sph.surface_force.map(raw_surface_force),
+        wetting: sph.wetting_model.map(|model| wetting::raw(&model, &sph.wetting_patches)),
+        sides: Some(raw_sides(&sph.sides, sph.wall_speeds, sph.open)),
+        walls: Some(RawWalls {
+            slip_length: Some(sph.walls.slip_length),
+            line_slip_length: sph.wetting_model.map(|_| sph.walls.line_slip_length),
+        }),
+        initial: Some(raw_initial(&sph.initial, two_phases)),
+        numerics: Some(sph.numerics.into()),
+        measure: Some(sph.measure.to_raw()),
     }
 }

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::case_file::RawCase;
 use super::network::state::{NetworkState, Start};
-use super::raw::RawCase;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Checker, file};
 use crate::math::{FNV1A_BASIS, fnv1a};

@@ -1,10 +1,101 @@
-//! Checks of `[sph.wetting]`, and the way back: which model, with which angles, on which part of the walls.
+//! `[sph.wetting]` and `[network.wetting]`: which model, with which angles, on which part of the walls. The tables of the models are in
+//! `crate::wetting`.
 
-use super::checked::{PatchedWall, Side, Sides, Stripes, WettingPatch};
-use super::raw::{RawAxis, RawSideName, RawStripes, RawWetting, RawWettingPatch};
+use super::side::{SIDES, Side, SideName, Sides};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
-use crate::wetting::Wetting;
+use crate::input::tables::{Key, tables, words};
+use crate::math::Vec2;
+use crate::wetting::{self, Wetting};
+
+/// `[sph.wetting]` and `[network.wetting]`.
+pub type RawWetting = wetting::RawWetting<RawWettingPatch>;
+
+tables! {
+    /// A part of the walls with angles of its own: those of the model.
+    pub struct RawWettingPatch {
+        /// Shape whose surface is the patch, counted from 0; not with `side` (default: all walls).
+        pub shape: u32,
+        /// Wall side that is the patch (default: all walls).
+        pub side: SideName,
+        /// Stripes of the patch (default: the whole patch).
+        pub stripes: RawStripes,
+        /// Static angle in degrees (required if the model has one).
+        pub contact_angle_deg: f64 => Key::within("an angle in degrees", 0.0, 180.0),
+        /// Advancing angle in degrees (required if the model has one).
+        pub advancing_angle_deg: f64 => Key::within("an angle in degrees", 0.0, 180.0),
+        /// Receding angle in degrees, 0 to the advancing one (required if the model has one).
+        pub receding_angle_deg: f64 => Key::within("an angle in degrees", 0.0, 180.0),
+    }
+
+    /// Stripes of a wall.
+    pub struct RawStripes {
+        /// Coordinate across the stripes (default `x`).
+        pub along: RawAxis,
+        /// Start of the first stripe in m (default 0).
+        pub start: f64,
+        /// Width of a stripe in m.
+        pub width: f64 => Key::positive("a width in m").example("width = 1.0e-4 # m"),
+        /// Distance from stripe to stripe in m, at least the width (default: a single stripe).
+        pub period: f64 => Key::positive("a period in m"),
+    }
+}
+
+words! {
+    /// An axis.
+    pub enum RawAxis {
+        /// The first coordinate.
+        X,
+        /// The second coordinate.
+        Y,
+    }
+}
+
+/// A part of the walls with angles of its own (`[[sph.wetting.patches]]`); later ones lie over earlier ones.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct WettingPatch {
+    /// Which walls.
+    pub on: PatchedWall,
+    /// Which part of them; absent: all.
+    pub stripes: Option<Stripes>,
+    /// The model with the angles of the patch.
+    pub model: Wetting,
+}
+
+/// The walls that a patch lies on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PatchedWall {
+    /// All of them.
+    All,
+    /// A shape by its number, from 0 on.
+    Shape(u32),
+    /// The left, right, bottom or top side, 0 to 3.
+    Side(u32),
+}
+
+/// Stripes across an axis: where the coordinate less `start`, modulo `period`, is below `width`.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Stripes {
+    /// 0: along x, 1: along y.
+    pub axis: usize,
+    /// Where one of them begins, in m.
+    pub start: f64,
+    /// Width in m.
+    pub width: f64,
+    /// From one to the next in m; absent: a single stripe.
+    pub period: Option<f64>,
+}
+
+impl Stripes {
+    /// Whether a point of the wall with the given coordinates in m lies in a stripe.
+    #[must_use]
+    pub fn contains(&self, x: Vec2) -> bool {
+        let along = x[self.axis] - self.start;
+        let along = self.period.map_or(along, |period| along.rem_euclid(period));
+        (0.0..self.width).contains(&along)
+    }
+}
 
 /// The wetting model of a case, none where there is no table or it is wrong.
 ///
@@ -106,8 +197,8 @@ fn patched_wall(
             Some(PatchedWall::Shape(shape))
         }
         (None, Some(side)) => {
-            let (number, name) = numbered(side);
-            let kind = sides.map(|sides| [sides.left, sides.right, sides.bottom, sides.top][number as usize]);
+            let (number, name) = (side.number(), SIDES[side.number()]);
+            let kind = sides.map(|sides| [sides.left, sides.right, sides.bottom, sides.top][number]);
             if kind.is_some_and(|kind| kind != Side::Wall) {
                 checker.refuse(
                     format!("{at}.side"),
@@ -116,35 +207,23 @@ fn patched_wall(
                 );
                 return None;
             }
-            Some(PatchedWall::Side(number))
+            Some(PatchedWall::Side(number as u32))
         }
     }
 }
 
-fn numbered(side: RawSideName) -> (u32, &'static str) {
-    match side {
-        RawSideName::Left => (0, "left"),
-        RawSideName::Right => (1, "right"),
-        RawSideName::Bottom => (2, "bottom"),
-        RawSideName::Top => (3, "top"),
-    }
-}
-
 fn stripes(checker: &mut Checker, at: &str, raw: &RawStripes) -> Option<Stripes> {
-    let path = |key: &str| format!("{at}.{key}");
-    let width = checker.require_positive(&path("width"), raw.width, "width = 1.0e-4 # m", "a width in m");
-    let period = raw.period.map(|period| checker.positive(&path("period"), Some(period), "a period in m"));
-    let period = match period {
-        Some(period) => Some(period?),
-        None => None,
-    };
-    let width = width?;
-    if period.is_some_and(|period| period < width) {
-        checker.refuse(path("period"), "the stripes are wider than their period", "a period of at least the width");
+    let width = raw.width?;
+    if raw.period.is_some_and(|period| period < width) {
+        checker.refuse(
+            format!("{at}.period"),
+            "the stripes are wider than their period",
+            "a period of at least the width",
+        );
         return None;
     }
     let axis = usize::from(raw.along == Some(RawAxis::Y));
-    Some(Stripes { axis, start: raw.start.unwrap_or_default(), width, period })
+    Some(Stripes { axis, start: raw.start.unwrap_or_default(), width, period: raw.period })
 }
 
 /// Model and patches as they are written.
@@ -153,14 +232,13 @@ pub(super) fn raw(model: &Wetting, patches: &[WettingPatch]) -> RawWetting {
 }
 
 fn raw_patch(patch: &WettingPatch) -> RawWettingPatch {
-    let names = [RawSideName::Left, RawSideName::Right, RawSideName::Bottom, RawSideName::Top];
     RawWettingPatch {
         shape: match patch.on {
             PatchedWall::Shape(shape) => Some(shape),
             PatchedWall::All | PatchedWall::Side(_) => None,
         },
         side: match patch.on {
-            PatchedWall::Side(side) => names.get(side as usize).copied(),
+            PatchedWall::Side(side) => SideName::ALL.get(side as usize).copied(),
             PatchedWall::All | PatchedWall::Shape(_) => None,
         },
         stripes: patch.stripes.map(|stripes| RawStripes {

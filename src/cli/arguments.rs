@@ -2,7 +2,12 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::case::SideName;
+use crate::case::network::RawProcess;
+use crate::input::tables::Words;
 use clap_complete::Shell;
 
 use super::compare::CompareArguments;
@@ -135,14 +140,14 @@ pub struct NetworkArguments {
     #[arg(long, value_name = "N_PER_M")]
     pub tension: Option<f64>,
     /// Side that the invading phase enters through; where there is none, the network is extracted and nothing is displaced
-    #[arg(long, value_enum, value_name = "SIDE")]
+    #[arg(long, value_parser = word::<SideName>(), value_name = "SIDE")]
     pub inlet: Option<SideName>,
     /// Side that the defending phase leaves through
-    #[arg(long, value_enum, value_name = "SIDE")]
+    #[arg(long, value_parser = word::<SideName>(), value_name = "SIDE")]
     pub outlet: Option<SideName>,
     /// What is displaced (default drainage)
-    #[arg(long, value_enum, value_name = "PROCESS")]
-    pub process: Option<NetworkProcess>,
+    #[arg(long, value_parser = word::<RawProcess>(), value_name = "PROCESS")]
+    pub process: Option<RawProcess>,
     /// Number of cycles, with --process cycle (default 1)
     #[arg(long, value_name = "N")]
     pub cycles: Option<u32>,
@@ -170,28 +175,12 @@ impl NetworkArguments {
     }
 }
 
-/// A side of the domain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum SideName {
-    /// x = min
-    Left,
-    /// x = max
-    Right,
-    /// y = min
-    Bottom,
-    /// y = max
-    Top,
-}
-
-/// What is displaced.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum NetworkProcess {
-    /// The wetting phase by the non-wetting one
-    Drainage,
-    /// The non-wetting phase by the wetting one
-    Imbibition,
-    /// Both in turn
-    Cycle,
+/// Reads a word as a key of a case file has it.
+fn word<W: Words + Send + Sync>() -> impl TypedValueParser<Value = W> {
+    let words =
+        W::ALL.iter().map(|(word, about)| PossibleValue::new(word.word()).help(about.trim().trim_end_matches('.')));
+    let named = |name: String| W::ALL.iter().find(|(word, _)| word.word() == name).map(|(word, _)| *word);
+    PossibleValuesParser::new(words).try_map(move |name| named(name).ok_or("unknown word"))
 }
 
 /// Axes along which opposite sides are joined.

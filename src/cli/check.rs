@@ -6,7 +6,7 @@ use super::output::{duration, readable, say, tell};
 use super::progress::ProgressDisplay;
 use super::run::built;
 use super::source;
-use crate::case::checked::{Case, Model};
+use crate::case::{Case, Model};
 use crate::run::advice::{self, Advice};
 use crate::run::execute::Mode;
 use crate::run::numbers::{self, Length, expected_speed};

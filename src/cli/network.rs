@@ -2,17 +2,18 @@
 
 use std::path::Path;
 
-use super::arguments::{NetworkArguments, NetworkProcess, PeriodicAxes, SideName};
+use super::arguments::{NetworkArguments, PeriodicAxes};
 use super::exit::{BAD_INPUT, Failure};
 use super::output::tell;
 use super::run::{finish, new_folder};
 use super::source::{self, Source};
 use super::verify::verify;
 use super::verify_arguments::NetworkCommand;
-use crate::case::network::quick as network_case;
-use crate::case::network::raw::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
-use crate::case::raw::{RawInterface, RawSideName, RawWetting};
+use crate::case::network::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
+use crate::case::quick as network_case;
+use crate::case::{RawInterface, RawWetting, SideName};
 use crate::geometry::spec::GeometrySpec;
+use crate::input::tables::Words;
 use crate::run::execute::Mode;
 use crate::wetting::{Wetting, Young};
 
@@ -67,15 +68,6 @@ fn quick(arguments: &NetworkArguments, geometry: GeometrySpec) -> Result<Source,
     Ok(Source { case, resolved, name: format!("{name}-network"), notes: Vec::new(), document: None })
 }
 
-fn side(name: SideName) -> RawSideName {
-    match name {
-        SideName::Left => RawSideName::Left,
-        SideName::Right => RawSideName::Right,
-        SideName::Bottom => RawSideName::Bottom,
-        SideName::Top => RawSideName::Top,
-    }
-}
-
 /// The keys of `[network]` that the options stand for.
 fn raw(arguments: &NetworkArguments) -> RawNetwork {
     let along = |axes: &[PeriodicAxes]| {
@@ -85,8 +77,8 @@ fn raw(arguments: &NetworkArguments) -> RawNetwork {
     let y = along(&[PeriodicAxes::Y, PeriodicAxes::Xy]);
     let angle = arguments.angle_deg.unwrap_or(WHOLLY_WETTING);
     RawNetwork {
-        inlet: arguments.inlet.map(side),
-        outlet: arguments.outlet.map(side),
+        inlet: arguments.inlet,
+        outlet: arguments.outlet,
         sides: Some(RawNetworkSides { left: x, right: x, bottom: y, top: y }),
         interface: arguments
             .has_interface()
@@ -94,11 +86,7 @@ fn raw(arguments: &NetworkArguments) -> RawNetwork {
         wetting: arguments
             .has_interface()
             .then(|| RawWetting::of(&Wetting::Young(Young { contact_angle_deg: angle }), None)),
-        process: arguments.process.map(|process| match process {
-            NetworkProcess::Drainage => RawProcess::Drainage,
-            NetworkProcess::Imbibition => RawProcess::Imbibition,
-            NetworkProcess::Cycle => RawProcess::Cycle,
-        }),
+        process: arguments.process,
         cycles: arguments.cycles,
         trapping: arguments.trapping,
         persistence: arguments.persistence,
@@ -108,13 +96,13 @@ fn raw(arguments: &NetworkArguments) -> RawNetwork {
 
 /// The options as changes of a case file with `[network]`.
 fn overrides(arguments: &NetworkArguments) -> Vec<String> {
-    let name = |side: SideName| format!("\"{}\"", format!("{side:?}").to_lowercase());
+    let name = |side: SideName| format!("\"{}\"", side.word());
     let axes = |axes: PeriodicAxes| match axes {
         PeriodicAxes::X => &["left", "right"][..],
         PeriodicAxes::Y => &["bottom", "top"],
         PeriodicAxes::Xy => &["left", "right", "bottom", "top"],
     };
-    let process = |process: NetworkProcess| format!("\"{}\"", format!("{process:?}").to_lowercase());
+    let process = |process: RawProcess| format!("\"{}\"", process.word());
     let given = [
         ("persistence", arguments.persistence.map(|value| value.to_string())),
         ("wetting.young.contact-angle-deg", arguments.angle_deg.map(|value| value.to_string())),

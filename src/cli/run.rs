@@ -11,7 +11,7 @@ use super::source::Source;
 use super::summary::summary;
 use super::threads::pool;
 use super::{interrupt, source};
-use crate::case::checked::Case;
+use crate::case::Case;
 use crate::run::execute::{Finished, Job, Mode, RunError, execute};
 use crate::run::report::Status;
 use crate::run::{folder, setup};

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::output::{duration, readable};
-use crate::case::checked::{Case, Model};
+use crate::case::{Case, Model};
 use crate::run::execute::Finished;
 use crate::run::report::{Reading, Report, Status};
 use crate::run::steady::Steadiness;

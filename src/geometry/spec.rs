@@ -3,6 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::input::Range;
+use crate::input::tables::{Key, Value, describe, tables};
+
 /// One shape, closed and solid, in m. In TOML: `disc = { center = [0.0, 0.0], radius = 1.0e-3 }`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -31,151 +34,165 @@ pub enum ShapeSpec {
     Array(Array),
 }
 
-/// The half-plane below the line through `point`; `rotation-deg` turns it counter-clockwise about `point`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct HalfPlane {
-    /// A point of the surface in m.
-    pub point: [f64; 2],
-    /// Turn about `point` in degrees; 0: solid below, 180: solid above, 90: solid on the right.
-    #[serde(default)]
-    pub rotation_deg: f64,
+/// A length above 0.
+const SIZE: Key = Key::positive("a length in m");
+
+/// Declares shapes: fields with what their keys may hold, like [`tables!`](crate::input::tables::tables), all of them required but for those with a
+/// default of serde.
+macro_rules! shapes {
+    ($($(#[$outer:meta])* pub struct $name:ident { $($(#[$inner:meta])* pub $field:ident: $kind:ty $(=> $key:expr)?,)* })*) => {$(
+        $(#[$outer])*
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(rename_all = "kebab-case", deny_unknown_fields)]
+        #[schemars(transform = |schema: &mut schemars::Schema| describe(schema, $name::KEYS))]
+        pub struct $name { $($(#[$inner])* pub $field: $kind,)* }
+
+        impl $name {
+            /// Its fields and what they may hold.
+            pub const KEYS: &'static [(&'static str, Key)] = &[$((stringify!($field), tables!(@key $($key)?)),)*];
+        }
+    )*};
 }
 
-/// A disc.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct Disc {
-    /// Center in m.
-    pub center: [f64; 2],
-    /// Radius in m, above 0.
-    pub radius: f64,
-}
+shapes! {
+    /// The half-plane below the line through `point`; `rotation-deg` turns it counter-clockwise about `point`.
+    pub struct HalfPlane {
+        /// A point of the surface in m.
+        pub point: [f64; 2],
+        /// Turn about `point` in degrees; 0: solid below, 180: solid above, 90: solid on the right.
+        #[serde(default)]
+        pub rotation_deg: f64,
+    }
 
-/// A rectangle.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct Rectangle {
-    /// Center in m.
-    pub center: [f64; 2],
-    /// Width and height in m, above 0.
-    pub size: [f64; 2],
-    /// Turn about the center in degrees.
-    #[serde(default)]
-    pub rotation_deg: f64,
-}
+    /// A disc.
+    pub struct Disc {
+        /// Center in m.
+        pub center: [f64; 2],
+        /// Radius in m, above 0.
+        pub radius: f64 => SIZE,
+    }
 
-/// A capsule (stadium).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct Capsule {
-    /// The two ends of its axis in m.
-    pub ends: [[f64; 2]; 2],
-    /// Radius in m, above 0.
-    pub radius: f64,
-}
+    /// A rectangle.
+    pub struct Rectangle {
+        /// Center in m.
+        pub center: [f64; 2],
+        /// Width and height in m, above 0.
+        pub size: [f64; 2] => SIZE,
+        /// Turn about the center in degrees.
+        #[serde(default)]
+        pub rotation_deg: f64,
+    }
 
-/// A polygon: the outer ring counter-clockwise, holes clockwise, no ring closed by repeating its first point.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct Polygon {
-    /// Outer ring in m, at least three points.
-    pub outer: Vec<[f64; 2]>,
-    /// Holes in m.
-    #[serde(default)]
-    pub holes: Vec<Vec<[f64; 2]>>,
-    /// Shift in m, after the turn.
-    #[serde(default)]
-    pub position: [f64; 2],
-    /// Turn about the origin of the ring's coordinates in degrees.
-    #[serde(default)]
-    pub rotation_deg: f64,
-}
+    /// A capsule (stadium).
+    pub struct Capsule {
+        /// The two ends of its axis in m.
+        pub ends: [[f64; 2]; 2],
+        /// Radius in m, above 0.
+        pub radius: f64 => SIZE,
+    }
 
-/// A polygon of segments and circular arcs: each vertex is `[x, y, bulge]` with the bulge of the edge that begins there, the tangent
-/// of a quarter of its arc's angle: 0 straight, 1 a half circle that turns counter-clockwise, below 0 clockwise.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct CurvedPolygon {
-    /// Outer ring counter-clockwise, x and y in m, at least two vertices.
-    pub outer: Vec<[f64; 3]>,
-    /// Holes, clockwise.
-    #[serde(default)]
-    pub holes: Vec<Vec<[f64; 3]>>,
-    /// Shift in m, after the turn.
-    #[serde(default)]
-    pub position: [f64; 2],
-    /// Turn about the origin of the ring's coordinates in degrees.
-    #[serde(default)]
-    pub rotation_deg: f64,
-}
+    /// A polygon: the outer ring counter-clockwise, holes clockwise, no ring closed by repeating its first point.
+    pub struct Polygon {
+        /// Outer ring in m, at least three points.
+        pub outer: Vec<[f64; 2]>,
+        /// Holes in m.
+        #[serde(default)]
+        pub holes: Vec<Vec<[f64; 2]>>,
+        /// Shift in m, after the turn.
+        #[serde(default)]
+        pub position: [f64; 2],
+        /// Turn about the origin of the ring's coordinates in degrees.
+        #[serde(default)]
+        pub rotation_deg: f64,
+    }
 
-/// The solid outside of a straight channel.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct Channel {
-    /// A point of the center line in m.
-    pub center: [f64; 2],
-    /// Distance of the plates in m, above 0.
-    pub width: f64,
-    /// Turn of the center line in degrees; 0 runs along x.
-    #[serde(default)]
-    pub rotation_deg: f64,
-}
+    /// A polygon of segments and circular arcs: each vertex is `[x, y, bulge]` with the bulge of the edge that begins there, the tangent
+    /// of a quarter of its arc's angle: 0 straight, 1 a half circle that turns counter-clockwise, below 0 clockwise.
+    pub struct CurvedPolygon {
+        /// Outer ring counter-clockwise, x and y in m, at least two vertices.
+        pub outer: Vec<[f64; 3]>,
+        /// Holes, clockwise.
+        #[serde(default)]
+        pub holes: Vec<Vec<[f64; 3]>>,
+        /// Shift in m, after the turn.
+        #[serde(default)]
+        pub position: [f64; 2],
+        /// Turn about the origin of the ring's coordinates in degrees.
+        #[serde(default)]
+        pub rotation_deg: f64,
+    }
 
-/// Two discs of equal or different radius with a gap between them, the flow along x before the turn.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct ThroatDiscs {
-    /// Middle of the gap in m.
-    pub center: [f64; 2],
-    /// Radii of the lower and the upper disc in m, above 0.
-    pub radii: [f64; 2],
-    /// Narrowest distance between the discs in m, above 0.
-    pub gap: f64,
-    /// Turn about the center in degrees.
-    #[serde(default)]
-    pub rotation_deg: f64,
-}
+    /// The solid outside of a straight channel.
+    pub struct Channel {
+        /// A point of the center line in m.
+        pub center: [f64; 2],
+        /// Distance of the plates in m, above 0.
+        pub width: f64 => SIZE,
+        /// Turn of the center line in degrees; 0 runs along x.
+        #[serde(default)]
+        pub rotation_deg: f64,
+    }
 
-/// Walls at `+-(1/2) (width - (width - throat) (1 + cos(2 pi s/length))/2)` for |s| < length/2 along the axis, straight beyond.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct ThroatCosine {
-    /// Middle of the throat in m.
-    pub center: [f64; 2],
-    /// Distance of the walls away from the throat in m.
-    pub width: f64,
-    /// Distance of the walls in the throat in m, above 0 and at most `width`.
-    pub throat: f64,
-    /// Length of the constriction along the axis in m.
-    pub length: f64,
-    /// Turn about the center in degrees; 0: axis along x.
-    #[serde(default)]
-    pub rotation_deg: f64,
-}
+    /// Two discs of equal or different radius with a gap between them, the flow along x before the turn.
+    pub struct ThroatDiscs {
+        /// Middle of the gap in m.
+        pub center: [f64; 2],
+        /// Radii of the lower and the upper disc in m, above 0.
+        pub radii: [f64; 2] => SIZE,
+        /// Narrowest distance between the discs in m, above 0.
+        pub gap: f64 => SIZE,
+        /// Turn about the center in degrees.
+        #[serde(default)]
+        pub rotation_deg: f64,
+    }
 
-/// Discs at random places with a given porosity; read as so many discs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct RandomPack {
-    /// Chooses the pack; the same on every machine.
-    #[serde(default = "first_seed")]
-    pub seed: u64,
-    /// Share of the region that is not solid, 0 to 1.
-    pub porosity: f64,
-    /// Mean radius in m; all radii are scaled together by some percent at most to meet the porosity.
-    pub radius: f64,
-    /// Standard deviation of the radii over their mean, 0 to 0.35.
-    #[serde(default)]
-    pub radius_deviation: f64,
-    /// Smallest distance of two discs, and of a disc from the region's sides, in m.
-    pub gap: f64,
-    /// Lower left and upper right corner in m.
-    pub region: [[f64; 2]; 2],
-    /// Axes along which the region repeats itself: discs may cross these sides.
-    #[serde(default)]
-    pub periodic: PackAxes,
+    /// Walls at `+-(1/2) (width - (width - throat) (1 + cos(2 pi s/length))/2)` for |s| < length/2 along the axis, straight beyond.
+    pub struct ThroatCosine {
+        /// Middle of the throat in m.
+        pub center: [f64; 2],
+        /// Distance of the walls away from the throat in m.
+        pub width: f64 => SIZE,
+        /// Distance of the walls in the throat in m, above 0 and at most `width`.
+        pub throat: f64 => SIZE,
+        /// Length of the constriction along the axis in m.
+        pub length: f64 => SIZE,
+        /// Turn about the center in degrees; 0: axis along x.
+        #[serde(default)]
+        pub rotation_deg: f64,
+    }
+
+    /// Discs at random places with a given porosity; read as so many discs.
+    pub struct RandomPack {
+        /// Chooses the pack; the same on every machine.
+        #[serde(default = "first_seed")]
+        pub seed: u64,
+        /// Share of the region that is not solid, 0 to 1.
+        pub porosity: f64 => Key::number("a porosity", Range::Between(0.0, 1.0)),
+        /// Mean radius in m; all radii are scaled together by some percent at most to meet the porosity.
+        pub radius: f64 => SIZE,
+        /// Standard deviation of the radii over their mean, 0 to 0.35.
+        #[serde(default)]
+        pub radius_deviation: f64 => Key::within("a share", 0.0, 0.35),
+        /// Smallest distance of two discs, and of a disc from the region's sides, in m.
+        pub gap: f64 => SIZE,
+        /// Lower left and upper right corner in m.
+        pub region: [[f64; 2]; 2],
+        /// Axes along which the region repeats itself: discs may cross these sides.
+        #[serde(default)]
+        pub periodic: PackAxes,
+    }
+
+    /// Equal discs in a regular array, as many as fit wholly into the region; read as so many discs.
+    pub struct Array {
+        /// Square or hexagonal.
+        pub arrangement: Arrangement,
+        /// Radius in m.
+        pub radius: f64 => SIZE,
+        /// Smallest distance of two discs in m.
+        pub gap: f64 => SIZE,
+        /// Lower left and upper right corner in m.
+        pub region: [[f64; 2]; 2],
+    }
 }
 
 fn first_seed() -> u64 {
@@ -203,20 +220,6 @@ impl PackAxes {
     pub fn axes(self) -> [bool; 2] {
         [matches!(self, Self::X | Self::Xy), matches!(self, Self::Y | Self::Xy)]
     }
-}
-
-/// Equal discs in a regular array, as many as fit wholly into the region; read as so many discs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct Array {
-    /// Square or hexagonal.
-    pub arrangement: Arrangement,
-    /// Radius in m.
-    pub radius: f64,
-    /// Smallest distance of two discs in m.
-    pub gap: f64,
-    /// Lower left and upper right corner in m.
-    pub region: [[f64; 2]; 2],
 }
 
 /// How the discs of an array lie.
@@ -255,3 +258,6 @@ pub struct GeometrySpec {
     #[serde(default)]
     pub shapes: Vec<ShapeSpec>,
 }
+
+impl Value for ShapeSpec {}
+impl Value for SolidSide {}

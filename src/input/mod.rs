@@ -16,6 +16,7 @@ pub mod problem;
 mod range;
 mod read;
 mod suggest;
+pub mod tables;
 mod tree;
 
 pub use checker::Checker;

@@ -12,12 +12,10 @@ use super::dynamic::{self, Drive, Dynamic, Terms};
 use super::graph::{Network, Pores};
 use super::solver::{NetworkSolver, Setting};
 use super::state;
-use crate::case::checked::{Case, PatchedWall, Side};
-use crate::case::network::checked::{
-    Driven, NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop,
-};
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
+use crate::case::network::{Driven, NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use crate::case::{Case, PatchedWall, Side};
 use crate::geometry::{Geometry, GeometryError};
 use crate::solver::Solver;
 use crate::wetting::Wetting;

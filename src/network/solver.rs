@@ -15,7 +15,7 @@ use super::displacement::{Conditions, Displacement, EventKind};
 use super::graph::{Network, Pores};
 use super::occupation::Occupation;
 use super::{flow, layers, measures, openpnm, pictures, state, summary, tables, warnings};
-use crate::case::checked::Side;
+use crate::case::Side;
 use crate::diagram::Diagram;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};

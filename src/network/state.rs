@@ -4,8 +4,8 @@ use super::cycles::{Cycles, Fluid, HalfCycle};
 use super::displacement::{Beginning, Element, Phase, Standing};
 use super::moment::Moment;
 use super::solver::{NetworkSolver, Setting};
+use crate::case::RawPhase;
 use crate::case::network::state::{ElementState, FORMAT, MeniscusState, NetworkState};
-use crate::case::raw::RawPhase;
 use crate::geometry::curve::Curve;
 use crate::table::Document;
 

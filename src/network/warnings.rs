@@ -3,7 +3,7 @@
 use super::flow::{LEAST_SOLID, drive};
 use super::setup::SIDES;
 use super::solver::Setting;
-use crate::case::checked::Side;
+use crate::case::Side;
 
 /// The names of both permeabilities.
 const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];

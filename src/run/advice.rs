@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::numbers::{Length, expected_speed};
 use super::setup;
 use super::trial::Trial;
-use crate::case::checked::{Case, Model, Side, Sph};
+use crate::case::{Case, Model, Side, Sph};
 use crate::geometry::Geometry;
 use crate::network;
 use crate::network::graph::Pores;

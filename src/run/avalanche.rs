@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::compare::outlet_elements;
 use super::setup::SetupError;
-use crate::case::checked::{Case, Model};
-use crate::case::raw::RawPhase;
+use crate::case::RawPhase;
+use crate::case::{Case, Model};
 use crate::network::displacement::{EventKind, Phase};
 use crate::network::solver::NetworkSolver;
 use crate::network::state;

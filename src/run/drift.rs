@@ -9,7 +9,7 @@
 //! so turn it by up to √(2E/(σL)). E is at most what the whole domain has in the last window.
 
 use super::steady::{self, last_windows, range};
-use crate::case::checked::SteadyStop;
+use crate::case::SteadyStop;
 use crate::solver::{Quantity, Series, Watched};
 
 /// How a quantity moves at the end of a run.

@@ -14,7 +14,7 @@ use super::setup;
 use super::simulation::{Outcome, Records, Simulation, Watcher};
 use super::sink::{Start, compression};
 use super::steady::Steadiness;
-use crate::case::checked::Case;
+use crate::case::Case;
 use crate::io::checksum::fnv1a;
 use crate::io::picture::{PictureError, mosaic_picture, picture};
 use crate::io::{FileError, atomic, diagram, table, vtk};

@@ -4,7 +4,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::simulation::{Progress, Watcher};
-use crate::case::checked::{
+use crate::case::{
     Case, Compression, Expectation, Fluid, Initial, InitialVelocity, MeasureSet, Model, Numerics, Output, Side, Sides,
     Sph, ViscousStep, ViscousTerm, Walls,
 };

@@ -8,8 +8,8 @@
 use serde::Serialize;
 
 use super::setup;
-use crate::case::checked::{Case, Drive, InitialVelocity, Model, Sph};
-use crate::case::film::checked::{FilmDroplet, FilmEquation, ThinFilm};
+use crate::case::film::{FilmDroplet, FilmEquation, Geometric, Precursor, Slip, ThinFilm};
+use crate::case::{Case, Drive, InitialVelocity, Model, Sph};
 use crate::math::Vec2;
 
 /// A dimensionless number.
@@ -139,11 +139,11 @@ fn of_thin_film(film: &ThinFilm, speed: f64) -> Vec<Number> {
         all.push(number("Bo", bond, "rho g W^2 / sigma"));
     }
     all.push(match film.equation {
-        FilmEquation::Geometric { smoothing_length } => {
+        FilmEquation::Geometric(Geometric { smoothing_length }) => {
             number("alpha/dx", smoothing_length / film.spacing, "filter length / spacing")
         }
-        FilmEquation::Slip { slip_length, .. } => number("slip/H", slip_length / height, "slip length / height"),
-        FilmEquation::Precursor { film_height, .. } => {
+        FilmEquation::Slip(Slip { slip_length, .. }) => number("slip/H", slip_length / height, "slip length / height"),
+        FilmEquation::Precursor(Precursor { film_height, .. }) => {
             number("film/H", film_height / height, "precursor film / height")
         }
     });

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::drift::Drift;
 use super::numbers::{Length, Number};
 use super::steady::Steadiness;
-use crate::case::checked::{Case, Expectation};
+use crate::case::{Case, Expectation};
 use crate::io::{FileError, atomic};
 use crate::solver::{Clock, Measure, PartTime, Quantity, Series, Statistics, Watched};
 

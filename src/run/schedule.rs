@@ -3,7 +3,7 @@
 //! Times come from a multiplication, never from a sum, and depend on the present time only, so that a resumed run stops at
 //! the same times as an unbroken one. Stops that differ by rounding only are one stop.
 
-use crate::case::checked::Output;
+use crate::case::Output;
 
 /// Times closer than this share of the shortest interval are one: far above rounding, far below a time step.
 const SAME: f64 = 1.0e-9;
@@ -100,7 +100,7 @@ fn multiple(count: f64, every: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::checked::Compression;
+    use crate::case::Compression;
     use proptest::prelude::*;
 
     fn schedule(series: f64, vtk: f64, restart: f64, end: f64) -> Schedule {

@@ -1,7 +1,7 @@
 //! From a checked case to its solver: the one place that knows both.
 
 use super::memory::{self, NoRoom};
-use crate::case::checked::{Case, Model, Sph};
+use crate::case::{Case, Model, Sph};
 use crate::case::{Facts, check_against};
 use crate::geometry::Geometry;
 use crate::input::Problem;

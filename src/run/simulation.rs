@@ -9,7 +9,7 @@ use super::schedule::{Due, Schedule};
 use super::sink::{Frame, SeriesSink, Start, UnitFile, vtk_sinks};
 use super::steady::is_steady;
 use super::writer::{Record, Writer};
-use crate::case::checked::SteadyStop;
+use crate::case::SteadyStop;
 use crate::io::frames::{self, FrameList};
 use crate::io::journal::Mark;
 use crate::io::restart::Saved;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::case::checked::{self, Output};
+use crate::case::{self, Output};
 use crate::io::frames::{FrameList, Written};
 use crate::io::journal::Mark;
 use crate::io::pvd::Collection;
@@ -61,9 +61,9 @@ fn format_error(path: PathBuf) -> impl Fn(VtkError) -> FileError {
 #[must_use]
 pub fn compression(output: &Output) -> Compression {
     match output.vtk_compression {
-        checked::Compression::None => Compression::None,
-        checked::Compression::Zlib => Compression::Zlib,
-        checked::Compression::Lz4 => Compression::Lz4,
+        case::Compression::None => Compression::None,
+        case::Compression::Zlib => Compression::Zlib,
+        case::Compression::Lz4 => Compression::Lz4,
     }
 }
 

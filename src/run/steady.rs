@@ -8,7 +8,7 @@
 
 use serde::Serialize;
 
-use crate::case::checked::{FEWEST_ROWS, SteadyStop};
+use crate::case::{FEWEST_ROWS, SteadyStop};
 use crate::solver::{Quantity, Series, Watched};
 
 /// Length of a window over the time so far, where the case gives none: slow changes have that much longer to show.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::execute::drawn;
 use super::schedule::Schedule;
 use super::sink::compression;
-use crate::case::checked::Case;
+use crate::case::Case;
 use crate::io::vtk;
 use crate::solver::{Solver, SolverError};
 

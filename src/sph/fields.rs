@@ -2,6 +2,7 @@
 //!
 //! Everything here is a function of setting and state alone, so that a resumed run finds the same bits.
 
+use crate::case::{LineDelta, SurfaceForce};
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
 use crate::sph::domain::Domain;
@@ -12,13 +13,12 @@ use crate::sph::pairs::{GRAIN, each};
 use crate::sph::particles::{Particles, Phase};
 use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;
-use crate::sph::surface_force::SurfaceForce;
 use crate::sph::surface_force::fit::{Fitted, InterfaceFit};
 use crate::sph::surface_force::jump::{InterfaceCurvature, Jump};
 use crate::sph::surface_force::points::{PointFields, Resolution, interface_points};
 use crate::sph::surface_force::stencils::Interface;
 use crate::sph::terms::{color, curvature, density, pressure_gradient, surface_tension};
-use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
+use crate::sph::wetting::contact_line::{LineFields, LineParticles};
 use crate::sph::wetting::lines::{DetectedLine, Following, LINE_REACH, Line, nearest};
 
 use rayon::prelude::*;
@@ -166,7 +166,7 @@ impl Fields {
         color::smoothed_color(pairs, &self.fluid_volume, &sharp, &self.mixed, &mut self.color);
         images.extend(&mut self.color);
         match method.surface_force {
-            SurfaceForce::Csf(delta) => self.continuum_forces(setting, state, neighborhood, delta),
+            SurfaceForce::Csf { line_delta } => self.continuum_forces(setting, state, neighborhood, line_delta),
             SurfaceForce::PressureJump { curvature } => {
                 self.pressure_jump(setting, state, neighborhood, &sharp, curvature);
             }

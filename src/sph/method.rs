@@ -1,11 +1,11 @@
 //! The constants of a run: fluids, forces and parameters of the discretization.
 
+use crate::case::{Fluid, Numerics, SurfaceForce};
 use crate::math::Vec2;
 use crate::sph::boundary::no_slip::NoSlip;
 use crate::sph::kernel::WendlandC2;
 use crate::sph::particles::Phase;
 use crate::sph::poisson::Tolerance;
-use crate::sph::surface_force::SurfaceForce;
 use crate::wetting::Wetting;
 
 /// Above this ratio of densities Eq. (15) fails.
@@ -26,35 +26,6 @@ pub enum PressureGradient {
     Weighted,
     /// Differences, consistent with Eq. (30).
     Difference,
-}
-
-/// A Newtonian fluid.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fluid {
-    /// Density in kg/m³.
-    pub density: f64,
-    /// Dynamic viscosity in Pa s.
-    pub viscosity: f64,
-}
-
-/// Forms of the viscous term.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ViscousTerm {
-    /// Szewc et al. 2012 [Huber2013, Eq. 16].
-    Szewc,
-    /// Morris et al. 1997, ∇·(μ∇v).
-    Morris,
-    /// That of Morris with the transposed gradient, ∇·(μ(∇v + ∇vᵀ)).
-    Stress,
-}
-
-/// How viscosity goes on in time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ViscousStep {
-    /// By the velocity at the end of the step, with no limit of the time step.
-    Implicit,
-    /// By the velocity at its beginning.
-    Explicit,
 }
 
 /// All that does not change during a run.
@@ -82,24 +53,10 @@ pub struct Method {
     pub gravity: Vec2,
     /// How walls hold the fluid next to them.
     pub no_slip: NoSlip,
-    /// Viscous term.
-    pub viscous_term: ViscousTerm,
-    /// How it goes on in time.
-    pub viscous_step: ViscousStep,
-    /// Largest share γ of the density error that the pressure takes back in the time τ.
-    pub density_error_correction: f64,
-    /// Share of the density error taken back per step by moving particles, their velocities left as they are.
-    pub density_error_shifting: f64,
-    /// Background pressure in units of σ/h, or of ρ v² without tension.
-    pub background_pressure: f64,
-    /// Particle shifting A in δr = −A h v Δt ∇C, v the largest speed; 0: none.
-    pub shifting: f64,
-    /// Strength R of the anti-clustering force in particle shifting; 0: none.
-    pub anti_clustering: f64,
+    /// Forms, strengths and tolerances.
+    pub numerics: Numerics,
     /// Pressure solve.
     pub tolerance: Tolerance,
-    /// Factor on the limits of the time step.
-    pub time_step_factor: f64,
 }
 
 impl Method {
@@ -162,14 +119,14 @@ impl Method {
     #[must_use]
     pub fn density_correction_rate(&self, fastest: f64) -> f64 {
         let tau = self.density_correction_time(fastest);
-        self.density_error_correction / tau * (fastest * tau / (FULL_CORRECTION_WAY * self.spacing)).min(1.0)
+        self.numerics.density_error_correction / tau * (fastest * tau / (FULL_CORRECTION_WAY * self.spacing)).min(1.0)
     }
 
     /// The background pressure p_0 in Pa for a fluid whose largest speed is `speed` (m/s).
     #[must_use]
     pub fn background_pressure_at(&self, speed: f64) -> f64 {
         let scale = if self.tension > 0.0 { self.tension / self.kernel.h } else { self.mean_density() * speed * speed };
-        self.background_pressure * scale
+        self.numerics.background_pressure * scale
     }
 
     /// ∇κ = (ρ_w − ρ_n) g/σ in 1/m² of an interface at rest, κ positive where the wetting phase is convex (Young and Laplace).

@@ -73,7 +73,7 @@ impl Flow {
     /// Shifts particles that lie close apart, and isolated ones back across the interface; they carry their velocity along.
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
         let (fluids, m, f) = (self.state.particles.fluids, &self.setting.method, &self.fields);
-        let diffusion = m.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
+        let diffusion = m.numerics.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
         let mut by = vec![Vec2::zeros(); fluids];
         if diffusion > 0.0 {
             shifting::shift(&self.uneven(), diffusion, m.kernel.h, &mut by);
@@ -112,12 +112,12 @@ impl Flow {
         if f.jump.is_some() {
             shifting::keep_along(&f.normal, m.kernel.h, &mut uneven);
         }
-        if m.anti_clustering > 0.0 {
+        if m.numerics.anti_clustering > 0.0 {
             let mut push = vec![Vec2::zeros(); self.state.particles.fluids];
             shifting::anti_clustering(
                 &self.neighborhood.pairs,
                 &f.volume,
-                m.anti_clustering,
+                m.numerics.anti_clustering,
                 m.kernel.w(m.spacing),
                 &mut push,
             );

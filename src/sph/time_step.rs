@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use crate::sph::method::{Method, ViscousStep, ViscousTerm};
+use crate::case::{ViscousStep, ViscousTerm};
+use crate::sph::method::Method;
 
 /// Courant number on the smoothing length, without surface tension. It bounds the error of the motion, since particles move with the flow.
 const COURANT: f64 = 0.125;
@@ -74,15 +75,15 @@ impl Method {
     /// The largest stable Δt for the fastest particle `speed` (m/s) and the largest viscous rate (1/s, see `Viscous::rate`).
     #[must_use]
     pub fn time_step(&self, speed: f64, viscous_rate: f64) -> TimeStep {
-        let over_rate = if self.viscous_term == ViscousTerm::Szewc { 1.0 / SZEWC_OVER_MORRIS } else { 1.0 };
-        self.inviscid_time_step(speed).tighter(self.time_step_factor * over_rate / viscous_rate, "viscosity")
+        let over_rate = if self.numerics.viscous_term == ViscousTerm::Szewc { 1.0 / SZEWC_OVER_MORRIS } else { 1.0 };
+        self.inviscid_time_step(speed).tighter(self.numerics.time_step_factor * over_rate / viscous_rate, "viscosity")
     }
 
     /// The same without the limit by viscosity.
     #[must_use]
     pub fn inviscid_time_step(&self, speed: f64) -> TimeStep {
-        let f = self.time_step_factor;
-        let capillary = match self.viscous_step {
+        let f = self.numerics.time_step_factor;
+        let capillary = match self.numerics.viscous_step {
             ViscousStep::Implicit if speed < SLOW * self.capillary_speed() => self.in_gas() * RESTING_CAPILLARY,
             _ => self.moving_capillary(),
         };
@@ -94,18 +95,18 @@ impl Method {
     /// unstable above a factor of 4.5/√3 = 2.6, so that neither rest nor a factor of the user makes them longer.
     #[must_use]
     pub fn pinned_time_step(&self) -> f64 {
-        self.time_step_factor.min(1.0) * self.moving_capillary() * self.time_of_waves()
+        self.numerics.time_step_factor.min(1.0) * self.moving_capillary() * self.time_of_waves()
     }
 
     /// The largest Δt in s where the slowest viscous motion decays in `viscous_time` (s) and the forces have acted for `age` (s).
     #[must_use]
     pub fn viscous_time_step(&self, viscous_time: f64, age: f64) -> f64 {
-        self.time_step_factor * (VISCOUS * viscous_time).max(VISCOUS_LATER * age)
+        self.numerics.time_step_factor * (VISCOUS * viscous_time).max(VISCOUS_LATER * age)
     }
 
     /// Factor of the limit by surface tension in a flow that moves.
     fn moving_capillary(&self) -> f64 {
-        match self.viscous_step {
+        match self.numerics.viscous_step {
             ViscousStep::Implicit => self.in_gas() * LONG_CAPILLARY,
             ViscousStep::Explicit => CAPILLARY,
         }
@@ -127,7 +128,7 @@ impl Method {
 
     /// That with it.
     fn courant(&self) -> f64 {
-        (self.time_step_factor * self.usual_courant()).min(LARGEST_COURANT)
+        (self.numerics.time_step_factor * self.usual_courant()).min(LARGEST_COURANT)
     }
 
     /// The time in s in which the pressure takes its share of the density error back, whatever the step: with the shortest of the constants,

@@ -148,10 +148,7 @@ fn last_part(key: &str) -> String {
 
 /// The numbers of a range, both ends included.
 fn numbers(checker: &mut Checker, raw: &RawRange, at: &str) -> Option<Vec<f64>> {
-    let from = checker.require(&format!("{at}.from"), raw.from, "from = 1.0");
-    let to = checker.require(&format!("{at}.to"), raw.to, "to = 2.0");
-    let count = checker.require(&format!("{at}.count"), raw.count, "count = 3");
-    let (from, to, count) = (from?, to?, count?);
+    let (from, to, count) = (raw.from?, raw.to?, raw.count?);
     if !(2..=MOST_VALUES).contains(&count) {
         checker.refuse(format!("{at}.count"), format!("expected 2 to {MOST_VALUES} values, found {count}"), "");
         return None;

@@ -38,11 +38,10 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
     let document = Document::parse(&path.display().to_string(), &text, &Overrides::default())?;
     document.refuse(other_than_a_study(&text).into_iter().collect())?;
     let reading = document.read::<RawStudy>();
-    let raw = &reading.value;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut checker = Checker::default();
+    let raw = &reading.value.clone().in_range(&mut checker, "");
     checker.format(raw.format);
-    let title = checker.require("title", raw.title.clone(), "title = \"what the study shows\"");
     let axes: Vec<Option<Axis>> =
         raw.axis.iter().flatten().enumerate().map(|(index, raw)| axis(&mut checker, raw, index, folder)).collect();
     let all_axes = axes.iter().all(Option::is_some);
@@ -69,7 +68,7 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
     let case = raw.case.as_ref().map(|case| folder.join(case));
     let mistakes = reading.refuse(checker.problems);
     let (Some(title), Some(expectations), Some(trends), Some(report), true) = (
-        title,
+        raw.title.clone(),
         expectations.into_iter().collect(),
         trends.into_iter().collect(),
         report,
@@ -84,14 +83,12 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
 /// What the cases are compared with, where the file says so.
 fn comparison(checker: &mut Checker, raw: Option<&RawComparison>, folder: &Path) -> Option<ComparisonPlan> {
     let raw = raw?;
-    let network =
-        checker.require("compare.network", raw.network.as_ref(), "network = \"../cases/network/compare.toml\"");
     let records = raw.records.unwrap_or(RECORDS);
     if !(1..=MOST_RECORDS).contains(&records) {
         let message = format!("expected 1 to {MOST_RECORDS} records, found {records}");
         checker.refuse("compare.records", message, format!("{RECORDS} where it is left out"));
     }
-    Some(ComparisonPlan { network: folder.join(network?), records })
+    Some(ComparisonPlan { network: folder.join(raw.network.as_ref()?), records })
 }
 
 /// Refuses parameters of one name and too many runs.

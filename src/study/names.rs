@@ -7,6 +7,7 @@ use toml::Value;
 use super::definition::{Axis, Choice, Curve, Expectation, Quantity, ReportPlan, Trend};
 use super::raw::{RawCurve, RawExpectation, RawReport, RawTrend};
 use super::values::{number_of, same, shown};
+use crate::input::tables::Key;
 use crate::input::{Checker, nearest};
 
 /// The parameters, by which expectations and curves name values.
@@ -91,37 +92,31 @@ impl Names<'_> {
     }
 
     pub fn expectation(&self, checker: &mut Checker, raw: &RawExpectation, at: &str) -> Option<Expectation> {
-        let measure = measure(checker, raw.measure.as_ref(), at);
         let key = format!("{at}.value");
-        let value = checker.require(&key, raw.value.as_ref(), "value = 1.0, or the name of a parameter");
-        let value = value.and_then(|value| self.quantity(checker, &key, value));
+        let value = raw.value.as_ref().and_then(|value| self.quantity(checker, &key, value));
         let key = format!("{at}.tolerance");
-        let tolerance = checker.require(&key, raw.tolerance.as_ref(), "tolerance = 0.02");
-        let tolerance = tolerance.and_then(|value| self.quantity(checker, &key, value));
+        let tolerance = raw.tolerance.as_ref().and_then(|value| self.quantity(checker, &key, value));
         if let Some(Quantity::Number(number)) = tolerance {
-            checker.positive(&key, Some(number), "a tolerance");
+            Key::positive("a tolerance").checked(checker, at, "tolerance", Some(number));
         }
         let only = self.choice(checker, at, raw.only.as_ref());
-        Some(Expectation { measure: measure?, value: value?, tolerance: tolerance?, only: only? })
+        Some(Expectation { measure: raw.measure.clone()?, value: value?, tolerance: tolerance?, only: only? })
     }
 
     pub fn trend(&self, checker: &mut Checker, raw: &RawTrend, at: &str) -> Option<Trend> {
-        let measure = measure(checker, raw.measure.as_ref(), at);
         let reference = match &raw.reference {
             Some(value) => self.quantity(checker, &format!("{at}.reference"), value),
             None => Some(Quantity::Number(0.0)),
         };
         let key = format!("{at}.along");
-        let along = checker.require(&key, raw.along.as_ref(), "along = \"spacing\"");
-        let along = along.and_then(|name| self.numeric(checker, &key, name));
-        let floor = checker.positive(&format!("{at}.floor"), raw.floor, "an error, in the unit of the measure,");
+        let along = raw.along.as_ref().and_then(|name| self.numeric(checker, &key, name));
         let only = self.choice(checker, at, raw.only.as_ref());
         Some(Trend {
-            measure: measure?,
+            measure: raw.measure.clone()?,
             reference: reference?,
             along: along?,
             order: raw.order,
-            floor: floor.unwrap_or(0.0),
+            floor: raw.floor.unwrap_or(0.0),
             only: only?,
         })
     }
@@ -139,9 +134,7 @@ impl Names<'_> {
     }
 
     fn curve(&self, checker: &mut Checker, raw: &RawCurve, at: &str) -> Option<Curve> {
-        let x = checker.require(&format!("{at}.x"), raw.x.clone(), "x = \"spacing\"");
-        let y = checker.require(&format!("{at}.y"), raw.y.clone(), "y = \"contact-angle-deg\"");
-        if let Some(x) = x.as_deref().filter(|x| !self.is_numeric(x)) {
+        if let Some(x) = raw.x.as_deref().filter(|x| !self.is_numeric(x)) {
             checker.refuse(format!("{at}.x"), format!("expected a parameter with numbers, `{x}` has others"), "");
         }
         let series = match &raw.series {
@@ -152,7 +145,7 @@ impl Names<'_> {
             Some(value) => Some(self.quantity(checker, &format!("{at}.reference"), value)?),
             None => None,
         };
-        let (x, y) = (x?, y?);
+        let (x, y) = (raw.x.clone()?, raw.y.clone()?);
         let error = raw.error.unwrap_or(false);
         let title = raw
             .title
@@ -169,8 +162,4 @@ impl Names<'_> {
             y_scale: raw.y_scale.unwrap_or_default(),
         })
     }
-}
-
-fn measure(checker: &mut Checker, name: Option<&String>, at: &str) -> Option<String> {
-    checker.require(&format!("{at}.measure"), name.cloned(), "measure = \"contact-angle-deg\"")
 }

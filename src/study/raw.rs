@@ -3,18 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use crate::case::raw::tables;
+use crate::input::tables::{Key, Value, tables};
 
 tables! {
     /// A study file: one or more base cases, what varies, what must come out, what is shown.
     pub struct RawStudy {
         /// Version of the format: 1 (required).
-        pub format: u32,
+        pub format: u32 => Key::required("format = 1"),
         /// One line that describes the study (required).
-        pub title: String,
+        pub title: String => Key::required("title = \"what the study shows\""),
         /// Base case, relative to the study file (required without `cases`).
         pub case: PathBuf,
         /// Values for all runs, `"KEY=VALUE"` as in `--set`.
@@ -34,7 +31,7 @@ tables! {
     /// What the case is compared with.
     pub struct RawComparison {
         /// Case of the network, relative to the study file (required).
-        pub network: PathBuf,
+        pub network: PathBuf => Key::required("network = \"../cases/network/compare.toml\""),
         /// Number of compared states of the direct simulation, 1 to 10 000 (default 100).
         pub records: usize,
     }
@@ -81,11 +78,11 @@ tables! {
     /// Numbers from one to another, both included.
     pub struct RawRange {
         /// First number (required).
-        pub from: f64,
+        pub from: f64 => Key::required("from = 1.0"),
         /// Last number, included (required).
-        pub to: f64,
+        pub to: f64 => Key::required("to = 2.0"),
         /// Number of values, at least 2 (required).
-        pub count: usize,
+        pub count: usize => Key::required("count = 3"),
         /// Equal steps or equal ratios (default `linear`).
         pub scale: RawScale,
     }
@@ -93,13 +90,13 @@ tables! {
     /// A measure that must come out as said.
     pub struct RawExpectation {
         /// Name of a measure (required).
-        pub measure: String,
+        pub measure: String => Key::required("measure = \"contact-angle-deg\""),
         /// Expected value: number or name of a parameter (required).
         #[schemars(with = "Option<serde_json::Value>")]
-        pub value: toml::Value,
+        pub value: toml::Value => Key::required("value = 1.0, or the name of a parameter"),
         /// Largest accepted deviation: number above 0 or name of a parameter (required).
         #[schemars(with = "Option<serde_json::Value>")]
-        pub tolerance: toml::Value,
+        pub tolerance: toml::Value => Key::required("tolerance = 0.02"),
         /// Parameter values of the runs that count, as in `{ spacing = 2.5e-5 }` (default: all runs).
         #[serde(rename = "where")]
         #[schemars(with = "Option<BTreeMap<String, serde_json::Value>>")]
@@ -109,17 +106,17 @@ tables! {
     /// An error that must fall as a parameter falls.
     pub struct RawTrend {
         /// Name of a measure (required).
-        pub measure: String,
+        pub measure: String => Key::required("measure = \"contact-angle-deg\""),
         /// Ideal value, number or name of a parameter (default 0).
         #[schemars(with = "Option<serde_json::Value>")]
         pub reference: toml::Value,
         /// Parameter with which the error must fall, usually a spacing (required).
-        pub along: String,
+        pub along: String => Key::required("along = \"spacing\""),
         /// Smallest accepted order: least-squares slope of log error over log parameter.
         pub order: f64,
         /// Error that counts as converged, as other causes leave it: errors below it need not fall and do not count for the
         /// order (default 0).
-        pub floor: f64,
+        pub floor: f64 => Key::positive("an error, in the unit of the measure,"),
         /// Parameter values of the runs that count (default: all runs).
         #[serde(rename = "where")]
         #[schemars(with = "Option<BTreeMap<String, serde_json::Value>>")]
@@ -142,9 +139,9 @@ tables! {
         /// Title (default: names of y and x).
         pub title: String,
         /// Parameter or measure along x (required).
-        pub x: String,
+        pub x: String => Key::required("x = \"spacing\""),
         /// Measure along y (required).
-        pub y: String,
+        pub y: String => Key::required("y = \"contact-angle-deg\""),
         /// Parameter with one line per value (default: one line).
         pub series: String,
         /// Ideal y, number or name of a parameter: a dashed line.
@@ -160,7 +157,7 @@ tables! {
 }
 
 /// Equal steps or equal ratios.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RawScale {
     /// Equal steps.
@@ -169,3 +166,5 @@ pub enum RawScale {
     /// Equal ratios.
     Logarithmic,
 }
+
+impl Value for RawScale {}

@@ -10,8 +10,8 @@ use super::base_case;
 use super::comparison::{self, DirectRun, NetworkRun, PlannedNetwork};
 use super::definition::{Assignment, Choice, Quantity, Study, Target};
 use super::values::{number_of, same, shown};
+use crate::case::Case;
 use crate::case::Loaded;
-use crate::case::checked::Case;
 use crate::input::{Document, InputError, Mistake, Problem};
 use crate::io::checksum::fnv1a;
 

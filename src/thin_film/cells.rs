@@ -11,19 +11,11 @@
 use std::f64::consts::{PI, TAU};
 
 use super::backward_euler::Balance;
-use super::droplet::{Droplet, WeightRule};
+use super::droplet::Droplet;
 use super::grid::Grid;
 pub use super::model::Model;
 use super::sparse::{Factors, Pattern, TooLarge};
-
-/// The shape of the film across the plane of the picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Symmetry {
-    /// The same at any depth.
-    Plane,
-    /// The same all around the axis x = 0.
-    Axis,
-}
+use crate::case::film::{FilmSymmetry, FilmWeights};
 
 /// Where the cells stand, and what flows in them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,8 +26,8 @@ pub struct Layout {
     pub count: usize,
     /// Width of a cell.
     pub spacing: f64,
-    /// Symmetry.
-    pub symmetry: Symmetry,
+    /// The film across the plane of the picture.
+    pub symmetry: FilmSymmetry,
     /// Equation.
     pub model: Model,
     /// Bond number ρgL²/γ.
@@ -72,12 +64,12 @@ impl Cells {
     ///
     /// # Errors
     /// [`TooLarge`].
-    pub fn new(layout: Layout, droplets: &[Droplet], weights: WeightRule) -> Result<(Self, Vec<f64>), TooLarge> {
+    pub fn new(layout: Layout, droplets: &[Droplet], weights: FilmWeights) -> Result<(Self, Vec<f64>), TooLarge> {
         let Layout { from, count, spacing, symmetry, model, .. } = layout;
         let edge = |i: usize| from + i as f64 * spacing;
         let (size, face) = match symmetry {
-            Symmetry::Plane => (vec![spacing; count], (0..=count).map(|_| 1.0 / spacing).collect::<Vec<_>>()),
-            Symmetry::Axis => (
+            FilmSymmetry::Plane => (vec![spacing; count], (0..=count).map(|_| 1.0 / spacing).collect::<Vec<_>>()),
+            FilmSymmetry::Axis => (
                 (0..count).map(|i| PI * (edge(i + 1).powi(2) - edge(i).powi(2))).collect(),
                 (0..=count).map(|i| TAU * edge(i) / spacing).collect(),
             ),
@@ -90,11 +82,11 @@ impl Cells {
         cells.face[count] = 0.0;
         let held = |i: usize| -> f64 {
             let mass = |droplet: &Droplet| match (weights, symmetry) {
-                (WeightRule::Point, _) => droplet.height(edge(i) + 0.5 * spacing),
-                (WeightRule::Cell, Symmetry::Plane) => {
+                (FilmWeights::Point, _) => droplet.height(edge(i) + 0.5 * spacing),
+                (FilmWeights::Cell, FilmSymmetry::Plane) => {
                     (droplet.mass_below(edge(i + 1)) - droplet.mass_below(edge(i))) / cells.size[i]
                 }
-                (WeightRule::Cell, Symmetry::Axis) => {
+                (FilmWeights::Cell, FilmSymmetry::Axis) => {
                     (droplet.volume_within(edge(i + 1)) - droplet.volume_within(edge(i))) / cells.size[i]
                 }
             };
@@ -353,17 +345,17 @@ mod tests {
         Model::Precursor { film: 0.02, slope: 1.0, slip: 0.01 },
     ];
 
-    fn layout(symmetry: Symmetry, model: Model, count: usize, bond: f64) -> Layout {
-        let from = if symmetry == Symmetry::Axis { 0.0 } else { -1.0 };
+    fn layout(symmetry: FilmSymmetry, model: Model, count: usize, bond: f64) -> Layout {
+        let from = if symmetry == FilmSymmetry::Axis { 0.0 } else { -1.0 };
         Layout { from, count, spacing: (1.0 - from) / count as f64, symmetry, model, bond }
     }
 
     #[test]
     fn newton_steps_use_the_jacobian_of_the_residual() {
         let droplet = Droplet { area: 0.5, half_width: 0.5, center: 0.0 };
-        for symmetry in [Symmetry::Plane, Symmetry::Axis] {
+        for symmetry in [FilmSymmetry::Plane, FilmSymmetry::Axis] {
             for model in MODELS {
-                let (cells, old) = Cells::new(layout(symmetry, model, 60, 3.0), &[droplet], WeightRule::Cell).unwrap();
+                let (cells, old) = Cells::new(layout(symmetry, model, 60, 3.0), &[droplet], FilmWeights::Cell).unwrap();
                 let v: Vec<f64> = cells.nodes().iter().map(|x| 0.4 + 0.3 * (3.0 * x).cos()).collect();
                 let change: Vec<f64> = (0..60).map(|i| (1.3 * f64::from(i)).sin()).collect();
                 let (dt, tiny) = (1.0e-3, 1.0e-6);
@@ -385,10 +377,10 @@ mod tests {
     #[test]
     fn steps_keep_the_mass_and_lower_the_energy() {
         let droplet = Droplet { area: 0.5, half_width: 0.5, center: 0.0 };
-        for symmetry in [Symmetry::Plane, Symmetry::Axis] {
+        for symmetry in [FilmSymmetry::Plane, FilmSymmetry::Axis] {
             for model in MODELS {
                 let (cells, height) =
-                    Cells::new(layout(symmetry, model, 200, 3.0), &[droplet], WeightRule::Cell).unwrap();
+                    Cells::new(layout(symmetry, model, 200, 3.0), &[droplet], FilmWeights::Cell).unwrap();
                 let mut film = GridFilm::new(Equation::Cells(cells), height, StepRule::ADAPTIVE);
                 let mass = film.mass();
                 let mut energy = film.energy();

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::case::film::FilmWeights;
+
 /// A parabolic droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Droplet {
@@ -11,15 +13,6 @@ pub struct Droplet {
     pub half_width: f64,
     /// Its middle c.
     pub center: f64,
-}
-
-/// How the mass of the droplet is given to particles and nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WeightRule {
-    /// Each particle holds the film of its cell of width Δx: the mass is exact.
-    Cell,
-    /// Each particle holds h(xᵢ) Δx: the mass of a droplet on a lattice point is A (1 − (Δx/2r)²).
-    Point,
 }
 
 /// Point masses on the wall: h = Σ wᵢ δ(x − xᵢ).
@@ -65,7 +58,7 @@ impl Droplet {
 
 /// Particles on the nodes k Δx of a lattice through x = 0. Nodes without mass are left out: they would move nothing.
 #[must_use]
-pub fn particles(droplets: &[Droplet], spacing: f64, rule: WeightRule) -> PointMasses {
+pub fn particles(droplets: &[Droplet], spacing: f64, rule: FilmWeights) -> PointMasses {
     let mut masses = PointMasses::default();
     let ends = |droplet: &Droplet| [droplet.center - droplet.half_width, droplet.center + droplet.half_width];
     let reach =
@@ -76,8 +69,8 @@ pub fn particles(droplets: &[Droplet], spacing: f64, rule: WeightRule) -> PointM
     for node in first..=last {
         let x = node as f64 * spacing;
         let of = |droplet: &Droplet| match rule {
-            WeightRule::Cell => droplet.mass_below(x + 0.5 * spacing) - droplet.mass_below(x - 0.5 * spacing),
-            WeightRule::Point => droplet.height(x) * spacing,
+            FilmWeights::Cell => droplet.mass_below(x + 0.5 * spacing) - droplet.mass_below(x - 0.5 * spacing),
+            FilmWeights::Point => droplet.height(x) * spacing,
         };
         let weight: f64 = droplets.iter().map(of).sum();
         if weight > least {
@@ -96,16 +89,16 @@ mod tests {
     fn cells_hold_all_of_the_mass_and_points_as_much_as_their_rule_says() {
         let droplet = Droplet { area: 0.25, half_width: 0.5, center: 0.0 };
         let mass = |rule| particles(&[droplet], 0.005, rule).weight.iter().sum::<f64>();
-        assert!((mass(WeightRule::Cell) - 0.25).abs() < 1.0e-14);
-        assert!((mass(WeightRule::Point) - 0.25 * (1.0 - 0.005_f64.powi(2))).abs() < 1.0e-14);
+        assert!((mass(FilmWeights::Cell) - 0.25).abs() < 1.0e-14);
+        assert!((mass(FilmWeights::Point) - 0.25 * (1.0 - 0.005_f64.powi(2))).abs() < 1.0e-14);
         let count = |rule| particles(&[droplet], 0.005, rule).x.len();
-        assert_eq!((count(WeightRule::Cell), count(WeightRule::Point)), (201, 199));
+        assert_eq!((count(FilmWeights::Cell), count(FilmWeights::Point)), (201, 199));
     }
 
     #[test]
     fn two_droplets_have_the_particles_of_both() {
         let droplets = [-0.8, 0.71].map(|center| Droplet { area: 0.25, half_width: 0.5, center });
-        let masses = particles(&droplets, 0.01, WeightRule::Cell);
+        let masses = particles(&droplets, 0.01, FilmWeights::Cell);
         assert!((masses.weight.iter().sum::<f64>() - 0.5).abs() < 1.0e-14);
         assert!(masses.x.windows(2).all(|pair| pair[0] < pair[1]));
         assert!(!masses.x.iter().any(|x| (-0.29..=0.2).contains(x)));

@@ -145,8 +145,9 @@ impl Implicit for ParticleMethod {
 #[cfg(test)]
 mod tests {
     use super::super::ode::Rates;
-    use super::super::particles::{LatticeEnergy, disturbed};
+    use super::super::particles::disturbed;
     use super::*;
+    use crate::case::film::LatticeEnergy;
 
     #[test]
     fn implicit_steps_use_the_jacobian_of_the_rates() {

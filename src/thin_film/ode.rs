@@ -5,6 +5,8 @@
 //! order 5(4). Stiff: RODAS, order 4(3), L-stable, 6 stages (Hairer and Wanner, Solving Ordinary Differential Equations II,
 //! 1996, Sect. VI.4). Both are for autonomous systems.
 
+use crate::case::film::FilmIntegrator;
+
 /// ẋ = f(x).
 pub trait Rates {
     /// Writes f(x).
@@ -24,15 +26,6 @@ pub trait Implicit: Rates {
 
     /// Replaces `rhs` by the solution.
     fn solve(system: &mut Self::System, rhs: &mut [f64]);
-}
-
-/// A method of integration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// Dormand-Prince 5(4).
-    Explicit,
-    /// RODAS 4(3).
-    Stiff,
 }
 
 /// Accepted error per step: absolute + relative |x|.
@@ -59,7 +52,7 @@ pub struct Work {
 #[derive(Debug, Clone)]
 pub struct Integrator {
     /// Method.
-    pub method: Method,
+    pub method: FilmIntegrator,
     /// Tolerance.
     pub tolerance: Tolerance,
     /// Time.
@@ -90,7 +83,7 @@ const SMALLEST: f64 = 1.0e-15;
 impl Integrator {
     /// A state at time zero with a first step to try.
     #[must_use]
-    pub fn new(method: Method, tolerance: Tolerance, x: Vec<f64>, first: f64) -> Self {
+    pub fn new(method: FilmIntegrator, tolerance: Tolerance, x: Vec<f64>, first: f64) -> Self {
         Self { method, tolerance, time: 0.0, x, next: first, work: Work::default(), stages: Vec::new() }
     }
 
@@ -105,8 +98,8 @@ impl Integrator {
             // Two halves rather than a step and a sliver.
             let dt = if cut { left } else { self.next.min(0.5 * left).max(self.next.min(left) * 0.5) };
             let (order, trial) = match self.method {
-                Method::Explicit => (5.0, self.explicit(system, dt)),
-                Method::Stiff => (4.0, self.stiff(system, dt)),
+                FilmIntegrator::Explicit => (5.0, self.explicit(system, dt)),
+                FilmIntegrator::Stiff => (4.0, self.stiff(system, dt)),
             };
             let factor = match &trial {
                 Some((_, error)) if error.is_finite() => (SAFETY * error.powf(-1.0 / order)).clamp(SHRINK, GROW),
@@ -134,7 +127,7 @@ impl Integrator {
     /// by stability, so that the length of the last one tells more.
     #[must_use]
     pub fn steps_to(&self, end: f64) -> Option<f64> {
-        if self.method == Method::Explicit {
+        if self.method == FilmIntegrator::Explicit {
             return None;
         }
         let share = SHARE * (self.tolerance.absolute / SHARE_AT).powf(0.25);
@@ -305,7 +298,7 @@ mod tests {
     }
 
     /// Error after a quarter turn in `steps` equal steps.
-    fn error(method: Method, steps: u32) -> f64 {
+    fn error(method: FilmIntegrator, steps: u32) -> f64 {
         let loose = Tolerance { absolute: 1.0e9, relative: 0.0 };
         let dt = std::f64::consts::FRAC_PI_2 / f64::from(steps);
         let mut integrator = Integrator::new(method, loose, vec![1.0, 0.0], dt);
@@ -318,7 +311,7 @@ mod tests {
 
     #[test]
     fn the_methods_have_the_orders_of_their_names() {
-        for (method, order) in [(Method::Explicit, 5.0), (Method::Stiff, 4.0)] {
+        for (method, order) in [(FilmIntegrator::Explicit, 5.0), (FilmIntegrator::Stiff, 4.0)] {
             let found = (error(method, 20) / error(method, 40)).log2();
             // Higher terms bend the line a little; on a circle some of the leading ones cancel.
             assert!(found > order - 0.3 && found < order + 1.2, "{method:?}: {found}");
@@ -327,7 +320,7 @@ mod tests {
 
     #[test]
     fn the_error_stays_near_the_tolerance_and_the_end_is_met_exactly() {
-        for method in [Method::Explicit, Method::Stiff] {
+        for method in [FilmIntegrator::Explicit, FilmIntegrator::Stiff] {
             let tolerance = Tolerance { absolute: 1.0e-9, relative: 0.0 };
             let mut integrator = Integrator::new(method, tolerance, vec![1.0, 0.0], 1.0e-3);
             integrator.run(&mut Circle, 3.0).unwrap();

@@ -10,18 +10,10 @@ use super::kernel::Kernel;
 use super::ode::Rates;
 use super::sparse::Pattern;
 use super::sums::{FastSums, Smoothed, direct_sums};
+use crate::case::film::LatticeEnergy;
 
 /// Widest gap over α at which the lattice energy may be taken off.
 pub const WIDEST_GAP: f64 = 0.5;
-
-/// What is done about the energy of the particle lattice.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LatticeEnergy {
-    /// Nothing, as in the paper.
-    Kept,
-    /// Its gradient is taken off the rates.
-    TakenOff,
-}
 
 /// What moves a film besides its tension.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -190,7 +182,7 @@ impl Rates for ParticleMethod {
 #[cfg(test)]
 pub(super) fn disturbed(wetting: f64, lattice: LatticeEnergy) -> (ParticleMethod, Vec<f64>) {
     let droplet = super::droplet::Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
-    let masses = super::droplet::particles(&[droplet], 0.02, super::droplet::WeightRule::Cell);
+    let masses = super::droplet::particles(&[droplet], 0.02, crate::case::film::FilmWeights::Cell);
     let wave = |x: &f64| x + 0.004 * (40.0 * x + 0.3).sin();
     let pull = Pull { wetting, bond: 2.0 * wetting };
     (ParticleMethod::new(Kernel::new(0.05), &masses, pull, lattice), masses.x.iter().map(wave).collect())
@@ -198,8 +190,9 @@ pub(super) fn disturbed(wetting: f64, lattice: LatticeEnergy) -> (ParticleMethod
 
 #[cfg(test)]
 mod tests {
-    use super::super::droplet::{Droplet, WeightRule, particles};
+    use super::super::droplet::{Droplet, particles};
     use super::*;
+    use crate::case::film::FilmWeights;
 
     const DROPLET: Droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
 
@@ -232,7 +225,7 @@ mod tests {
 
     #[test]
     fn a_symmetric_droplet_stays_symmetric() {
-        let masses = particles(&[DROPLET], 0.01, WeightRule::Cell);
+        let masses = particles(&[DROPLET], 0.01, FilmWeights::Cell);
         let mut method = ParticleMethod::new(Kernel::new(0.05), &masses, Pull::default(), LatticeEnergy::TakenOff);
         let mut rate = vec![0.0; masses.x.len()];
         method.rates(&masses.x, &mut rate);

@@ -5,9 +5,10 @@
 //! its derivative is a matrix of rank one, added by the Sherman-Morrison formula. Order 2 in space, 1 in time.
 
 use super::backward_euler::Balance;
-use super::droplet::{Droplet, WeightRule, particles};
+use super::droplet::{Droplet, particles};
 use super::grid::Grid;
 use super::sparse::{Factors, Pattern, TooLarge};
+use crate::case::film::FilmWeights;
 
 /// A height below this share of the largest is a spurious root, not rounding.
 const NEGATIVE: f64 = -1.0e-6;
@@ -51,7 +52,7 @@ impl Ring {
     ///
     /// # Errors
     /// [`TooLarge`].
-    pub fn new(line: Line, droplets: &[Droplet], weights: WeightRule) -> Result<(Self, Vec<f64>), TooLarge> {
+    pub fn new(line: Line, droplets: &[Droplet], weights: FilmWeights) -> Result<(Self, Vec<f64>), TooLarge> {
         let Line { from, count, spacing, alpha, .. } = line;
         let mut sharp = vec![0.0; count];
         let masses = particles(droplets, spacing, weights);
@@ -260,7 +261,7 @@ mod tests {
     fn newton_steps_use_the_jacobian_of_the_residual() {
         let line = Line { from: -1.0, count: 80, spacing: 0.025, alpha: 0.05, wetting: 1.16, bond: 3.0 };
         let droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
-        let (ring, old) = Ring::new(line, &[droplet], WeightRule::Cell).unwrap();
+        let (ring, old) = Ring::new(line, &[droplet], FilmWeights::Cell).unwrap();
         let v: Vec<f64> = ring.nodes().iter().map(|x| 0.4 + 0.3 * (3.0 * x).cos()).collect();
         let change: Vec<f64> = (0..80).map(|i| (1.3 * f64::from(i)).sin()).collect();
         let (dt, tiny) = (1.0e-3, 1.0e-6);

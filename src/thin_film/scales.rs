@@ -5,7 +5,7 @@
 //! τ = (3μL/γ)(L/h₀)³; the paper prints tan³θ there where tan⁻³θ is consistent. Bo = ρgL²/γ.
 
 use super::droplet::Droplet;
-use crate::case::film::checked::{FilmDroplet, ThinFilm};
+use crate::case::film::{FilmDroplet, ThinFilm};
 
 /// One unit of each scaled quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +76,7 @@ impl Scales {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::film::checked::{FilmEquation, FilmMethod, FilmSymmetry, FilmWeights};
+    use crate::case::film::{FilmEquation, FilmGrid, FilmMethod, FilmSymmetry, FilmWeights, Geometric};
 
     #[test]
     fn the_scaled_droplets_are_those_of_the_paper() {
@@ -88,9 +88,9 @@ mod tests {
             spacing: 5.0e-6,
             symmetry: FilmSymmetry::Plane,
             droplets: vec![FilmDroplet { center: 0.0, half_width: 5.0e-4, height: 3.75e-5 }],
-            equation: FilmEquation::Geometric { smoothing_length: 5.0e-5 },
+            equation: FilmEquation::Geometric(Geometric { smoothing_length: 5.0e-5 }),
             contact_angle,
-            method: FilmMethod::FiniteDifferences { step_share: 0.01 },
+            method: FilmMethod::FiniteDifferences(FilmGrid { step_share: 0.01 }),
             weights: FilmWeights::Cell,
         };
         let complete = film(None);

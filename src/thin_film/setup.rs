@@ -1,21 +1,22 @@
 //! From a checked case to a film at time zero.
 
 use super::backward_euler::StepRule;
-use super::cells::{Cells, Layout, Model, Symmetry};
-use super::droplet::{Droplet, WeightRule, particles};
+use super::cells::{Cells, Layout, Model};
+use super::droplet::{Droplet, particles};
 use super::equilibrium::Equilibrium;
 use super::film::Film;
 use super::grid::{Equation, GridFilm};
 use super::kernel::Kernel;
-use super::ode::{Integrator, Method, Tolerance};
-use super::particles::{self, ParticleMethod, Pull};
+use super::ode::{Integrator, Tolerance};
+use super::particles::{ParticleMethod, Pull};
 use super::ring::{Line, Ring};
 use super::scales::Scales;
 use super::solver::{Surroundings, ThinFilmSolver};
 use super::sparse::TooLarge;
-use crate::case::checked::Case;
-use crate::case::film::checked::{
-    FilmDroplet, FilmEquation, FilmIntegrator, FilmMethod, FilmSums, FilmSymmetry, FilmWeights, LatticeEnergy, ThinFilm,
+use crate::case::Case;
+use crate::case::film::{
+    FilmDroplet, FilmEquation, FilmGrid, FilmMethod, FilmParticles, FilmSums, FilmSymmetry, Geometric, LatticeEnergy,
+    Precursor, Slip, ThinFilm,
 };
 
 /// Scaled first step: a droplet that starts far from rest changes fast.
@@ -65,35 +66,27 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
     let (wetting, equilibrium) = rest(film, &scales, &droplets)?;
     let pull = Pull { wetting, bond: scales.bond };
     let moving = match film.method {
-        FilmMethod::Particles { integrator, tolerance, lattice_energy, sums } => {
+        FilmMethod::Particles(FilmParticles { integrator, tolerance, lattice_energy, sums }) => {
             let alpha = smoothing_length(film).unwrap_or(film.spacing) / scales.length;
-            let masses = particles(&droplets, film.spacing / scales.length, weights(film));
-            let lattice = match lattice_energy {
-                LatticeEnergy::Kept => particles::LatticeEnergy::Kept,
-                LatticeEnergy::TakenOff => particles::LatticeEnergy::TakenOff,
-            };
-            let method = match integrator {
-                FilmIntegrator::Stiff => Method::Stiff,
-                FilmIntegrator::Explicit => Method::Explicit,
-            };
+            let masses = particles(&droplets, film.spacing / scales.length, film.weights);
             let width = droplets.iter().map(|droplet| 2.0 * droplet.half_width).fold(0.0, f64::max);
             let tolerance = Tolerance { absolute: tolerance * width, relative: 0.0 };
-            let state = Integrator::new(method, tolerance, masses.x.clone(), FIRST_STEP);
-            let mut equation = ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice);
+            let state = Integrator::new(integrator, tolerance, masses.x.clone(), FIRST_STEP);
+            let mut equation = ParticleMethod::new(Kernel::new(alpha), &masses, pull, lattice_energy);
             if sums == FilmSums::Direct {
                 equation.sum_directly();
             }
             Film::particles(equation, &masses, state)
         }
-        FilmMethod::FiniteDifferences { step_share } => {
+        FilmMethod::FiniteDifferences(FilmGrid { step_share }) => {
             let rule = StepRule { first: first_step(film, &scales), share: step_share, ..StepRule::ADAPTIVE };
             let (equation, height) = grid(film, &scales, &droplets, wall, pull)?;
             Film::Grid(Box::new(GridFilm::new(equation, height, rule)))
         }
     };
     let resolution = match film.equation {
-        FilmEquation::Geometric { smoothing_length } => smoothing_length,
-        FilmEquation::Slip { .. } | FilmEquation::Precursor { .. } => film.spacing,
+        FilmEquation::Geometric(Geometric { smoothing_length }) => smoothing_length,
+        FilmEquation::Slip(_) | FilmEquation::Precursor(_) => film.spacing,
     };
     let right = droplets.last().map_or(0.0, |droplet| droplet.center);
     let resolution = resolution / scales.length;
@@ -105,7 +98,10 @@ pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError>
         about_axis: film.symmetry == FilmSymmetry::Axis,
         rest: film.contact_angle.map(|_| 1.0),
         cap_sides: cap_sides(film),
-        takes_lattice_off: matches!(film.method, FilmMethod::Particles { lattice_energy: LatticeEnergy::TakenOff, .. }),
+        takes_lattice_off: matches!(
+            film.method,
+            FilmMethod::Particles(FilmParticles { lattice_energy: LatticeEnergy::TakenOff, .. })
+        ),
         most_droplets: most_droplets(film),
         is_self_similar: film.is_self_similar(),
         equilibrium,
@@ -138,15 +134,8 @@ fn cap_sides(film: &ThinFilm) -> Option<f64> {
 
 fn smoothing_length(film: &ThinFilm) -> Option<f64> {
     match film.equation {
-        FilmEquation::Geometric { smoothing_length } => Some(smoothing_length),
-        FilmEquation::Slip { .. } | FilmEquation::Precursor { .. } => None,
-    }
-}
-
-fn weights(film: &ThinFilm) -> WeightRule {
-    match film.weights {
-        FilmWeights::Cell => WeightRule::Cell,
-        FilmWeights::Point => WeightRule::Point,
+        FilmEquation::Geometric(Geometric { smoothing_length }) => Some(smoothing_length),
+        FilmEquation::Slip(_) | FilmEquation::Precursor(_) => None,
     }
 }
 
@@ -175,32 +164,29 @@ fn grid(
     let spacing = film.spacing / scales.length;
     let count = ((wall[1] - wall[0]) / film.spacing).round() as usize;
     let model = match (film.equation, film.symmetry) {
-        (FilmEquation::Geometric { smoothing_length }, FilmSymmetry::Plane) => {
+        (FilmEquation::Geometric(Geometric { smoothing_length }), FilmSymmetry::Plane) => {
             // A node stands at x = 0.
             let before = (-wall[0] / film.spacing).round();
             let alpha = smoothing_length / scales.length;
             let Pull { wetting, bond } = pull;
             let line = Line { from: -before * spacing, count, spacing, alpha, wetting, bond };
-            let (ring, height) = Ring::new(line, droplets, weights(film))?;
+            let (ring, height) = Ring::new(line, droplets, film.weights)?;
             return Ok((Equation::Ring(ring), height));
         }
-        (FilmEquation::Geometric { smoothing_length }, FilmSymmetry::Axis) => {
+        (FilmEquation::Geometric(Geometric { smoothing_length }), FilmSymmetry::Axis) => {
             Model::Geometric { alpha: smoothing_length / scales.length }
         }
-        (FilmEquation::Slip { slip_length, film_height }, _) => {
+        (FilmEquation::Slip(Slip { slip_length, film_height }), _) => {
             Model::Slip { length: slip_length / scales.height, film: film_height / scales.height }
         }
-        (FilmEquation::Precursor { film_height, slip_length }, _) => {
+        (FilmEquation::Precursor(Precursor { film_height, slip_length }), _) => {
             // The scaled slope at rest is 1.
             let slope = if film.contact_angle.is_some() { 1.0 } else { 0.0 };
             Model::Precursor { film: film_height / scales.height, slope, slip: slip_length / scales.height }
         }
     };
-    let symmetry = match film.symmetry {
-        FilmSymmetry::Plane => Symmetry::Plane,
-        FilmSymmetry::Axis => Symmetry::Axis,
-    };
-    let layout = Layout { from: wall[0] / scales.length, count, spacing, symmetry, model, bond: scales.bond };
-    let (cells, height) = Cells::new(layout, droplets, weights(film))?;
+    let layout =
+        Layout { from: wall[0] / scales.length, count, spacing, symmetry: film.symmetry, model, bond: scales.bond };
+    let (cells, height) = Cells::new(layout, droplets, film.weights)?;
     Ok((Equation::Cells(cells), height))
 }

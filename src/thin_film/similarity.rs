@@ -5,8 +5,9 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use super::ode::{Implicit, Integrator, Method, Rates, Tolerance};
+use super::ode::{Implicit, Integrator, Rates, Tolerance};
 use super::profile::Profile;
+use crate::case::film::FilmIntegrator;
 
 /// Exponent of time in x, and its negative in h̄.
 pub const EXPONENT: f64 = 1.0 / 7.0;
@@ -66,7 +67,7 @@ impl Implicit for Shooting {
 pub fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
     let tolerance = Tolerance { absolute: TOLERANCE * height, relative: TOLERANCE };
     let start = vec![0.0, height, 0.0, curvature];
-    let mut state = Integrator::new(Method::Explicit, tolerance, start, 1.0e-3);
+    let mut state = Integrator::new(FilmIntegrator::Explicit, tolerance, start, 1.0e-3);
     let mut f = Vec::with_capacity(eta.len());
     for &place in eta {
         if state.run(&mut Shooting, place).is_err() {

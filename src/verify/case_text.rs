@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::cut_out::CutOut;
 use super::whole_pore::WholePore;
-use crate::case::checked::Fluid;
+use crate::case::Fluid;
 use crate::geometry::spec::{CurvedPolygon, GeometrySpec, ShapeSpec};
 use crate::network::cycles::Fluid as Phase;
 use crate::network::displacement::EventKind;

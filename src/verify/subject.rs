@@ -1,6 +1,6 @@
 //! What is verified: a network with its menisci, and how its first displacement went up to breakthrough.
 
-use crate::case::checked::{Case, Fluid as FluidOf, Model};
+use crate::case::{Case, Fluid as FluidOf, Model};
 use crate::interface::menisci::Passage;
 use crate::network::cycles::{Cycles, Entry, Fluid};
 use crate::network::displacement::{Conditions, Displacement, Event, EventKind, Scene};

@@ -4,13 +4,13 @@
 //! line takes the same change of the cosine with the other sign, which nobody has measured. It is the angle far from the line, as
 //! Jiang's is. Beyond the Ca at which the angle reaches 180 degrees (0.25 at θ_e = 0) it stays there.
 
-use super::law::{Law, LineState, Quantity, law};
+use super::law::{Law, LineState, Parameter, law};
 
 law! {
     /// Fit of tapes drawn into liquids (Bracke, De Voeght and Joos 1989).
     pub struct Bracke {
         /// Static contact angle in degrees.
-        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        pub contact_angle_deg: Parameter::CONTACT_ANGLE,
     }
 }
 

@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::law::{Law, LineState, Quantity, law};
+use super::law::{Law, LineState, Parameter, law};
 
 /// Intervals of Simpson's rule.
 const INTERVALS: usize = 24;
@@ -22,9 +22,9 @@ law! {
     /// Viscous bending below the spacing, for any ratio of viscosities (Cox 1986).
     pub struct Cox {
         /// Static contact angle in degrees.
-        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        pub contact_angle_deg: Parameter::CONTACT_ANGLE,
         /// Slip length of the wall in m, of the order of nanometers.
-        pub slip_length: Quantity::positive("a slip length in m", "slip-length = 1.0e-9 # m"),
+        pub slip_length: Parameter::positive("a slip length in m", "slip-length = 1.0e-9 # m"),
     }
 }
 

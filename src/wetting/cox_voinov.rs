@@ -7,15 +7,15 @@
 
 use std::f64::consts::PI;
 
-use super::law::{Law, LineState, Quantity, law};
+use super::law::{Law, LineState, Parameter, law};
 
 law! {
     /// Viscous bending below the resolved scale (Voinov 1976; Cox 1986).
     pub struct CoxVoinov {
         /// Static contact angle in degrees.
-        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        pub contact_angle_deg: Parameter::CONTACT_ANGLE,
         /// Slip length of the liquid on its wall in m.
-        pub slip_length: Quantity::positive("a slip length in m", "slip-length = 1.0e-9 # m"),
+        pub slip_length: Parameter::positive("a slip length in m", "slip-length = 1.0e-9 # m"),
     }
 }
 

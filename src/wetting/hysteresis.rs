@@ -5,7 +5,7 @@
 //! that only a line at a bound takes along (`sph::wetting::lines`). With the continuum force a line within its range is only not
 //! driven, and creeps with whatever flow there is.
 
-use super::law::{Law, LineState, Quantity, law};
+use super::law::{Law, LineState, Parameter, law};
 use super::tadmor::{order, tadmor};
 use crate::input::Problem;
 
@@ -13,9 +13,9 @@ law! {
     /// Contact lines pinned between receding and advancing angle (Dussan 1979).
     pub struct Hysteresis {
         /// Advancing contact angle in degrees.
-        pub advancing_angle_deg: Quantity::ADVANCING_ANGLE,
+        pub advancing_angle_deg: Parameter::ADVANCING_ANGLE,
         /// Receding contact angle in degrees, 0 to the advancing one.
-        pub receding_angle_deg: Quantity::RECEDING_ANGLE,
+        pub receding_angle_deg: Parameter::RECEDING_ANGLE,
     }
 }
 

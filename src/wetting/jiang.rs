@@ -3,13 +3,13 @@
 //! (cos θ_e − cos θ_d)/(cos θ_e + 1) = tanh(4.96 Ca^0.702), for lines that advance. A receding line takes the same change of the
 //! cosine with the other sign, which nobody has measured. It is the angle far from the line, as Kistler's is.
 
-use super::law::{Law, LineState, Quantity, law};
+use super::law::{Law, LineState, Parameter, law};
 
 law! {
     /// Fit of Hoffman's data (Jiang, Oh and Slattery 1979).
     pub struct Jiang {
         /// Static contact angle in degrees.
-        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        pub contact_angle_deg: Parameter::CONTACT_ANGLE,
     }
 }
 

@@ -6,13 +6,13 @@
 
 use std::f64::consts::PI;
 
-use super::law::{Law, LineState, Quantity, law};
+use super::law::{Law, LineState, Parameter, law};
 
 law! {
     /// Fit of Hoffman's data (Kistler 1993; Hoffman 1975).
     pub struct Kistler {
         /// Static contact angle in degrees.
-        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        pub contact_angle_deg: Parameter::CONTACT_ANGLE,
     }
 }
 

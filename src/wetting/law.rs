@@ -5,7 +5,8 @@
 //! one to the other, and the way back. Parameters keep the units of their keys, angles in degrees and temperatures in °C; the report tells them
 //! in SI units and radians.
 
-use crate::input::{Checker, Problem, Range};
+use crate::input::tables::Key;
+use crate::input::{Checker, Problem};
 
 /// What a law sees of a contact line.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -80,22 +81,16 @@ pub struct InSi {
     pub of: fn(f64) -> f64,
 }
 
-/// A number that a law is given: what its key may hold.
+/// A parameter of a law.
 #[derive(Debug, Clone, Copy)]
-pub struct Quantity {
-    /// What it is, with its article and its unit: `a slip length in m`.
-    pub what: &'static str,
-    /// Its line in a case file.
-    pub example: &'static str,
-    /// Where it must lie.
-    pub range: Range,
-    /// Its value where the case says nothing; without one the key is required.
-    pub default: Option<f64>,
+pub struct Parameter {
+    /// What its key may hold.
+    pub key: Key,
     /// In SI units and radians, where its key has another unit.
     pub si: Option<InSi>,
 }
 
-impl Quantity {
+impl Parameter {
     /// A static contact angle.
     pub const CONTACT_ANGLE: Self = Self::angle("contact_angle", "contact-angle-deg = 40.0");
     /// An advancing contact angle.
@@ -105,25 +100,16 @@ impl Quantity {
 
     /// An angle in degrees, 0 to 180; `name` is that of the angle in rad.
     const fn angle(name: &'static str, example: &'static str) -> Self {
-        let si = Some(InSi { name, of: f64::to_radians });
-        Self { what: "an angle in degrees", example, range: Range::Within(0.0, 180.0), default: None, si }
+        let key = Key::within("an angle in degrees", 0.0, 180.0).example(example);
+        Self { key, si: Some(InSi { name, of: f64::to_radians }) }
     }
 
     /// A number above zero.
-    #[must_use]
     pub const fn positive(what: &'static str, example: &'static str) -> Self {
-        Self { what, example, range: Range::Above(0.0), default: None, si: None }
-    }
-
-    /// The value at the key path `path`, where it is there and in range.
-    pub fn checked(&self, checker: &mut Checker, path: &str, value: Option<f64>) -> Option<f64> {
-        let value = value.or(self.default);
-        let value = checker.require(path, value, self.example);
-        checker.in_range(path, value, self.range, self.what)
+        Self { key: Key::positive(what).example(example), si: None }
     }
 
     /// Name and value in SI units and radians of what is the `value` of `field`.
-    #[must_use]
     pub fn in_si(&self, field: &'static str, value: f64) -> (&'static str, f64) {
         self.si.map_or((field, value), |si| (si.name, (si.of)(value)))
     }
@@ -135,8 +121,8 @@ pub trait Parameters: Sized {
     type Raw;
     /// What the law says and, in parentheses, who found it.
     const ABOUT: &'static str;
-    /// Its fields and what they may hold.
-    const QUANTITIES: &'static [(&'static str, Quantity)];
+    /// Its fields and what their keys may hold.
+    const KEYS: &'static [(&'static str, Key)];
 
     /// The law, where all of its parameters are there and in range; `at` is the key path of the table.
     fn checked(raw: &Self::Raw, checker: &mut Checker, at: &str) -> Option<Self>;
@@ -146,12 +132,6 @@ pub trait Parameters: Sized {
 
     /// Keys and values of the table.
     fn entries(raw: &mut Self::Raw) -> Vec<(String, &mut Option<f64>)>;
-}
-
-/// A key of a case file, from the name of its field.
-#[must_use]
-pub fn key(field: &str) -> String {
-    field.replace('_', "-")
 }
 
 /// The law whose parameters are there, in range and without a contradiction; `at` is the key path of its table.
@@ -190,12 +170,12 @@ pub(super) fn is_angle(key: &str) -> bool {
 }
 
 /// Declares the parameters of a law: the comment on the law ends with its source in parentheses, those on its fields are the reference
-/// of the case file, and a field is followed by its [`Quantity`].
+/// of the case file, and a field is followed by its [`Parameter`].
 macro_rules! law {
     (
         $(#[doc = $about:literal])+
         pub struct $law:ident {
-            $($(#[doc = $doc:literal])+ pub $field:ident: $quantity:expr,)+
+            $($(#[doc = $doc:literal])+ pub $field:ident: $parameter:expr,)+
         }
     ) => {
         $(#[doc = $about])+
@@ -207,35 +187,28 @@ macro_rules! law {
         /// In SI units and radians, as the report tells it.
         impl serde::Serialize for $law {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                serializer.collect_map([$($quantity.in_si(stringify!($field), self.$field),)+])
+                serializer.collect_map([$($parameter.in_si(stringify!($field), self.$field),)+])
             }
         }
 
         /// The table of the law in a case file.
         pub mod raw {
-            $(#[doc = $about])+
-            #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
-            #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
-            pub struct $law {
-                $($(#[doc = $doc])+
-                #[serde(skip_serializing_if = "Option::is_none")]
-                pub $field: Option<f64>,)+
+            use super::*;
+
+            $crate::input::tables::tables! {
+                $(#[doc = $about])+
+                pub struct $law { $($(#[doc = $doc])+ pub $field: f64 => $parameter.key,)+ }
             }
         }
 
         impl $crate::wetting::law::Parameters for $law {
             type Raw = raw::$law;
             const ABOUT: &'static str = concat!($($about),+);
-            const QUANTITIES: &'static [(&'static str, $crate::wetting::law::Quantity)] =
-                &[$((stringify!($field), $quantity),)+];
+            const KEYS: &'static [(&'static str, $crate::input::tables::Key)] = raw::$law::KEYS;
 
             fn checked(raw: &Self::Raw, checker: &mut $crate::input::Checker, at: &str) -> Option<Self> {
-                $(let $field = $quantity.checked(
-                    checker,
-                    &format!("{at}.{}", $crate::wetting::law::key(stringify!($field))),
-                    raw.$field,
-                );)+
-                Some(Self { $($field: $field?,)+ })
+                let raw = raw.clone().in_range(checker, at);
+                Some(Self { $($field: raw.$field.or($parameter.key.default)?,)+ })
             }
 
             fn raw(&self) -> Self::Raw {
@@ -243,7 +216,7 @@ macro_rules! law {
             }
 
             fn entries(raw: &mut Self::Raw) -> Vec<(String, &mut Option<f64>)> {
-                vec![$(($crate::wetting::law::key(stringify!($field)), &mut raw.$field),)+]
+                vec![$(($crate::input::tables::name(stringify!($field)), &mut raw.$field),)+]
             }
         }
     };

@@ -3,15 +3,15 @@
 //! σ (cos θ_e − cos θ_d) = ζ U: what the unbalanced Young force does not spend on the fluid is spent at the line. The linear limit
 //! of the molecular kinetic theory, with ζ = k T/(κ_0 λ³). Beyond |U| = 2 σ/ζ the angle stays at 0 or 180 degrees.
 
-use super::law::{Law, LineState, Quantity, law};
+use super::law::{Law, LineState, Parameter, law};
 
 law! {
     /// Contact line friction (Brochard-Wyart and de Gennes 1992).
     pub struct LineFriction {
         /// Static contact angle in degrees.
-        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        pub contact_angle_deg: Parameter::CONTACT_ANGLE,
         /// Friction coefficient `ζ` in Pa s: unbalanced Young force over line speed.
-        pub friction: Quantity::positive("a friction in Pa s", "friction = 0.05 # Pa s"),
+        pub friction: Parameter::positive("a friction in Pa s", "friction = 0.05 # Pa s"),
     }
 }
 

@@ -33,7 +33,8 @@ pub use tadmor::Tadmor;
 pub use young::Young;
 
 use crate::input::Checker;
-use law::{Law, LineState, Parameters, Quantity, checked, is_angle, key, parameter, with_angles};
+use crate::input::tables::{Key, Value, name};
+use law::{Law, LineState, Parameters, checked, is_angle, parameter, with_angles};
 
 /// Makes the models from the list of their tables.
 macro_rules! laws {
@@ -118,19 +119,27 @@ macro_rules! laws {
             }
         }
 
+        /// The tables of the laws are checked where one of them is taken.
+        impl<Patch: Default + Value> Value for $tables<Patch> {
+            fn checked(self, _: &Key, checker: &mut Checker, path: &str) -> Option<Self> {
+                let patches = Key::ANY.checked(checker, path, "patches", self.patches);
+                Some(Self { patches, ..self })
+            }
+        }
+
         impl<Patch: Default> $tables<Patch> {
             /// The keys of the tables that are there, those of patches aside.
             #[must_use]
             pub fn given(&self) -> Vec<String> {
                 let all = [$((stringify!($table), self.$table.is_some()),)+];
-                all.iter().filter(|(_, given)| *given).map(|(table, _)| key(table)).collect()
+                all.iter().filter(|(_, given)| *given).map(|(table, _)| name(table)).collect()
             }
 
             /// The model of the first table that is there; `at` is the key path of the tables. None where it is wrong.
             #[must_use]
             pub fn checked(&self, checker: &mut Checker, at: &str) -> Option<Wetting> {
                 $(if let Some(raw) = &self.$table {
-                    return checked(raw, checker, &format!("{at}.{}", key(stringify!($table)))).map(Wetting::$law);
+                    return checked(raw, checker, &format!("{at}.{}", name(stringify!($table)))).map(Wetting::$law);
                 })+
                 None
             }
@@ -188,13 +197,13 @@ pub struct LawTable {
     /// What the law says and, in parentheses, who found it.
     pub about: &'static str,
     /// Its keys and what they may hold.
-    pub keys: Vec<(String, Quantity)>,
+    pub keys: Vec<(String, Key)>,
 }
 
 impl LawTable {
     fn of<L: Law>(table: &str, type_name: &'static str) -> Self {
-        let keys = L::QUANTITIES.iter().map(|(field, quantity)| (key(field), *quantity)).collect();
-        Self { key: key(table), type_name, about: L::ABOUT.trim(), keys }
+        let keys = L::KEYS.iter().map(|(field, key)| (name(field), *key)).collect();
+        Self { key: name(table), type_name, about: L::ABOUT.trim(), keys }
     }
 
     /// The keys of its angles.

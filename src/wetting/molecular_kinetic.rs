@@ -3,8 +3,8 @@
 //! U = 2 κ_0 λ sinh(σ (cos θ_e − cos θ_d) λ²/(2 k T)): molecules jump by λ between sites of the wall, κ_0 times a second at rest.
 //! The parameters come from fits to measured angles and hold for one pair of liquid and wall. Viscous bending is left to the flow.
 
-use super::law::{InSi, Law, LineState, Quantity, law};
-use crate::input::Range;
+use super::law::{InSi, Law, LineState, Parameter, law};
+use crate::input::tables::Key;
 
 /// Boltzmann's constant in J/K (SI 2019).
 const BOLTZMANN: f64 = 1.380_649e-23;
@@ -13,11 +13,8 @@ const BOLTZMANN: f64 = 1.380_649e-23;
 const FREEZING: f64 = 273.15;
 
 /// Temperatures at which lines of liquids are measured.
-const TEMPERATURE: Quantity = Quantity {
-    what: "a temperature in degrees Celsius",
-    example: "temperature-c = 20.0",
-    range: Range::Within(-100.0, 500.0),
-    default: Some(20.0),
+const TEMPERATURE: Parameter = Parameter {
+    key: Key::within("a temperature in degrees Celsius", -100.0, 500.0).example("temperature-c = 20.0").default(20.0),
     si: Some(InSi { name: "temperature", of: kelvin }),
 };
 
@@ -25,11 +22,11 @@ law! {
     /// Molecular kinetic theory (Blake and Haynes 1969).
     pub struct MolecularKinetic {
         /// Static contact angle in degrees.
-        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        pub contact_angle_deg: Parameter::CONTACT_ANGLE,
         /// Jump frequency of molecules at rest in 1/s.
-        pub frequency: Quantity::positive("a frequency in 1/s", "frequency = 1.0e6 # 1/s"),
+        pub frequency: Parameter::positive("a frequency in 1/s", "frequency = 1.0e6 # 1/s"),
         /// Jump length in m.
-        pub jump_length: Quantity::positive("a length in m", "jump-length = 1.0e-9 # m"),
+        pub jump_length: Parameter::positive("a length in m", "jump-length = 1.0e-9 # m"),
         /// Temperature in °C (default 20).
         pub temperature_c: TEMPERATURE,
     }

@@ -3,16 +3,16 @@
 //! cos θ = (Γ_A cos θ_A + Γ_R cos θ_R)/(Γ_A + Γ_R), Γ_i = (sin³θ_i/(2 − 3 cos θ_i + cos³θ_i))^(1/3). The line then moves as with
 //! Young's angle: it does not hold between the two (see `hysteresis`). The weights are those of drops in space.
 
-use super::law::{Law, LineState, Quantity, law};
+use super::law::{Law, LineState, Parameter, law};
 use crate::input::Problem;
 
 law! {
     /// Static angle from the advancing and the receding one (Tadmor 2004).
     pub struct Tadmor {
         /// Advancing contact angle in degrees.
-        pub advancing_angle_deg: Quantity::ADVANCING_ANGLE,
+        pub advancing_angle_deg: Parameter::ADVANCING_ANGLE,
         /// Receding contact angle in degrees, 0 to the advancing one.
-        pub receding_angle_deg: Quantity::RECEDING_ANGLE,
+        pub receding_angle_deg: Parameter::RECEDING_ANGLE,
     }
 }
 

@@ -18,9 +18,9 @@ fn set(key: &str, value: f64) -> String {
 fn models(degrees: f64) -> Vec<Wetting> {
     let model = |law: super::LawTable| {
         let angles = law.angles();
-        let line = |(key, quantity): &(String, super::Quantity)| match angles.contains(&key.as_str()) {
+        let line = |(key, rule): &(String, super::Key)| match angles.contains(&key.as_str()) {
             true => set(key, degrees),
-            false => format!("{}\n", quantity.example),
+            false => format!("{}\n", rule.example.unwrap()),
         };
         let text = format!("[{}]\n{}", law.key, law.keys.iter().map(line).collect::<String>());
         let tables: Tables = toml::from_str(&text).unwrap_or_else(|error| panic!("{text}{error}"));
@@ -91,19 +91,19 @@ fn every_model_names_each_key_that_is_missing_or_out_of_range() {
         let mut checker = Checker::default();
         let none: Tables = toml::from_str(&text).unwrap();
         assert_eq!(none.checked(&mut checker, "sph.wetting"), None);
-        let required = law.keys.iter().filter(|(_, quantity)| quantity.default.is_none());
-        for ((key, quantity), problem) in required.clone().zip(&checker.problems) {
+        let required = law.keys.iter().filter(|(_, rule)| rule.is_required());
+        for ((key, rule), problem) in required.clone().zip(&checker.problems) {
             assert_eq!(problem.path, format!("sph.wetting.{}.{key}", law.key));
             assert_eq!(problem.message, format!("missing key `{key}` in [sph.wetting.{}]", law.key));
-            assert!(quantity.example.starts_with(&format!("{key} = ")), "{}", quantity.example);
+            assert!(rule.example.unwrap().starts_with(&format!("{key} = ")), "{rule:?}");
         }
         assert_eq!(checker.problems.len(), required.count());
         let mut checker = Checker::default();
         let all = text + &law.keys.iter().map(|(key, _)| set(key, -1000.0)).collect::<String>();
         assert_eq!(toml::from_str::<Tables>(&all).unwrap().checked(&mut checker, "sph.wetting"), None);
-        for ((key, quantity), problem) in law.keys.iter().zip(&checker.problems) {
+        for ((key, rule), problem) in law.keys.iter().zip(&checker.problems) {
             assert_eq!(problem.path, format!("sph.wetting.{}.{key}", law.key));
-            assert_eq!(problem.message, format!("expected {} {}, found -1000.0", quantity.what, quantity.range));
+            assert_eq!(problem.message, format!("expected {} {}, found -1000.0", rule.what, rule.range.unwrap()));
         }
         assert_eq!(checker.problems.len(), law.keys.len());
     }

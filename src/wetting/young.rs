@@ -3,13 +3,13 @@
 //! f = σ_ns − σ_ws − σ_wn cos α = σ_wn (cos θ − cos α): one angle, whatever the line does. Leaves out all that happens at the line
 //! below the scale of the fit; how fast the line moves is left to the slip of the wall.
 
-use super::law::{Law, LineState, Quantity, law};
+use super::law::{Law, LineState, Parameter, law};
 
 law! {
     /// Static angle by the unbalanced Young force (de Gennes 1985; Huber et al. 2013, Eqs. 7 and 23).
     pub struct Young {
         /// Static contact angle in degrees.
-        pub contact_angle_deg: Quantity::CONTACT_ANGLE,
+        pub contact_angle_deg: Parameter::CONTACT_ANGLE,
     }
 }
 

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use meniscus::case::checked::Model;
+use meniscus::case::Model;
+use meniscus::case::RawPhase;
 use meniscus::case::network::state::NetworkState;
-use meniscus::case::raw::RawPhase;
 use meniscus::case::{Loaded, load};
 use meniscus::geometry::Geometry;
 use meniscus::geometry::curve::Curve;

@@ -44,18 +44,18 @@ fn the_reference_names_every_word_that_a_key_can_be() {
     let schema = schema();
     let page = page("docs/reference/case-file.md").text + &text("docs/reference/presets.md");
     for definition in [
-        "RawSide",
+        "Side",
         "RawPhase",
-        "RawViscousTerm",
-        "RawViscousStep",
+        "ViscousTerm",
+        "ViscousStep",
         "SolidSide",
         "Preset",
-        "RawFilmWeights",
-        "RawFilmIntegrator",
-        "RawLatticeEnergy",
+        "FilmWeights",
+        "FilmIntegrator",
+        "LatticeEnergy",
         "RawNetworkSide",
         "RawProcess",
-        "RawEvents",
+        "NetworkEvents",
     ] {
         let variants = schema["$defs"][definition]["oneOf"].as_array().unwrap_or_else(|| panic!("{definition}"));
         let words: Vec<&str> = variants.iter().filter_map(|one| one["const"].as_str()).collect();

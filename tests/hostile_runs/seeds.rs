@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use meniscus::case::checked::{Case, Model};
 use meniscus::case::{self, Loaded};
+use meniscus::case::{Case, Model};
 use meniscus::input::Overrides;
 use meniscus::run::setup;
 use meniscus::wetting::{LawTable, laws};

@@ -263,7 +263,7 @@ fn a_solver_that_takes_up_a_state_packs_nothing_and_goes_on_with_the_same_bits()
     for (name, spacing) in [("drop-on-disc", 3.0), ("four-discs", 1.5), ("detachment", 2.0)] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"));
         let given = load(&path, &Overrides::default()).unwrap().case;
-        let meniscus::case::checked::Model::Sph(sph) = &given.model else { panic!("{name}") };
+        let meniscus::case::Model::Sph(sph) = &given.model else { panic!("{name}") };
         let coarse = format!("sph.spacing={:e}", spacing * sph.spacing);
         let case = load(&path, &Overrides::parse(&[coarse]).unwrap()).unwrap().case;
         let mut told = 0;

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::support::flow::flow;
 use crate::support::program::{assert_code, meniscus, stdout};
 use meniscus::benchmarks::asked_for;
-use meniscus::case::checked::MeasureSet;
+use meniscus::case::MeasureSet;
 use meniscus::sph::measures::Group;
 use meniscus::sph::observe::Observation;
 use serde_json::Value;

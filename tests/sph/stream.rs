@@ -2,7 +2,7 @@
 
 use crate::support::flow::{flow, solver};
 use meniscus::benchmarks::asked_for;
-use meniscus::case::checked::MeasureSet;
+use meniscus::case::MeasureSet;
 use meniscus::math::Vec2;
 use meniscus::solver::Solver;
 use meniscus::sph::flow::Flow;

@@ -1,6 +1,6 @@
 //! A flow from the text of a case.
 
-use meniscus::case::checked::{Case, Model};
+use meniscus::case::{Case, Model};
 use meniscus::input::Overrides;
 use meniscus::sph::flow::Flow;
 use meniscus::sph::setup;

@@ -143,7 +143,7 @@ fn a_run_keeps_what_its_diagrams_show() {
     assert_eq!(names("axisymmetric", &[], 1.0), ["space-time", "contact-line"]);
 }
 
-fn measures_of(case: &meniscus::case::checked::Case, stops: &[f64]) -> impl Fn(&str) -> f64 + use<> {
+fn measures_of(case: &meniscus::case::Case, stops: &[f64]) -> impl Fn(&str) -> f64 + use<> {
     let mut solver = setup::build(case).unwrap();
     advance(solver.as_mut(), stops);
     let measures = solver.measures(&Series::default());

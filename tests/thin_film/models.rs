@@ -1,29 +1,30 @@
 //! Thin films beyond the paper: gravity, slip, precursor films, films about an axis, several droplets; each against an exact law.
 
+use meniscus::case::film::{FilmIntegrator, FilmSymmetry, FilmWeights, LatticeEnergy};
 use meniscus::thin_film::backward_euler::StepRule;
-use meniscus::thin_film::cells::{Cells, Layout, Model, Symmetry};
-use meniscus::thin_film::droplet::{Droplet, WeightRule, particles};
+use meniscus::thin_film::cells::{Cells, Layout, Model};
+use meniscus::thin_film::droplet::{Droplet, particles};
 use meniscus::thin_film::equilibrium::Equilibrium;
 use meniscus::thin_film::grid::{Equation, GridFilm};
 use meniscus::thin_film::kernel::Kernel;
-use meniscus::thin_film::ode::{Integrator, Method, Tolerance};
-use meniscus::thin_film::particles::{LatticeEnergy, ParticleMethod, Pull};
+use meniscus::thin_film::ode::{Integrator, Tolerance};
+use meniscus::thin_film::particles::{ParticleMethod, Pull};
 use meniscus::thin_film::profile::{Foot, Profile, exponent};
 use meniscus::thin_film::ring::{Line, Ring};
 
 const DROPLET: Droplet = Droplet { area: 0.25, half_width: 0.5, center: 0.0 };
-const SYMMETRIES: [Symmetry; 2] = [Symmetry::Plane, Symmetry::Axis];
+const SYMMETRIES: [FilmSymmetry; 2] = [FilmSymmetry::Plane, FilmSymmetry::Axis];
 const GEOMETRIC: Model = Model::Geometric { alpha: 0.05 };
 /// Steps of half a percent of the time: 1e-4 of error in the foot at t = 50.
 const RULE: StepRule = StepRule { share: 0.005, ..StepRule::ADAPTIVE };
 
 /// The right half of a film, over `length`.
-fn half(symmetry: Symmetry, model: Model, length: f64, count: usize, bond: f64) -> Layout {
+fn half(symmetry: FilmSymmetry, model: Model, length: f64, count: usize, bond: f64) -> Layout {
     Layout { from: 0.0, count, spacing: length / count as f64, symmetry, model, bond }
 }
 
 fn film(layout: Layout, droplet: Droplet, rule: StepRule) -> GridFilm {
-    let (cells, height) = Cells::new(layout, &[droplet], WeightRule::Cell).unwrap();
+    let (cells, height) = Cells::new(layout, &[droplet], FilmWeights::Cell).unwrap();
     GridFilm::new(Equation::Cells(cells), height, rule)
 }
 
@@ -68,8 +69,8 @@ fn waves_on_a_film_decay_at_their_exact_rate() {
     let (count, small, bond, dt) = (200, 1.0e-4, 7.0, 1.0e-3);
     for symmetry in SYMMETRIES {
         let (k, wave): (f64, fn(f64) -> f64) = match symmetry {
-            Symmetry::Plane => (std::f64::consts::PI, f64::cos),
-            Symmetry::Axis => (J1_ZERO, j0),
+            FilmSymmetry::Plane => (std::f64::consts::PI, f64::cos),
+            FilmSymmetry::Axis => (J1_ZERO, j0),
         };
         let square = k * k;
         // Mobility at h = 1, damping by the filter, and the derivative of the disjoining pressure (1/f)((f/h)^3 - (f/h)^2).
@@ -81,7 +82,7 @@ fn waves_on_a_film_decay_at_their_exact_rate() {
             (Model::Precursor { film: 0.3, slope: 2.0, slip: 0.0 }, 1.0, 4.0 * (2.0 * 0.3 - 3.0 * 0.09)),
         ];
         for (model, mobility, disjoining) in models {
-            let (cells, _) = Cells::new(half(symmetry, model, 1.0, count, bond), &[], WeightRule::Cell).unwrap();
+            let (cells, _) = Cells::new(half(symmetry, model, 1.0, count, bond), &[], FilmWeights::Cell).unwrap();
             let grid = Equation::Cells(cells);
             let nodes: Vec<f64> = (0..count).map(|i| (i as f64 + 0.5) / count as f64).collect();
             let start = nodes.iter().map(|x| 1.0 + small * wave(k * x)).collect();
@@ -123,7 +124,7 @@ fn films_in_cells_have_second_order() {
 fn droplets_in_the_plane_and_about_an_axis_spread_by_tanner_s_law() {
     // The law leaves out a logarithm, which moves exponents over a decade by some hundredths: the geometric equation comes from
     // below, films and slip of a thousandth of the droplet's height come from above.
-    for (symmetry, law) in [(Symmetry::Plane, 1.0 / 7.0), (Symmetry::Axis, 0.1)] {
+    for (symmetry, law) in [(FilmSymmetry::Plane, 1.0 / 7.0), (FilmSymmetry::Axis, 0.1)] {
         for model in [
             GEOMETRIC,
             Model::Slip { length: 1.0e-3, film: 1.0e-4 },
@@ -138,9 +139,9 @@ fn droplets_in_the_plane_and_about_an_axis_spread_by_tanner_s_law() {
 
 #[test]
 fn cells_and_the_paper_s_differences_solve_the_same_equation() {
-    let mut cells = film(half(Symmetry::Plane, GEOMETRIC, 2.0, 400, 0.0), DROPLET, RULE);
+    let mut cells = film(half(FilmSymmetry::Plane, GEOMETRIC, 2.0, 400, 0.0), DROPLET, RULE);
     let line = Line { from: -2.0, count: 800, spacing: 0.005, alpha: 0.05, wetting: 0.0, bond: 0.0 };
-    let (ring, height) = Ring::new(line, &[DROPLET], WeightRule::Cell).unwrap();
+    let (ring, height) = Ring::new(line, &[DROPLET], FilmWeights::Cell).unwrap();
     let mut ring = GridFilm::new(Equation::Ring(ring), height, RULE);
     cells.run(20.0).unwrap();
     ring.run(20.0).unwrap();
@@ -156,8 +157,8 @@ fn a_heavy_film_spreads_as_a_viscous_gravity_current() {
     let bond: f64 = 1000.0;
     let volume = DROPLET.volume_within(1.0);
     for (symmetry, eta, constant, mass, power) in [
-        (Symmetry::Plane, 1.411_f64, 0.3_f64, (0.5 * DROPLET.area).powi(2), 0.2),
-        (Symmetry::Axis, 0.894, 3.0 / 16.0, volume, 0.25),
+        (FilmSymmetry::Plane, 1.411_f64, 0.3_f64, (0.5 * DROPLET.area).powi(2), 0.2),
+        (FilmSymmetry::Axis, 0.894, 3.0 / 16.0, volume, 0.25),
     ] {
         let mut film = film(half(symmetry, GEOMETRIC, 5.0, 500, bond), DROPLET, RULE);
         let found = exponent_over_a_decade(&mut film, 5.0, GridFilm::center_height);
@@ -178,18 +179,18 @@ fn a_droplet_under_gravity_rests_in_its_closed_form() {
     assert!(rest.height(0.0) < 0.9 * free.height(0.0), "gravity must flatten the droplet: {}", rest.height(0.0));
 
     let line = Line { from: -2.5, count: 500, spacing: 0.01, alpha, wetting, bond };
-    let (ring, height) = Ring::new(line, &[droplet], WeightRule::Cell).unwrap();
+    let (ring, height) = Ring::new(line, &[droplet], FilmWeights::Cell).unwrap();
     let mut ring = GridFilm::new(Equation::Ring(ring), height, RULE);
     ring.run(300.0).unwrap();
     let off = profile(&ring).distance_to(|x| rest.height(x));
     // The square of the spacing over the filter length, with a factor below 0.1.
     assert!(off < 1.0e-3, "{off}");
 
-    let masses = particles(&[droplet], 0.005, WeightRule::Cell);
+    let masses = particles(&[droplet], 0.005, FilmWeights::Cell);
     let pull = Pull { wetting, bond };
     let mut method = ParticleMethod::new(Kernel::new(alpha), &masses, pull, LatticeEnergy::TakenOff);
     let tolerance = Tolerance { absolute: 1.0e-8, relative: 1.0e-8 };
-    let mut state = Integrator::new(Method::Stiff, tolerance, masses.x, 1.0e-7);
+    let mut state = Integrator::new(FilmIntegrator::Stiff, tolerance, masses.x, 1.0e-7);
     state.run(&mut method, 300.0).unwrap();
     let x: Vec<f64> = (-500..=500).map(|i| 0.005 * f64::from(i)).collect();
     let height = method.profile(&state.x, &x).height;
@@ -208,7 +209,7 @@ fn a_droplet_on_a_precursor_film_rests_at_its_angle() {
     // At rest hₓₓ + Π = −p, so that ½hₓ² = W(h) − W(f) − p (h − f), with f the height of the film beside the droplet.
     let droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
     let caps = [0.04, 0.02, 0.01].map(|thin| {
-        let layout = half(Symmetry::Plane, Model::Precursor { film: thin, slope: 1.0, slip: 0.0 }, 2.0, 500, 0.0);
+        let layout = half(FilmSymmetry::Plane, Model::Precursor { film: thin, slope: 1.0, slip: 0.0 }, 2.0, 500, 0.0);
         let mut film = film(layout, droplet, StepRule::ADAPTIVE);
         film.run(300.0).unwrap();
         let seen = profile(&film);
@@ -229,7 +230,7 @@ fn a_droplet_on_a_precursor_film_rests_at_its_angle() {
 fn a_heavy_droplet_on_a_precursor_film_is_a_puddle_of_its_known_height() {
     let droplet = Droplet { area: 1.0, half_width: 0.5, center: 0.0 };
     let (thin, bond): (f64, f64) = (0.005, 50.0);
-    let layout = half(Symmetry::Plane, Model::Precursor { film: thin, slope: 1.0, slip: 0.0 }, 6.0, 1500, bond);
+    let layout = half(FilmSymmetry::Plane, Model::Precursor { film: thin, slope: 1.0, slip: 0.0 }, 6.0, 1500, bond);
     let mut film = film(layout, droplet, StepRule::ADAPTIVE);
     film.run(300.0).unwrap();
     // Level in the middle, so p = Bo h, and W(h) − W(f) = ½ Bo h² with W(f) = −½: all far above the film.

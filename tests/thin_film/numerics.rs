@@ -1,12 +1,13 @@
 //! The thin-film model against numbers found by independent programs and against closed forms.
 
+use meniscus::case::film::{FilmIntegrator, FilmWeights, LatticeEnergy};
 use meniscus::thin_film::backward_euler::StepRule;
-use meniscus::thin_film::droplet::{Droplet, WeightRule, particles};
+use meniscus::thin_film::droplet::{Droplet, particles};
 use meniscus::thin_film::equilibrium::Equilibrium;
 use meniscus::thin_film::grid::{Equation, GridFilm};
 use meniscus::thin_film::kernel::Kernel;
-use meniscus::thin_film::ode::{Integrator, Method, Tolerance};
-use meniscus::thin_film::particles::{LatticeEnergy, ParticleMethod, Pull};
+use meniscus::thin_film::ode::{Integrator, Tolerance};
+use meniscus::thin_film::particles::{ParticleMethod, Pull};
 use meniscus::thin_film::profile::Profile;
 use meniscus::thin_film::ring::{Line, Ring};
 
@@ -20,8 +21,8 @@ struct Particles {
 }
 
 impl Particles {
-    fn new(droplet: Droplet, spacing: f64, wetting: f64, lattice: LatticeEnergy, method: Method) -> Self {
-        let masses = particles(&[droplet], spacing, WeightRule::Cell);
+    fn new(droplet: Droplet, spacing: f64, wetting: f64, lattice: LatticeEnergy, method: FilmIntegrator) -> Self {
+        let masses = particles(&[droplet], spacing, FilmWeights::Cell);
         let tolerance = Tolerance { absolute: 1.0e-8, relative: 1.0e-8 };
         Self {
             method: ParticleMethod::new(Kernel::new(ALPHA), &masses, Pull { wetting, bond: 0.0 }, lattice),
@@ -51,7 +52,7 @@ impl Particles {
 
 fn grid(droplet: Droplet, half: f64, count: usize, wetting: f64, rule: StepRule) -> GridFilm {
     let line = Line { from: -half, count, spacing: 2.0 * half / count as f64, alpha: ALPHA, wetting, bond: 0.0 };
-    let (ring, height) = Ring::new(line, &[droplet], WeightRule::Point).unwrap();
+    let (ring, height) = Ring::new(line, &[droplet], FilmWeights::Point).unwrap();
     GridFilm::new(Equation::Ring(ring), height, rule)
 }
 
@@ -62,7 +63,7 @@ fn near(found: f64, known: f64, tolerance: f64) {
 #[test]
 fn a_completely_wetting_droplet_of_particles_reaches_the_known_state() {
     // 800 nodes on [-2, 2], t = 50; the known values are from DOPRI5 of another program, good to its tolerance.
-    let end = Particles::new(COMPLETE, 0.005, 0.0, LatticeEnergy::Kept, Method::Stiff).at(50.0);
+    let end = Particles::new(COMPLETE, 0.005, 0.0, LatticeEnergy::Kept, FilmIntegrator::Stiff).at(50.0);
     // An explicit method takes a hundred times as many.
     assert!(end.state.work.rates < 1500, "{:?}", end.state.work);
     near(end.last(), 1.142_002, 2.0e-6);
@@ -73,7 +74,7 @@ fn a_completely_wetting_droplet_of_particles_reaches_the_known_state() {
 #[test]
 fn the_explicit_and_the_stiff_method_agree() {
     // 400 nodes on [-1, 1], t = 1.
-    for method in [Method::Explicit, Method::Stiff] {
+    for method in [FilmIntegrator::Explicit, FilmIntegrator::Stiff] {
         let end = Particles::new(COMPLETE, 0.005, 0.0, LatticeEnergy::Kept, method).at(1.0);
         near(end.center(), 0.260_898_4, 1.0e-6);
     }
@@ -82,14 +83,14 @@ fn the_explicit_and_the_stiff_method_agree() {
 #[test]
 fn a_partially_wetting_droplet_of_particles_reaches_the_known_state() {
     let wetting = Equilibrium::of_unit_slope(ALPHA).unwrap().wetting();
-    let end = Particles::new(PARTIAL, 0.005, wetting, LatticeEnergy::Kept, Method::Stiff).at(100.0);
+    let end = Particles::new(PARTIAL, 0.005, wetting, LatticeEnergy::Kept, FilmIntegrator::Stiff).at(100.0);
     near(end.center(), 0.833_597, 2.0e-6);
     near(end.last(), 1.073_30, 1.0e-5);
 }
 
 #[test]
 fn taking_off_the_lattice_energy_brings_particles_near_the_limit_of_fine_spacing() {
-    let end = Particles::new(COMPLETE, 0.005, 0.0, LatticeEnergy::TakenOff, Method::Stiff).at(50.0);
+    let end = Particles::new(COMPLETE, 0.005, 0.0, LatticeEnergy::TakenOff, FilmIntegrator::Stiff).at(50.0);
     // The limit is 0.156117 and 1.24023; plain particles give 0.16687 and 1.18667 at this spacing.
     near(end.center(), 0.156_063, 1.0e-5);
     near(end.profile(2.0, 6400).foot(0.0).unwrap().position, 1.240_38, 1.0e-4);
@@ -137,7 +138,7 @@ fn finite_differences_come_to_the_equilibrium_with_the_error_of_their_mass() {
 
 #[test]
 fn particles_converge_with_second_order() {
-    let at = |spacing: f64| Particles::new(COMPLETE, spacing, 0.0, LatticeEnergy::Kept, Method::Stiff).at(1.0);
+    let at = |spacing: f64| Particles::new(COMPLETE, spacing, 0.0, LatticeEnergy::Kept, FilmIntegrator::Stiff).at(1.0);
     let profiles = [0.01, 0.005, 0.0025].map(|spacing| at(spacing).profile(1.0, 6400));
     let error = |a: &Profile, b: &Profile| {
         a.height.iter().zip(&b.height).map(|(a, b)| (a - b).abs()).sum::<f64>() * 2.0 / 6400.0
@@ -150,7 +151,7 @@ fn particles_converge_with_second_order() {
 #[test]
 fn more_particles_come_nearer_to_the_limit_as_known() {
     // 3200 nodes on [-2, 2], t = 50.
-    let end = Particles::new(COMPLETE, 0.00125, 0.0, LatticeEnergy::Kept, Method::Stiff).at(50.0);
+    let end = Particles::new(COMPLETE, 0.00125, 0.0, LatticeEnergy::Kept, FilmIntegrator::Stiff).at(50.0);
     near(end.last(), 1.182_439, 2.0e-6);
     near(end.center(), 0.156_810_3, 1.0e-6);
 }
@@ -159,7 +160,8 @@ fn more_particles_come_nearer_to_the_limit_as_known() {
 fn taking_off_the_lattice_energy_gives_order_four() {
     let rest = Equilibrium::of_unit_slope(ALPHA).unwrap();
     let error = |spacing: f64| {
-        let end = Particles::new(PARTIAL, spacing, rest.wetting(), LatticeEnergy::TakenOff, Method::Stiff).at(100.0);
+        let end =
+            Particles::new(PARTIAL, spacing, rest.wetting(), LatticeEnergy::TakenOff, FilmIntegrator::Stiff).at(100.0);
         end.profile(2.0, 6400).distance_to(|x| rest.height(x))
     };
     let errors = [0.01, 0.005, 0.0025].map(error);

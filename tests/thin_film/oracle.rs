@@ -2,11 +2,12 @@
 
 use crate::diffsol::system::System;
 use crate::diffsol::{Reached, esdirk34, tsit45};
-use meniscus::thin_film::droplet::{Droplet, WeightRule, particles};
+use meniscus::case::film::{FilmIntegrator, FilmWeights, LatticeEnergy};
+use meniscus::thin_film::droplet::{Droplet, particles};
 use meniscus::thin_film::equilibrium::Equilibrium;
 use meniscus::thin_film::kernel::Kernel;
-use meniscus::thin_film::ode::{Integrator, Method, Rates, Tolerance};
-use meniscus::thin_film::particles::{LatticeEnergy, ParticleMethod, Pull};
+use meniscus::thin_film::ode::{Integrator, Rates, Tolerance};
+use meniscus::thin_film::particles::{ParticleMethod, Pull};
 
 const ALPHA: f64 = 0.05;
 /// Largest error of a step, and the first step.
@@ -25,7 +26,7 @@ struct Film {
 
 fn films() -> [Film; 4] {
     let film = |name, area, pull, lattice| {
-        let masses = particles(&[Droplet { area, half_width: 0.5, center: 0.0 }], 0.01, WeightRule::Cell);
+        let masses = particles(&[Droplet { area, half_width: 0.5, center: 0.0 }], 0.01, FilmWeights::Cell);
         Film { name, method: ParticleMethod::new(Kernel::new(ALPHA), &masses, pull, lattice), start: masses.x }
     };
     let wetting = Equilibrium::of_unit_slope(ALPHA).unwrap().wetting();
@@ -42,7 +43,7 @@ fn films_of_the_paper() -> impl Iterator<Item = Film> {
 }
 
 impl Film {
-    fn by(&self, method: Method, times: &[f64]) -> Vec<Reached> {
+    fn by(&self, method: FilmIntegrator, times: &[f64]) -> Vec<Reached> {
         let mut film = self.method.clone();
         let tolerance = Tolerance { absolute: TOLERANCE, relative: 0.0 };
         let mut state = Integrator::new(method, tolerance, self.start.clone(), FIRST_STEP);
@@ -97,7 +98,7 @@ fn a_thousandth_later(times: [f64; 3]) -> [f64; 3] {
 fn the_stiff_and_the_explicit_method_find_the_films_of_tsit45() {
     for film in films() {
         let (oracle, later) = (film.by_tsit45(&EARLY), film.by_tsit45(&a_thousandth_later(EARLY)));
-        for method in [Method::Stiff, Method::Explicit] {
+        for method in [FilmIntegrator::Stiff, FilmIntegrator::Explicit] {
             let name = format!("{}, {method:?}", film.name);
             let ours = film.by(method, &EARLY);
             assert_same(&name, &ours, &oracle);
@@ -109,7 +110,7 @@ fn the_stiff_and_the_explicit_method_find_the_films_of_tsit45() {
 #[test]
 fn the_stiff_method_finds_the_films_of_esdirk34_in_fewer_steps() {
     for film in films_of_the_paper() {
-        let (ours, oracle) = (film.by(Method::Stiff, &LATE), film.by_esdirk34(&LATE));
+        let (ours, oracle) = (film.by(FilmIntegrator::Stiff, &LATE), film.by_esdirk34(&LATE));
         assert_same(film.name, &ours, &oracle);
         // Wrong coefficients would cost steps first: the error of each is limited.
         assert!(ours[2].steps < oracle[2].steps, "{}: {} steps, {}", film.name, ours[2].steps, oracle[2].steps);
@@ -123,12 +124,12 @@ fn a_film_forgets_errors() {
     for mut film in films() {
         // The lattice energy can be taken off only while gaps are small.
         let times: &[f64] = if film.method.corrects() { &EARLY } else { &[1.0e-4, 1.0e-2, 1.0, 50.0] };
-        let undisturbed = film.by(Method::Stiff, times);
+        let undisturbed = film.by(FilmIntegrator::Stiff, times);
         let start = film.start.clone();
         for wave in [0.0, 3.0, 10.0, 40.0, 150.0, 300.0] {
             film.start = start.iter().map(|x| x + 1.0e-5 * (wave * x + 0.3).cos()).collect();
             let error = distance(&film.start, &start);
-            for (disturbed, undisturbed) in film.by(Method::Stiff, times).iter().zip(&undisturbed) {
+            for (disturbed, undisturbed) in film.by(FilmIntegrator::Stiff, times).iter().zip(&undisturbed) {
                 let left = distance(&disturbed.x, &undisturbed.x);
                 assert!(left < error + allowed(disturbed, undisturbed), "{} {wave}: {left:e} of {error:e}", film.name);
             }

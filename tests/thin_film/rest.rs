@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::support::films::{advance, loaded};
-use meniscus::case::checked::{Case, Model};
 use meniscus::case::load;
+use meniscus::case::{Case, Model};
 use meniscus::input::Overrides;
 use meniscus::run::setup;
 use meniscus::solver::{Series, Solver};

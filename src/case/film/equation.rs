@@ -1,47 +1,93 @@
-//! Checks of the equation of a thin film and of what it knows of wetting.
+//! `[thin-film.equation]` and `[thin-film.wetting]`: the equation of a thin film, and what it knows of wetting.
 
-use super::checked::{FilmEquation, FilmSymmetry};
-use super::raw::{RawFilmEquation, RawFilmWetting};
+use super::droplets::FilmSymmetry;
 use crate::input::Checker;
+use crate::input::tables::{Empty, Key, checked_tables, tables};
 
+tables! {
+    /// Thin-film equations.
+    pub struct RawFilmEquation {
+        /// Geometric thin-film equation with a smoothed film (Pang and Ó Náraigh 2022).
+        pub geometric: RawGeometric,
+        /// Navier slip on the wall; complete wetting only.
+        pub slip: RawSlip,
+        /// Precursor film on the wall.
+        pub precursor: RawPrecursor,
+    }
+
+    /// Wetting models of thin films.
+    pub struct RawFilmWetting {
+        /// The film spreads without end.
+        pub complete: Empty,
+        /// The film comes to rest at a contact angle.
+        pub partial: RawPartialWetting,
+    }
+
+    /// Partial wetting of a thin film.
+    pub struct RawPartialWetting {
+        /// Static contact angle in degrees; the droplet at rest must fit the domain.
+        pub contact_angle_deg: f64 => Key::within("an angle in degrees", ANGLES.0, ANGLES.1).example("contact-angle-deg = 10.0"),
+    }
+}
+
+checked_tables! {
+    /// The Geometric Thin-Film Equation.
+    pub struct RawGeometric for Geometric {
+        /// Filter length `α` in m: at least 1 spacing, with particles 2, at most 0.4 half widths; on a grid at most 1000 spacings.
+        pub smoothing_length: f64 => Key::positive("a length in m").example("smoothing-length = 5.0e-5 # m"),
+    }
+
+    /// The thin-film equation with slip.
+    pub struct RawSlip for Slip {
+        /// Slip length `λ` in m, at most half of the droplet height.
+        pub slip_length: f64 => Key::positive("a length in m").example("slip-length = 1.0e-6 # m"),
+        /// Film height in m that counts as dry, 1e-6 to 0.2 of the droplet height (default: a tenth of the slip
+        /// length).
+        pub film_height: f64 => Key::positive("a length in m"),
+    }
+
+    /// The thin-film equation with a precursor film.
+    pub struct RawPrecursor for Precursor {
+        /// Film height in m, 1e-6 to 0.2 of the droplet height.
+        pub film_height: f64 => Key::positive("a length in m").example("film-height = 1.0e-6 # m"),
+        /// Slip length `λ` in m, at most half of the droplet height (default: no slip).
+        pub slip_length: f64 => Key::positive("a length in m"),
+    }
+}
+
+/// Thin-film equations; lengths in m.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmEquation {
+    /// Geometric Thin-Film Equation.
+    Geometric(Geometric),
+    /// Navier slip.
+    Slip(Slip),
+    /// Precursor film; a slip length of 0 for a wall that sticks.
+    Precursor(Precursor),
+}
+
+/// The equations in a case file.
+pub(super) const EQUATION: &str =
+    "[thin-film.equation.geometric] with smoothing-length in m, or `slip`, or `precursor`";
 /// Height of the film that counts as dry over the slip length, where the case says nothing.
 const DRY: f64 = 0.1;
 /// Angles of rest in degrees at which a film may be called thin.
-pub(super) const ANGLES: (f64, f64) = (0.1, 45.0);
+const ANGLES: (f64, f64) = (0.1, 45.0);
 
+/// The equation of a case, none where it is missing or wrong.
 pub(super) fn equation(checker: &mut Checker, raw: &RawFilmEquation) -> Option<FilmEquation> {
-    let mut length = |path: &str, value: Option<f64>, example: &str| {
-        let path = format!("thin-film.equation.{path}");
-        checker.require_positive(&path, value, example, "a length in m")
-    };
     match (&raw.geometric, &raw.slip, &raw.precursor) {
-        (Some(raw), None, None) => {
-            let example = "smoothing-length = 5.0e-5 # m";
-            length("geometric.smoothing-length", raw.smoothing_length, example)
-                .map(|smoothing_length| FilmEquation::Geometric { smoothing_length })
-        }
+        (Some(raw), None, None) => raw.clone().complete().map(FilmEquation::Geometric),
         (None, Some(raw), None) => {
-            let slip = length("slip.slip-length", raw.slip_length, "slip-length = 1.0e-6 # m");
-            let film = raw.film_height.or(slip.map(|slip| DRY * slip));
-            let film = film.and_then(|film| length("slip.film-height", Some(film), ""));
-            Some(FilmEquation::Slip { slip_length: slip?, film_height: film? })
+            let film_height = raw.film_height.or(raw.slip_length.map(|slip| DRY * slip));
+            RawSlip { film_height, ..raw.clone() }.complete().map(FilmEquation::Slip)
         }
         (None, None, Some(raw)) => {
-            let film = length("precursor.film-height", raw.film_height, "film-height = 1.0e-6 # m");
-            let slip = match raw.slip_length {
-                None => Some(0.0),
-                given => length("precursor.slip-length", given, ""),
-            };
-            Some(FilmEquation::Precursor { film_height: film?, slip_length: slip? })
+            let slip_length = raw.slip_length.or(Some(0.0));
+            RawPrecursor { slip_length, ..raw.clone() }.complete().map(FilmEquation::Precursor)
         }
-        (None, None, None) => {
-            checker.refuse(
-                "thin-film.equation",
-                "expected an equation, found none",
-                "add [thin-film.equation.geometric] with smoothing-length in m, or `slip`, or `precursor`",
-            );
-            None
-        }
+        (None, None, None) => checker.require("thin-film.equation", None, EQUATION),
         _ => {
             checker.refuse(
                 "thin-film.equation",
@@ -66,22 +112,40 @@ pub(super) fn wetting(checker: &mut Checker, raw: &RawFilmWetting) -> Option<Opt
             None
         }
         (_, None) => Some(None),
-        (None, Some(partial)) => {
-            let path = "thin-film.wetting.partial.contact-angle-deg";
-            let angle = checker.require(path, partial.contact_angle_deg, "contact-angle-deg = 10.0");
-            checker.within(path, angle, ANGLES, "an angle in degrees").map(|angle| Some(angle.to_radians()))
-        }
+        (None, Some(partial)) => partial.contact_angle_deg.map(|angle| Some(angle.to_radians())),
     }
 }
 
 /// Which equations can make a droplet rest.
 pub(super) fn partial_wetting(checker: &mut Checker, equation: FilmEquation, symmetry: FilmSymmetry) {
     let message = match (equation, symmetry) {
-        (FilmEquation::Slip { .. }, _) => "the equation with slip is for complete wetting: it does not know an angle",
-        (FilmEquation::Geometric { .. }, FilmSymmetry::Axis) => {
+        (FilmEquation::Slip(_), _) => "the equation with slip is for complete wetting: it does not know an angle",
+        (FilmEquation::Geometric(_), FilmSymmetry::Axis) => {
             "the wetting parameter of the geometric equation is known for plane droplets only"
         }
         _ => return,
     };
     checker.refuse("thin-film.wetting.partial", message, "[thin-film.equation.precursor] can do it");
+}
+
+/// The table of an equation.
+pub(super) fn raw_equation(equation: FilmEquation) -> RawFilmEquation {
+    let none = RawFilmEquation::default();
+    match equation {
+        FilmEquation::Geometric(geometric) => RawFilmEquation { geometric: Some(geometric.into()), ..none },
+        FilmEquation::Slip(slip) => RawFilmEquation { slip: Some(slip.into()), ..none },
+        FilmEquation::Precursor(precursor) => {
+            let slip_length = (precursor.slip_length > 0.0).then_some(precursor.slip_length);
+            RawFilmEquation { precursor: Some(RawPrecursor { slip_length, ..precursor.into() }), ..none }
+        }
+    }
+}
+
+/// The table of an angle of rest in rad.
+pub(super) fn raw_wetting(contact_angle: Option<f64>) -> RawFilmWetting {
+    let degrees = contact_angle.map(|angle| angle.to_degrees().clamp(ANGLES.0, ANGLES.1));
+    RawFilmWetting {
+        complete: degrees.is_none().then_some(Empty {}),
+        partial: degrees.map(|angle| RawPartialWetting { contact_angle_deg: Some(angle) }),
+    }
 }

@@ -4,7 +4,9 @@
 //! s = w/(√12 α²) of a contact angle. A droplet at rest has it on its whole base: tan²θ' = tan²θ + κ s² with the weight of the
 //! highest place. Measured at rest over 0.3 ≤ s/tan θ ≤ 5 and 2 to 10 spacings per filter length: κ = 0.270 to 0.288.
 
-use super::checked::{FilmEquation, FilmMethod, LatticeEnergy, ThinFilm};
+use super::equation::{FilmEquation, Geometric};
+use super::film::ThinFilm;
+use super::method::{FilmMethod, FilmParticles, LatticeEnergy};
 
 /// κ.
 const SHARE_AT_REST: f64 = 2.0 / 7.0;
@@ -17,8 +19,8 @@ impl ThinFilm {
     /// Slope of the contact angle that the lattice of particles imitates at the start; none on a grid, or where it is taken off.
     #[must_use]
     pub fn lattice_slope(&self) -> Option<f64> {
-        let FilmEquation::Geometric { smoothing_length } = self.equation else { return None };
-        let FilmMethod::Particles { lattice_energy, .. } = self.method else { return None };
+        let FilmEquation::Geometric(Geometric { smoothing_length }) = self.equation else { return None };
+        let FilmMethod::Particles(FilmParticles { lattice_energy, .. }) = self.method else { return None };
         let highest = self.droplets.iter().map(|droplet| droplet.height).fold(0.0, f64::max);
         let is_kept = lattice_energy == LatticeEnergy::Kept || self.spacing > WIDEST_GAP * smoothing_length;
         is_kept.then(|| highest * self.spacing / (12.0_f64.sqrt() * smoothing_length.powi(2)))

@@ -1,15 +1,81 @@
-//! Checks of how a thin film is solved.
+//! `[thin-film.method]`: how a thin film is solved.
 
-use super::checked::{FilmIntegrator, FilmMethod, FilmSums, LatticeEnergy};
-use super::raw::{RawFilmIntegrator, RawFilmMethod, RawFilmSums, RawLatticeEnergy};
 use crate::input::Checker;
+use crate::input::tables::{Key, checked_tables, tables, words};
 
-/// Errors of a step over the initial width.
-const TOLERANCES: (f64, f64) = (1.0e-12, 1.0e-3);
-const DEFAULT_TOLERANCE: f64 = 1.0e-7;
-/// Steps over the time since the start.
-const STEP_SHARES: (f64, f64) = (1.0e-5, 0.1);
-const DEFAULT_STEP_SHARE: f64 = 0.005;
+tables! {
+    /// Methods for thin films.
+    pub struct RawFilmMethod {
+        /// Particles on an infinite line, for the geometric equation in the plane.
+        pub particles: RawFilmParticles,
+        /// Implicit finite differences, for every equation.
+        pub finite_differences: RawFilmGrid,
+    }
+}
+
+checked_tables! {
+    /// The particle method.
+    pub struct RawFilmParticles for FilmParticles {
+        /// Implicit of order 4, or Dormand and Prince of order 5 (default `stiff`).
+        pub integrator: FilmIntegrator,
+        /// Largest error of a step over the initial width (default 1e-7).
+        pub tolerance: f64 => Key::within("a relative error", 1.0e-12, 1.0e-3),
+        /// Keeps or subtracts the energy of the particle lattice (default `kept`).
+        pub lattice_energy: LatticeEnergy,
+        /// Sums over particles in linear time, or over all pairs for comparison (default `recursive`).
+        pub sums: FilmSums,
+    }
+
+    /// The finite-difference method.
+    pub struct RawFilmGrid for FilmGrid {
+        /// Longest step over the time since the start (default 0.005).
+        pub step_share: f64 => Key::within("a share", 1.0e-5, 0.1),
+    }
+}
+
+words! {
+    /// Integration of the particles of a thin film.
+    pub enum FilmIntegrator {
+        /// Linearly implicit, order 4: steps as long as the solution allows.
+        Stiff,
+        /// Dormand and Prince, order 5: steps as short as stability wants.
+        Explicit,
+    }
+
+    /// What is done about the energy of the particle lattice.
+    pub enum LatticeEnergy {
+        /// Nothing, as in the paper.
+        Kept,
+        /// Its gradient is taken off: not in the paper, order 4 where gaps stay below half a filter length.
+        TakenOff,
+    }
+
+    /// How the sums over the particles of a thin film are taken.
+    pub enum FilmSums {
+        /// From neighbor to neighbor, in a time in proportion to their number.
+        Recursive,
+        /// Over all pairs, to compare with: the time goes as the square of the number.
+        Direct,
+    }
+}
+
+/// Methods for thin films.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmMethod {
+    /// Particles on an infinite line.
+    Particles(FilmParticles),
+    /// Implicit finite differences: over a periodic domain for the geometric equation in the plane, else between walls.
+    FiniteDifferences(FilmGrid),
+}
+
+const PARTICLES: FilmParticles = FilmParticles {
+    integrator: FilmIntegrator::Stiff,
+    tolerance: 1.0e-7,
+    lattice_energy: LatticeEnergy::Kept,
+    sums: FilmSums::Recursive,
+};
+const GRID: FilmGrid = FilmGrid { step_share: 0.005 };
 
 /// The method of a case that names none. Particles rest at a steeper angle than asked for by the energy of their lattice, so that they are
 /// it in complete wetting only.
@@ -42,28 +108,17 @@ pub(super) fn method(
         return None;
     }
     if raw.finite_differences.is_some() || (raw.particles.is_none() && default == DefaultMethod::FiniteDifferences) {
-        let path = "thin-film.method.finite-differences.step-share";
-        let share = raw.finite_differences.as_ref().and_then(|raw| raw.step_share);
-        let share = checker.within(path, share, STEP_SHARES, "a share");
-        return Some(FilmMethod::FiniteDifferences { step_share: share.unwrap_or(DEFAULT_STEP_SHARE) });
+        return Some(FilmMethod::FiniteDifferences(raw.finite_differences.clone().unwrap_or_default().or(GRID)));
     }
-    let raw = raw.particles.clone().unwrap_or_default();
-    let path = "thin-film.method.particles.tolerance";
-    let tolerance = checker.within(path, raw.tolerance, TOLERANCES, "a relative error");
-    let integrator = match raw.integrator {
-        None | Some(RawFilmIntegrator::Stiff) => FilmIntegrator::Stiff,
-        Some(RawFilmIntegrator::Explicit) => FilmIntegrator::Explicit,
-    };
-    Some(FilmMethod::Particles {
-        integrator,
-        tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE),
-        lattice_energy: match raw.lattice_energy {
-            None | Some(RawLatticeEnergy::Kept) => LatticeEnergy::Kept,
-            Some(RawLatticeEnergy::TakenOff) => LatticeEnergy::TakenOff,
-        },
-        sums: match raw.sums {
-            None | Some(RawFilmSums::Recursive) => FilmSums::Recursive,
-            Some(RawFilmSums::Direct) => FilmSums::Direct,
-        },
-    })
+    Some(FilmMethod::Particles(raw.particles.clone().unwrap_or_default().or(PARTICLES)))
+}
+
+/// The table of a method.
+pub(super) fn raw_method(method: FilmMethod) -> RawFilmMethod {
+    match method {
+        FilmMethod::Particles(particles) => RawFilmMethod { particles: Some(particles.into()), ..Default::default() },
+        FilmMethod::FiniteDifferences(grid) => {
+            RawFilmMethod { finite_differences: Some(grid.into()), ..Default::default() }
+        }
+    }
 }

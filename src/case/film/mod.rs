@@ -1,16 +1,17 @@
-//! `[thin-film]`: droplets on a flat wall. Keys as written, their checks, the checked film, and the film written out again.
+//! `[thin-film]`: droplets on a flat wall.
 
 mod bounds;
-mod check;
-pub mod checked;
 mod droplets;
 mod equation;
+mod film;
 mod lattice;
 mod method;
-pub mod raw;
 mod resolution;
-mod resolve;
+mod thin_film;
 mod thinness;
 
-pub(super) use check::thin_film;
-pub(super) use resolve::raw as resolved;
+pub use droplets::{FilmDroplet, FilmSymmetry};
+pub use equation::{FilmEquation, Geometric, Precursor, Slip};
+pub use film::{FilmWeights, ThinFilm};
+pub use method::{FilmGrid, FilmIntegrator, FilmMethod, FilmParticles, FilmSums, LatticeEnergy};
+pub(super) use thin_film::{RawThinFilm, raw, thin_film};

@@ -1,7 +1,8 @@
 //! Checks of spacings against droplets, filter, slip length and films on the wall.
 
 use super::bounds::{exceeds, falls_short, is_outside};
-use super::checked::{FilmDroplet, FilmEquation};
+use super::droplets::FilmDroplet;
+use super::equation::{FilmEquation, Geometric, Precursor, Slip};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 
@@ -38,13 +39,15 @@ pub(super) fn resolution(checker: &mut Checker, spacing: f64, equation: FilmEqua
         );
     }
     match equation {
-        FilmEquation::Geometric { smoothing_length } => smoothing(checker, spacing, smoothing_length, half_width),
-        FilmEquation::Slip { slip_length, film_height } => {
+        FilmEquation::Geometric(Geometric { smoothing_length }) => {
+            smoothing(checker, spacing, smoothing_length, half_width)
+        }
+        FilmEquation::Slip(Slip { slip_length, film_height }) => {
             slip(checker, "slip", slip_length, height);
             film(checker, "slip", film_height, height);
             coarse(checker, spacing / half_width, slip_length / height);
         }
-        FilmEquation::Precursor { film_height, slip_length } => {
+        FilmEquation::Precursor(Precursor { film_height, slip_length }) => {
             slip(checker, "precursor", slip_length, height);
             film(checker, "precursor", film_height, height);
             coarse(checker, spacing / half_width, film_height / height);

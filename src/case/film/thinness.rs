@@ -5,7 +5,9 @@
 //! slopes are no angles.
 
 use super::bounds::{exceeds, falls_short, is_outside};
-use super::checked::{FilmDroplet, FilmEquation, FilmSymmetry, ThinFilm};
+use super::droplets::{FilmDroplet, FilmSymmetry};
+use super::equation::FilmEquation;
+use super::film::ThinFilm;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 
@@ -121,7 +123,7 @@ impl ThinFilm {
 
     /// That the geometric equation leaves a film behind a contact line that recedes far.
     fn receding_note(&self) -> Option<String> {
-        let (FilmEquation::Geometric { .. }, Some(angle)) = (self.equation, self.contact_angle) else { return None };
+        let (FilmEquation::Geometric(_), Some(angle)) = (self.equation, self.contact_angle) else { return None };
         let rest = |droplet: &FilmDroplet| (droplet.cross_section() / angle.tan()).sqrt();
         let widest = self.droplets.iter().map(|droplet| droplet.half_width / rest(droplet)).fold(0.0, f64::max);
         (widest > RECEDES).then(|| {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::raw::{RawMeasured, RawMeasuredThroat, RawNetwork};
+use super::table::{RawMeasured, RawMeasuredThroat, RawNetwork};
 use crate::input::Checker;
 
 /// Measured entry pressures of throats.
@@ -69,31 +69,15 @@ pub(super) fn table(measured: &Measured) -> RawMeasured {
     }
 }
 
-/// Checks the values; the outer option is missing where a mistake was found.
-pub(super) fn checked(checker: &mut Checker, raw: Option<&RawMeasured>) -> Option<Option<Measured>> {
-    let Some(raw) = raw else { return Some(None) };
-    const PATH: &str = "network.measured-throats";
-    let hash = raw.geometry_hash.clone();
-    let geometry_hash =
-        checker.require(&format!("{PATH}.geometry-hash"), hash, "geometry-hash = \"...\" as in network.json");
-    let throat = |checker: &mut Checker, (at, raw): (usize, &RawMeasuredThroat)| {
-        let path = |key: &str| format!("{PATH}.throats[{at}].{key}");
-        let index = checker.require(&path("index"), raw.index, "index = 12");
-        let mut curvature = |key: &str, given: Option<f64>| {
-            let found = checker.require(&path(key), given, &format!("{key} = 4.0e4 # 1/m"));
-            if found.is_some_and(|found| !found.is_finite()) {
-                checker.refuse(
-                    path(key),
-                    "expected a curvature in 1/m, found no finite number",
-                    "leave the throat out",
-                );
-            }
-            found
-        };
-        let formula_curvature = curvature("formula-curvature", raw.formula_curvature);
-        let entry_curvature = curvature("entry-curvature", raw.entry_curvature);
-        Some(MeasuredThroat { index: index?, formula_curvature: formula_curvature?, entry_curvature: entry_curvature? })
+/// The values, none where one is missing.
+pub(super) fn checked(raw: &RawMeasured) -> Option<Measured> {
+    let throat = |raw: &RawMeasuredThroat| {
+        Some(MeasuredThroat {
+            index: raw.index?,
+            formula_curvature: raw.formula_curvature?,
+            entry_curvature: raw.entry_curvature?,
+        })
     };
-    let throats: Option<Vec<_>> = raw.throats.iter().flatten().enumerate().map(|one| throat(checker, one)).collect();
-    Some(Some(Measured { geometry_hash: geometry_hash?, throats: throats? }))
+    let throats: Option<Vec<_>> = raw.throats.iter().flatten().map(throat).collect();
+    Some(Measured { geometry_hash: raw.geometry_hash.clone()?, throats: throats? })
 }

@@ -1,14 +1,14 @@
-//! `[network]`: quasi-static displacement in a pore network. Keys as written, their checks, the checked network, and the network
-//! written out again.
+//! `[network]`: displacement in a pore network.
 
-mod check;
-pub mod checked;
+mod displacement;
+mod dynamic;
 pub mod measured;
-mod quick;
-pub mod raw;
-mod resolve;
+mod pore_network;
 pub mod state;
+mod table;
 
-pub(super) use check::network;
-pub use quick::quick;
-pub(super) use resolve::raw as resolved;
+pub use displacement::{NetworkDisplacement, Process, Stop};
+pub use dynamic::{DEFAULT_LARGEST_STEP, Driven, DynamicDrive};
+pub use pore_network::{DEFAULT_PERSISTENCE, NetworkInterface, PoreNetwork};
+pub(super) use pore_network::{network, raw};
+pub use table::{NetworkEvents, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawStop};

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::case::checked::{Side, Sides};
-use crate::case::raw::RawPhase;
+use crate::case::fluid::RawPhase;
+use crate::case::side::{Side, Sides};
 use crate::geometry::Geometry;
 use crate::geometry::curve::Curve;
 use crate::geometry::spec::GeometrySpec;

@@ -2,10 +2,24 @@
 
 use crate::geometry::import::format::Format;
 use crate::geometry::import::units;
+use crate::input::Range;
 use crate::input::problem::Problem;
+use crate::input::tables::Key;
 
 /// Vertices that turn by less than this many degrees belong to a smooth curve.
 pub const SMOOTH_BELOW_DEG: f64 = 20.0;
+
+/// Length of the drawing unit.
+pub const SCALE: Key = Key::positive("a length in m");
+/// Distance of ends that meet.
+pub const JOIN_WITHIN: Key = Key::positive("a length in units of the drawing")
+    .help("leave it out to join ends that meet within 1e-6 of the drawing");
+/// Gray value between solid and pore.
+pub const THRESHOLD: Key = Key::number("a gray value", Range::Between(0.0, 1.0)).help("0.5 is the middle");
+/// Side of a pixel.
+pub const PIXEL_SIZE: Key = SCALE;
+/// Turn of a smooth vertex.
+pub const SMOOTH_BELOW: Key = Key::within("an angle in degrees", 0.0, 90.0).help("0: none");
 
 /// Keys of `[geometry]` beside `file`, and options of the command line.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -100,14 +114,16 @@ impl Options {
     fn problems_of_values(&self) -> Vec<Problem> {
         let mut found = Vec::new();
         let mut refuse = |key: &str, message: String, help: &str| found.push(Problem::new(key, message, help));
-        for (key, value) in [("scale", self.scale), ("pixel-size", self.pixel_size)] {
-            if let Some(value) = value.filter(|v| !(v.is_finite() && *v > 0.0)) {
-                refuse(key, format!("expected a length in m above 0, found {value:?}"), "");
+        for (key, rule, value) in [
+            ("scale", SCALE, self.scale),
+            ("pixel-size", PIXEL_SIZE, self.pixel_size),
+            ("join-within", JOIN_WITHIN, self.join_within),
+            ("threshold", THRESHOLD, self.threshold),
+            ("smooth-below-deg", SMOOTH_BELOW, self.smooth_below_deg),
+        ] {
+            if let Some(message) = value.and_then(|value| rule.misfit(value)) {
+                refuse(key, message, rule.help);
             }
-        }
-        if let Some(value) = self.join_within.filter(|v| !(v.is_finite() && *v > 0.0)) {
-            let message = format!("expected a length above 0 in units of the drawing, found {value:?}");
-            refuse("join-within", message, "leave it out to join ends that meet within 1e-6 of the drawing");
         }
         if let Some(name) = &self.unit {
             if self.scale.is_some() {
@@ -123,12 +139,6 @@ impl Options {
                 let message = format!("expected the lower left and the upper right corner, found {min:?} and {max:?}");
                 refuse("window", message, "write window = [[x0, y0], [x1, y1]] in m with x0 < x1 and y0 < y1");
             }
-        }
-        if let Some(value) = self.threshold.filter(|v| !(0.0 < *v && *v < 1.0)) {
-            refuse("threshold", format!("expected a gray value between 0 and 1, found {value:?}"), "0.5 is the middle");
-        }
-        if let Some(value) = self.smooth_below_deg.filter(|v| !(0.0..=90.0).contains(v)) {
-            refuse("smooth-below-deg", format!("expected an angle from 0 to 90 degrees, found {value:?}"), "0: none");
         }
         if let Some(columns @ [x, y, r]) = self.columns
             && (x == y || y == r || x == r)

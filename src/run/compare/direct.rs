@@ -4,9 +4,9 @@ use std::sync::atomic::AtomicBool;
 
 use super::states::States;
 use super::{CompareError, Grid, Record, Task, Track};
-use crate::case::checked::Case;
+use crate::case::Case;
+use crate::case::RawPhase;
 use crate::case::network::state::NetworkState;
-use crate::case::raw::RawPhase;
 use crate::io::FileError;
 use crate::math::Vec2;
 use crate::run::execute::{Job, Mode, RunError, case_hash, execute};

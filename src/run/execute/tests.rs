@@ -3,7 +3,7 @@
 use super::super::mock::{Interrupter, MockSolver, case};
 use super::files::files;
 use super::*;
-use crate::case::checked::SteadyStop;
+use crate::case::SteadyStop;
 use crate::run::simulation::Unwatched;
 
 fn job<'a>(case: &'a Case, folder: &Path, mode: Mode) -> Job<'a> {

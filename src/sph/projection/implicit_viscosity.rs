@@ -10,11 +10,11 @@
 
 use rayon::prelude::*;
 
+use crate::case::ViscousTerm;
 use crate::math::{Mat2, Vec2};
 use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, Tolerance, conjugate_gradients};
 use crate::sph::flow::Flow;
 use crate::sph::images::Images;
-use crate::sph::method::ViscousTerm;
 use crate::sph::pairs::{GRAIN, Pair, Pairs, each, largest, split_rows};
 use crate::sph::poisson::weighted_sum;
 use crate::sph::terms::viscosity::Viscous;
@@ -51,7 +51,7 @@ impl Flow {
         let (pairs, images, fluids, f) =
             (&self.neighborhood.pairs, &self.neighborhood.images, self.state.particles.fluids, &self.fields);
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
-        let is_central = self.setting.method.viscous_term == ViscousTerm::Szewc;
+        let is_central = self.setting.method.numerics.viscous_term == ViscousTerm::Szewc;
         let transposed = self.transposed_stress();
         let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
         let inverse_root: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();

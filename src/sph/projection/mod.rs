@@ -15,10 +15,10 @@ use std::time::Instant;
 use self::given_flow::Response;
 pub(super) use self::given_flow::keep_flow_rates;
 pub(super) use self::pressure::joined;
+use crate::case::ViscousStep;
 use crate::math::Vec2;
 use crate::solver::{SolverError, StepInfo};
 use crate::sph::flow::Flow;
-use crate::sph::method::ViscousStep;
 use crate::sph::motion::Motion;
 use crate::sph::open::{self, InteriorPoints, Moved};
 use crate::sph::pairs::largest;
@@ -88,14 +88,14 @@ impl Flow {
         if self.state.last_dt == 0.0 {
             self.find_first_pressure(until)?;
         }
-        let mut predicted = self.predict(until, f64::INFINITY, self.setting.method.viscous_step)?;
+        let mut predicted = self.predict(until, f64::INFINITY, self.setting.method.numerics.viscous_step)?;
         let after_forces = Instant::now();
         let mut corrected = self.end_of(&predicted)?;
         for _ in 0..MOST_REPEATS {
             let velocity = &corrected.velocity;
             let fastest = largest(velocity.len(), |a| velocity[a].norm()).map_or(0.0, |l| l.1);
             let Some(dt) = self.setting.method.shorter_step(predicted.dt, fastest * predicted.dt) else { break };
-            predicted = self.predict(until, dt, self.setting.method.viscous_step)?;
+            predicted = self.predict(until, dt, self.setting.method.numerics.viscous_step)?;
             corrected = self.end_of(&predicted)?;
             self.work.repeats += 1;
         }

@@ -1,10 +1,11 @@
 //! The predictor: all forces but the pressure [Huber2013, Eq. 25].
 
 use super::{Damped, Predicted, implicit_viscosity};
+use crate::case::ViscousStep;
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::flow::Flow;
-use crate::sph::method::{PressureGradient, ViscousStep};
+use crate::sph::method::PressureGradient;
 use crate::sph::motion::relative_speed;
 use crate::sph::open::InteriorPoints;
 use crate::sph::pairs::{each, largest};
@@ -26,7 +27,7 @@ impl Flow {
         let mut velocity = particles.velocity.clone();
         self.neighborhood.images.extend_velocity(&mut velocity);
         let viscous = self.viscous_acceleration(&velocity);
-        let is_limited = self.setting.method.viscous_step == ViscousStep::Explicit;
+        let is_limited = self.setting.method.numerics.viscous_step == ViscousStep::Explicit;
         let rate = if is_limited { self.viscous_rate() } else { 0.0 };
         // Walls count: what they drag along has their velocity at the end of the step.
         let (place, speed) = largest(particles.len(), |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
@@ -108,7 +109,7 @@ impl Flow {
     fn background_acceleration(&self) -> Vec<Vec2> {
         let mut acceleration = vec![Vec2::zeros(); self.state.particles.fluids];
         let method = &self.setting.method;
-        if method.pressure_gradient() == PressureGradient::Difference && method.background_pressure > 0.0 {
+        if method.pressure_gradient() == PressureGradient::Difference && method.numerics.background_pressure > 0.0 {
             let over_density =
                 method.background_pressure_at(self.state.particles.fluid_speed()) / method.mean_density();
             pressure_gradient::background(

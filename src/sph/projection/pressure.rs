@@ -90,11 +90,11 @@ impl Flow {
         let prescribed = Prescribed::new(&self.state.particles, &self.setting.open.sides, jump, method.kernel.h);
         let viscous_pressure = self.viscous_pressure(predicted, &matrix, &b);
         let mut others = Vec::new();
-        if method.density_error_shifting > 0.0 {
+        if method.numerics.density_error_shifting > 0.0 {
             let mut error = vec![0.0; n];
             each(&mut error, |a| {
                 let seen = if self.setting.sees_the_fluid(position[a]) { self.density_error(a) } else { 0.0 };
-                method.density_error_shifting * f.volume[a] * seen
+                method.numerics.density_error_shifting * f.volume[a] * seen
             });
             others.push((error, Tolerance { residual: CORRECTION_RESIDUAL, ..method.tolerance }));
         }

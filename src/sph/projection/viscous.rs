@@ -1,9 +1,9 @@
 //! Viscous forces between the particles of a flow, and on its walls.
 
+use crate::case::ViscousTerm;
 use crate::math::{Mat2, Vec2};
 use crate::sph::boundary::no_slip::WallDepth;
 use crate::sph::flow::Flow;
-use crate::sph::method::ViscousTerm;
 use crate::sph::terms::transposed_stress::TransposedStress;
 use crate::sph::terms::viscosity::Viscous;
 
@@ -14,7 +14,7 @@ impl Flow {
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
         let v_ab = |a: usize, b: usize| self.velocity_difference(velocity, a, b);
         let mut acceleration = vec![Vec2::zeros(); fluids];
-        match self.setting.method.viscous_term {
+        match self.setting.method.numerics.viscous_term {
             ViscousTerm::Stress => {
                 viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration);
                 if let Some(stress) = self.transposed_stress() {
@@ -33,7 +33,7 @@ impl Flow {
     pub(super) fn transposed_stress(&self) -> Option<TransposedStress<'_>> {
         let (method, f) = (&self.setting.method, &self.fields);
         let viscosities = [method.wetting_fluid.viscosity, method.other_fluid.viscosity];
-        if method.viscous_term != ViscousTerm::Stress {
+        if method.numerics.viscous_term != ViscousTerm::Stress {
             return None;
         }
         let moving = self.state.particles.moving();
@@ -65,7 +65,7 @@ impl Flow {
             if counts { self.velocity_difference(&velocity, a, b) } else { Vec2::zeros() }
         };
         let mut acceleration = vec![Vec2::zeros(); fluids];
-        match self.setting.method.viscous_term {
+        match self.setting.method.numerics.viscous_term {
             // The transposed part has no force on walls.
             ViscousTerm::Morris | ViscousTerm::Stress => {
                 viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration)

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::viscous_time::viscous_time;
 use super::{Ground, SetupError, start_phase};
-use crate::case::checked::Sph;
+use crate::case::Sph;
 use crate::geometry::Geometry;
 use crate::math::Vec2;
 use crate::sph::fill::Region;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::case::RawPhase;
 use crate::case::network::state::{ElementState, NetworkState, Start};
-use crate::case::raw::RawPhase;
 use crate::geometry::elements::Elements;
 use crate::math::Vec2;
 use crate::sph::particles::{Particles, Phase};

@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::case::checked::{Case, Side, Sph};
+use crate::case::RawPhase;
 use crate::case::network::state::{NetworkState, Start};
-use crate::case::raw::RawPhase;
+use crate::case::{Case, Side, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::curve::Curve;
 use crate::math::{Bounds, Vec2};

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::walls::wall_velocity;
-use crate::case::checked::{Case, InitialVelocity, Sph};
+use crate::case::{Case, InitialVelocity, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use crate::math::{Bounds, Vec2};

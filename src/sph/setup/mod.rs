@@ -24,7 +24,7 @@ use self::places::{Filling, places};
 use self::surroundings::surroundings;
 use self::viscous_time::viscous_time;
 use self::walls::{mirrors, wall_spots};
-use crate::case::checked::{Case, Side, Sph};
+use crate::case::{Case, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
 use crate::sph::domain::{Domain, WallQuery};

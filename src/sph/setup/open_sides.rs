@@ -1,7 +1,7 @@
 //! Open sides, and periodic ones with a given flow: their openings, what drives them and what comes in.
 
 use super::SetupError;
-use crate::case::checked::{self, SIDES, Side, Sph};
+use crate::case::{self, SIDES, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
 use crate::sph::fill::Lattice;
@@ -68,14 +68,14 @@ pub(super) fn open_sides(
                 .map(|shape| open::Drive::Velocity(Profile { mean, shape }))
         };
         side.drive = match given.drive {
-            checked::Drive::Pressure(first) => {
+            case::Drive::Pressure(first) => {
                 let staircase =
-                    |steps: checked::PressureSteps| Staircase { first, rise: steps.rise, hold: steps.every_time };
+                    |steps: case::PressureSteps| Staircase { first, rise: steps.rise, hold: steps.every_time };
                 side.steps = given.pressure_steps.map(staircase);
                 open::Drive::Pressure(first)
             }
-            checked::Drive::Velocity(mean, form) => profile(mean, form)?,
-            checked::Drive::FlowRate(rate, form) => profile(rate / width, form)?,
+            case::Drive::Velocity(mean, form) => profile(mean, form)?,
+            case::Drive::FlowRate(rate, form) => profile(rate / width, form)?,
         };
         side.openings = openings;
         if kinds[number] == Side::Periodic {
@@ -88,14 +88,9 @@ pub(super) fn open_sides(
 }
 
 /// Form of a profile over the openings of a side, between the sides of the kinds `ends`.
-fn shape(
-    form: checked::Profile,
-    side: &'static str,
-    openings: &[Opening],
-    ends: [Side; 2],
-) -> Result<Shape, SetupError> {
+fn shape(form: case::Profile, side: &'static str, openings: &[Opening], ends: [Side; 2]) -> Result<Shape, SetupError> {
     match (form, ends) {
-        (checked::Profile::Plug, _) => Ok(Shape::Plug),
+        (case::Profile::Plug, _) => Ok(Shape::Plug),
         _ if openings.len() > 1 => Err(SetupError::Openings { side, openings: openings.len() }),
         (_, [Side::Symmetry, _]) => Ok(Shape::HalfParabola { mirror_above: false }),
         (_, [_, Side::Symmetry]) => Ok(Shape::HalfParabola { mirror_above: true }),

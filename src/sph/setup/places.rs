@@ -1,7 +1,7 @@
 //! Where particles stand at time zero.
 
 use super::walls::places_of_sides;
-use crate::case::checked::Side;
+use crate::case::Side;
 use crate::geometry::Geometry;
 use crate::geometry::offset_curves::UnfittedSurface;
 use crate::math::Vec2;

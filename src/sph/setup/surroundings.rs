@@ -1,7 +1,7 @@
 //! What measures and output know of the walls.
 
 use super::handed_back::hand_back;
-use crate::case::checked::{Case, Sph};
+use crate::case::{Case, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 use crate::interface::lengths::wall_samples;

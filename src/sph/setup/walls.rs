@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::case::checked::{PatchedWall, Side, Sph, WettingPatch};
+use crate::case::{PatchedWall, Side, Sph, WettingPatch};
 use crate::geometry::Geometry;
 use crate::math::{Bounds, Vec2};
 use crate::sph::domain::{ImageVelocity, Mirror};

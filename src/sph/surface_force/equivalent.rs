@@ -1,9 +1,10 @@
 //! The volume forces that the pressure jump stands for, to look at: the jump itself acts on pairs and has no place of its own.
 
+use crate::case::LineDelta;
 use crate::math::Vec2;
 use crate::sph::flow::Flow;
 use crate::sph::terms::{curvature, surface_tension};
-use crate::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
+use crate::sph::wetting::contact_line::{LineFields, LineParticles};
 use crate::sph::wetting::lines::{DetectedLine, LINE_REACH, nearest};
 
 /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³, with the curvature and the normal

@@ -1,7 +1,7 @@
 //! The two forms of the surface force, behind one seam.
 //!
-//! [`SurfaceForce::Csf`] is the paper's: a volume force in a band, with the contact line force beside it. In
-//! [`SurfaceForce::PressureJump`] the jump σκ enters the pressure differences across the interface, as in the ghost fluid method
+//! [`SurfaceForce::Csf`](crate::case::SurfaceForce) is the paper's: a volume force in a band, with the contact line force beside it. In
+//! [`SurfaceForce::PressureJump`](crate::case::SurfaceForce) the jump σκ enters the pressure differences across the interface, as in the ghost fluid method
 //! (Fedkiw et al. 1999; Kang et al. 2000), and the wetting law is the angle at which the interface meets the wall.
 //!
 //! A chain, each link of which knows those before it: `points` of the interface between particles; `stencils`, the points around one place;
@@ -16,17 +16,3 @@ pub mod jump;
 pub mod pinned_lines;
 pub mod points;
 pub mod stencils;
-
-use crate::sph::wetting::contact_line::LineDelta;
-
-/// The forms of the surface force.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SurfaceForce {
-    /// Continuum surface force and contact line force [Huber2013, Eqs. 20 and 23].
-    Csf(LineDelta),
-    /// Pressure jump.
-    PressureJump {
-        /// Curvature in 1/m of all interfaces, fitted where there is none.
-        curvature: Option<f64>,
-    },
-}

@@ -3,6 +3,7 @@
 //! The particles of a line are found as connected components, so that each line's force sums to f_wns (Eq. 12). [`LineDelta::Local`] needs no
 //! sum over a line: it has the integral of Eq. (22) over a straight interface put in, and holds as well as that is one.
 
+use crate::case::LineDelta;
 use crate::math::Vec2;
 use crate::sph::components::components;
 use crate::sph::domain::Domain;
@@ -16,16 +17,6 @@ const SMALLEST_TANGENT: f64 = 0.15;
 
 /// A line whose N stays below this share of ∫W ds is not a line: else one trapped particle took a whole line's force.
 const SMALLEST_LINE: f64 = 0.5;
-
-/// The forms of δ_wns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LineDelta {
-    /// δ_wns,a = |n_a| W(d_s, h)/N, N the sum of V |n| W over the particles of the line [Huber2013, Eqs. 21, 22].
-    Normalized,
-    /// δ_wns,a = |n_a| |n̂_a − (n̂_a·e_s) e_s| W(d_s, h)/∫W ds, of the particle alone: across a straight interface that meets the wall at the angle α,
-    /// the way along it is ds/sin α, so that this sums to 1 at any α.
-    Local,
-}
 
 /// What the line force needs of the particles; slices over fluid particles at least.
 pub struct LineFields<'a> {
@@ -130,7 +121,10 @@ impl LineParticles {
             for p in particles {
                 let f = driving_force(tension, *angle, p.cos_alpha);
                 let norm = match delta {
+                    // δ_wns,a = |n_a| W(d_s, h)/N, N the sum of V |n| W over the particles of the line [Huber2013, Eqs. 21, 22].
                     LineDelta::Normalized => n,
+                    // δ_wns,a = |n_a| |n̂_a − (n̂_a·e_s) e_s| W(d_s, h)/∫W ds, of the particle alone: across a straight interface that meets the wall
+                    // at the angle α, the way along it is ds/sin α, so that this sums to 1 at any α.
                     LineDelta::Local => self.integral / p.sin_alpha,
                 };
                 force[p.a] = f * p.delta * fields.weight[p.a] / norm * p.tangent;

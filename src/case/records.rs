@@ -1,8 +1,10 @@
-//! Checks of a case: end, output, expectations.
+//! Checks of `[time]`, `[output]` and `[[expect]]` against the model of the case.
 
-use super::checked::{Compression, Expectation, Model, Output};
-use super::measures::{Offer, offers, unmeasured};
-use super::raw::{RawCase, RawCompression, RawEvery, RawExpectation};
+use super::case_file::{Model, RawCase};
+use super::measure_groups::Offer;
+use super::measures::{offers, unmeasured};
+use super::output::{Compression, Expectation, Output, RawEvery, RawExpectation};
+use super::steady::{FEWEST_ROWS, SteadyStop, WINDOWS};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 
@@ -11,9 +13,6 @@ const MOST_RECORDS: f64 = 1.0e5;
 
 /// Most nodes of the grid of the output, which has some 25 numbers in each: as many as particles in the largest direct simulation.
 const MOST_NODES: f64 = 2.0e7;
-
-/// End times in s: beyond these the schedule would lose its digits.
-const END_RANGE: (f64, f64) = (1.0e-15, 1.0e9);
 
 /// Records of a run where the case says nothing.
 const VTK_RECORDS: f64 = 50.0;
@@ -41,8 +40,7 @@ pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -
         return Some(f64::from(half_cycles));
     }
     let end = raw.time.as_ref().and_then(|time| time.end);
-    let end = checker.require_positive("time.end", end, "end = 0.01 # s", "an end time in s");
-    checker.within("time.end", end, END_RANGE, "an end time in s")
+    checker.require("time.end", end, "end = 0.01 # s")
 }
 
 /// What is written and when; `end` and `size`, width and height of the domain in spacings, are missing where they were wrong.
@@ -53,7 +51,6 @@ pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>, siz
     if raw.network.is_some() && output.grid.is_some() {
         checker.refuse("output.grid", "a network has no grid", "leave this out");
     }
-    let ratio = checker.within("output.grid.ratio", ratio, (0.25, 100.0), "grid distance over particle spacing");
     if let (Some(ratio), Some(size)) = (ratio, size) {
         grid(checker, ratio, size);
     }
@@ -67,11 +64,7 @@ pub(super) fn output(checker: &mut Checker, raw: &RawCase, end: Option<f64>, siz
     let mut every = |table, raw, records| every(checker, clock, (table, raw), end, records);
     Output {
         vtk_every: every("output.vtk", vtk.as_ref(), VTK_RECORDS),
-        vtk_compression: match output.vtk.as_ref().and_then(|vtk| vtk.compression) {
-            None | Some(RawCompression::Zlib) => Compression::Zlib,
-            Some(RawCompression::None) => Compression::None,
-            Some(RawCompression::Lz4) => Compression::Lz4,
-        },
+        vtk_compression: output.vtk.as_ref().and_then(|vtk| vtk.compression).unwrap_or(Compression::Zlib),
         series_every: every("output.series", output.series.as_ref(), SERIES_RECORDS),
         restart_every: every("output.restart", output.restart.as_ref(), RESTART_RECORDS),
         grid_ratio: ratio.unwrap_or(1.0),
@@ -147,7 +140,7 @@ fn every(
             format!("write {} = ... # {}", clock.key, clock.what),
         );
     }
-    let Some(interval) = checker.positive(&path, given, clock.what) else { return default };
+    let Some(interval) = given else { return default };
     let Some((end, _)) = end else { return interval };
     let (count, unit) = (end / interval, clock.unit);
     if count > MOST_RECORDS {
@@ -175,11 +168,7 @@ pub(super) fn expectations(
 }
 
 fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation, offers: Option<&[Offer]>) -> Option<Expectation> {
-    let measure = checker.require(&format!("{at}.measure"), raw.measure.clone(), "measure = \"contact-angle-deg\"");
-    let value = checker.require(&format!("{at}.value"), raw.value, "value = 40.0");
-    let path = format!("{at}.tolerance");
-    let tolerance = checker.require_positive(&path, raw.tolerance, "tolerance = 3.0", "a tolerance");
-    match (measure.as_deref(), offers) {
+    match (raw.measure.as_deref(), offers) {
         (Some(name), _) if name.trim().is_empty() => {
             checker.refuse(format!("{at}.measure"), "expected the name of a measure, found nothing", "");
         }
@@ -190,5 +179,57 @@ fn expectation(checker: &mut Checker, at: &str, raw: &RawExpectation, offers: Op
         }
         _ => {}
     }
-    Some(Expectation { measure: measure?, value: value?, tolerance: tolerance? })
+    Some(Expectation { measure: raw.measure.clone()?, value: raw.value?, tolerance: raw.tolerance? })
+}
+
+/// Checks `[time.steady]`; `end` in s is missing where it was wrong.
+pub(super) fn steady(checker: &mut Checker, raw: &RawCase, end: Option<f64>, output: &Output) -> Option<SteadyStop> {
+    let steady = raw.time.as_ref()?.steady.as_ref()?;
+    if raw.sph.is_none() {
+        if raw.network.is_none() {
+            checker.refuse(
+                "time.steady",
+                "only [sph] tells when it is steady",
+                "leave this out; the run ends at time.end",
+            );
+        }
+        return None;
+    }
+    let default = SteadyStop::default();
+    let found = SteadyStop {
+        window: steady.window,
+        contact_angle: steady.contact_angle_deg.map_or(default.contact_angle, f64::to_radians),
+        capillary_pressure: steady.capillary_pressure.unwrap_or(default.capillary_pressure),
+        saturation: steady.saturation.unwrap_or(default.saturation),
+        capillary_number: steady.capillary_number.unwrap_or(default.capillary_number),
+        kinetic_energy: steady.kinetic_energy.unwrap_or(default.kinetic_energy),
+        stop: steady.stop.unwrap_or(default.stop),
+    };
+    if let (Some(window), Some(end)) = (steady.window, end) {
+        check_window(checker, window, end, output.series_every);
+    }
+    Some(found)
+}
+
+/// Three windows must fit into the run, and rows of the series into a window.
+fn check_window(checker: &mut Checker, window: f64, end: f64, series_every: f64) {
+    if WINDOWS * window > end {
+        checker.refuse(
+            "time.steady.window",
+            format!("three windows of {window:?} s do not fit into a run of {end:?} s"),
+            format!("a window of {:.2e} s or less would do, or leave the key out", end / WINDOWS),
+        );
+    } else if window < FEWEST_ROWS * series_every {
+        checker.refuse(
+            "time.steady.window",
+            format!(
+                "a window of {window:?} s holds fewer than {FEWEST_ROWS} rows of the series, one in {series_every:?} s"
+            ),
+            format!(
+                "a window of {:.2e} s or more would do, or a row of the series every {:.2e} s",
+                FEWEST_ROWS * series_every,
+                window / FEWEST_ROWS
+            ),
+        );
+    }
 }

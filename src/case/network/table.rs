@@ -1,19 +1,19 @@
-//! The keys of `[network]` as written: all optional, nothing checked but names and types.
+//! The table of `[network]`.
 
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use crate::case::raw::{RawInterface, RawPhases, RawSideName, RawWetting, tables};
+use crate::case::fluid::{RawInterface, RawPhases};
+use crate::case::side::SideName;
+use crate::case::wetting::RawWetting;
+use crate::input::tables::{Key, tables, words};
 
 tables! {
     /// A pore network: pores and throats of the geometry, and a displacement through them.
     pub struct RawNetwork {
         /// Side where the invading phase enters; without it nothing is displaced.
-        pub inlet: RawSideName,
+        pub inlet: SideName,
         /// Opposite side where the defending phase leaves; without it none leaves and none is trapped.
-        pub outlet: RawSideName,
+        pub outlet: SideName,
         /// The sides that are neither inlet nor outlet (default: walls).
         pub sides: RawNetworkSides,
         /// The fluids; only viscosities count, for conductances and `dynamic` (default: 1 Pa s).
@@ -26,13 +26,13 @@ tables! {
         /// outlet (default `drainage`).
         pub process: RawProcess,
         /// Number of cycles (default 1).
-        pub cycles: u32,
+        pub cycles: u32 => Key::within("a number of cycles", 1.0, 100.0),
         /// Traps defending regions without a path to the outlet; else films drain them (default true).
         pub trapping: bool,
         /// Burst, touch and overlap, or burst alone (invasion percolation) (default `all`).
-        pub events: RawEvents,
+        pub events: NetworkEvents,
         /// Half width of a throat over the smaller inscribed radius, above which its pores are one (default 0.95).
-        pub persistence: f64,
+        pub persistence: f64 => Key::within("a persistence ratio", 0.5, 1.0),
         /// Measured entry pressures: `measured.json` of `meniscus network verify` (default: those of the formula).
         pub measured: PathBuf,
         /// Contents of a file of measured entry pressures, in a resolved case.
@@ -44,34 +44,6 @@ tables! {
         pub initial: PathBuf,
         /// Displacement in time, with viscous flow (default: quasi-static).
         pub dynamic: RawDynamic,
-    }
-
-    /// What drives a displacement in time: a rate or a pressure drop.
-    pub struct RawDynamic {
-        /// Injected area of the invading phase per time in m²/s (required without `pressure-drop`).
-        pub rate: f64,
-        /// Pressure at the inlet minus that at the outlet in Pa (required without `rate`).
-        pub pressure_drop: f64,
-        /// Largest inflow in one step, in pore volumes; at most half of the mean area of an element flows in (default 0.01).
-        pub largest_step: f64,
-    }
-
-    /// Measured entry pressures.
-    pub struct RawMeasured {
-        /// Hash of the geometry, as in `network.json`.
-        pub geometry_hash: String,
-        /// The measured throats.
-        pub throats: Vec<RawMeasuredThroat>,
-    }
-
-    /// A throat whose entry pressure was measured.
-    pub struct RawMeasuredThroat {
-        /// Index of the throat before the merge.
-        pub index: usize,
-        /// Entry curvature in 1/m that the formula gives; the measured value replaces no other.
-        pub formula_curvature: f64,
-        /// Measured entry curvature in 1/m.
-        pub entry_curvature: f64,
     }
 
     /// The sides that are neither inlet nor outlet.
@@ -86,47 +58,71 @@ tables! {
         pub top: RawNetworkSide,
     }
 
+    /// What drives a displacement in time: a rate or a pressure drop.
+    pub struct RawDynamic {
+        /// Injected area of the invading phase per time in m²/s (required without `pressure-drop`).
+        pub rate: f64 => Key::positive("a rate in m2/s"),
+        /// Pressure at the inlet minus that at the outlet in Pa (required without `rate`).
+        pub pressure_drop: f64 => Key::positive("a pressure drop in Pa"),
+        /// Largest inflow in one step, in pore volumes; at most half of the mean area of an element flows in (default 0.01).
+        pub largest_step: f64 => Key::within("a share of the pore volume", 1.0e-6, 1.0),
+    }
+
+    /// Measured entry pressures.
+    pub struct RawMeasured {
+        /// Hash of the geometry, as in `network.json`.
+        pub geometry_hash: String => Key::required("geometry-hash = \"...\" as in network.json"),
+        /// The measured throats.
+        pub throats: Vec<RawMeasuredThroat>,
+    }
+
+    /// A throat whose entry pressure was measured.
+    pub struct RawMeasuredThroat {
+        /// Index of the throat before the merge.
+        pub index: usize => Key::required("index = 12"),
+        /// Entry curvature in 1/m that the formula gives; the measured value replaces no other.
+        pub formula_curvature: f64 => Key::required("formula-curvature = 4.0e4 # 1/m"),
+        /// Measured entry curvature in 1/m.
+        pub entry_curvature: f64 => Key::required("entry-curvature = 4.0e4 # 1/m"),
+    }
+
     /// Where a displacement ends early; whatever comes first.
     pub struct RawStop {
         /// Ends when the invading phase reaches the outlet (default false).
         pub breakthrough: bool,
         /// Final saturation of the wetting phase.
-        pub saturation: f64,
+        pub saturation: f64 => Key::within("a saturation of the wetting phase", 0.0, 1.0),
         /// Final capillary pressure `p_n - p_w` in Pa; not with `dynamic`.
         pub capillary_pressure: f64,
         /// Injected pore volumes; only with `dynamic`.
-        pub injected: f64,
+        pub injected: f64 => Key::positive("a number of pore volumes"),
     }
 }
 
-/// What stands at a side of a network.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RawNetworkSide {
-    /// A solid wall with the contact angle of all walls.
-    Wall,
-    /// Joined to the opposite side.
-    Periodic,
-}
+words! {
+    /// What stands at a side of a network.
+    pub enum RawNetworkSide {
+        /// A solid wall with the contact angle of all walls.
+        Wall,
+        /// Joined to the opposite side.
+        Periodic,
+    }
 
-/// Which phase invades.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RawProcess {
-    /// The non-wetting phase, into a pore space full of the wetting one.
-    Drainage,
-    /// The wetting phase, into a pore space full of the non-wetting one.
-    Imbibition,
-    /// Drainage from the inlet, then imbibition from the outlet, again and again.
-    Cycle,
-}
+    /// Which phase invades.
+    pub enum RawProcess {
+        /// The non-wetting phase, into a pore space full of the wetting one.
+        Drainage,
+        /// The wetting phase, into a pore space full of the non-wetting one.
+        Imbibition,
+        /// Drainage from the inlet, then imbibition from the outlet, again and again.
+        Cycle,
+    }
 
-/// The events that move menisci.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum RawEvents {
-    /// Burst, touch and overlap.
-    All,
-    /// Burst only: invasion percolation, to compare with other programs.
-    Burst,
+    /// The events that move menisci.
+    pub enum NetworkEvents {
+        /// Burst, touch and overlap.
+        All,
+        /// Burst only: invasion percolation, to compare with other programs.
+        Burst,
+    }
 }

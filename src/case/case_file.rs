@@ -1,0 +1,112 @@
+//! A case file as a whole: its table, the checked case, and the case written out as one file.
+
+use super::film::{RawThinFilm, ThinFilm};
+use super::network::{PoreNetwork, RawNetwork};
+use super::output::{Expectation, Output, RawExpectation, RawOutput, RawTime, raw_expectation, raw_output};
+use super::shapes::RawGeometry;
+use super::side::Sides;
+use super::sph::{RawSph, Sph};
+use super::steady::{self, SteadyStop};
+use crate::geometry::spec::GeometrySpec;
+use crate::input::tables::{Key, tables};
+
+tables! {
+    /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.
+    pub struct RawCase {
+        /// Version of the format: 1.
+        pub format: u32 => Key::required("format = 1"),
+        /// One line that describes the case.
+        pub title: String => Key::required("title = \"what the case shows\""),
+        /// Domain and solids: a shape file, or shapes written here.
+        pub geometry: RawGeometry => Key::required("[geometry] with file, or min, max and shapes"),
+        /// Direct simulation by incompressible SPH.
+        pub sph: RawSph,
+        /// Droplets on a flat wall, by a thin-film equation.
+        pub thin_film: RawThinFilm,
+        /// Pore network, and displacement of one fluid by another in it.
+        pub network: RawNetwork,
+        /// Simulated time; not for a quasi-static `[network]`.
+        pub time: RawTime,
+        /// Files of the run, and how often they are written.
+        pub output: RawOutput,
+        /// Expected measures; if one is missed, the run ends with exit code 5.
+        pub expect: Vec<RawExpectation>,
+    }
+}
+
+/// A case that can be run.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Case {
+    /// One line that says what the case shows.
+    pub title: String,
+    /// Domain and solids.
+    pub geometry: GeometrySpec,
+    /// The model that solves it.
+    pub model: Model,
+    /// End of the simulation in s; of a network the most that it can displace, in pore volumes.
+    pub end: f64,
+    /// When the run counts as steady, and whether it then ends (`[time.steady]`); absent: it goes on to its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steady: Option<SteadyStop>,
+    /// What is written and when.
+    pub output: Output,
+    /// What the run must give.
+    pub expect: Vec<Expectation>,
+}
+
+/// The models.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Model {
+    /// Direct simulation by incompressible SPH.
+    Sph(Box<Sph>),
+    /// Droplets on a flat wall by a thin-film equation (`[thin-film]`).
+    ThinFilm(Box<ThinFilm>),
+    /// A pore network and a quasi-static displacement in it (`[network]`).
+    Network(Box<PoreNetwork>),
+}
+
+impl Model {
+    /// The sides of its domain; none of a film on a wall.
+    pub(super) fn sides(&self) -> Option<&Sides> {
+        match self {
+            Self::Sph(sph) => Some(&sph.sides),
+            Self::Network(network) => Some(&network.sides),
+            Self::ThinFilm(_) => None,
+        }
+    }
+}
+
+/// The case as TOML that loads to the same case (angles to the last bit of a degree): no defaults, presets, overrides or other files left.
+pub(super) fn text(case: &Case) -> String {
+    // Every value of a checked case can be written as TOML: numbers, texts and tables with text keys.
+    toml::to_string(&raw(case)).unwrap_or_default()
+}
+
+fn raw(case: &Case) -> RawCase {
+    let (sph, thin_film, network) = match &case.model {
+        Model::Sph(sph) => (Some(super::sph::raw(sph)), None, None),
+        Model::ThinFilm(film) => (None, Some(super::film::raw(film)), None),
+        Model::Network(network) => (None, None, Some(super::network::raw(network))),
+    };
+    let is_quasi_static = matches!(&case.model, Model::Network(network) if !network.is_dynamic());
+    let geometry = &case.geometry;
+    RawCase {
+        format: Some(1),
+        title: Some(case.title.clone()),
+        geometry: Some(RawGeometry {
+            min: Some(geometry.min),
+            max: Some(geometry.max),
+            solid: Some(geometry.solid),
+            shapes: Some(geometry.shapes.clone()),
+            ..RawGeometry::default()
+        }),
+        sph,
+        thin_film,
+        time: (!is_quasi_static)
+            .then_some(RawTime { end: Some(case.end), steady: case.steady.as_ref().map(steady::raw) }),
+        output: Some(raw_output(&case.output, matches!(&case.model, Model::Network(_)), is_quasi_static)),
+        network,
+        expect: Some(case.expect.iter().map(raw_expectation).collect()),
+    }
+}

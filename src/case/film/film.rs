@@ -1,0 +1,84 @@
+//! A checked thin film.
+
+use super::droplets::{FilmDroplet, FilmSymmetry};
+use super::equation::FilmEquation;
+use super::method::FilmMethod;
+use crate::input::tables::words;
+
+words! {
+    /// What a particle or node of a thin film stands for at time zero.
+    pub enum FilmWeights {
+        /// The film of its cell: the mass is exact.
+        Cell,
+        /// The height at its place.
+        Point,
+    }
+}
+
+/// Viscosity, tension and density in scaled units: time, length and height are those of the scaled equations.
+pub(super) const SCALED: (f64, f64, f64) = (1.0 / 3.0, 1.0, 1.0);
+
+/// Droplets on the wall y = 0.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct ThinFilm {
+    /// Dynamic viscosity in Pa s.
+    pub viscosity: f64,
+    /// Surface tension in N/m.
+    pub tension: f64,
+    /// Density in kg/m³; 0 where nothing depends on it.
+    pub density: f64,
+    /// Gravity towards the wall in m/s².
+    pub gravity: f64,
+    /// Initial distance of particles, or distance of grid nodes, in m.
+    pub spacing: f64,
+    /// The film across the plane of the picture.
+    pub symmetry: FilmSymmetry,
+    /// The droplets at time zero, from left to right.
+    pub droplets: Vec<FilmDroplet>,
+    /// The equation.
+    pub equation: FilmEquation,
+    /// Angle of rest in rad; absent in complete wetting.
+    pub contact_angle: Option<f64>,
+    /// How the equation is solved.
+    pub method: FilmMethod,
+    /// Whether particles and nodes hold the film of their cell (or the height at their place).
+    pub weights: FilmWeights,
+}
+
+impl ThinFilm {
+    /// Whether time, length and height are those of the scaled equations.
+    #[must_use]
+    pub fn is_scaled(&self) -> bool {
+        (self.viscosity, self.tension, self.density) == SCALED
+    }
+
+    /// Whether the droplet rests as a parabola: on a precursor film without gravity. That of the geometric equation is a cosine.
+    #[must_use]
+    pub fn rests_as_cap(&self) -> bool {
+        matches!(self.equation, FilmEquation::Precursor(_))
+            && self.contact_angle.is_some()
+            && self.gravity == 0.0
+            && self.droplets.len() == 1
+    }
+
+    /// Whether the droplet spreads by the similarity solution about x = 0: one in the plane, completely wetting and without gravity.
+    #[must_use]
+    pub fn is_self_similar(&self) -> bool {
+        let is_alone = matches!(&self.droplets[..], [droplet] if droplet.center == 0.0);
+        self.contact_angle.is_none() && self.symmetry == FilmSymmetry::Plane && self.gravity == 0.0 && is_alone
+    }
+
+    /// One unit of each scaled quantity: length along the wall and height in m, time in s. `src/thin_film/scales.rs` tells what they stand for.
+    #[must_use]
+    pub fn scales(&self) -> [f64; 3] {
+        let largest = |value: fn(&FilmDroplet) -> f64| self.droplets.iter().map(value).fold(0.0, f64::max);
+        let (length, height) = match self.contact_angle {
+            None => (2.0 * largest(|droplet| droplet.half_width), 8.0 / 3.0 * largest(|droplet| droplet.height)),
+            Some(angle) => {
+                let area: f64 = self.droplets.iter().map(FilmDroplet::cross_section).sum();
+                ((area / angle.tan()).sqrt(), (area * angle.tan()).sqrt())
+            }
+        };
+        [length, height, 3.0 * self.viscosity * length / self.tension * (length / height).powi(3)]
+    }
+}

@@ -1,0 +1,164 @@
+//! `[thin-film]`: droplets on a flat wall. Its table, the checks of its parts together, and the table of a checked film.
+
+use super::droplets::{FilmSymmetry, RawDroplet, domain, droplets};
+use super::equation::{
+    EQUATION, FilmEquation, Geometric, RawFilmEquation, RawFilmWetting, equation, partial_wetting, raw_equation,
+    raw_wetting, wetting,
+};
+use super::film::{FilmWeights, SCALED, ThinFilm};
+use super::method::{DefaultMethod, FilmMethod, FilmParticles, LatticeEnergy, RawFilmMethod, method, raw_method};
+use super::resolution::{count, particles, resolution, rounding};
+use super::thinness;
+use crate::case::fluid::RawFluid;
+use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
+use crate::input::tables::{Key, tables};
+
+tables! {
+    /// Droplets that spread on the wall y = 0, by a thin-film equation (Pang and O Naraigh 2022).
+    pub struct RawThinFilm {
+        /// The liquid; its density is needed with gravity only.
+        pub fluid: RawFluid,
+        /// Surface tension in N/m (default: that of the preset).
+        pub tension: f64 => Key::positive("a tension in N/m"),
+        /// Gravity towards the wall in m/s², negative for hanging droplets; capillary length at least 2 spacings
+        /// (default 0).
+        pub gravity: f64,
+        /// Initial distance of particles or nodes in m: at least 10 per half width, at most 1e7 on the wall.
+        pub spacing: f64 => Key::positive("a spacing in m").example("spacing = 5.0e-6 # m"),
+        /// Plane film, or axisymmetric about x = 0 (default `plane`).
+        pub symmetry: FilmSymmetry,
+        /// Initial droplets: parabolas without overlap.
+        pub droplets: Vec<RawDroplet> => Key::required("[[thin-film.droplets]] with half-width and height in m"),
+        /// Exactly one equation.
+        pub equation: RawFilmEquation => Key::required(EQUATION),
+        /// At most one wetting model (default `complete`).
+        pub wetting: RawFilmWetting,
+        /// At most one method (default `particles` for the geometric equation in complete wetting in the plane, else
+        /// `finite-differences`).
+        pub method: RawFilmMethod,
+        /// Particles and nodes represent the film of their cell, or the height at their position (default `cell`).
+        pub weights: FilmWeights,
+    }
+}
+
+/// What a film is made of, SI units.
+pub(super) struct Liquid {
+    pub viscosity: f64,
+    pub tension: f64,
+    pub density: f64,
+    pub gravity: f64,
+}
+
+/// The liquid of a film: density and viscosity, tension and gravity.
+pub(super) fn liquid(checker: &mut Checker, raw: &RawThinFilm) -> Option<Liquid> {
+    let gravity = raw.gravity.unwrap_or(0.0);
+    let Some(fluid) = &raw.fluid else {
+        if raw.tension.is_some() {
+            let help =
+                "add [thin-film.fluid] with preset = \"water\" or viscosity in Pa s; leave out both for scaled units";
+            checker.refuse("thin-film.tension", "there is a tension, and no fluid", help);
+            return None;
+        }
+        let (viscosity, tension, density) = SCALED;
+        return Some(Liquid { viscosity, tension, density, gravity });
+    };
+    let preset = fluid.properties();
+    let tension = raw.tension.or(preset.and_then(|preset| preset.tension));
+    let viscosity = fluid.viscosity.or(preset.map(|preset| preset.viscosity));
+    let density = fluid.density.or(preset.map(|preset| preset.density)).or((gravity == 0.0).then_some(0.0));
+    let viscosity = checker.require("thin-film.fluid.viscosity", viscosity, "viscosity = 1.0e-2 # Pa s");
+    let tension = checker.require("thin-film.tension", tension, "tension = 0.03 # N/m");
+    let density = checker.require("thin-film.fluid.density", density, "density = 998.2 # kg/m3");
+    Some(Liquid { viscosity: viscosity?, tension: tension?, density: density?, gravity })
+}
+
+/// Checks `[thin-film]`; `geometry` is missing where it was wrong.
+pub(in crate::case) fn thin_film(
+    checker: &mut Checker,
+    raw: &RawThinFilm,
+    geometry: Option<&GeometrySpec>,
+) -> Option<ThinFilm> {
+    let liquid = liquid(checker, raw);
+    let spacing = raw.spacing;
+    let symmetry = raw.symmetry.unwrap_or(FilmSymmetry::Plane);
+    let droplets = droplets(checker, raw.droplets.as_deref().unwrap_or_default(), symmetry);
+    let equation = equation(checker, &raw.equation.clone().unwrap_or_default());
+    let contact_angle = wetting(checker, &raw.wetting.clone().unwrap_or_default());
+    let particles_can_be =
+        symmetry == FilmSymmetry::Plane && equation.is_none_or(|e| matches!(e, FilmEquation::Geometric(_)));
+    let default = match contact_angle {
+        Some(None) if particles_can_be => DefaultMethod::Particles,
+        _ => DefaultMethod::FiniteDifferences,
+    };
+    let method = method(checker, &raw.method.clone().unwrap_or_default(), particles_can_be, default);
+    if let (Some(equation), Some(Some(_))) = (equation, contact_angle) {
+        partial_wetting(checker, equation, symmetry);
+    }
+    if let (Some(spacing), Some(equation), Some(droplets)) = (spacing, equation, &droplets) {
+        resolution(checker, spacing, equation, droplets);
+        match (equation, method) {
+            (FilmEquation::Geometric(Geometric { smoothing_length }), Some(FilmMethod::FiniteDifferences(_))) => {
+                rounding(checker, spacing, smoothing_length);
+            }
+            (FilmEquation::Geometric(Geometric { smoothing_length }), Some(FilmMethod::Particles(_))) => {
+                particles(checker, spacing, smoothing_length);
+            }
+            _ => {}
+        }
+    }
+    if let (
+        Some(FilmMethod::Particles(FilmParticles { lattice_energy: LatticeEnergy::TakenOff, .. })),
+        Some([_, _, ..]),
+    ) = (method, droplets.as_deref())
+    {
+        checker.refuse(
+            "thin-film.method.particles.lattice-energy",
+            "the lattice energy can be taken off one droplet, and there are several",
+            "where droplets meet their lattices would not fit; take a smaller spacing, or finite differences",
+        );
+    }
+    if let Some(geometry) = geometry {
+        domain(checker, geometry, droplets.as_deref().unwrap_or_default(), symmetry);
+        if let Some(spacing) = spacing {
+            count(checker, geometry, spacing);
+        }
+    }
+    let Liquid { viscosity, tension, density, gravity } = liquid?;
+    let film = ThinFilm {
+        viscosity,
+        tension,
+        density,
+        gravity,
+        spacing: spacing?,
+        symmetry,
+        droplets: droplets?,
+        equation: equation?,
+        contact_angle: contact_angle?,
+        method: method?,
+        weights: raw.weights.unwrap_or(FilmWeights::Cell),
+    };
+    thinness::steepness(checker, &film);
+    thinness::rim(checker, &film);
+    if let Some(geometry) = geometry {
+        thinness::room(checker, &film, geometry);
+    }
+    Some(film)
+}
+
+/// The film as a table that loads to the same film.
+pub(in crate::case) fn raw(film: &ThinFilm) -> RawThinFilm {
+    let density = (film.density > 0.0).then_some(film.density);
+    RawThinFilm {
+        fluid: Some(RawFluid { density, viscosity: Some(film.viscosity), ..RawFluid::default() }),
+        tension: Some(film.tension),
+        gravity: Some(film.gravity),
+        spacing: Some(film.spacing),
+        symmetry: Some(film.symmetry),
+        droplets: Some(film.droplets.iter().copied().map(RawDroplet::from).collect()),
+        equation: Some(raw_equation(film.equation)),
+        wetting: Some(raw_wetting(film.contact_angle)),
+        method: Some(raw_method(film.method)),
+        weights: Some(film.weights),
+    }
+}

@@ -1,0 +1,173 @@
+//! What is displaced in a network: which phase invades, by which events, from where on and how far.
+
+use super::dynamic::{DynamicDrive, drive, raw_dynamic};
+use super::state::Start;
+use super::table::{NetworkEvents, RawNetwork, RawProcess, RawStop};
+use crate::case::side::Sides;
+use crate::input::Checker;
+
+/// A displacement.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct NetworkDisplacement {
+    /// The half cycles in their order.
+    pub process: Process,
+    /// Whether a defending region without a way to the outlet is trapped.
+    pub trapping: bool,
+    /// Which events move menisci.
+    pub events: NetworkEvents,
+    /// Where it ends early.
+    pub stop: Stop,
+    /// The state that it begins with; absent: the pore space is full of the defending phase.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub initial: Option<Start>,
+    /// What drives it in time; absent where it is quasi-static.
+    pub dynamic: Option<DynamicDrive>,
+}
+
+/// Which phase invades.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Process {
+    /// The non-wetting phase.
+    Drainage,
+    /// The wetting phase.
+    Imbibition,
+    /// Both in turn, so many times, drainage first.
+    Cycle(u32),
+}
+
+impl Process {
+    /// Number of half cycles.
+    #[must_use]
+    pub fn half_cycles(self) -> u32 {
+        match self {
+            Self::Drainage | Self::Imbibition => 1,
+            Self::Cycle(cycles) => 2 * cycles,
+        }
+    }
+}
+
+/// Where a displacement, or each drainage of a cycle, ends early.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+pub struct Stop {
+    /// When the invading phase reaches the outlet.
+    pub breakthrough: bool,
+    /// At this saturation of the wetting phase.
+    pub saturation: Option<f64>,
+    /// At this capillary pressure p_n - p_w in Pa; quasi-static only.
+    pub capillary_pressure: Option<f64>,
+    /// When so many pore volumes have passed the inlet; in time only.
+    pub injected: Option<f64>,
+}
+
+/// Checks what `[network]` says of the displacement.
+pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Option<Start>) -> NetworkDisplacement {
+    let process = match raw.process {
+        None | Some(RawProcess::Drainage) => Process::Drainage,
+        Some(RawProcess::Imbibition) => Process::Imbibition,
+        Some(RawProcess::Cycle) => Process::Cycle(raw.cycles.unwrap_or(1)),
+    };
+    if raw.cycles.is_some() && !matches!(process, Process::Cycle(_)) {
+        checker.refuse(
+            "network.cycles",
+            "only cycles are counted, and the process is none",
+            "set process = \"cycle\", or leave this out",
+        );
+    }
+    if matches!(process, Process::Cycle(_)) && raw.outlet.is_none() {
+        checker.refuse(
+            "network.process",
+            "a cycle needs an outlet: the wetting phase comes back through it",
+            "add outlet = \"right\", say",
+        );
+    }
+    NetworkDisplacement {
+        process,
+        trapping: raw.trapping.unwrap_or(true),
+        events: raw.events.unwrap_or(NetworkEvents::All),
+        stop: stop(checker, raw),
+        dynamic: raw
+            .dynamic
+            .as_ref()
+            .and_then(|dynamic| drive(checker, raw, dynamic, matches!(process, Process::Cycle(_)))),
+        initial,
+    }
+}
+
+/// Refuses a state whose walls and periodic sides are others; what is open may change.
+pub(super) fn refuse_other_sides(checker: &mut Checker, start: &Start, sides: &Sides) {
+    if let Some((_, misfit)) = start.state.misfit_of_sides(sides) {
+        let message = format!("{} is the state of other sides: {misfit}", start.file.display());
+        checker.refuse("network.initial", message, "give this case the sides of the state");
+    }
+}
+
+fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
+    let given = raw.stop.clone().unwrap_or_default();
+    if given.breakthrough == Some(true) && raw.outlet.is_none() {
+        checker.refuse(
+            "network.stop.breakthrough",
+            "there is no outlet to break through at",
+            "add outlet = \"right\", say, or leave this out",
+        );
+    }
+    if given.injected.is_some() && raw.dynamic.is_none() {
+        checker.refuse(
+            "network.stop.injected",
+            "injected volumes are those of a displacement in time, and this one is quasi-static",
+            "end at a saturation, or add [network.dynamic]",
+        );
+    }
+    Stop {
+        breakthrough: given.breakthrough.unwrap_or_default(),
+        saturation: given.saturation,
+        capillary_pressure: given.capillary_pressure,
+        injected: given.injected,
+    }
+}
+
+/// Keys that say how something is displaced, where nothing comes in.
+pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
+    let given = [
+        ("outlet", raw.outlet.is_some()),
+        ("process", raw.process.is_some()),
+        ("cycles", raw.cycles.is_some()),
+        ("trapping", raw.trapping.is_some()),
+        ("events", raw.events.is_some()),
+        ("stop", raw.stop.is_some()),
+        ("initial", raw.initial.is_some()),
+        ("dynamic", raw.dynamic.is_some()),
+    ];
+    for (key, _) in given.into_iter().filter(|(_, given)| *given) {
+        checker.refuse(
+            format!("network.{key}"),
+            format!("`{key}` belongs to a displacement, and there is no inlet"),
+            "add inlet = \"left\", say; without an inlet the network is extracted and nothing is displaced",
+        );
+    }
+}
+
+/// The keys of a displacement, beside those of its network.
+pub(super) fn raw_displacement(displacement: &NetworkDisplacement, network: RawNetwork) -> RawNetwork {
+    let (process, cycles) = match displacement.process {
+        Process::Drainage => (RawProcess::Drainage, None),
+        Process::Imbibition => (RawProcess::Imbibition, None),
+        Process::Cycle(cycles) => (RawProcess::Cycle, Some(cycles)),
+    };
+    let stop = displacement.stop;
+    RawNetwork {
+        process: Some(process),
+        cycles,
+        trapping: displacement.dynamic.is_none().then_some(displacement.trapping),
+        events: Some(displacement.events),
+        stop: Some(RawStop {
+            breakthrough: Some(stop.breakthrough),
+            saturation: stop.saturation,
+            capillary_pressure: stop.capillary_pressure,
+            injected: stop.injected,
+        }),
+        dynamic: displacement.dynamic.map(raw_dynamic),
+        initial: displacement.initial.as_ref().map(|start| start.file.clone()),
+        ..network
+    }
+}

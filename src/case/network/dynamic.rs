@@ -1,0 +1,99 @@
+//! `[network.dynamic]`: what drives a displacement in time.
+
+use super::table::{NetworkEvents, RawDynamic, RawNetwork};
+use crate::input::Checker;
+
+/// What drives a displacement in time.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct DynamicDrive {
+    /// A given rate or pressure.
+    pub drive: Driven,
+    /// Most pore volumes that pass the inlet in one step.
+    pub largest_step: f64,
+}
+
+/// By what a displacement in time is driven.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Driven {
+    /// Area injected per time in m²/s.
+    Rate(f64),
+    /// Pressure at the inlet less that at the outlet in Pa.
+    PressureDrop(f64),
+}
+
+/// Most pore volumes per step where the case says nothing.
+pub const DEFAULT_LARGEST_STEP: f64 = 0.01;
+
+/// Checks `[network.dynamic]` and what goes with it.
+pub(super) fn drive(
+    checker: &mut Checker,
+    raw: &RawNetwork,
+    dynamic: &RawDynamic,
+    is_cycle: bool,
+) -> Option<DynamicDrive> {
+    let before = checker.problems.len();
+    if raw.initial.is_some() {
+        checker.refuse(
+            "network.initial",
+            "a displacement in time begins with the pore space full of the defending phase",
+            "leave out `initial`, or [network.dynamic]",
+        );
+    }
+    let drive = match (dynamic.rate, dynamic.pressure_drop) {
+        (Some(_), Some(_)) => {
+            let message = "a rate and a pressure drop are given, and one follows from the other";
+            checker.refuse("network.dynamic.pressure-drop", message, "leave one of them out");
+            None
+        }
+        (Some(rate), None) => Some(Driven::Rate(rate)),
+        (None, Some(pressure)) => Some(Driven::PressureDrop(pressure)),
+        (None, None) if checker.is_refused("network.dynamic.pressure-drop") => None,
+        (None, None) => {
+            checker.require("network.dynamic.rate", None, "rate = 1.0e-8 # m2/s, or pressure-drop = 500.0 # Pa")
+        }
+    };
+    if raw.outlet.is_none() {
+        let message = "a displacement in time needs an outlet: the phase that is displaced leaves through it";
+        checker.refuse("network.outlet", message, "add outlet = \"right\", say");
+    }
+    let phases = raw.phases.clone().unwrap_or_default();
+    for (name, is_given) in [("wetting", phases.wetting.is_some()), ("non-wetting", phases.non_wetting.is_some())] {
+        if !is_given {
+            checker.refuse(
+                format!("network.phases.{name}"),
+                format!("a displacement in time needs the viscosity of the {name} phase"),
+                format!("add [network.phases.{name}] with preset = \"water\", say, or density and viscosity"),
+            );
+        }
+    }
+    let quasi_static = [
+        ("process", is_cycle, "a cycle", "take drainage or imbibition"),
+        ("events", raw.events == Some(NetworkEvents::Burst), "invasion percolation", "leave events out"),
+        ("trapping", raw.trapping.is_some(), "a rule for trapping", "leave it out: what cannot flow out is trapped"),
+        (
+            "stop.capillary-pressure",
+            raw.stop.as_ref().is_some_and(|stop| stop.capillary_pressure.is_some()),
+            "one capillary pressure",
+            "end at breakthrough, at a saturation, or after injected = 1.0 pore volumes",
+        ),
+    ];
+    for (key, _, what, help) in quasi_static.into_iter().filter(|(_, given, _, _)| *given) {
+        checker.refuse(
+            format!("network.{key}"),
+            format!("{what} belongs to quasi-static displacement, and [network.dynamic] is given"),
+            help,
+        );
+    }
+    let largest_step = dynamic.largest_step.unwrap_or(DEFAULT_LARGEST_STEP);
+    (checker.problems.len() == before).then_some(DynamicDrive { drive: drive?, largest_step })
+}
+
+/// The table of a drive.
+pub(super) fn raw_dynamic(dynamic: DynamicDrive) -> RawDynamic {
+    let (rate, pressure_drop) = match dynamic.drive {
+        Driven::Rate(rate) => (Some(rate), None),
+        Driven::PressureDrop(pressure) => (None, Some(pressure)),
+    };
+    RawDynamic { rate, pressure_drop, largest_step: Some(dynamic.largest_step) }
+}

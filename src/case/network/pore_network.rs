@@ -1,0 +1,239 @@
+//! `[network]`: a pore network. The checks of its parts together, and the table of a checked network.
+
+use super::displacement::{
+    NetworkDisplacement, displacement, raw_displacement, refuse_other_sides, refuse_without_inlet,
+};
+use super::measured::{self, Measured};
+use super::state::Start;
+use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides};
+use crate::case::fluid::{Fluid, RawFluid, RawInterface, RawPhases, fluid};
+use crate::case::side::{SIDES, Side, SideName, Sides};
+use crate::case::wetting::{self, WettingPatch};
+use crate::geometry::spec::GeometrySpec;
+use crate::input::Checker;
+use crate::input::tables::Key;
+use crate::wetting::Wetting;
+
+/// A pore network and what is displaced in it.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct PoreNetwork {
+    /// The four sides: walls, periodic sides, the inlet and the outlet.
+    pub sides: Sides,
+    /// The wetting phase, where it is given.
+    pub wetting: Option<Fluid>,
+    /// The non-wetting phase, where it is given.
+    pub non_wetting: Option<Fluid>,
+    /// Interface and walls; absent: no entry pressures.
+    pub interface: Option<NetworkInterface>,
+    /// Persistence ratio above which two maxima of the wall distance are one pore.
+    pub persistence: f64,
+    /// Entry pressures that were measured, in place of those of the formula.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Measured>,
+    /// What is displaced; absent where there is no inlet.
+    pub displacement: Option<NetworkDisplacement>,
+}
+
+impl PoreNetwork {
+    /// Whether it is displaced in time, so that its clock is the time in s.
+    #[must_use]
+    pub fn is_dynamic(&self) -> bool {
+        self.displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_some())
+    }
+}
+
+/// The interface between two fluids and its angles on walls.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct NetworkInterface {
+    /// Interfacial tension in N/m.
+    pub tension: f64,
+    /// Static angles through the wetting phase: Young, Tadmor or hysteresis.
+    pub wetting_model: Wetting,
+    /// Walls with angles of their own, without stripes.
+    pub patches: Vec<WettingPatch>,
+}
+
+/// Persistence ratio where the case says nothing.
+pub const DEFAULT_PERSISTENCE: f64 = 0.95;
+
+/// Checks `[network]`; `geometry` is missing where it was wrong.
+pub(in crate::case) fn network(
+    checker: &mut Checker,
+    raw: &RawNetwork,
+    geometry: Option<&GeometrySpec>,
+    start: Option<Start>,
+) -> Option<PoreNetwork> {
+    let sides = sides(checker, raw);
+    let phases = raw.phases.clone().unwrap_or_default();
+    let [wetting, non_wetting] =
+        [("wetting", phases.wetting), ("non-wetting", phases.non_wetting)].map(|(name, raw)| match raw {
+            Some(raw) => fluid(checker, &format!("network.phases.{name}"), &raw).map(Some),
+            None => Some(None),
+        });
+    let interface = interface(checker, raw, sides.as_ref(), geometry);
+    let measured = raw.measured_throats.as_ref().map(measured::checked);
+    if raw.dynamic.is_some() && raw.measured_throats.is_some() {
+        checker.refuse(
+            "network.measured",
+            "a displacement in time follows menisci through throats by the formula, and knows no measured pressures",
+            "leave it out, or leave out [network.dynamic]",
+        );
+    }
+    let displacement = if raw.inlet.is_some() {
+        if let (Some(start), Some(sides)) = (&start, &sides) {
+            refuse_other_sides(checker, start, sides);
+        }
+        Some(displacement(checker, raw, start))
+    } else {
+        refuse_without_inlet(checker, raw);
+        None
+    };
+    if raw.dynamic.is_some() && displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_none()) {
+        return None;
+    }
+    Some(PoreNetwork {
+        sides: sides?,
+        wetting: wetting?,
+        non_wetting: non_wetting?,
+        interface: interface?,
+        persistence: raw.persistence.unwrap_or(DEFAULT_PERSISTENCE),
+        measured: match measured {
+            Some(measured) => Some(measured?),
+            None => None,
+        },
+        displacement,
+    })
+}
+
+/// The kinds of all four sides; none where they do not go together.
+fn sides(checker: &mut Checker, raw: &RawNetwork) -> Option<Sides> {
+    let before = checker.problems.len();
+    let given = raw.sides.clone().unwrap_or_default();
+    let given = [given.left, given.right, given.bottom, given.top];
+    let mut kinds = given.map(|side| match side {
+        Some(RawNetworkSide::Periodic) => Side::Periodic,
+        Some(RawNetworkSide::Wall) | None => Side::Wall,
+    });
+    let open = [("inlet", raw.inlet, Side::Inlet), ("outlet", raw.outlet, Side::Outlet)];
+    for (key, side, kind) in open.into_iter().filter_map(|(key, side, kind)| Some((key, side?.number(), kind))) {
+        if given[side].is_some() {
+            checker.refuse(
+                format!("network.sides.{}", SIDES[side]),
+                format!("the side `{}` is the {key}, and a kind of side is given for it too", SIDES[side]),
+                format!("leave it out of [network.sides], or choose another {key}"),
+            );
+        }
+        kinds[side] = kind;
+    }
+    if let (Some(inlet), Some(outlet)) = (raw.inlet.map(SideName::number), raw.outlet.map(SideName::number)) {
+        if inlet == outlet {
+            let message = format!("`{}` is both inlet and outlet", SIDES[inlet]);
+            checker.refuse("network.outlet", message, format!("take the opposite side, `{}`", SIDES[inlet ^ 1]));
+        } else if inlet / 2 != outlet / 2 {
+            checker.refuse(
+                "network.outlet",
+                format!("the inlet `{}` and the outlet `{}` meet in a corner", SIDES[inlet], SIDES[outlet]),
+                format!("take the opposite side, `{}`", SIDES[inlet ^ 1]),
+            );
+        }
+    }
+    for [a, b] in [[0, 1], [2, 3]] {
+        for (one, other) in [(a, b), (b, a)] {
+            if kinds[one] == Side::Periodic && kinds[other] != Side::Periodic {
+                let found = match kinds[other] {
+                    Side::Wall => "a wall",
+                    Side::Inlet => "the inlet",
+                    _ => "the outlet",
+                };
+                checker.refuse(
+                    format!("network.sides.{}", SIDES[one]),
+                    format!(
+                        "the side `{}` is periodic and the opposite side `{}` is {found}",
+                        SIDES[one], SIDES[other]
+                    ),
+                    "periodic sides come in pairs: make both periodic, or none",
+                );
+            }
+        }
+    }
+    let [left, right, bottom, top] = kinds;
+    (checker.problems.len() == before).then_some(Sides { left, right, bottom, top })
+}
+
+/// Tension and angles: both, or neither where nothing is displaced. The outer option is missing where a mistake was found.
+fn interface(
+    checker: &mut Checker,
+    raw: &RawNetwork,
+    sides: Option<&Sides>,
+    geometry: Option<&GeometrySpec>,
+) -> Option<Option<NetworkInterface>> {
+    let tension = raw.interface.as_ref().and_then(|interface| interface.tension);
+    if raw.inlet.is_none() && raw.interface.is_none() && raw.wetting.is_none() {
+        return Some(None);
+    }
+    // That of a direct simulation may be 0.
+    let above = Key::positive("a tension in N/m").example("tension = 0.0276 # N/m");
+    let tension = above.checked(checker, "network.interface", "tension", tension);
+    if raw.wetting.is_none() {
+        checker.require::<()>("network.wetting", None, "[network.wetting.young] with contact-angle-deg");
+    }
+    let model = wetting::model(checker, "network.wetting", raw.wetting.as_ref(), tension)?;
+    let model = static_model(checker, model);
+    let patches = match model {
+        Some(model) => wetting::patches(checker, "network.wetting", raw.wetting.as_ref(), model, sides, geometry),
+        None => Vec::new(),
+    };
+    for (index, patch) in raw.wetting.iter().flat_map(|raw| &raw.patches).flatten().enumerate() {
+        if patch.stripes.is_some() {
+            checker.refuse(
+                format!("network.wetting.patches[{index}].stripes"),
+                "menisci of a network stand between whole walls, and stripes divide a wall",
+                "give the patch a shape or a side; a striped wall can be written as several shapes side by side",
+            );
+        }
+    }
+    Some(Some(NetworkInterface { tension: tension?, wetting_model: model?, patches }))
+}
+
+/// The model, where it is one of lines at rest.
+fn static_model(checker: &mut Checker, model: Wetting) -> Option<Wetting> {
+    if !model.is_dynamic() {
+        return Some(model);
+    }
+    let (name, angle) = (model.table().key, model.static_angle().to_degrees());
+    checker.refuse(
+        format!("network.wetting.{name}"),
+        format!("`{name}` is a law of the speed of contact lines, and a quasi-static displacement has no speed"),
+        format!("take [network.wetting.young] with the static angle, contact-angle-deg = {angle:.1}"),
+    );
+    None
+}
+
+/// The network as a table.
+pub(in crate::case) fn raw(network: &PoreNetwork) -> RawNetwork {
+    let sides = [network.sides.left, network.sides.right, network.sides.bottom, network.sides.top];
+    let with = |kind| sides.iter().zip(SideName::ALL).find(|(side, _)| **side == kind).map(|(_, name)| name);
+    let [left, right, bottom, top] = sides.map(|side| match side {
+        Side::Periodic => Some(RawNetworkSide::Periodic),
+        Side::Wall => Some(RawNetworkSide::Wall),
+        _ => None,
+    });
+    let has_phase = network.wetting.is_some() || network.non_wetting.is_some();
+    let interface = network.interface.as_ref();
+    let none = RawNetwork {
+        inlet: with(Side::Inlet),
+        outlet: with(Side::Outlet),
+        sides: Some(RawNetworkSides { left, right, bottom, top }),
+        phases: has_phase.then(|| RawPhases {
+            wetting: network.wetting.map(RawFluid::from),
+            non_wetting: network.non_wetting.map(RawFluid::from),
+        }),
+        interface: interface.map(|interface| RawInterface { tension: Some(interface.tension) }),
+        wetting: interface.map(|interface| wetting::raw(&interface.wetting_model, &interface.patches)),
+        persistence: Some(network.persistence),
+        measured_throats: network.measured.as_ref().map(measured::table),
+        ..RawNetwork::default()
+    };
+    let Some(displacement) = &network.displacement else { return none };
+    raw_displacement(displacement, none)
+}

@@ -1,0 +1,130 @@
+//! `[time]`, `[output]` and `[[expect]]`: how long a run lasts, what is written when, and what must come out. `records` has their checks.
+
+use super::steady::RawSteady;
+use crate::input::tables::{Key, tables, words};
+
+tables! {
+    /// How long the simulation runs.
+    pub struct RawTime {
+        /// End of the simulation in s; with `steady` the latest end.
+        pub end: f64 => Key::within("an end time in s", 1.0e-15, 1.0e9).example("end = 0.01 # s"),
+        /// Ends a run of `[sph]` when it is steady.
+        pub steady: RawSteady,
+    }
+
+    /// What is written and when.
+    pub struct RawOutput {
+        /// Particles, grid and interface; of a network, menisci and regions (default: 50 records).
+        pub vtk: RawVtk,
+        /// Rows of `series.csv` (default: 200 records).
+        pub series: RawEvery,
+        /// Regular grid of the output.
+        pub grid: RawGrid,
+        /// Saved states; also written on an interrupt or a failure (default: 10 records).
+        pub restart: RawEvery,
+    }
+
+    /// Files for ParaView.
+    pub struct RawVtk {
+        /// Time between records in s.
+        pub every_time: f64 => Key::positive("a time in s"),
+        /// Displaced pore volumes between records.
+        pub every_pore_volume: f64 => Key::positive("a number of displaced pore volumes"),
+        /// Compression of arrays; meshio does not read `lz4` (default `zlib`).
+        pub compression: Compression,
+    }
+
+    /// A schedule.
+    pub struct RawEvery {
+        /// Time between records in s.
+        pub every_time: f64 => Key::positive("a time in s"),
+        /// Displaced pore volumes between records.
+        pub every_pore_volume: f64 => Key::positive("a number of displaced pore volumes"),
+    }
+
+    /// The regular grid of the output.
+    pub struct RawGrid {
+        /// Distance of grid nodes over particle spacing; at most the shorter side of the domain, and 2e7 nodes (default 1).
+        pub ratio: f64 => Key::within("grid distance over particle spacing", 0.25, 100.0),
+    }
+
+    /// A measure that must come out as said.
+    pub struct RawExpectation {
+        /// Name of a measure, such as `contact-angle-deg`.
+        pub measure: String => Key::required("measure = \"contact-angle-deg\""),
+        /// Expected value in the unit of the measure.
+        pub value: f64 => Key::required("value = 40.0"),
+        /// Largest accepted deviation in the same unit.
+        pub tolerance: f64 => Key::positive("a tolerance").example("tolerance = 3.0"),
+    }
+}
+
+words! {
+    /// How arrays in VTK files are compressed.
+    pub enum Compression {
+        /// Not at all: read by every program, the largest files.
+        None,
+        /// By zlib: read by every program.
+        Zlib,
+        /// By LZ4: read by VTK, ParaView and pyvista, not by meshio.
+        Lz4,
+    }
+}
+
+/// What is written and when.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Output {
+    /// Time between records of the series in s; of a network, displaced pore volumes. So are the other intervals.
+    pub series_every: f64,
+    /// Time between VTK files in s, a whole multiple of nothing: it has its own schedule.
+    pub vtk_every: f64,
+    /// How arrays in VTK files are compressed.
+    pub vtk_compression: Compression,
+    /// Distance of grid nodes over dx.
+    pub grid_ratio: f64,
+    /// Time between restart files in s.
+    pub restart_every: f64,
+}
+
+/// A measure that must come out as said.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Expectation {
+    /// Name of a measure.
+    pub measure: String,
+    /// Expected value in the measure's unit.
+    pub value: f64,
+    /// Largest accepted deviation, same unit.
+    pub tolerance: f64,
+}
+
+/// The table that loads to the same.
+pub(super) fn raw_output(output: &Output, is_network: bool, by_volume: bool) -> RawOutput {
+    let every = |interval| {
+        let interval = Some(interval);
+        let none = RawEvery::default();
+        Some(if by_volume {
+            RawEvery { every_pore_volume: interval, ..none }
+        } else {
+            RawEvery { every_time: interval, ..none }
+        })
+    };
+    RawOutput {
+        vtk: every(output.vtk_every).map(|every| RawVtk {
+            every_time: every.every_time,
+            every_pore_volume: every.every_pore_volume,
+            compression: Some(output.vtk_compression),
+        }),
+        series: every(output.series_every),
+        grid: (!is_network).then_some(RawGrid { ratio: Some(output.grid_ratio) }),
+        restart: every(output.restart_every),
+    }
+}
+
+/// The expectation as a table.
+pub(super) fn raw_expectation(expect: &Expectation) -> RawExpectation {
+    RawExpectation {
+        measure: Some(expect.measure.clone()),
+        value: Some(expect.value),
+        tolerance: Some(expect.tolerance),
+    }
+}

@@ -1,0 +1,59 @@
+//! The four sides of a domain and what can stand at them.
+
+use crate::input::tables::words;
+
+words! {
+    /// What stands at a side.
+    pub enum Side {
+        /// Joined to the opposite side.
+        Periodic,
+        /// A solid no-slip wall; contact lines may stand on it.
+        Wall,
+        /// A no-slip wall by image particles; no contact angle is set on it.
+        Image,
+        /// A mirror: free slip.
+        Symmetry,
+        /// Open, with a velocity, a flow rate or a pressure.
+        Inlet,
+        /// Open, with a pressure.
+        Outlet,
+    }
+
+    /// A side by its name.
+    pub enum SideName {
+        /// x = min.
+        Left,
+        /// x = max.
+        Right,
+        /// y = min.
+        Bottom,
+        /// y = max.
+        Top,
+    }
+}
+
+impl SideName {
+    /// All sides in the order of their numbers.
+    pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
+
+    /// The number of the side: 0 to 3 for left, right, bottom and top.
+    pub fn number(self) -> usize {
+        self as usize
+    }
+}
+
+/// Names of the sides in the order of their numbers.
+pub const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+
+/// The four sides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub struct Sides {
+    /// x = min.
+    pub left: Side,
+    /// x = max.
+    pub right: Side,
+    /// y = min.
+    pub bottom: Side,
+    /// y = max.
+    pub top: Side,
+}

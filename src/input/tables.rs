@@ -1,0 +1,289 @@
+//! Tables of an input file, each key of them in one place: name, type, what it may hold, and what it is.
+//!
+//! From a table in [`tables!`] follow the type that is read, in which every key is optional, so that one mistake does not hide another; the check
+//! of each key alone; and ranges and required keys of the schema. [`checked_tables!`] makes a second type of it, in which every key
+//! is there, and the ways from one to the other. Rules between keys are functions beside the tables.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use schemars::Schema;
+use serde_json::{Map, Value as Json, json};
+
+use super::checker::Checker;
+use super::range::Range;
+
+/// What a key may hold beyond what its type says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Key {
+    /// What it is, with its article and its unit: `a slip length in m`.
+    pub what: &'static str,
+    /// Where a number must lie.
+    pub range: Option<Range>,
+    /// Its line in a file. A key with one and no default is required.
+    pub example: Option<&'static str>,
+    /// Its value where the file says nothing.
+    pub default: Option<f64>,
+    /// A way out where it is wrong.
+    pub help: &'static str,
+}
+
+impl Key {
+    /// Anything of its type, or nothing.
+    pub const ANY: Self = Self { what: "", range: None, example: None, default: None, help: "" };
+
+    /// Anything of its type, as in `example`.
+    pub const fn required(example: &'static str) -> Self {
+        Self { example: Some(example), ..Self::ANY }
+    }
+
+    /// A number in a range; `what` names it with its unit.
+    pub const fn number(what: &'static str, range: Range) -> Self {
+        Self { what, range: Some(range), ..Self::ANY }
+    }
+
+    /// A number above 0.
+    pub const fn positive(what: &'static str) -> Self {
+        Self::number(what, Range::Above(0.0))
+    }
+
+    /// A number of at least 0.
+    pub const fn not_negative(what: &'static str) -> Self {
+        Self::number(what, Range::AtLeast(0.0))
+    }
+
+    /// A number from one to another, both included.
+    pub const fn within(what: &'static str, low: f64, high: f64) -> Self {
+        Self::number(what, Range::Within(low, high))
+    }
+
+    /// The same key with its line in a file, so that it is required unless it has a default.
+    pub const fn example(self, example: &'static str) -> Self {
+        Self { example: Some(example), ..self }
+    }
+
+    /// The same key with a value where the file says nothing.
+    pub const fn default(self, default: f64) -> Self {
+        Self { default: Some(default), ..self }
+    }
+
+    /// The same key with a way out where it is wrong.
+    pub const fn help(self, help: &'static str) -> Self {
+        Self { help, ..self }
+    }
+
+    /// What is wrong with a number, if anything is.
+    pub fn misfit(&self, value: f64) -> Option<String> {
+        let range = self.range.filter(|range| !range.contains(value))?;
+        Some(format!("expected {} {range}, found {value:?}", self.what))
+    }
+
+    /// Whether it must be there.
+    pub fn is_required(&self) -> bool {
+        self.example.is_some() && self.default.is_none()
+    }
+
+    /// The value of a field in the table at the key path `at`, where it is there and what it may be.
+    pub fn checked<V: Value>(&self, checker: &mut Checker, at: &str, field: &str, value: Option<V>) -> Option<V> {
+        let path = join(at, &name(field));
+        let value = match self.example.filter(|_| self.is_required()) {
+            Some(example) => checker.require(&path, value, example),
+            None => value,
+        };
+        value?.checked(self, checker, &path)
+    }
+}
+
+/// The name of a key, from that of its field.
+pub fn name(field: &str) -> String {
+    field.replace('_', "-")
+}
+
+/// The path of a key in the table at `at`, which is empty for the whole file.
+fn join(at: &str, key: &str) -> String {
+    if at.is_empty() { key.to_owned() } else { format!("{at}.{key}") }
+}
+
+/// A type that a key can have.
+pub trait Value: Sized {
+    /// The value where it is what `key` may hold; else a problem at `path`. A table keeps the keys that are right.
+    fn checked(self, _key: &Key, _checker: &mut Checker, _path: &str) -> Option<Self> {
+        Some(self)
+    }
+}
+
+impl Value for f64 {
+    fn checked(self, key: &Key, checker: &mut Checker, path: &str) -> Option<Self> {
+        let misfit = key.misfit(self);
+        if let Some(message) = &misfit {
+            checker.refuse(path, message, key.help);
+        }
+        misfit.is_none().then_some(self)
+    }
+}
+
+impl Value for u32 {
+    fn checked(self, key: &Key, checker: &mut Checker, path: &str) -> Option<Self> {
+        f64::from(self).checked(key, checker, path).map(|_| self)
+    }
+}
+
+impl<T: Value> Value for Vec<T> {
+    fn checked(self, key: &Key, checker: &mut Checker, path: &str) -> Option<Self> {
+        let one = |(index, value): (usize, T)| value.checked(key, checker, &format!("{path}[{index}]"));
+        Some(self.into_iter().enumerate().filter_map(one).collect())
+    }
+}
+
+impl Value for bool {}
+impl Value for char {}
+impl Value for usize {}
+impl Value for String {}
+impl Value for PathBuf {}
+impl Value for toml::Value {}
+impl<T> Value for BTreeMap<String, T> {}
+impl<T, const N: usize> Value for [T; N] {}
+
+/// A table without keys: its name says all.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Empty {}
+
+impl Value for Empty {}
+
+/// Adds to the schema of a table what its keys may hold and which are required.
+pub fn describe(schema: &mut Schema, keys: &[(&str, Key)]) {
+    if let Some(properties) = schema.get_mut("properties").and_then(Json::as_object_mut) {
+        for (field, key) in keys {
+            describe_number(properties, &name(field), key);
+        }
+    }
+    let required = keys.iter().filter(|(_, key)| key.is_required()).map(|(field, _)| json!(name(field)));
+    let required: Vec<Json> = required.collect();
+    if !required.is_empty() {
+        schema.insert("required".to_owned(), required.into());
+    }
+}
+
+fn describe_number(properties: &mut Map<String, Json>, name: &str, key: &Key) {
+    let (Some(property), Some(range)) = (properties.get_mut(name), key.range) else { return };
+    // Of several numbers each has the range.
+    let number = if property["items"].is_object() { &mut property["items"] } else { property };
+    range.keywords().into_iter().for_each(|(keyword, limit)| number[keyword] = limit);
+}
+
+/// Declares tables: `pub field: type`, which is followed by `=> key` where it may not hold everything of its type or is required.
+macro_rules! tables {
+    (@key) => { $crate::input::tables::Key::ANY };
+    (@key $key:expr) => { $key };
+    ($(
+        $(#[$outer:meta])*
+        pub struct $name:ident { $($(#[$inner:meta])* pub $field:ident: $kind:ty $(=> $key:expr)?,)* }
+    )*) => {$(
+        $(#[$outer])*
+        #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+        #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+        #[schemars(transform = |schema: &mut schemars::Schema| $crate::input::tables::describe(schema, $name::KEYS))]
+        pub struct $name {
+            $($(#[$inner])*
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub $field: Option<$kind>,)*
+        }
+
+        impl $name {
+            /// Its fields and what they may hold.
+            pub const KEYS: &'static [(&'static str, $crate::input::tables::Key)] =
+                &[$((stringify!($field), $crate::input::tables::tables!(@key $($key)?)),)*];
+
+            /// The table at the key path `at` with those of its keys that hold what they may.
+            pub fn in_range(self, checker: &mut $crate::input::Checker, at: &str) -> Self {
+                Self {
+                    $($field: $crate::input::tables::tables!(@key $($key)?)
+                        .checked(checker, at, stringify!($field), self.$field),)*
+                }
+            }
+        }
+
+        impl $crate::input::tables::Value for $name {
+            fn checked(
+                self,
+                _: &$crate::input::tables::Key,
+                checker: &mut $crate::input::Checker,
+                at: &str,
+            ) -> Option<Self> {
+                Some(self.in_range(checker, at))
+            }
+        }
+    )*};
+}
+pub(crate) use tables;
+
+/// Declares tables of numbers and words like [`tables!`], each with the type in which every key is there, behind `for`.
+macro_rules! checked_tables {
+    ($(
+        $(#[$outer:meta])*
+        pub struct $name:ident for $checked:ident {
+            $($(#[$inner:meta])* pub $field:ident: $kind:ty $(=> $key:expr)?,)*
+        }
+    )*) => {$(
+        $crate::input::tables::tables! {
+            $(#[$outer])*
+            pub struct $name { $($(#[$inner])* pub $field: $kind $(=> $key)?,)* }
+        }
+
+        $(#[$outer])*
+        #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+        pub struct $checked {
+            $($(#[$inner])* pub $field: $kind,)*
+        }
+
+        impl $name {
+            /// The table with what `default` says in place of what is missing.
+            #[allow(dead_code, reason = "a table needs this or `complete`")]
+            pub fn or(self, default: $checked) -> $checked {
+                $checked { $($field: self.$field.unwrap_or(default.$field),)* }
+            }
+
+            /// The table where nothing is missing.
+            #[allow(dead_code, reason = "a table needs this or `or`")]
+            pub fn complete(self) -> Option<$checked> {
+                Some($checked { $($field: self.$field?,)* })
+            }
+        }
+
+        impl From<$checked> for $name {
+            fn from(table: $checked) -> Self {
+                Self { $($field: Some(table.$field),)* }
+            }
+        }
+    )*};
+}
+pub(crate) use checked_tables;
+
+/// The words that a key can hold.
+pub trait Words: Copy + serde::Serialize + 'static {
+    /// All of them with what they mean.
+    const ALL: &'static [(Self, &'static str)];
+
+    /// The word as it is written.
+    fn word(self) -> String {
+        serde_json::to_value(self).ok().and_then(|word| word.as_str().map(str::to_owned)).unwrap_or_default()
+    }
+}
+
+/// Declares enums whose variants are the words that a key can hold, in kebab case.
+macro_rules! words {
+    ($($(#[$outer:meta])* pub enum $name:ident { $($(#[doc = $doc:literal])+ $word:ident,)* })*) => {$(
+        $(#[$outer])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum $name { $($(#[doc = $doc])+ $word,)* }
+
+        impl $crate::input::tables::Value for $name {}
+
+        impl $crate::input::tables::Words for $name {
+            const ALL: &'static [(Self, &'static str)] = &[$((Self::$word, concat!($($doc),+)),)*];
+        }
+    )*};
+}
+pub(crate) use words;
