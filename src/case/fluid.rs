@@ -34,7 +34,7 @@ tables! {
 
 words! {
     /// A phase.
-    pub enum RawPhase {
+    pub enum FluidPhase {
         /// The phase through which angles are measured.
         Wetting,
         /// The other phase.

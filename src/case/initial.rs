@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::fluid::RawPhase;
+use super::fluid::FluidPhase;
 use super::network::state::Start;
 use super::shapes::shape_problems;
 use super::side::Sides;
@@ -15,7 +15,7 @@ tables! {
     /// The state at time zero.
     pub struct RawInitial {
         /// Phase outside of the shapes (default `non-wetting`).
-        pub background: RawPhase,
+        pub background: FluidPhase,
         /// Shapes filled with the phase that is not the background; each holds a particle of the pore (required with
         /// two fluids).
         pub wetting: Vec<ShapeSpec>,
@@ -87,7 +87,7 @@ pub(super) fn initial(
         );
     }
     let velocity = velocity(checker, raw);
-    let wetting_is_background = !two_phases || raw.background == Some(RawPhase::Wetting);
+    let wetting_is_background = !two_phases || raw.background == Some(FluidPhase::Wetting);
     Some(Initial { wetting, wetting_is_background, network: None, velocity: velocity? })
 }
 
@@ -126,7 +126,7 @@ pub(super) fn from_network(
         );
         return None;
     }
-    let wetting_is_background = start.state.invading == RawPhase::NonWetting;
+    let wetting_is_background = start.state.invading == FluidPhase::NonWetting;
     Some(Initial { wetting: Vec::new(), wetting_is_background, network: Some(start), velocity: velocity? })
 }
 
@@ -153,7 +153,7 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
 /// The table of an initial state; `two_phases` where it says which phase is where.
 pub(super) fn raw_initial(initial: &Initial, two_phases: bool) -> RawInitial {
     let by_shapes = two_phases && initial.network.is_none();
-    let background = if initial.wetting_is_background { RawPhase::Wetting } else { RawPhase::NonWetting };
+    let background = if initial.wetting_is_background { FluidPhase::Wetting } else { FluidPhase::NonWetting };
     RawInitial {
         background: by_shapes.then_some(background),
         wetting: by_shapes.then(|| initial.wetting.clone()),

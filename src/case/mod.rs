@@ -35,7 +35,7 @@ mod wetting;
 
 pub use case_file::{Case, Model};
 pub use facts::{Facts, check_against};
-pub use fluid::{Fluid, RawFluid, RawInterface, RawPhase, RawPhases};
+pub use fluid::{Fluid, FluidPhase, RawFluid, RawInterface, RawPhases};
 pub use initial::{Initial, InitialVelocity};
 pub use kind::is_case;
 pub(crate) use kind::other_than_a_study;

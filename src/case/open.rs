@@ -1,6 +1,6 @@
 //! `[sph.sides.open]`: what is given at inlets, outlets and periodic sides with a flow, and what cannot work.
 
-use super::fluid::RawPhase;
+use super::fluid::FluidPhase;
 use super::side::{SIDES, Side, Sides};
 use crate::input::Checker;
 use crate::input::tables::{Key, checked_tables, tables, words};
@@ -31,7 +31,7 @@ tables! {
         /// Velocity profile over the opening; at periodic sides the initial one (default `plug`).
         pub profile: Profile,
         /// Phase that enters (default: the phase there at time zero).
-        pub phase: RawPhase,
+        pub phase: FluidPhase,
     }
 }
 
@@ -172,7 +172,7 @@ fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenS
         );
     }
     let pressure_steps = pressure_steps(checker, &path, &raw);
-    Some(Open { drive, enters_wetting: raw.phase.map(|phase| phase == RawPhase::Wetting), pressure_steps })
+    Some(Open { drive, enters_wetting: raw.phase.map(|phase| phase == FluidPhase::Wetting), pressure_steps })
 }
 
 fn pressure_steps(checker: &mut Checker, side: &str, raw: &RawOpenSide) -> Option<PressureSteps> {
@@ -247,7 +247,7 @@ pub(super) fn raw_open(open: Open) -> RawOpenSide {
             RawOpenSide { flow_rate: Some(rate), profile: Some(shape), ..RawOpenSide::default() }
         }
     };
-    let phase = |wetting| if wetting { RawPhase::Wetting } else { RawPhase::NonWetting };
+    let phase = |wetting| if wetting { FluidPhase::Wetting } else { FluidPhase::NonWetting };
     RawOpenSide {
         phase: open.enters_wetting.map(phase),
         pressure_steps: open.pressure_steps.map(RawPressureSteps::from),

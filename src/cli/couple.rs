@@ -72,7 +72,7 @@ pub fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&network, &error))?;
     let name = arguments.direct.file_stem().map_or_else(|| "direct".into(), |stem| stem.to_string_lossy().into_owned());
-    let direction = if avalanche.invading == crate::case::RawPhase::NonWetting { 1.0 } else { -1.0 };
+    let direction = if avalanche.invading == crate::case::FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let beyond = |share: f64| avalanche.pressure_pa + direction * share * avalanche.pressure_pa.abs();
     let driving = beyond(arguments.excess);
     let stop = |pressure: f64| format!("network.stop.capillary-pressure={pressure:?}");

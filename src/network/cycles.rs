@@ -8,19 +8,10 @@ use std::sync::Arc;
 use super::displacement::{Beginning, Conditions, Displacement, EventKind, Phase};
 use super::graph::{Network, Pores};
 use super::moment::Moment;
+pub use crate::case::FluidPhase;
 
-/// The fluids.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fluid {
-    /// The phase through which contact angles are measured.
-    Wetting,
-    /// The other one.
-    NonWetting,
-}
-
-impl Fluid {
+impl FluidPhase {
     /// Its name in files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Wetting => "wetting",
@@ -61,7 +52,7 @@ pub struct End {
 #[derive(Debug, Clone, PartialEq)]
 pub struct HalfCycle {
     /// The phase that invades.
-    pub invading: Fluid,
+    pub invading: FluidPhase,
     /// Angles, open sides and the largest applied curvature.
     pub conditions: Conditions,
     /// Where it ends early.
@@ -73,8 +64,8 @@ impl HalfCycle {
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self.invading {
-            Fluid::NonWetting => "drainage",
-            Fluid::Wetting => "imbibition",
+            FluidPhase::NonWetting => "drainage",
+            FluidPhase::Wetting => "imbibition",
         }
     }
 
@@ -181,7 +172,8 @@ impl Cycles {
         let is_held = |element: usize| initial.as_ref().is_some_and(|initial| initial.invaded[element]);
         let pore_area: f64 = (0..elements).map(area).sum();
         let invading_area: f64 = (0..elements).filter(|&element| is_held(element)).map(area).sum();
-        let wetting_area = if first.invading == Fluid::Wetting { invading_area } else { pore_area - invading_area };
+        let wetting_area =
+            if first.invading == FluidPhase::Wetting { invading_area } else { pore_area - invading_area };
         let before: Vec<Phase> =
             (0..elements).map(|element| if is_held(element) { Phase::Invading } else { Phase::Defending }).collect();
         let mut cycles = Self {
@@ -230,8 +222,8 @@ impl Cycles {
     /// Share of the pore space that the invading phase holds.
     fn invading_saturation(&self) -> f64 {
         match self.half_cycle().invading {
-            Fluid::Wetting => self.saturation(),
-            Fluid::NonWetting => 1.0 - self.saturation(),
+            FluidPhase::Wetting => self.saturation(),
+            FluidPhase::NonWetting => 1.0 - self.saturation(),
         }
     }
 
@@ -239,7 +231,7 @@ impl Cycles {
     fn displace(&mut self, elements: &[usize]) {
         let area: f64 = elements.iter().map(|&element| self.displacement.elements()[element].area).sum();
         self.displaced_area += area;
-        self.wetting_area += if self.half_cycle().invading == Fluid::Wetting { area } else { -area };
+        self.wetting_area += if self.half_cycle().invading == FluidPhase::Wetting { area } else { -area };
     }
 
     /// The same displacement at its beginning.
@@ -388,7 +380,7 @@ impl Cycles {
 
     /// The fluid in an element.
     #[must_use]
-    pub fn fluid(&self, element: usize) -> Fluid {
+    pub fn fluid(&self, element: usize) -> FluidPhase {
         let invading = self.half_cycle().invading;
         match self.displacement.phase(element) {
             Phase::Invading => invading,

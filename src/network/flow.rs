@@ -2,7 +2,7 @@
 //!
 //! A phase flows through the throats between two regions that it holds: menisci are closed, and films are left out.
 
-use super::cycles::{Cycles, Fluid};
+use super::cycles::{Cycles, FluidPhase};
 use super::displacement::Phase;
 use super::laplacian::FlowError;
 use super::permeability::{Drive, Paths, permeability};
@@ -57,7 +57,7 @@ fn wetting_regions(setting: &Setting, cycles: &Cycles, displaced: f64) -> (Vec<b
             None => cycles.displacement().phase(index) == Phase::Invading,
         };
         all[element.region] += element.area;
-        if is_invaded == (invading == Fluid::Wetting) {
+        if is_invaded == (invading == FluidPhase::Wetting) {
             wetting[element.region] += element.area;
         }
     }

@@ -1,6 +1,6 @@
 //! The network as VTK sees it: pores as points, throats as lines, regions as polygons, menisci as lines.
 
-use super::cycles::{Fluid, Invasion};
+use super::cycles::{FluidPhase, Invasion};
 use super::occupation::Occupation;
 use super::solver::{NetworkSolver, Setting};
 use super::summary::PoreStates;
@@ -20,8 +20,8 @@ fn integer(name: &'static str, values: impl IntoIterator<Item = i64>) -> Field<'
 }
 
 /// Numbers as in all other files: 0 wetting, 1 non-wetting.
-fn phase(fluid: Fluid) -> i64 {
-    i64::from(fluid == Fluid::NonWetting)
+fn phase(fluid: FluidPhase) -> i64 {
+    i64::from(fluid == FluidPhase::NonWetting)
 }
 
 /// Polylines or polygons from their vertices.

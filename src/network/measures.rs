@@ -1,6 +1,6 @@
 //! The measures of a network.
 
-use super::cycles::{Cycles, Fluid};
+use super::cycles::{Cycles, FluidPhase};
 use super::flow::{along, drive, relative};
 use super::permeability::Drive;
 use super::solver::{NetworkSolver, Setting};
@@ -120,8 +120,8 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
     let invading = cycles.half_cycle().invading;
     let wetting = cycles.saturation();
     let (left, of) = match invading {
-        Fluid::NonWetting => (wetting, "wetting"),
-        Fluid::Wetting => (1.0 - wetting, "non-wetting"),
+        FluidPhase::NonWetting => (wetting, "wetting"),
+        FluidPhase::Wetting => (1.0 - wetting, "non-wetting"),
     };
     let ending = if cycles.is_done() { "at the end" } else { "so far, the displacement goes on" };
     let largest = cycles.history().iter().filter(|entry| entry.half_cycle == 0).map(|entry| entry.applied);

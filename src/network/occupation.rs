@@ -1,6 +1,6 @@
 //! What output sees of a displacement at one moment, whether it is quasi-static or one in time.
 
-use super::cycles::{Cycles, Fluid, Invasion};
+use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::displacement::{Element, Phase};
 use crate::math::Vec2;
 
@@ -10,7 +10,7 @@ pub struct Occupation<'a> {
     /// The elements; they tile the pore space.
     pub elements: &'a [Element],
     /// The phase that comes in.
-    pub invading: Fluid,
+    pub invading: FluidPhase,
     /// Share of each element that it holds.
     pub share: Vec<f64>,
     /// Whether an element holds the other phase without a way to the outlet.
@@ -34,7 +34,7 @@ impl Occupation<'_> {
 
     /// The fluid that holds most of an element.
     #[must_use]
-    pub fn fluid(&self, element: usize) -> Fluid {
+    pub fn fluid(&self, element: usize) -> FluidPhase {
         if self.is_invaded(element) { self.invading } else { self.invading.other() }
     }
 

@@ -1,6 +1,6 @@
 //! The capillary pressure curve and the maps of a network, as data.
 
-use super::cycles::{Cycles, Fluid};
+use super::cycles::{Cycles, FluidPhase};
 use super::occupation::Occupation;
 use super::solver::{NetworkSolver, Setting};
 use super::tables::{kept, radius};
@@ -156,8 +156,8 @@ fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
     let areas: Vec<Area> = areas.flatten().collect();
     let largest = occupation.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     let invaded_before = match occupation.invading {
-        Fluid::NonWetting => "non-wetting before",
-        Fluid::Wetting => "wetting before",
+        FluidPhase::NonWetting => "non-wetting before",
+        FluidPhase::Wetting => "wetting before",
     };
     let defending = occupation.invading.other().name();
     let menisci = occupation.menisci.iter().flat_map(|line| images(setting, line)).collect();

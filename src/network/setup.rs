@@ -5,16 +5,16 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::ExtractError;
-use super::cycles::{Cycles, End, Fluid, HalfCycle};
+use super::cycles::{Cycles, End, FluidPhase, HalfCycle};
 use super::displacement::{Beginning, Conditions, Displacement, Element, Events, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
-use super::dynamic::{self, Drive, Dynamic, Terms};
+use super::dynamic::{self, Dynamic, Terms};
 use super::graph::{Network, Pores};
 use super::solver::{NetworkSolver, Setting};
 use super::state;
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
-use crate::case::network::{Driven, NetworkDisplacement, NetworkEvents, NetworkInterface, PoreNetwork, Process, Stop};
+use crate::case::network::{NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop};
 use crate::case::{Case, PatchedWall, Side};
 use crate::geometry::{Geometry, GeometryError};
 use crate::solver::Solver;
@@ -220,7 +220,7 @@ pub fn assemble(
         _ => Vec::new(),
     };
     let entry = wanted.interface.as_ref().map(|interface| Conditions {
-        angle: angles(interface, walls, Fluid::NonWetting),
+        angle: angles(interface, walls, FluidPhase::NonWetting),
         inlet: [false; 4],
         outlet: [false; 4],
         trapping: false,
@@ -247,11 +247,12 @@ pub fn assemble(
 }
 
 /// The displacement in time that a case asks for.
-fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Fluid, dynamic::solver::End)> {
+fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, FluidPhase, dynamic::solver::End)> {
     let displacement = wanted.displacement.as_ref()?;
     let (interface, driven) = (wanted.interface.as_ref()?, displacement.dynamic?);
     let setting = still.setting();
-    let invading = if displacement.process == Process::Imbibition { Fluid::Wetting } else { Fluid::NonWetting };
+    let invading =
+        if displacement.process == Process::Imbibition { FluidPhase::Wetting } else { FluidPhase::NonWetting };
     let [wetting, non_wetting] = [wanted.wetting?.viscosity, wanted.non_wetting?.viscosity];
     let sides = kinds(wanted);
     let [inlet, outlet] = [Side::Inlet, Side::Outlet].map(|kind| sides.map(|side| side == kind));
@@ -266,12 +267,9 @@ fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Flui
         measured: Vec::new(),
     };
     let terms = Terms {
-        viscosity: if invading == Fluid::Wetting { [wetting, non_wetting] } else { [non_wetting, wetting] },
+        viscosity: if invading == FluidPhase::Wetting { [wetting, non_wetting] } else { [non_wetting, wetting] },
         tension: interface.tension,
-        drive: match driven.drive {
-            Driven::Rate(rate) => Drive::Rate(rate),
-            Driven::PressureDrop(pressure) => Drive::Pressure(pressure),
-        },
+        drive: driven.drive,
         largest_step: driven.largest_step,
         inlet,
         outlet,
@@ -280,8 +278,8 @@ fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Flui
     let end = dynamic::solver::End {
         at_breakthrough: displacement.stop.breakthrough,
         at_saturation: displacement.stop.saturation.map(|wetting| match invading {
-            Fluid::Wetting => wetting,
-            Fluid::NonWetting => 1.0 - wetting,
+            FluidPhase::Wetting => wetting,
+            FluidPhase::NonWetting => 1.0 - wetting,
         }),
         at_injected: displacement.stop.injected,
     };
@@ -295,8 +293,8 @@ fn half_cycles(
     (walls, measured): (usize, &[MeasuredBurst]),
 ) -> Vec<HalfCycle> {
     let open = |kind: Side| sides.map(|side| side == kind);
-    let half = |invading: Fluid, [from, to]: [Side; 2], stop: Stop| {
-        let sign = if invading == Fluid::NonWetting { 1.0 } else { -1.0 };
+    let half = |invading: FluidPhase, [from, to]: [Side; 2], stop: Stop| {
+        let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
         HalfCycle {
             invading,
             conditions: Conditions {
@@ -304,10 +302,7 @@ fn half_cycles(
                 inlet: open(from),
                 outlet: open(to),
                 trapping: displacement.trapping,
-                events: match displacement.events {
-                    NetworkEvents::All => Events::All,
-                    NetworkEvents::Burst => Events::BurstOnly,
-                },
+                events: displacement.events,
                 largest_curvature: stop
                     .capillary_pressure
                     .map_or(f64::INFINITY, |pressure| sign * pressure / interface.tension),
@@ -316,8 +311,8 @@ fn half_cycles(
             end: End {
                 at_breakthrough: stop.breakthrough,
                 at_saturation: stop.saturation.map(|wetting| match invading {
-                    Fluid::Wetting => wetting,
-                    Fluid::NonWetting => 1.0 - wetting,
+                    FluidPhase::Wetting => wetting,
+                    FluidPhase::NonWetting => 1.0 - wetting,
                 }),
             },
         }
@@ -325,21 +320,24 @@ fn half_cycles(
     let forwards = [Side::Inlet, Side::Outlet];
     let backwards = [Side::Outlet, Side::Inlet];
     match displacement.process {
-        Process::Drainage => vec![half(Fluid::NonWetting, forwards, displacement.stop)],
-        Process::Imbibition => vec![half(Fluid::Wetting, forwards, displacement.stop)],
+        Process::Drainage => vec![half(FluidPhase::NonWetting, forwards, displacement.stop)],
+        Process::Imbibition => vec![half(FluidPhase::Wetting, forwards, displacement.stop)],
         Process::Cycle(cycles) => (0..cycles)
             .flat_map(|_| {
-                [half(Fluid::NonWetting, forwards, displacement.stop), half(Fluid::Wetting, backwards, Stop::default())]
+                [
+                    half(FluidPhase::NonWetting, forwards, displacement.stop),
+                    half(FluidPhase::Wetting, backwards, Stop::default()),
+                ]
             })
             .collect(),
     }
 }
 
 /// Contact angle of each wall through the defending phase in rad: where the non-wetting phase invades, the wetting one recedes.
-fn angles(interface: &NetworkInterface, walls: usize, invading: Fluid) -> Vec<f64> {
+fn angles(interface: &NetworkInterface, walls: usize, invading: FluidPhase) -> Vec<f64> {
     let through_defending = |model: &Wetting| match invading {
-        Fluid::NonWetting => model.hysteresis_range()[0],
-        Fluid::Wetting => PI - model.hysteresis_range()[1],
+        FluidPhase::NonWetting => model.hysteresis_range()[0],
+        FluidPhase::Wetting => PI - model.hysteresis_range()[1],
     };
     let mut angles = vec![through_defending(&interface.wetting_model); walls];
     let first_side = walls - SIDES.len();

@@ -1,10 +1,10 @@
 //! `at-breakthrough.json` and `at-end.json`: states that a network or a direct simulation of the same geometry can begin with.
 
-use super::cycles::{Cycles, Fluid, HalfCycle};
+use super::cycles::{Cycles, HalfCycle};
 use super::displacement::{Beginning, Element, Phase, Standing};
 use super::moment::Moment;
 use super::solver::{NetworkSolver, Setting};
-use crate::case::RawPhase;
+use crate::case::FluidPhase;
 use crate::case::network::state::{ElementState, FORMAT, MeniscusState, NetworkState};
 use crate::geometry::curve::Curve;
 use crate::table::Document;
@@ -27,13 +27,6 @@ fn document(name: &'static str, setting: &Setting, cycles: &Cycles, moment: &Mom
     Document { name, text: text + "\n" }
 }
 
-fn raw(fluid: Fluid) -> RawPhase {
-    match fluid {
-        Fluid::Wetting => RawPhase::Wetting,
-        Fluid::NonWetting => RawPhase::NonWetting,
-    }
-}
-
 /// The state at a moment.
 #[must_use]
 pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> NetworkState {
@@ -46,8 +39,9 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
     let applied = half.towards_wetting(resting);
     let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
     let invading = interfaces.area.map(|area| area / pore_area);
-    let angle =
-        |angle: &f64| if half.invading == Fluid::Wetting { 180.0 - angle.to_degrees() } else { angle.to_degrees() };
+    let angle = |angle: &f64| {
+        if half.invading == FluidPhase::Wetting { 180.0 - angle.to_degrees() } else { angle.to_degrees() }
+    };
     let angles = || half.conditions.angle.iter().map(angle);
     let tension = setting.tension.unwrap_or(f64::NAN);
     NetworkState {
@@ -57,7 +51,7 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
         geometry_hash: setting.geometry_hash.clone(),
         domain_m: [setting.bounds.min.into(), setting.bounds.max.into()],
         sides: setting.sides,
-        invading: raw(half.invading),
+        invading: half.invading,
         half_cycle: moment.half_cycle + 1,
         events: moment.events,
         tension_n_per_m: tension,
@@ -67,8 +61,8 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
         contact_angles_deg: [angles().fold(f64::INFINITY, f64::min), angles().fold(f64::NEG_INFINITY, f64::max)],
         saturation: moment.saturation,
         saturation_with_menisci: invading.map(|share| match half.invading {
-            Fluid::Wetting => share,
-            Fluid::NonWetting => 1.0 - share,
+            FluidPhase::Wetting => share,
+            FluidPhase::NonWetting => 1.0 - share,
         }),
         elements: elements(half, moment, &interfaces.trapped),
         menisci: interfaces.menisci.iter().map(|standing| meniscus(half, standing)).collect(),
@@ -81,10 +75,10 @@ fn elements(half: &HalfCycle, moment: &Moment, trapped: &[f64]) -> Vec<ElementSt
     let element = |(index, element): (usize, &Element)| {
         let trapped_at = trapped[index];
         ElementState {
-            phase: raw(match displacement.phase(index) {
+            phase: match displacement.phase(index) {
                 Phase::Invading => half.invading,
                 Phase::Defending => half.invading.other(),
-            }),
+            },
             trapped: displacement.is_trapped(index),
             trapped_curvature_per_m: trapped_at.is_finite().then(|| half.towards_wetting(trapped_at)),
             area_m2: element.area,
@@ -106,9 +100,9 @@ fn meniscus(half: &HalfCycle, standing: &Standing) -> MeniscusState {
 
 /// The phases of a state for a half cycle in which `invading` invades.
 #[must_use]
-pub fn beginning(state: &NetworkState, invading: Fluid) -> Beginning {
-    let is_same = state.invading == raw(invading);
-    let sign = if invading == Fluid::NonWetting { 1.0 } else { -1.0 };
+pub fn beginning(state: &NetworkState, invading: FluidPhase) -> Beginning {
+    let is_same = state.invading == invading;
+    let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let largest = state.largest_applied_curvature_per_m.map(|applied| sign * applied);
     // Where the other phase invaded so far, what it holds keeps the last curvature.
     let held = |element: &ElementState| match element.trapped_curvature_per_m {
@@ -117,7 +111,7 @@ pub fn beginning(state: &NetworkState, invading: Fluid) -> Beginning {
         None => sign * state.applied_curvature_per_m,
     };
     Beginning {
-        invaded: state.elements.iter().map(|element| element.phase == raw(invading)).collect(),
+        invaded: state.elements.iter().map(|element| element.phase == invading).collect(),
         applied: largest.filter(|_| is_same).unwrap_or(f64::NEG_INFINITY),
         held: state.elements.iter().map(held).collect(),
     }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::cycles::{Cycles, Fluid, Invasion};
+use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::occupation::Occupation;
 use super::setup::SIDES;
 use super::solver::{NetworkSolver, Setting};
@@ -12,7 +12,7 @@ use crate::table::Document;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoreState {
     /// The fluid that holds more than half of it.
-    pub fluid: Fluid,
+    pub fluid: FluidPhase,
     /// The event of the present half cycle by which the invading phase came to hold more than half of it.
     pub invasion: Option<Invasion>,
     /// Whether more than half of it is trapped.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::compare::outlet_elements;
 use super::setup::SetupError;
-use crate::case::RawPhase;
+use crate::case::FluidPhase;
 use crate::case::{Case, Model};
 use crate::network::displacement::{EventKind, Phase};
 use crate::network::solver::NetworkSolver;
@@ -56,7 +56,7 @@ pub enum AvalancheError {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Avalanche {
     /// The phase that invades.
-    pub invading: RawPhase,
+    pub invading: FluidPhase,
     /// Capillary pressure p_n - p_w in Pa at which it begins.
     pub pressure_pa: f64,
     /// One at which the menisci rest before it, in Pa.
@@ -103,7 +103,7 @@ pub fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheError> {
     let events = history[first..].iter().take_while(|entry| entry.applied == applied).count();
     let tension = solver.setting().tension.ok_or(AvalancheError::NoNetwork)?;
     let earlier = first.checked_sub(1).map(|index| history[index]);
-    let direction = if state.invading == RawPhase::NonWetting { 1.0 } else { -1.0 };
+    let direction = if state.invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let rest = earlier.map_or(applied - direction * applied.abs(), |entry| 0.5 * (entry.applied + applied));
     Ok(Avalanche {
         invading: state.invading,

@@ -6,7 +6,7 @@ use super::cut_out::CutOut;
 use super::whole_pore::WholePore;
 use crate::case::Fluid;
 use crate::geometry::spec::{CurvedPolygon, GeometrySpec, ShapeSpec};
-use crate::network::cycles::Fluid as Phase;
+use crate::network::cycles::FluidPhase as Phase;
 use crate::network::displacement::EventKind;
 
 /// Density in kg/m³ where the network gives none: at rest no pressure depends on it.

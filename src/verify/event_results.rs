@@ -9,7 +9,7 @@ use super::events::PlannedEvent;
 use super::plan::Kind;
 use super::results::{Direct, Run, Status, runs_of};
 use crate::io::series;
-use crate::network::cycles::Fluid;
+use crate::network::cycles::FluidPhase;
 use crate::study::folder::StudyFolder;
 use crate::study::results::RunResult;
 
@@ -103,7 +103,7 @@ pub fn event_row<'a>(
     row
 }
 
-fn judged(runs: &[Run], area: f64, scale: f64, invading: Fluid, folder: &StudyFolder) -> (Option<Direct>, Status) {
+fn judged(runs: &[Run], area: f64, scale: f64, invading: FluidPhase, folder: &StudyFolder) -> (Option<Direct>, Status) {
     if let Some(why) = runs.iter().find_map(Run::failed) {
         return (None, Status::Failed(why));
     }
@@ -140,11 +140,11 @@ fn judged(runs: &[Run], area: f64, scale: f64, invading: Fluid, folder: &StudyFo
     }
 }
 
-fn records(folder: &StudyFolder, run: &str, invading: Fluid) -> Option<Vec<Record>> {
+fn records(folder: &StudyFolder, run: &str, invading: FluidPhase) -> Option<Vec<Record>> {
     let series = series::read(&series::path(&folder.run(run))).ok()?;
     let (sign, area) = match invading {
-        Fluid::NonWetting => (1.0, "non_wetting_area_m2"),
-        Fluid::Wetting => (-1.0, "wetting_area_m2"),
+        FluidPhase::NonWetting => (1.0, "non_wetting_area_m2"),
+        FluidPhase::Wetting => (-1.0, "wetting_area_m2"),
     };
     let column = |name: &str| series.column(name).collect::<Vec<f64>>();
     let [applied, capillary, area] = ["pressure_difference_Pa", "capillary_pressure_Pa", area].map(column);

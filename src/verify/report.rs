@@ -8,7 +8,7 @@ use super::results::{Direct, Row, Status};
 use super::subject::Subject;
 use crate::case::network::measured::{Measured, MeasuredThroat};
 use crate::io::{FileError, atomic};
-use crate::network::cycles::Fluid;
+use crate::network::cycles::FluidPhase;
 use crate::study::table::Table;
 
 /// What was written.
@@ -308,7 +308,7 @@ fn short(subject: &Subject, rows: &[Row]) -> Table {
 
 /// One line for each throat that is not as it should be.
 #[must_use]
-pub fn notes(rows: &[Row], tension: f64, invading: Fluid) -> Vec<String> {
+pub fn notes(rows: &[Row], tension: f64, invading: FluidPhase) -> Vec<String> {
     let touch = |row: &Row| {
         let curvature = row.planned.touches?;
         let number = row.planned.chosen.number;

@@ -2,7 +2,7 @@
 
 use super::case_text::Fluids;
 use super::plan::{Kind, Planned, case_name};
-use crate::network::cycles::Fluid;
+use crate::network::cycles::FluidPhase;
 use crate::study::results::{RunResult, Standing};
 
 /// Relative difference of the entry pressures of both spacings above which neither is trusted.
@@ -159,7 +159,7 @@ pub fn row<'a>(
         (row.status, row.flow_status) = (Status::Impossible(why.to_string()), Status::Impossible(why.to_string()));
         return row;
     }
-    let sign = if fluids.invading == Fluid::NonWetting { 1.0 } else { -1.0 };
+    let sign = if fluids.invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let pressures = |run: &Run| {
         let bar = run.result.uncertainty("entry-pressure-Pa").unwrap_or(0.0);
         run.number("entry-pressure-Pa").map(|value| (sign * value, bar))

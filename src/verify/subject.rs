@@ -1,8 +1,8 @@
 //! What is verified: a network with its menisci, and how its first displacement went up to breakthrough.
 
-use crate::case::{Case, Fluid as FluidOf, Model};
+use crate::case::{Case, Fluid, Model};
 use crate::interface::menisci::Passage;
-use crate::network::cycles::{Cycles, Entry, Fluid};
+use crate::network::cycles::{Cycles, Entry, FluidPhase};
 use crate::network::displacement::{Conditions, Displacement, Event, EventKind, Scene};
 use crate::network::graph::Throat;
 use crate::network::setup::{SetupError, build_still};
@@ -32,9 +32,9 @@ pub struct Subject {
     /// Interfacial tension in N/m.
     pub tension: f64,
     /// The wetting and the non-wetting phase, where the case gives them.
-    pub fluids: [Option<FluidOf>; 2],
+    pub fluids: [Option<Fluid>; 2],
     /// The phase that invades first.
-    pub invading: Fluid,
+    pub invading: FluidPhase,
     /// What it invades under.
     pub conditions: Conditions,
     /// Events of the first half cycle up to breakthrough, and the applied curvature in 1/m at that, towards the defending phase; none where
@@ -57,7 +57,7 @@ impl Subject {
         let Some(interface) = &wanted.interface else { return Err(SubjectError::NoInterface) };
         let solver = build_still(case, wanted)?;
         let half = solver.cycles().map(|cycles| cycles.half_cycles()[0].clone());
-        let invading = half.as_ref().map_or(Fluid::NonWetting, |half| half.invading);
+        let invading = half.as_ref().map_or(FluidPhase::NonWetting, |half| half.invading);
         let conditions = half.map(|half| half.conditions).or_else(|| solver.setting().entry.clone());
         let Some(conditions) = conditions else { return Err(SubjectError::NoInterface) };
         let history = solver.cycles().map(first_half_cycle).unwrap_or_default();

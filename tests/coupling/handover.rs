@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use meniscus::case::FluidPhase;
 use meniscus::case::Model;
-use meniscus::case::RawPhase;
 use meniscus::case::network::state::NetworkState;
 use meniscus::case::{Loaded, load};
 use meniscus::geometry::Geometry;
@@ -64,7 +64,7 @@ fn states(solver: &mut NetworkSolver, stride: usize) -> Vec<NetworkState> {
 }
 
 fn wetting_area(state: &NetworkState) -> f64 {
-    state.elements.iter().filter(|it| it.phase == RawPhase::Wetting).map(|it| it.area_m2).sum()
+    state.elements.iter().filter(|it| it.phase == FluidPhase::Wetting).map(|it| it.area_m2).sum()
 }
 
 fn pore_area(state: &NetworkState) -> f64 {
@@ -79,7 +79,7 @@ fn the_area_within_the_outline_is_that_of_elements_and_of_what_menisci_sweep() {
             for state in states(&mut solver(&pack(seed, "", process, angle, "")), 3) {
                 let swept: Option<Vec<f64>> = state.menisci.iter().map(|it| it.swept_area_m2).collect();
                 let Some(swept) = swept else { continue };
-                let sign = if state.invading == RawPhase::Wetting { 1.0 } else { -1.0 };
+                let sign = if state.invading == FluidPhase::Wetting { 1.0 } else { -1.0 };
                 let by_elements = wetting_area(&state) + sign * swept.iter().sum::<f64>();
                 let by_outline = state.saturation_with_menisci.unwrap() * pore_area(&state);
                 let error = (by_elements - by_outline).abs() / pore_area(&state);
@@ -148,7 +148,7 @@ fn sampled(state: &NetworkState, text: &str) -> f64 {
         }
     }
     let invading = f64::from(inside as u32) / f64::from(all);
-    if state.invading == RawPhase::Wetting { invading } else { 1.0 - invading }
+    if state.invading == FluidPhase::Wetting { invading } else { 1.0 - invading }
 }
 
 #[test]

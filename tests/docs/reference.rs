@@ -45,7 +45,7 @@ fn the_reference_names_every_word_that_a_key_can_be() {
     let page = page("docs/reference/case-file.md").text + &text("docs/reference/presets.md");
     for definition in [
         "Side",
-        "RawPhase",
+        "FluidPhase",
         "ViscousTerm",
         "ViscousStep",
         "SolidSide",
@@ -55,7 +55,7 @@ fn the_reference_names_every_word_that_a_key_can_be() {
         "LatticeEnergy",
         "RawNetworkSide",
         "RawProcess",
-        "NetworkEvents",
+        "Events",
     ] {
         let variants = schema["$defs"][definition]["oneOf"].as_array().unwrap_or_else(|| panic!("{definition}"));
         let words: Vec<&str> = variants.iter().filter_map(|one| one["const"].as_str()).collect();

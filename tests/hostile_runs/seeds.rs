@@ -18,7 +18,7 @@ const MOST_SHAPES: usize = 16;
 fn wetting() -> Vec<String> {
     let table = |law: LawTable| {
         let value = |example: &str| example.split(" #").next().unwrap_or_default().to_owned();
-        let keys: Vec<String> = law.keys.iter().map(|(_, quantity)| value(quantity.example)).collect();
+        let keys: Vec<String> = law.keys.iter().filter_map(|(_, key)| key.example).map(value).collect();
         format!("{{ {} = {{ {} }} }}", law.key, keys.join(", "))
     };
     laws().into_iter().map(table).collect()

@@ -83,7 +83,7 @@ fn elements_tile_the_pore_space() {
         let spec = pack(seed, [12.0, 9.0], 2000);
         let (network, pores, shapes) = network(&spec);
         let whole: f64 = network.regions.iter().map(|region| region.area).sum();
-        for events in [Events::All, Events::BurstOnly] {
+        for events in [Events::All, Events::Burst] {
             let state = Displacement::new(&network, &pores, conditions(60.0, shapes, true, events));
             let sum: f64 = (0..state.elements().len()).map(|e| state.elements()[e].area).sum();
             assert!((sum - whole).abs() < 1e-12 * whole, "{sum} {whole}");
@@ -140,7 +140,7 @@ fn overlap_makes_imbibition_easier_and_more_compact_and_hardly_matters_in_draina
     assert!(pressures.windows(2).all(|pair| pair[1] < pair[0]), "{pressures:?}");
     assert!(saturations[5] > saturations[0] + 0.2, "{saturations:?}");
     // Bursts alone ask for several times the pressure at 160 degrees (a prototype in another language found 3.8 times for such a pack).
-    let alone = displaced(&spec, 160.0, true, Events::BurstOnly).breakthrough.unwrap().0;
+    let alone = displaced(&spec, 160.0, true, Events::Burst).breakthrough.unwrap().0;
     assert!(alone > 2.0 * pressures[5], "{alone} {}", pressures[5]);
 }
 
@@ -194,7 +194,7 @@ fn a_disc_that_faces_its_own_image_bursts_as_two_discs_do() {
     };
     for angle in [20.0, 60.0, 90.0, 140.0] {
         let [one, two] = [row(1.0, vec![disc(0.3)]), row(2.0, vec![disc(0.3), disc(1.3)])].map(|spec| {
-            let outcome = displaced(&spec, angle, false, Events::BurstOnly);
+            let outcome = displaced(&spec, angle, false, Events::Burst);
             outcome.events.iter().map(|event| event.curvature).fold(f64::NEG_INFINITY, f64::max)
         });
         // r = √((L/2)² − R² sin²θ) − R cos θ for equal discs at the distance L.

@@ -82,7 +82,7 @@ fn one_fluid_flows_as_the_permeability_of_the_network_says() {
         let terms = Terms {
             viscosity: [viscosity; 2],
             tension: TENSION,
-            drive: Drive::Pressure(pressure),
+            drive: Drive::PressureDrop(pressure),
             largest_step: 1.0,
             inlet: LEFT,
             outlet: RIGHT,
@@ -223,7 +223,7 @@ fn half_the_step_changes_the_saturation_over_time_by_less_than_a_hundredth() {
     for (angle, pressure) in [(40.0, 6000.0), (120.0, 2000.0)] {
         let end = 0.01;
         let saturations = |largest_step: f64| {
-            let mut dynamic = pack.dynamic(angle, [1e-3, 1e-3], Drive::Pressure(pressure), largest_step);
+            let mut dynamic = pack.dynamic(angle, [1e-3, 1e-3], Drive::PressureDrop(pressure), largest_step);
             (1..=20)
                 .map(|record| {
                     let until = end * f64::from(record) / 20.0;
@@ -245,7 +245,7 @@ fn half_the_step_changes_the_saturation_over_time_by_less_than_a_hundredth() {
 #[test]
 fn a_pressure_below_all_entry_pressures_comes_to_rest() {
     let pack = Pack::new(3);
-    let mut dynamic = pack.dynamic(40.0, [1e-3, 1e-3], Drive::Pressure(100.0), 0.01);
+    let mut dynamic = pack.dynamic(40.0, [1e-3, 1e-3], Drive::PressureDrop(100.0), 0.01);
     for _ in 0..200 {
         dynamic.advance(dynamic.time() + 1.0).unwrap();
     }

@@ -2,8 +2,8 @@
 
 use crate::support::dice::Dice;
 use crate::support::flow::flow;
+use meniscus::case::ViscousStep;
 use meniscus::sph::flow::Flow;
-use meniscus::sph::method::ViscousStep;
 use meniscus::sph::open::Ledger;
 use meniscus::sph::particles::Phase;
 
@@ -96,7 +96,7 @@ fn long_steps_between_two_pressures_leave_the_flow_as_short_ones_do() {
     let walls = "[sph.sides]\nleft = \"inlet\"\nright = \"outlet\"\n[sph.sides.open.left]\npressure = 0.024\n";
     let [long, short] = [ViscousStep::Implicit, ViscousStep::Explicit].map(|viscous_step| {
         let mut flow = flow(&channel(walls));
-        flow.setting.method.viscous_step = viscous_step;
+        flow.setting.method.numerics.viscous_step = viscous_step;
         run(&mut flow, 1.0);
         let fluids = flow.state.particles.fluids;
         let flux = flow.state.particles.velocity[..fluids].iter().map(|v| v.x).sum::<f64>() / fluids as f64;

@@ -327,14 +327,18 @@ fn the_density_error_correction_rests_where_the_fluid_does() {
     };
     assert_eq!(
         (share(0.0), share(0.02), share(1.0)),
-        (0.0, method.density_error_correction, method.density_error_correction)
+        (0.0, method.numerics.density_error_correction, method.numerics.density_error_correction)
     );
     for (ways, of_all) in [(0.0025, 0.5), (0.005, 1.0)] {
-        assert!((share(ways) - of_all * method.density_error_correction).abs() < 1e-15, "{ways}: {}", share(ways));
+        assert!(
+            (share(ways) - of_all * method.numerics.density_error_correction).abs() < 1e-15,
+            "{ways}: {}",
+            share(ways)
+        );
     }
     // Errors come in time, not in steps.
     let rate = method.density_correction_rate(0.01);
-    method.time_step_factor = 0.5;
+    method.numerics.time_step_factor = 0.5;
     assert_eq!(method.density_correction_rate(0.01), rate);
 }
 

@@ -1,12 +1,13 @@
 //! The terms of the method one by one: what they conserve, where they are exact, what they converge to.
 
 use crate::support::cloud::{Cloud, Dice};
+use meniscus::case::LineDelta;
 use meniscus::math::Vec2;
 use meniscus::sph::neighborhood::Neighborhood;
 use meniscus::sph::terms::transposed_stress::TransposedStress;
 use meniscus::sph::terms::viscosity::Viscous;
 use meniscus::sph::terms::{color, curvature, divergence, pressure_gradient, surface_tension};
-use meniscus::sph::wetting::contact_line::{LineDelta, LineFields, LineParticles};
+use meniscus::sph::wetting::contact_line::{LineFields, LineParticles};
 use meniscus::sph::wetting::lines::Following;
 use meniscus::wetting::{Wetting, Young};
 use nalgebra::Matrix2;

@@ -3,9 +3,9 @@
 use crate::support::boxes::{case, fastest, steps};
 use crate::support::cloud::Dice;
 use crate::support::flow::flow;
+use meniscus::case::ViscousStep;
 use meniscus::math::Vec2;
 use meniscus::sph::flow::Flow;
-use meniscus::sph::method::ViscousStep;
 
 /// The forms of the viscous term.
 const FORMS: [&str; 3] = ["stress", "morris", "szewc"];
@@ -23,7 +23,7 @@ fn stirred(form: &str, sides: &str) -> Flow {
          [sph.interface]\ntension = 0.0\n[[sph.initial.wetting]]\ndisc = {{ center = [0.0, 0.0], radius = 3.0e-4 }}\n\
          [sph.numerics]\nviscous-term = \"{form}\"\ndensity-error-shifting = 0.0\nshifting = 0.0\n{sides}"
     )));
-    flow.setting.method.viscous_step = ViscousStep::Implicit;
+    flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
     flow.setting.viscous_time = f64::INFINITY;
     let mut dice = Dice::new(1);
     for a in 0..flow.state.particles.fluids {
@@ -61,7 +61,7 @@ fn a_channel_starts_as_with_the_explicit_form() {
     for form in FORMS {
         let after = |step: ViscousStep, count: usize| {
             let mut flow = flow(&text(form));
-            flow.setting.method.viscous_step = step;
+            flow.setting.method.numerics.viscous_step = step;
             flow.setting.viscous_time = f64::INFINITY;
             steps(&mut flow, count, 5.0e-3 / count as f64);
             flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.x).sum::<f64>()
@@ -77,7 +77,7 @@ fn a_channel_starts_as_with_the_explicit_form() {
 fn a_shear_wave_decays_by_the_factor_of_the_method() {
     let shear = |step: ViscousStep, dt: f64| {
         let mut flow = flow(&case(&format!("[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n{PERIODIC}")));
-        flow.setting.method.viscous_step = step;
+        flow.setting.method.numerics.viscous_step = step;
         flow.setting.viscous_time = f64::INFINITY;
         let wave = |x: Vec2| (std::f64::consts::TAU * x.y / 1.0e-3).cos();
         for a in 0..flow.state.particles.fluids {
@@ -149,7 +149,7 @@ fn a_steady_flow_does_not_hang_on_the_step() {
             "gravity = [0.01, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n\
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n",
         ));
-        flow.setting.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
         flow.setting.viscous_time = f64::INFINITY;
         // Three viscous times density H²/viscosity.
         steps(&mut flow, (0.03 / dt).round() as usize, dt);
@@ -168,7 +168,7 @@ fn pairs_on_the_edge_of_the_support_do_not_stop_the_viscous_step() {
              [sph]\nspacing = {spacing}\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 100.0\n\
              [sph.sides]\nspeed = {{ top = 1.0 }}\n[sph.numerics]\nviscous-term = \"szewc\"\n"
         ));
-        flow.setting.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
         flow.setting.viscous_time = f64::INFINITY;
         steps(&mut flow, 2, 1.0e-4);
     }
@@ -183,7 +183,7 @@ fn a_flow_around_a_cylinder_hardly_hangs_on_the_step() {
              [sph]\nspacing = 4.0e-5\ngravity = [0.01, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.01\n\
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n",
         );
-        flow.setting.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
         flow.setting.viscous_time = f64::INFINITY;
         // Six times of its slowest mode.
         steps(&mut flow, (0.024 / dt).round() as usize, dt);
@@ -204,7 +204,7 @@ fn no_particle_goes_farther_in_a_step_than_its_limit_allows() {
     let slower = drop.replace("2.0\n", "1.0\n");
     for (name, text, limit) in [("drop", drop, 0.3), ("drop, no factor", &slower, 0.25), ("lid", lid, 0.125)] {
         let mut flow = flow(&case(text));
-        flow.setting.method.viscous_step = ViscousStep::Implicit;
+        flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
         flow.setting.viscous_time = f64::INFINITY;
         for _ in 0..20 {
             flow.step(1.0).unwrap();

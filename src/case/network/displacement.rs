@@ -2,7 +2,7 @@
 
 use super::dynamic::{DynamicDrive, drive, raw_dynamic};
 use super::state::Start;
-use super::table::{NetworkEvents, RawNetwork, RawProcess, RawStop};
+use super::table::{Events, RawNetwork, RawProcess, RawStop};
 use crate::case::side::Sides;
 use crate::input::Checker;
 
@@ -14,7 +14,7 @@ pub struct NetworkDisplacement {
     /// Whether a defending region without a way to the outlet is trapped.
     pub trapping: bool,
     /// Which events move menisci.
-    pub events: NetworkEvents,
+    pub events: Events,
     /// Where it ends early.
     pub stop: Stop,
     /// The state that it begins with; absent: the pore space is full of the defending phase.
@@ -84,7 +84,7 @@ pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Opt
     NetworkDisplacement {
         process,
         trapping: raw.trapping.unwrap_or(true),
-        events: raw.events.unwrap_or(NetworkEvents::All),
+        events: raw.events.unwrap_or(Events::All),
         stop: stop(checker, raw),
         dynamic: raw
             .dynamic

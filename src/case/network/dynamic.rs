@@ -1,13 +1,13 @@
 //! `[network.dynamic]`: what drives a displacement in time.
 
-use super::table::{NetworkEvents, RawDynamic, RawNetwork};
+use super::table::{Events, RawDynamic, RawNetwork};
 use crate::input::Checker;
 
 /// What drives a displacement in time.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct DynamicDrive {
     /// A given rate or pressure.
-    pub drive: Driven,
+    pub drive: Drive,
     /// Most pore volumes that pass the inlet in one step.
     pub largest_step: f64,
 }
@@ -15,7 +15,7 @@ pub struct DynamicDrive {
 /// By what a displacement in time is driven.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Driven {
+pub enum Drive {
     /// Area injected per time in m²/s.
     Rate(f64),
     /// Pressure at the inlet less that at the outlet in Pa.
@@ -46,8 +46,8 @@ pub(super) fn drive(
             checker.refuse("network.dynamic.pressure-drop", message, "leave one of them out");
             None
         }
-        (Some(rate), None) => Some(Driven::Rate(rate)),
-        (None, Some(pressure)) => Some(Driven::PressureDrop(pressure)),
+        (Some(rate), None) => Some(Drive::Rate(rate)),
+        (None, Some(pressure)) => Some(Drive::PressureDrop(pressure)),
         (None, None) if checker.is_refused("network.dynamic.pressure-drop") => None,
         (None, None) => {
             checker.require("network.dynamic.rate", None, "rate = 1.0e-8 # m2/s, or pressure-drop = 500.0 # Pa")
@@ -69,7 +69,7 @@ pub(super) fn drive(
     }
     let quasi_static = [
         ("process", is_cycle, "a cycle", "take drainage or imbibition"),
-        ("events", raw.events == Some(NetworkEvents::Burst), "invasion percolation", "leave events out"),
+        ("events", raw.events == Some(Events::Burst), "invasion percolation", "leave events out"),
         ("trapping", raw.trapping.is_some(), "a rule for trapping", "leave it out: what cannot flow out is trapped"),
         (
             "stop.capillary-pressure",
@@ -92,8 +92,8 @@ pub(super) fn drive(
 /// The table of a drive.
 pub(super) fn raw_dynamic(dynamic: DynamicDrive) -> RawDynamic {
     let (rate, pressure_drop) = match dynamic.drive {
-        Driven::Rate(rate) => (Some(rate), None),
-        Driven::PressureDrop(pressure) => (None, Some(pressure)),
+        Drive::Rate(rate) => (Some(rate), None),
+        Drive::PressureDrop(pressure) => (None, Some(pressure)),
     };
     RawDynamic { rate, pressure_drop, largest_step: Some(dynamic.largest_step) }
 }

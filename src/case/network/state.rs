@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::case::fluid::RawPhase;
+use crate::case::fluid::FluidPhase;
 use crate::case::side::{Side, Sides};
 use crate::geometry::Geometry;
 use crate::geometry::curve::Curve;
@@ -37,7 +37,7 @@ pub struct NetworkState {
     /// The left, right, bottom and top side.
     pub sides: [Side; 4],
     /// The phase that invades.
-    pub invading: RawPhase,
+    pub invading: FluidPhase,
     /// Number of the half cycle, from 1 on.
     pub half_cycle: usize,
     /// Number of its events so far.
@@ -69,7 +69,7 @@ pub struct NetworkState {
 #[serde(deny_unknown_fields)]
 pub struct ElementState {
     /// What it holds.
-    pub phase: RawPhase,
+    pub phase: FluidPhase,
     /// Whether it holds the defending phase and cannot let it go.
     pub trapped: bool,
     /// Curvature of the menisci around what is trapped.
@@ -119,7 +119,7 @@ impl NetworkState {
             geometry_hash: String::new(),
             domain_m: [[0.0; 2]; 2],
             sides: [Side::Inlet, Side::Outlet, Side::Wall, Side::Wall],
-            invading: RawPhase::NonWetting,
+            invading: FluidPhase::NonWetting,
             half_cycle: 1,
             events: 0,
             tension_n_per_m: 0.0,

@@ -30,7 +30,7 @@ tables! {
         /// Traps defending regions without a path to the outlet; else films drain them (default true).
         pub trapping: bool,
         /// Burst, touch and overlap, or burst alone (invasion percolation) (default `all`).
-        pub events: NetworkEvents,
+        pub events: Events,
         /// Half width of a throat over the smaller inscribed radius, above which its pores are one (default 0.95).
         pub persistence: f64 => Key::within("a persistence ratio", 0.5, 1.0),
         /// Measured entry pressures: `measured.json` of `meniscus network verify` (default: those of the formula).
@@ -119,7 +119,7 @@ words! {
     }
 
     /// The events that move menisci.
-    pub enum NetworkEvents {
+    pub enum Events {
         /// Burst, touch and overlap.
         All,
         /// Burst only: invasion percolation, to compare with other programs.

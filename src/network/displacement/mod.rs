@@ -34,19 +34,10 @@ use self::mesh::Mesh;
 use self::outflow::Outflow;
 pub use self::standing::{Beginning, Interfaces, Standing};
 use super::graph::{Network, Pores, Region};
+pub use crate::case::network::Events;
 use crate::geometry::curve::Curve;
 use crate::interface::menisci::Passage;
 use crate::math::Vec2;
-
-/// Which events move a meniscus.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Events {
-    /// Burst, touch and overlap.
-    #[default]
-    All,
-    /// Bursts of throats between whole pores, as in invasion percolation.
-    BurstOnly,
-}
 
 /// What displaces what.
 #[derive(Debug, Clone, PartialEq)]
@@ -143,7 +134,7 @@ impl Displacement {
     pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
         let mesh = match conditions.events {
             Events::All => Mesh::divided(network),
-            Events::BurstOnly => Mesh::of_pores(network, pores),
+            Events::Burst => Mesh::of_pores(network, pores),
         };
         let invaded = vec![false; mesh.elements.len()];
         let centers = Arc::new(network.regions.iter().map(|region| region.center).collect());

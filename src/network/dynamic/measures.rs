@@ -2,7 +2,7 @@
 
 use super::solver::DynamicSolver;
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
-use crate::network::cycles::Fluid;
+use crate::network::cycles::FluidPhase;
 use crate::network::measures::of_network_with_flow;
 use crate::network::tables::{counts, numbers, numbers_of_throats, places, words};
 use crate::solver::{Measure, Series};
@@ -27,7 +27,7 @@ pub fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
     let pressures = dynamic.history().iter().map(|event| event.pressure).filter(|pressure| pressure.is_finite());
     let largest = pressures.fold(f64::NAN, f64::max);
     let saturation = solver.saturation();
-    let wetting = if solver.invading == Fluid::Wetting { saturation } else { 1.0 - saturation };
+    let wetting = if solver.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
     let trapped: f64 = dynamic
         .trapped()
         .into_iter()
@@ -119,7 +119,7 @@ pub fn events(solver: &DynamicSolver) -> Table {
     let tension = solver.invading.towards_wetting(solver.dynamic.terms().tension);
     let number_of = numbers_of_throats(solver.still.setting());
     let history = solver.dynamic.history();
-    let wetting = |invading: f64| if solver.invading == Fluid::Wetting { invading } else { 1.0 - invading };
+    let wetting = |invading: f64| if solver.invading == FluidPhase::Wetting { invading } else { 1.0 - invading };
     Table {
         name: "events",
         columns: vec![

@@ -42,15 +42,7 @@ use super::conductance::{opening_resistances, resistances};
 use super::cycles::Invasion;
 use super::displacement::{Advance, Displacement, EventKind, FrontId, GateFacts, Phase};
 use super::graph::Network;
-
-/// What drives the displacement.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Drive {
-    /// Area injected per time in m²/s.
-    Rate(f64),
-    /// Pressure at the inlet less that at the outlet in Pa.
-    Pressure(f64),
-}
+pub use crate::case::network::Drive;
 
 /// Fluids and drive of a dynamic displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@ use super::measures;
 use super::{Drive, Dynamic, StepEnd};
 use crate::diagram::Diagram;
 use crate::math::Vec2;
-use crate::network::cycles::Fluid;
+use crate::network::cycles::FluidPhase;
 use crate::network::displacement::EventKind;
 use crate::network::laplacian::FlowError;
 use crate::network::occupation::Occupation;
@@ -35,7 +35,7 @@ pub struct DynamicSolver {
     /// The displacement.
     pub dynamic: Dynamic,
     /// The phase that comes in.
-    pub invading: Fluid,
+    pub invading: FluidPhase,
     end: End,
     is_closed: bool,
     steps_before: u64,
@@ -45,7 +45,7 @@ pub struct DynamicSolver {
 impl DynamicSolver {
     /// The displacement at its beginning.
     #[must_use]
-    pub fn new(still: NetworkSolver, dynamic: Dynamic, invading: Fluid, end: End) -> Self {
+    pub fn new(still: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
         Self { still, dynamic, invading, end, is_closed: false, steps_before: 0, seconds: 0.0 }
     }
 
@@ -79,8 +79,8 @@ impl DynamicSolver {
     fn occupation(&self) -> Occupation<'_> {
         let elements = self.dynamic.displacement().elements();
         let name = match self.invading {
-            Fluid::NonWetting => "drainage",
-            Fluid::Wetting => "imbibition",
+            FluidPhase::NonWetting => "drainage",
+            FluidPhase::Wetting => "imbibition",
         };
         Occupation {
             elements,
@@ -167,7 +167,7 @@ impl Solver for DynamicSolver {
     fn sample(&self) -> Vec<Sample> {
         let sample = |name, value| Sample { name, value };
         let saturation = self.saturation();
-        let wetting = if self.invading == Fluid::Wetting { saturation } else { 1.0 - saturation };
+        let wetting = if self.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
         let (pressure, inflow) = self.dynamic.drive_now();
         let fingers = self.dynamic.fingers(self.still.setting());
         vec![

@@ -96,7 +96,7 @@ impl Dynamic {
     fn longest_step(&self) -> f64 {
         let flow = match self.terms.drive {
             Drive::Rate(rate) => rate,
-            Drive::Pressure(_) => self.state.inflow.abs(),
+            Drive::PressureDrop(_) => self.state.inflow.abs(),
         };
         let element = LONGEST / self.state.filling.len() as f64;
         let longest = self.terms.largest_step.min(element) * self.pore_area / flow;
@@ -108,7 +108,7 @@ impl Dynamic {
         let [a, b] = link.elements;
         let resistance = self.viscosity(a) * link.halves[0] + self.viscosity(b) * link.halves[1];
         let drop = match (link.way, self.terms.drive) {
-            (Way::Inlet, Drive::Pressure(pressure)) => pressure,
+            (Way::Inlet, Drive::PressureDrop(pressure)) => pressure,
             _ => 0.0,
         };
         (resistance, drop)
@@ -298,7 +298,7 @@ impl Dynamic {
         self.state.passed[0] += inflow * dt;
         self.state.inflow = inflow;
         self.state.pressure = match (self.terms.drive, graph.inlet) {
-            (Drive::Pressure(pressure), _) => pressure,
+            (Drive::PressureDrop(pressure), _) => pressure,
             (Drive::Rate(_), inlet) => inlet.map_or(f64::NAN, |inlet| trial.flow.pressure[inlet]),
         };
         self.state.time += dt;

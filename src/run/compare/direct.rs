@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::states::States;
 use super::{CompareError, Grid, Record, Task, Track};
 use crate::case::Case;
-use crate::case::RawPhase;
+use crate::case::FluidPhase;
 use crate::case::network::state::NetworkState;
 use crate::io::FileError;
 use crate::math::Vec2;
@@ -66,7 +66,7 @@ struct Recorder<'a> {
     watcher: &'a mut dyn Watcher,
     states: States,
     grid: &'a Grid,
-    invading: RawPhase,
+    invading: FluidPhase,
 }
 
 impl Watcher for Recorder<'_> {
@@ -112,11 +112,11 @@ impl Track {
     }
 }
 
-fn as_record(solver: &dyn Solver, grid: &Grid, invading: RawPhase) -> Record {
+fn as_record(solver: &dyn Solver, grid: &Grid, invading: FluidPhase) -> Record {
     let sample = solver.sample();
     let value = |name: &str| sample.iter().find(|it| it.name == name).map_or(f64::NAN, |it| it.value);
     // Where the pressure rises in steps, it is the one given, of the invading phase less the other.
-    let sign = if invading == RawPhase::NonWetting { 1.0 } else { -1.0 };
+    let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let given = Some(sign * value(PRESSURE_DIFFERENCE)).filter(|pressure| pressure.is_finite());
     Record {
         saturation: value("saturation"),
@@ -126,8 +126,8 @@ fn as_record(solver: &dyn Solver, grid: &Grid, invading: RawPhase) -> Record {
 }
 
 /// For each cell whether the nearest fluid particle is of the invading phase.
-fn invaded(snapshot: &Snapshot<'_>, grid: &Grid, invading: RawPhase) -> Vec<bool> {
-    let wanted = if invading == RawPhase::NonWetting { NON_WETTING } else { 0 };
+fn invaded(snapshot: &Snapshot<'_>, grid: &Grid, invading: FluidPhase) -> Vec<bool> {
+    let wanted = if invading == FluidPhase::NonWetting { NON_WETTING } else { 0 };
     let phases = snapshot.particles.fields.iter().find(|field| field.name == "phase").map(|field| &field.values);
     let Some(Values::Integer(phases)) = phases else { return vec![false; grid.cells.len()] };
     let (cell, [columns, rows]) = (grid.cell(), grid.counts);

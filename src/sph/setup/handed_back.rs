@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::case::RawPhase;
+use crate::case::FluidPhase;
 use crate::case::network::state::{ElementState, NetworkState, Start};
 use crate::geometry::elements::Elements;
 use crate::math::Vec2;
@@ -33,8 +33,8 @@ fn state(
     let shares = shares(start, fluid);
     let element = |(old, [wetting, other]): (&ElementState, [usize; 2])| ElementState {
         phase: match wetting.cmp(&other) {
-            std::cmp::Ordering::Greater => RawPhase::Wetting,
-            std::cmp::Ordering::Less => RawPhase::NonWetting,
+            std::cmp::Ordering::Greater => FluidPhase::Wetting,
+            std::cmp::Ordering::Less => FluidPhase::NonWetting,
             // Too small for a particle.
             std::cmp::Ordering::Equal => old.phase,
         },
@@ -46,7 +46,7 @@ fn state(
     let area = |keep: &dyn Fn(&ElementState) -> bool| -> f64 {
         elements.iter().filter(|element| keep(element)).map(|element| element.area_m2).sum()
     };
-    let saturation = area(&|element| element.phase == RawPhase::Wetting) / area(&|_| true);
+    let saturation = area(&|element| element.phase == FluidPhase::Wetting) / area(&|_| true);
     let pressure = if pressure.is_finite() { pressure } else { start.capillary_pressure_pa };
     NetworkState {
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -99,7 +99,7 @@ mod tests {
         NetworkState {
             domain_m: [[0.0, 0.0], [2.0, 1.0]],
             tension_n_per_m: 1.0,
-            elements: vec![square(0.0, RawPhase::NonWetting), square(1.0, RawPhase::Wetting)],
+            elements: vec![square(0.0, FluidPhase::NonWetting), square(1.0, FluidPhase::Wetting)],
             ..NetworkState::empty()
         }
     }
@@ -110,8 +110,8 @@ mod tests {
         let (wet, dry) = (Phase::Wetting, Phase::NonWetting);
         let fluid = [at(0.2, wet), at(0.4, wet), at(0.6, dry), at(1.2, dry), at(1.4, dry), at(1.6, wet)];
         let state = state(&start(), 2.0, fluid.into_iter(), 6.0);
-        let phases: Vec<RawPhase> = state.elements.iter().map(|element| element.phase).collect();
-        assert_eq!(phases, [RawPhase::Wetting, RawPhase::NonWetting]);
+        let phases: Vec<FluidPhase> = state.elements.iter().map(|element| element.phase).collect();
+        assert_eq!(phases, [FluidPhase::Wetting, FluidPhase::NonWetting]);
         assert!(state.elements.iter().all(|element| !element.trapped));
         assert_eq!((state.saturation, state.applied_curvature_per_m), (0.5, 3.0));
     }
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn an_element_without_particles_keeps_its_phase() {
         let state = state(&start(), 1.0, std::iter::empty(), f64::NAN);
-        assert_eq!(state.elements[0].phase, RawPhase::NonWetting);
-        assert_eq!(state.elements[1].phase, RawPhase::Wetting);
+        assert_eq!(state.elements[0].phase, FluidPhase::NonWetting);
+        assert_eq!(state.elements[1].phase, FluidPhase::Wetting);
     }
 }

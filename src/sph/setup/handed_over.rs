@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::case::RawPhase;
+use crate::case::FluidPhase;
 use crate::case::network::state::{NetworkState, Start};
 use crate::case::{Case, Side, Sph};
 use crate::geometry::Geometry;
@@ -29,8 +29,8 @@ pub(super) fn region(case: &Case, sph: &Sph, start: &Start) -> Region {
     let of = |pieces: &[Curve]| Geometry::of_surface(bounds, periodic, pieces);
     let pore_area: f64 = start.state.elements.iter().map(|element| element.area_m2).sum();
     let area = start.state.saturation_with_menisci.map(|wetting| match start.state.invading {
-        RawPhase::Wetting => wetting * pore_area,
-        RawPhase::NonWetting => (1.0 - wetting) * pore_area,
+        FluidPhase::Wetting => wetting * pore_area,
+        FluidPhase::NonWetting => (1.0 - wetting) * pore_area,
     });
     Region::bounded(of(&outline), of(&led_on), area)
 }
@@ -71,8 +71,8 @@ impl Clusters {
     /// Pressures in Pa above that of the wetting phase that is joined to a side; `jump` is that of the non-wetting one.
     fn new(state: &NetworkState, tension: f64, jump: f64) -> Self {
         let (phase, invading, sign) = match state.invading {
-            RawPhase::NonWetting => (Phase::Wetting, jump, -1.0),
-            RawPhase::Wetting => (Phase::NonWetting, 0.0, 1.0),
+            FluidPhase::NonWetting => (Phase::Wetting, jump, -1.0),
+            FluidPhase::Wetting => (Phase::NonWetting, 0.0, 1.0),
         };
         let trapped = state.elements.iter().filter_map(|element| Some((element, element.trapped_curvature_per_m?)));
         let elements = trapped.filter_map(|(element, curvature)| {
