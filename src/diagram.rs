@@ -64,7 +64,7 @@ pub struct Diagram {
 }
 
 /// A color as red, green, blue.
-pub type Color = [u8; 3];
+pub(crate) type Color = [u8; 3];
 
 /// How an area is colored.
 #[derive(Debug, Clone, Copy, PartialEq)]

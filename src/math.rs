@@ -1,11 +1,10 @@
 //! The small mathematics of the plane: two-vectors and two-by-two matrices of nalgebra, boxes, the shape of the kernel.
 
 /// Start value of the hash FNV-1a of 64 bits.
-pub const FNV1A_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+pub(crate) const FNV1A_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 
 /// The hash FNV-1a of 64 bits (Fowler, Noll, Vo), gone on with from `hash`: the same on every machine and version.
-#[must_use]
-pub fn fnv1a(hash: u64, bytes: impl IntoIterator<Item = u8>) -> u64 {
+pub(crate) fn fnv1a(hash: u64, bytes: impl IntoIterator<Item = u8>) -> u64 {
     const PRIME: u64 = 0x0100_0000_01b3;
     bytes.into_iter().fold(hash, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
 }
@@ -14,17 +13,15 @@ pub fn fnv1a(hash: u64, bytes: impl IntoIterator<Item = u8>) -> u64 {
 pub type Vec2 = nalgebra::Vector2<f64>;
 
 /// A linear map of the plane.
-pub type Mat2 = nalgebra::Matrix2<f64>;
+pub(crate) type Mat2 = nalgebra::Matrix2<f64>;
 
 /// The vector `v` turned by +90 degrees.
-#[must_use]
 pub fn perpendicular(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 
 /// The shortest of the periodic images of `difference` (m).
-#[must_use]
-pub fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 {
+pub(crate) fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 {
     let wrap = |d: f64, period: Option<f64>| period.map_or(d, |l| d - l * (d / l).round());
     Vec2::new(wrap(difference.x, period[0]), wrap(difference.y, period[1]))
 }
@@ -33,13 +30,12 @@ pub fn nearest_image(difference: Vec2, period: [Option<f64>; 2]) -> Vec2 {
 ///
 /// The share k²h² times this is what smoothing takes from a wave of an interface; of a disc of the curvature κ it draws the level 1/2
 /// towards the center by this times h²κ.
-pub const LINE_MOMENT: f64 = 1.0 / 7.0;
+pub(crate) const LINE_MOMENT: f64 = 1.0 / 7.0;
 
 /// (1 − q/2)⁴ (1 + 2q) for q < 2, else 0: the shape of the quintic C2 kernel of Wendland 1995; its integral over the plane is
 /// 4π/7 [Huber2013, Eq. 14].
 #[inline]
-#[must_use]
-pub fn wendland_c2(q: f64) -> f64 {
+pub(crate) fn wendland_c2(q: f64) -> f64 {
     let t = (1.0 - 0.5 * q).max(0.0);
     let t2 = t * t;
     t2 * t2 * (1.0 + 2.0 * q)
@@ -56,43 +52,36 @@ pub struct Bounds {
 
 impl Bounds {
     /// Width and height in m.
-    #[must_use]
     pub fn size(&self) -> Vec2 {
         self.max - self.min
     }
 
     /// Area in m².
-    #[must_use]
     pub fn area(&self) -> f64 {
         self.size().product()
     }
 
     /// The middle of the box.
-    #[must_use]
-    pub fn center(&self) -> Vec2 {
+    pub(crate) fn center(&self) -> Vec2 {
         0.5 * (self.min + self.max)
     }
 
     /// Whether `x` lies in the box, its sides included.
-    #[must_use]
     pub fn contains(&self, x: Vec2) -> bool {
         (0..2).all(|i| self.min[i] <= x[i] && x[i] <= self.max[i])
     }
 
     /// Whether two boxes share a point, their sides included.
-    #[must_use]
-    pub fn overlaps(&self, other: &Self) -> bool {
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
         (0..2).all(|i| self.min[i] <= other.max[i] && other.min[i] <= self.max[i])
     }
 
     /// The smallest box around both.
-    #[must_use]
-    pub fn united(&self, other: &Self) -> Self {
+    pub(crate) fn united(&self, other: &Self) -> Self {
         Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
 
     /// The box with every side moved outwards by `margin` in m.
-    #[must_use]
     pub fn grown(&self, margin: f64) -> Self {
         let by = Vec2::repeat(margin);
         Self { min: self.min - by, max: self.max + by }

@@ -17,8 +17,7 @@ pub enum Values<'a> {
 
 impl Values<'_> {
     /// The same with values of their own.
-    #[must_use]
-    pub fn into_owned(self) -> Values<'static> {
+    pub(crate) fn into_owned(self) -> Values<'static> {
         match self {
             Self::Scalar(values) => Values::Scalar(Cow::Owned(values.into_owned())),
             Self::Vector(values) => Values::Vector(Cow::Owned(values.into_owned())),
@@ -40,8 +39,7 @@ pub struct Field<'a> {
 
 impl Field<'_> {
     /// The same with values of its own.
-    #[must_use]
-    pub fn into_owned(self) -> Field<'static> {
+    pub(crate) fn into_owned(self) -> Field<'static> {
         Field { name: self.name, unit: self.unit, values: self.values.into_owned() }
     }
 }
@@ -62,8 +60,7 @@ pub struct Cloud<'a> {
 
 impl Cloud<'_> {
     /// The same with values of its own.
-    #[must_use]
-    pub fn into_owned(self) -> Cloud<'static> {
+    pub(crate) fn into_owned(self) -> Cloud<'static> {
         Cloud { points: Cow::Owned(self.points.into_owned()), fields: owned(self.fields) }
     }
 }
@@ -83,8 +80,7 @@ pub struct Grid<'a> {
 
 impl Grid<'_> {
     /// The same with values of its own.
-    #[must_use]
-    pub fn into_owned(self) -> Grid<'static> {
+    pub(crate) fn into_owned(self) -> Grid<'static> {
         Grid { origin: self.origin, spacing: self.spacing, counts: self.counts, fields: owned(self.fields) }
     }
 }
@@ -102,8 +98,7 @@ pub struct Lines<'a> {
 
 impl Lines<'_> {
     /// The same with values of their own.
-    #[must_use]
-    pub fn into_owned(self) -> Lines<'static> {
+    pub(crate) fn into_owned(self) -> Lines<'static> {
         Lines { points: Cow::Owned(self.points.into_owned()), lines: self.lines, fields: owned(self.fields) }
     }
 }
@@ -136,8 +131,7 @@ pub struct Layer<'a> {
 
 impl Layer<'_> {
     /// The same with values of its own.
-    #[must_use]
-    pub fn into_owned(self) -> Layer<'static> {
+    pub(crate) fn into_owned(self) -> Layer<'static> {
         let (points, fields) = (Cow::Owned(self.points.into_owned()), owned(self.fields));
         Layer { name: self.name, kind: self.kind, points, cells: self.cells, fields }
     }
@@ -160,8 +154,7 @@ pub struct Snapshot<'a> {
 
 impl Snapshot<'_> {
     /// The same with values of its own, which outlives the solver's next step.
-    #[must_use]
-    pub fn into_owned(self) -> Snapshot<'static> {
+    pub(crate) fn into_owned(self) -> Snapshot<'static> {
         Snapshot {
             time: self.time,
             step: self.step,

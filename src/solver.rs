@@ -20,7 +20,7 @@ pub struct Clock {
 
 impl Clock {
     /// Time in s.
-    pub const TIME: Self = Self { name: "time", symbol: "t", unit: "s" };
+    pub(crate) const TIME: Self = Self { name: "time", symbol: "t", unit: "s" };
 }
 
 /// What a solver leaves at its end beside measures and diagrams.
@@ -73,8 +73,7 @@ pub struct MovesWith {
 
 impl Measure {
     /// The same measure, of which the series holds a `column`: its changes times `factor` are those of the measure.
-    #[must_use]
-    pub fn moving_with(self, column: &'static str, factor: f64) -> Self {
+    pub(crate) fn moving_with(self, column: &'static str, factor: f64) -> Self {
         Self { moves_with: Some(MovesWith { column, factor }), ..self }
     }
 }
@@ -201,7 +200,7 @@ pub struct Series {
 
 impl Series {
     /// The values of one column, empty where there is no such column.
-    pub fn column<'a>(&'a self, name: &str) -> impl Iterator<Item = f64> + 'a {
+    pub(crate) fn column<'a>(&'a self, name: &str) -> impl Iterator<Item = f64> + 'a {
         let index = self.columns.iter().position(|c| c == name);
         self.rows.iter().filter_map(move |row| index.and_then(|i| row.get(i).copied()))
     }
@@ -250,8 +249,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// Smallest and largest possible value, in the unit of the quantity.
-    #[must_use]
-    pub fn range(self) -> [f64; 2] {
+    pub(crate) fn range(self) -> [f64; 2] {
         match self {
             Self::Angle { .. } => [0.0, 180.0],
             Self::Saturation => [0.0, 1.0],
@@ -260,8 +258,7 @@ impl Quantity {
     }
 
     /// A change that counts as none, where the quantity is measured without an error bar: of a saturation that of a hundredth.
-    #[must_use]
-    pub fn small(self) -> Option<f64> {
+    pub(crate) fn small(self) -> Option<f64> {
         matches!(self, Self::Saturation).then_some(0.01)
     }
 }

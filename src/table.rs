@@ -17,8 +17,7 @@ pub enum Cells {
 
 impl Cells {
     /// Number of rows.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         match self {
             Self::Numbers(values) => values.len(),
             Self::Counts(values) => values.len(),
@@ -26,12 +25,6 @@ impl Cells {
             Self::Flags(values) => values.len(),
             Self::Words(values) => values.len(),
         }
-    }
-
-    /// Whether there is no row.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 }
 

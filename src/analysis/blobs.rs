@@ -7,7 +7,7 @@ use super::cells::Cells;
 use crate::math::Vec2;
 
 /// Largest distance of joined particles in particle spacings.
-pub const LINK: f64 = 1.6;
+pub(crate) const LINK: f64 = 1.6;
 
 /// A connected part of a phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,8 +23,13 @@ pub struct Blob {
 /// Connected components of the particles with `member`, largest first.
 ///
 /// `points` in m, `volumes` in m², `link` the largest distance of joined particles in m, `period` in m.
-#[must_use]
-pub fn blobs(points: &[Vec2], volumes: &[f64], member: &[bool], link: f64, period: [Option<f64>; 2]) -> Vec<Blob> {
+pub(crate) fn blobs(
+    points: &[Vec2],
+    volumes: &[f64],
+    member: &[bool],
+    link: f64,
+    period: [Option<f64>; 2],
+) -> Vec<Blob> {
     let chosen: Vec<usize> = (0..points.len()).filter(|&i| member[i]).collect();
     let places: Vec<Vec2> = chosen.iter().map(|&i| points[i]).collect();
     let cells = Cells::new(&places, link, period);
@@ -50,14 +55,6 @@ pub fn blobs(points: &[Vec2], volumes: &[f64], member: &[bool], link: f64, perio
     found
 }
 
-/// The blobs smaller than `part` of the largest one: satellites, which deserve a warning.
-#[must_use]
-pub fn satellites(blobs: &[Blob], part: f64) -> &[Blob] {
-    let Some(largest) = blobs.first() else { return &[] };
-    let main = blobs.iter().take_while(|blob| blob.area >= part * largest.area).count();
-    &blobs[main..]
-}
-
 fn root(parent: &mut [usize], i: usize) -> usize {
     let mut at = i;
     while parent[at] != at {
@@ -81,7 +78,6 @@ mod tests {
         let found = blobs(&points, &vec![0.01; points.len()], &member, LINK * 0.1, [None, None]);
         assert_eq!(found.len(), 3);
         assert!(found[0].area > found[1].area && found[2].count <= 5);
-        assert_eq!(satellites(&found, 0.05).len(), 1);
         assert_eq!(found.iter().map(|blob| blob.count).sum::<usize>(), member.iter().filter(|m| **m).count());
     }
 
@@ -97,6 +93,5 @@ mod tests {
     #[test]
     fn no_particle_makes_no_blob() {
         assert!(blobs(&[], &[], &[], 1.0, [None, None]).is_empty());
-        assert!(satellites(&[], 0.1).is_empty());
     }
 }

@@ -9,7 +9,7 @@ use crate::math::{Vec2, nearest_image};
 
 /// Scattered points sorted into square cells.
 #[derive(Debug, Clone)]
-pub struct Cells<'a> {
+pub(crate) struct Cells<'a> {
     points: &'a [Vec2],
     period: [Option<f64>; 2],
     origin: Vec2,
@@ -28,8 +28,7 @@ impl<'a> Cells<'a> {
     /// Sorts `points` (m) into cells for searches with a radius of about `reach` (m); `period` in m along each axis.
     ///
     /// Points that are not finite are never found.
-    #[must_use]
-    pub fn new(points: &'a [Vec2], reach: f64, period: [Option<f64>; 2]) -> Self {
+    pub(crate) fn new(points: &'a [Vec2], reach: f64, period: [Option<f64>; 2]) -> Self {
         let finite = || points.iter().filter(|p| p.iter().all(|x| x.is_finite()));
         let low = finite().fold(Vec2::repeat(f64::INFINITY), |low, p| low.inf(p));
         let high = finite().fold(Vec2::repeat(f64::NEG_INFINITY), |high, p| high.sup(p));
@@ -80,13 +79,12 @@ impl<'a> Cells<'a> {
     }
 
     /// Vector in m from `b` to `a`, by the nearest image where a side is periodic.
-    #[must_use]
-    pub fn difference(&self, a: Vec2, b: Vec2) -> Vec2 {
+    pub(crate) fn difference(&self, a: Vec2, b: Vec2) -> Vec2 {
         nearest_image(a - b, self.period)
     }
 
     /// Calls `visit` with the index and the vector to `x` (m) of each point nearer to `x` than `radius` (m).
-    pub fn for_each_near(&self, x: Vec2, radius: f64, mut visit: impl FnMut(usize, Vec2)) {
+    pub(crate) fn for_each_near(&self, x: Vec2, radius: f64, mut visit: impl FnMut(usize, Vec2)) {
         if !x.iter().all(|v| v.is_finite()) || self.order.is_empty() {
             return;
         }

@@ -7,8 +7,7 @@
 use super::roots::bisect;
 
 /// Slope of log(error) over log(spacing) by least squares; NaN for fewer than two points or an error of 0.
-#[must_use]
-pub fn observed_order(spacings: &[f64], errors: &[f64]) -> f64 {
+pub(crate) fn observed_order(spacings: &[f64], errors: &[f64]) -> f64 {
     let count = spacings.len().min(errors.len()) as f64;
     let points = || spacings.iter().zip(errors).map(|(h, e)| (h.ln(), e.abs().ln()));
     let mean_x = points().map(|(x, _)| x).sum::<f64>() / count;
@@ -20,13 +19,13 @@ pub fn observed_order(spacings: &[f64], errors: &[f64]) -> f64 {
 
 /// What three spacings tell of the limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extrapolation {
+pub(crate) struct Extrapolation {
     /// Observed order.
-    pub order: f64,
+    pub(crate) order: f64,
     /// Value at spacing zero.
-    pub limit: f64,
+    pub(crate) limit: f64,
     /// Estimate of the error of the finest value.
-    pub finest_error: f64,
+    pub(crate) finest_error: f64,
 }
 
 /// Highest order that is looked for.
@@ -37,8 +36,7 @@ const LOWEST_ORDER: f64 = 0.01;
 /// Richardson's extrapolation of three `values` at the `spacings`, coarse to fine.
 ///
 /// Nothing where the values do not approach a limit monotonically: then the spacings are not in the range of convergence.
-#[must_use]
-pub fn extrapolate(spacings: [f64; 3], values: [f64; 3]) -> Option<Extrapolation> {
+pub(crate) fn extrapolate(spacings: [f64; 3], values: [f64; 3]) -> Option<Extrapolation> {
     let [h1, h2, h3] = spacings;
     let [f1, f2, f3] = values;
     // f = limit + c h^p: the ratio of the differences fixes p.
@@ -61,8 +59,7 @@ const ORDER_OF_METHOD: f64 = 2.0;
 ///
 /// Where the finest three converge, half of `SAFETY` times the distance from their limit, at least that of the finest; else their range, at
 /// least the distance from the finest (after Eça and Hoekstra 2014).
-#[must_use]
-pub fn discretization_uncertainties(spacings: &[f64], values: &[f64]) -> Option<Vec<f64>> {
+pub(crate) fn discretization_uncertainties(spacings: &[f64], values: &[f64]) -> Option<Vec<f64>> {
     let (&[.., h1, h2, h3], &[.., f1, f2, f3]) = (spacings, values) else { return None };
     let observed = extrapolate([h1, h2, h3], [f1, f2, f3]).map(|found| found.order);
     let (limit, factor, least) = match observed.filter(|order| *order >= LEAST_ORDER) {

@@ -4,11 +4,11 @@
 //! ([`phases`]), connected parts ([`blobs`]) and parts that are not resolved ([`resolution`]). Observed orders of
 //! convergence ([`convergence`]), and [`roots`] by bisection.
 
-pub mod blobs;
-pub mod cells;
-pub mod convergence;
-pub mod near_level;
+pub(crate) mod blobs;
+pub(crate) mod cells;
+pub(crate) mod convergence;
+pub(crate) mod near_level;
 pub mod phases;
 pub mod resample;
-pub mod resolution;
-pub mod roots;
+pub(crate) mod resolution;
+pub(crate) mod roots;

@@ -6,8 +6,7 @@ use crate::math::Vec2;
 
 /// The nodes of `lattice` that [`contour`](crate::interface::contour::contour) needs of a field smoothed from `values` of `samples`, in
 /// order: those with values on both sides of `level` near them. Elsewhere the smoothed field lies on one side, so that it may as well be missing (NaN) there.
-#[must_use]
-pub fn nodes_near_level(lattice: &Lattice, samples: &Samples, values: &[f64], level: f64) -> Vec<usize> {
+pub(crate) fn nodes_near_level(lattice: &Lattice, samples: &Samples, values: &[f64], level: f64) -> Vec<usize> {
     /// A contour asks for nodes so many spacings from an edge that it crosses.
     const BESIDE_EDGES: f64 = 2.0;
     const HIGH: u8 = 1;

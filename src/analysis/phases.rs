@@ -22,7 +22,6 @@ pub struct PhaseAreas {
 
 impl PhaseAreas {
     /// Sums `volumes` (m²) by `colors`.
-    #[must_use]
     pub fn new(volumes: &[f64], colors: &[f64]) -> Self {
         let sum = |wetting: bool| {
             volumes.iter().zip(colors).filter(|(_, c)| (**c > WETTING_COLOR) == wetting).map(|(v, _)| v).sum()
@@ -31,31 +30,29 @@ impl PhaseAreas {
     }
 
     /// Part of the fluid's area that the wetting phase fills.
-    #[must_use]
-    pub fn saturation(&self) -> f64 {
+    pub(crate) fn saturation(&self) -> f64 {
         self.wetting / (self.wetting + self.non_wetting)
     }
 
     /// Relative change of the wetting and the non-wetting area since `start`; NaN for a phase that was absent.
-    #[must_use]
-    pub fn drift_since(&self, start: &Self) -> [f64; 2] {
+    pub(crate) fn drift_since(&self, start: &Self) -> [f64; 2] {
         [self.wetting / start.wetting - 1.0, self.non_wetting / start.non_wetting - 1.0]
     }
 }
 
 /// Fluid particles whose pressure is measured.
 #[derive(Debug, Clone, Copy)]
-pub struct PressureSamples<'a> {
+pub(crate) struct PressureSamples<'a> {
     /// Positions in m.
-    pub points: &'a [Vec2],
+    pub(crate) points: &'a [Vec2],
     /// Pressures in Pa.
-    pub pressures: &'a [f64],
+    pub(crate) pressures: &'a [f64],
     /// Colors.
-    pub colors: &'a [f64],
+    pub(crate) colors: &'a [f64],
     /// Smoothing length h in m.
-    pub smoothing_length: f64,
+    pub(crate) smoothing_length: f64,
     /// Period in m along each axis, where it has one.
-    pub period: [Option<f64>; 2],
+    pub(crate) period: [Option<f64>; 2],
 }
 
 /// Mean pressure of the non-wetting phase less that of the wetting phase.
@@ -73,38 +70,35 @@ pub struct CapillaryPressure {
 
 /// Error of a capillary pressure by the resolution, over the pressure and (hκ)², κ the curvature that the pressure belongs to. Calibrated:
 /// docs/numerics/error-bars.md.
-pub const PRESSURE_RESOLUTION: f64 = 0.05;
+pub(crate) const PRESSURE_RESOLUTION: f64 = 0.05;
 
 /// The same of a phase that hardly touches its walls, beyond an angle of [`FLAT_CONTACT`]: the smoothing at the thin gap along the wall adds to that
 /// of the interface.
-pub const PRESSURE_RESOLUTION_FLAT_CONTACT: f64 = 0.14;
+pub(crate) const PRESSURE_RESOLUTION_FLAT_CONTACT: f64 = 0.14;
 
 /// Contact angle in degrees above which the gap along the wall is too thin for the smoothing.
-pub const FLAT_CONTACT: f64 = 160.0;
+pub(crate) const FLAT_CONTACT: f64 = 160.0;
 
 /// What lattice and walls leave of it however fine the spacing, over the pressure.
-pub const PRESSURE_FLOOR: f64 = 5e-4;
+pub(crate) const PRESSURE_FLOOR: f64 = 5e-4;
 
 impl CapillaryPressure {
     /// Standard uncertainty in Pa: the scatter of the particles, and what is lost to the smoothing length `h` (m) at the `tension` (N/m).
-    #[must_use]
-    pub fn uncertainty(&self, tension: f64, h: f64) -> f64 {
+    pub(crate) fn uncertainty(&self, tension: f64, h: f64) -> f64 {
         self.standard_error.hypot(resolution_error(self.value, tension, h))
     }
 }
 
 impl CapillaryPressure {
     /// The same where interfaces meet walls at the `angle` (degrees) through the wetting phase.
-    #[must_use]
-    pub fn uncertainty_at(&self, angle: f64, tension: f64, h: f64) -> f64 {
+    pub(crate) fn uncertainty_at(&self, angle: f64, tension: f64, h: f64) -> f64 {
         let share = if angle > FLAT_CONTACT { PRESSURE_RESOLUTION_FLAT_CONTACT } else { PRESSURE_RESOLUTION };
         self.standard_error.hypot(error_of_share(share, self.value, tension, h))
     }
 }
 
 /// The error in Pa of a capillary `pressure` (Pa) by the resolution.
-#[must_use]
-pub fn resolution_error(pressure: f64, tension: f64, h: f64) -> f64 {
+pub(crate) fn resolution_error(pressure: f64, tension: f64, h: f64) -> f64 {
     error_of_share(PRESSURE_RESOLUTION, pressure, tension, h)
 }
 
@@ -120,8 +114,7 @@ const FROM_WALLS: f64 = 2.0;
 const ENOUGH: usize = 25;
 
 /// Capillary pressure from particles farther than 3h from `contours`, and than 2h from walls where that leaves enough.
-#[must_use]
-pub fn capillary_pressure(
+pub(crate) fn capillary_pressure(
     samples: &PressureSamples,
     contours: &[Polyline],
     wall: &(dyn Fn(Vec2) -> WallPoint + Sync),
@@ -161,19 +154,18 @@ fn difference_of_means(samples: &PressureSamples, used: &[bool], away_from_walls
 
 /// A mean with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeanValue {
+pub(crate) struct MeanValue {
     /// Arithmetic mean, NaN of nothing.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Standard error for independent values, 0 for fewer than two.
-    pub error: f64,
+    pub(crate) error: f64,
     /// Number of values.
-    pub count: usize,
+    pub(crate) count: usize,
 }
 
 impl MeanValue {
     /// Mean and standard error of `values`.
-    #[must_use]
-    pub fn of(values: impl Iterator<Item = f64>) -> Self {
+    pub(crate) fn of(values: impl Iterator<Item = f64>) -> Self {
         let values: Vec<f64> = values.collect();
         let count = values.len();
         let mean = values.iter().sum::<f64>() / count as f64;
@@ -184,8 +176,7 @@ impl MeanValue {
 }
 
 /// Laplace jump of a free drop in Pa with its standard error: mean p over r < R - 3h less mean p over r > R + 3h.
-#[must_use]
-pub fn laplace_jump(samples: &PressureSamples, center: Vec2, radius: f64) -> MeanValue {
+pub(crate) fn laplace_jump(samples: &PressureSamples, center: Vec2, radius: f64) -> MeanValue {
     let band = FROM_INTERFACE * samples.smoothing_length;
     let mean = |inside: &dyn Fn(f64) -> bool| {
         let distance = |x: Vec2| nearest_image(x - center, samples.period).norm();
@@ -197,8 +188,7 @@ pub fn laplace_jump(samples: &PressureSamples, center: Vec2, radius: f64) -> Mea
 }
 
 /// Root mean square and largest relative deviation of particle volumes from `reference` (m²): the density error.
-#[must_use]
-pub fn density_error(volumes: &[f64], reference: f64) -> [f64; 2] {
+pub(crate) fn density_error(volumes: &[f64], reference: f64) -> [f64; 2] {
     let off = |v: &f64| reference / v - 1.0;
     let squares: f64 = volumes.iter().map(|v| off(v).powi(2)).sum();
     let largest = volumes.iter().map(|v| off(v).abs()).fold(0.0, f64::max);

@@ -4,16 +4,13 @@
 //! fields. First order near walls and voids. A color smoothed this way has its c = 0.5 contour displaced towards the
 //! center of curvature by kappa h²/7, which is 0.03 dx for a disc of ten spacings at h = 1.5 dx.
 
-use std::borrow::Cow;
-
 use rayon::prelude::*;
 
 use super::cells::Cells;
 use crate::math::{Vec2, wendland_c2};
-use crate::snapshot::{Field, Values};
 
 /// Support of the kernel in smoothing lengths.
-pub const SUPPORT: f64 = 2.0;
+pub(crate) const SUPPORT: f64 = 2.0;
 
 /// Somewhat more than the particles in reach of a node at the usual smoothing length of 1.5 spacings.
 const USUAL: usize = 32;
@@ -33,8 +30,7 @@ pub struct Samples<'a> {
 
 impl<'a> Samples<'a> {
     /// The particles in cells, to be searched for those in reach of a node.
-    #[must_use]
-    pub fn cells(&self) -> Cells<'a> {
+    pub(crate) fn cells(&self) -> Cells<'a> {
         Cells::new(self.points, SUPPORT * self.smoothing_length, self.period)
     }
 }
@@ -58,14 +54,12 @@ fn kernel(distance: f64, smoothing_length: f64) -> f64 {
 
 impl Stencils {
     /// Weights of `samples` at `nodes` (m).
-    #[must_use]
     pub fn new(samples: &Samples, nodes: &[Vec2]) -> Self {
         Self::in_cells(samples, &samples.cells(), nodes)
     }
 
     /// [`Stencils::new`] with the cells of the samples at hand.
-    #[must_use]
-    pub fn in_cells(samples: &Samples, cells: &Cells, nodes: &[Vec2]) -> Self {
+    pub(crate) fn in_cells(samples: &Samples, cells: &Cells, nodes: &[Vec2]) -> Self {
         let h = samples.smoothing_length;
         let rows: Vec<(Vec<(usize, f64)>, f64)> = nodes
             .par_iter()
@@ -87,33 +81,14 @@ impl Stencils {
         Self { entries: rows.into_iter().flat_map(|(row, _)| row).collect(), start, support }
     }
 
-    /// sum V W at each node: 1 deep inside of the particles, 0 where there are none.
-    #[must_use]
-    pub fn support(&self) -> &[f64] {
-        &self.support
-    }
-
     /// A scalar field at the nodes; NaN at nodes without particles in reach.
-    #[must_use]
     pub fn scalar(&self, values: &[f64]) -> Vec<f64> {
         self.apply(|row| row.iter().map(|&(b, weight)| weight * values[b]).sum(), f64::NAN)
     }
 
     /// A vector field at the nodes; NaN at nodes without particles in reach.
-    #[must_use]
-    pub fn vector(&self, values: &[Vec2]) -> Vec<Vec2> {
+    pub(crate) fn vector(&self, values: &[Vec2]) -> Vec<Vec2> {
         self.apply(|row| row.iter().map(|&(b, weight)| weight * values[b]).sum(), Vec2::repeat(f64::NAN))
-    }
-
-    /// A field of the particles at the nodes, with its name and unit; nothing for whole numbers, which have no mean.
-    #[must_use]
-    pub fn field(&self, field: &Field) -> Option<Field<'static>> {
-        let values = match &field.values {
-            Values::Scalar(values) => Values::Scalar(Cow::Owned(self.scalar(values))),
-            Values::Vector(values) => Values::Vector(Cow::Owned(self.vector(values))),
-            Values::Integer(_) => return None,
-        };
-        Some(Field { name: field.name, unit: field.unit, values })
     }
 
     fn apply<T: Clone + Send + Sync>(&self, sum: impl Fn(&[(usize, f64)]) -> T + Sync, missing: T) -> Vec<T> {
@@ -175,19 +150,6 @@ mod tests {
         let values = Stencils::new(&samples, &[Vec2::new(0.0, 0.3), Vec2::new(1.0, 0.3)]).scalar(&wave);
         assert!((values[0] - values[1]).abs() < 1e-12);
         assert!((values[0] - 1.0).abs() < 0.05, "smoothed crest {}", values[0]);
-    }
-
-    #[test]
-    fn fields_keep_their_names_on_a_grid_and_whole_numbers_have_none() {
-        let (points, volumes) = unit_square(10);
-        let samples = Samples { points: &points, volumes: &volumes, smoothing_length: 0.15, period: [None, None] };
-        let lattice = Lattice::open(Vec2::repeat(0.2), Vec2::repeat(0.1), [3, 4]);
-        let stencils = Stencils::new(&samples, &lattice.nodes());
-        let pressure = Field { name: "pressure", unit: "Pa", values: Values::Scalar(Cow::Borrowed(&volumes)) };
-        let phase = Field { name: "phase", unit: "", values: Values::Integer(Cow::Owned(vec![0; points.len()])) };
-        let grid = lattice.grid([pressure, phase].iter().filter_map(|field| stencils.field(field)).collect());
-        assert_eq!((grid.counts, grid.fields.len(), grid.fields[0].name), ([3, 4], 1, "pressure"));
-        assert!(matches!(&grid.fields[0].values, Values::Scalar(values) if values.len() == 12));
     }
 
     #[test]

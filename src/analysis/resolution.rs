@@ -17,8 +17,7 @@ const REACH: f64 = 2.2;
 /// For each particle whether its phase is thinner there than about three particles.
 ///
 /// `points` in m, `is_wetting` the phase of each, `spacing` in m, `period` in m.
-#[must_use]
-pub fn thin_parts(points: &[Vec2], is_wetting: &[bool], spacing: f64, period: [Option<f64>; 2]) -> Vec<bool> {
+pub(crate) fn thin_parts(points: &[Vec2], is_wetting: &[bool], spacing: f64, period: [Option<f64>; 2]) -> Vec<bool> {
     let cells = Cells::new(points, REACH * spacing, period);
     let all_near = |a: usize, reach: f64, holds: &dyn Fn(usize) -> bool| {
         let mut all = true;

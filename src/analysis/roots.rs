@@ -3,7 +3,7 @@
 /// The root in m, rad or whatever `function` takes, in `[low, high]`; nothing where the signs at the ends are alike.
 ///
 /// Goes on until the interval is as small as rounding allows.
-pub fn bisect(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
+pub(crate) fn bisect(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
     let (mut low, mut high) = (low, high);
     let at_low = function(low);
     let at_high = function(high);

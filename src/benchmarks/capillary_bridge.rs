@@ -6,7 +6,7 @@ use crate::solver::Measure;
 use crate::sph::measures::{DiscOf, Group, Subject, measure};
 
 /// Measures of its table `[sph.measure.capillary-bridge]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 fn measures(s: &Subject) -> Vec<Measure> {
     let [a, b, ..] = s.discs else { return vec![] };

@@ -9,7 +9,7 @@ use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 
 /// Columns and measures of its table `[sph.measure.capillary-rise]`.
-pub const GROUP: Group = Group { columns, ..Group::of(measures) };
+pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// `apex_m`: distance of the nearest point of the interface from the side that the wetting phase comes in through.
 fn columns(flow: &Flow, seen: &Observation) -> Columns {

@@ -13,25 +13,24 @@ use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 
 /// Columns and measures of its table `[sph.measure.capillary-wave]`.
-pub const GROUP: Group = Group { columns, ..Group::of(measures) };
+pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// A standing wave on the flat interface of two equal fluids.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CapillaryWave {
+pub(crate) struct CapillaryWave {
     /// Length of the wave in m.
-    pub length: f64,
+    pub(crate) length: f64,
     /// Interfacial tension in N/m.
-    pub tension: f64,
+    pub(crate) tension: f64,
     /// Density of either fluid in kg/m³.
-    pub density: f64,
+    pub(crate) density: f64,
     /// Dynamic viscosity of either fluid in Pa s.
-    pub viscosity: f64,
+    pub(crate) viscosity: f64,
 }
 
 impl CapillaryWave {
     /// Inviscid angular frequency in 1/s: sqrt(sigma k³/(2 rho)).
-    #[must_use]
-    pub fn frequency(&self) -> f64 {
+    pub(crate) fn frequency(&self) -> f64 {
         let k = TAU / self.length;
         (self.tension * k.powi(3) / (2.0 * self.density)).sqrt()
     }
@@ -39,8 +38,7 @@ impl CapillaryWave {
     /// Amplitude at `time` (s) over that at time zero, from rest [Prosperetti1981 for equal fluids].
     ///
     /// Its Laplace transform is 1/(s + w² (1 - k/sqrt(k² + s/nu))/s).
-    #[must_use]
-    pub fn amplitude(&self, time: f64) -> f64 {
+    pub(crate) fn amplitude(&self, time: f64) -> f64 {
         if time <= 0.0 {
             return 1.0;
         }

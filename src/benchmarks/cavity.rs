@@ -7,7 +7,7 @@ use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::observe::fluid_samples;
 
 /// Measures of its table `[sph.measure.cavity]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Points on a center line: much closer than particles, so that the extremum is met.
 const POINTS: usize = 400;

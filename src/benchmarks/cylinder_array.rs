@@ -6,7 +6,7 @@ use crate::solver::Measure;
 use crate::sph::measures::{Group, Subject, measure};
 
 /// Measures of its table `[sph.measure.cylinder-array]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, m) = (s.flow, &s.flow.setting.method);

@@ -4,13 +4,13 @@ use nalgebra::{Matrix5, Vector5};
 
 /// A fitted oscillation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DampedFit {
+pub(crate) struct DampedFit {
     /// Angular frequency w in 1/s.
-    pub frequency: f64,
+    pub(crate) frequency: f64,
     /// Rate of decay b in 1/s.
-    pub decay: f64,
+    pub(crate) decay: f64,
     /// Standard errors of both in 1/s, values counted as independent.
-    pub errors: [f64; 2],
+    pub(crate) errors: [f64; 2],
 }
 
 /// Values per unknown below which there is no fit.
@@ -18,8 +18,7 @@ const LEAST_VALUES: usize = 15;
 
 /// Fits `values` at `times` (s), the frequency near `frequency` (1/s); nothing where there are fewer than three values per
 /// unknown or the iteration does not settle.
-#[must_use]
-pub fn fit(times: &[f64], values: &[f64], frequency: f64) -> Option<DampedFit> {
+pub(crate) fn fit(times: &[f64], values: &[f64], frequency: f64) -> Option<DampedFit> {
     let first = *times.first()?;
     if times.len() < LEAST_VALUES || !values.iter().all(|v| v.is_finite()) {
         return None;

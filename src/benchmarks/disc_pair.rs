@@ -23,7 +23,6 @@ impl DiscPair {
     }
 
     /// Curvature in 1/m of the meniscus with contact points at `b` (rad), p_n - p_w over the tension.
-    #[must_use]
     pub fn curvature(&self, b: f64) -> f64 {
         (self.angle + b).cos() / self.half_chord(b)
     }
@@ -44,16 +43,14 @@ impl DiscPair {
     }
 
     /// Area in m² of the liquid between four such discs at (+-(R+d), +-(R+d)) with contact points at `b` (rad).
-    #[must_use]
-    pub fn area_between_four(&self, b: f64) -> f64 {
+    pub(crate) fn area_between_four(&self, b: f64) -> f64 {
         4.0 * (self.radius + self.half_gap).powi(2) - PI * self.radius.powi(2) + 4.0 * (self.strip(b) - self.segment(b))
     }
 
     /// The liquid of `area` (m²) between four discs; nothing where it is less or more than the discs can hold.
     ///
     /// Searched outward of the largest curvature, where the state is stable for a given area.
-    #[must_use]
-    pub fn liquid_between_four(&self, area: f64) -> Option<FourDiscs> {
+    pub(crate) fn liquid_between_four(&self, area: f64) -> Option<FourDiscs> {
         let inner = self.angle_of_largest_curvature();
         let outer = FRAC_PI_2.min(PI - self.angle) - 1e-6;
         let contact = bisect(|b| self.area_between_four(b) - area, inner, outer)?;
@@ -68,8 +65,7 @@ impl DiscPair {
     }
 
     /// The bridge of `area` (m²) between two such discs; nothing where none fits.
-    #[must_use]
-    pub fn bridge(&self, area: f64) -> Option<Bridge> {
+    pub(crate) fn bridge(&self, area: f64) -> Option<Bridge> {
         let covered = |b: f64| 2.0 * (self.strip(b) - self.segment(b));
         // The first root outward of the touching menisci is the bridge; where the area starts above, there is none.
         let outer = FRAC_PI_2.min(PI - self.angle) - 1e-6;
@@ -84,29 +80,28 @@ impl DiscPair {
 
 /// Liquid between four discs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FourDiscs {
+pub(crate) struct FourDiscs {
     /// Contact point in rad, outward from the line of centers.
-    pub contact: f64,
+    pub(crate) contact: f64,
     /// Curvature of the menisci in 1/m, p_n - p_w over the tension.
-    pub curvature: f64,
+    pub(crate) curvature: f64,
 }
 
 /// A bridge between two discs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bridge {
+pub(crate) struct Bridge {
     /// Filling angle in rad.
-    pub filling: f64,
+    pub(crate) filling: f64,
     /// p_n - p_w over the tension in 1/m.
-    pub curvature: f64,
+    pub(crate) curvature: f64,
     /// Half of the width of the neck in m.
-    pub half_neck: f64,
+    pub(crate) half_neck: f64,
     /// Attraction of the discs over the tension (a force per depth over N/m: a pure number).
-    pub force: f64,
+    pub(crate) force: f64,
 }
 
 /// The first disc and the one nearest to it as a pair with the requested contact angle; none where their radii differ or nothing wets them.
-#[must_use]
-pub fn disc_pair(s: &Subject) -> Option<DiscPair> {
+pub(crate) fn disc_pair(s: &Subject) -> Option<DiscPair> {
     let [a, rest @ ..] = s.discs else { return None };
     let distance = |b: &&DiscOf| (b.center - a.center).norm();
     let b = rest.iter().min_by(|b, c| distance(b).total_cmp(&distance(c)))?;

@@ -8,22 +8,21 @@ use crate::solver::Measure;
 use crate::sph::measures::{Group, Subject, measure};
 
 /// Measures of its table `[sph.measure.drop-on-disc]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 /// A drop on a disc without gravity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DropOnDisc {
+pub(crate) struct DropOnDisc {
     /// Half of the angle in rad under which the disc's center sees the wetted part of the disc.
-    pub half_angle: f64,
+    pub(crate) half_angle: f64,
     /// Height over the disc in m.
-    pub height: f64,
+    pub(crate) height: f64,
 }
 
 /// The drop of `area` (m²) with the contact `angle` (rad) on a disc of `disc_radius` (m); nothing where none fits.
 ///
 /// Centers at c² = R² + r² - 2 R r cos theta; the area is that of the drop's circle less its overlap with the disc.
-#[must_use]
-pub fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<DropOnDisc> {
+pub(crate) fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<DropOnDisc> {
     let distance = |r: f64| (disc_radius.powi(2) + r * r - 2.0 * disc_radius * r * angle.cos()).sqrt();
     let half_angle = |r: f64| {
         let c = distance(r);

@@ -53,7 +53,7 @@ impl Balance {
 }
 
 /// Warns where the forces on the drop do not balance.
-pub fn warnings(s: &Subject) -> Vec<String> {
+pub(crate) fn warnings(s: &Subject) -> Vec<String> {
     let error = Balance::of(s).error();
     let told = (error.abs() > LARGEST_ERROR).then(|| {
         format!(
@@ -65,7 +65,7 @@ pub fn warnings(s: &Subject) -> Vec<String> {
 }
 
 /// The angles at the wall and the balance of the forces along it.
-pub fn measures(s: &Subject) -> Vec<Measure> {
+pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let (tension, series) = (s.flow.setting.method.tension, s.series);
     let balance = Balance::of(s);
     let (seen, at_wall, drag) = (balance.retention, balance.wall_retention, balance.net_drag);

@@ -5,7 +5,7 @@ use crate::solver::Measure;
 use crate::sph::measures::{Group, Subject, measure};
 
 /// Measures of its table `[sph.measure.four-discs]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 fn measures(s: &Subject) -> Vec<Measure> {
     let found: Vec<f64> = s.seen.lines_with_angle().map(|line| line.curvature).collect();

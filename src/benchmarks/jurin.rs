@@ -5,11 +5,10 @@ use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::particles::Phase;
 
 /// Measures of its table `[sph.measure.jurin]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Mean height in m of rise between plates `width` (m) apart: 2 l_c² cos theta/w, exact for the mean (Jurin).
-#[must_use]
-pub fn jurin_mean_height(width: f64, capillary_length: f64, angle: f64) -> f64 {
+pub(crate) fn jurin_mean_height(width: f64, capillary_length: f64, angle: f64) -> f64 {
     2.0 * capillary_length.powi(2) * angle.cos() / width
 }
 

@@ -9,7 +9,7 @@ use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::observe::sharp_color;
 
 /// Measures of its table `[sph.measure.laplace-drop]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 /// The parasitic current is the largest speed in this last share of the run.
 const LAST: f64 = 0.1;

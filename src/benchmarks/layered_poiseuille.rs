@@ -5,17 +5,17 @@ use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::particles::Phase;
 
 /// Measures of its table `[sph.measure.layered-poiseuille]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Two layers between plates at y = 0 and y = H, driven by a force per volume; layer 1 lies below.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LayeredPoiseuille {
+pub(crate) struct LayeredPoiseuille {
     /// Driving force per volume in N/m³.
-    pub force: f64,
+    pub(crate) force: f64,
     /// Thicknesses in m.
-    pub heights: [f64; 2],
+    pub(crate) heights: [f64; 2],
     /// Dynamic viscosities in Pa s.
-    pub viscosities: [f64; 2],
+    pub(crate) viscosities: [f64; 2],
 }
 
 impl LayeredPoiseuille {
@@ -27,16 +27,14 @@ impl LayeredPoiseuille {
     }
 
     /// Velocity in m/s at `y` (m).
-    #[must_use]
-    pub fn velocity(&self, y: f64) -> f64 {
+    pub(crate) fn velocity(&self, y: f64) -> f64 {
         let ([h1, _], [m1, m2]) = (self.heights, self.viscosities);
         let momentum = |y: f64| self.wall_stress() * y - 0.5 * self.force * y * y;
         if y <= h1 { momentum(y) / m1 } else { momentum(h1) / m1 + (momentum(y) - momentum(h1)) / m2 }
     }
 
     /// Flow rates of the two layers in m²/s.
-    #[must_use]
-    pub fn flow_rates(&self) -> [f64; 2] {
+    pub(crate) fn flow_rates(&self) -> [f64; 2] {
         let [h1, h2] = self.heights;
         // Simpson's rule is exact for parabolas.
         let rate = |from: f64, thickness: f64| {

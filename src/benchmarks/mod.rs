@@ -41,7 +41,6 @@ use crate::case::MeasureSet;
 use crate::sph::measures::Group;
 
 /// The groups of measures that a case asks for.
-#[must_use]
 pub fn asked_for(set: &MeasureSet) -> Vec<Group> {
     let all = [
         (set.sessile_drop, sessile_drop::GROUP),

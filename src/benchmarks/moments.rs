@@ -8,17 +8,16 @@ use crate::sph::particles::Phase;
 
 /// Moments of an area.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moments {
+pub(crate) struct Moments {
     /// Center in m.
-    pub center: Vec2,
+    pub(crate) center: Vec2,
     /// Mean of (x - center)(x - center)ᵀ in m².
-    pub second: Mat2,
+    pub(crate) second: Mat2,
 }
 
 impl Moments {
     /// Of `points` (m), each of the same area; NaN of nothing.
-    #[must_use]
-    pub fn of(points: &[Vec2]) -> Self {
+    pub(crate) fn of(points: &[Vec2]) -> Self {
         let count = points.len() as f64;
         let center = points.iter().sum::<Vec2>() / count;
         let second = points.iter().map(|x| (x - center) * (x - center).transpose()).sum::<Mat2>() / count;
@@ -26,20 +25,17 @@ impl Moments {
     }
 
     /// Of the wetting phase of a flow.
-    #[must_use]
-    pub fn of_wetting_phase(flow: &Flow) -> Self {
+    pub(crate) fn of_wetting_phase(flow: &Flow) -> Self {
         Self::of(&wetting_points(flow))
     }
 
     /// (L_x - L_y)/(L_x + L_y) with the lengths along x and y of the ellipse that has these moments.
-    #[must_use]
-    pub fn elongation(&self) -> f64 {
+    pub(crate) fn elongation(&self) -> f64 {
         relative_difference(self.second[(0, 0)].sqrt(), self.second[(1, 1)].sqrt())
     }
 
     /// (L - B)/(L + B) with length and breadth of the ellipse that has these moments, along its own axes.
-    #[must_use]
-    pub fn deformation(&self) -> f64 {
+    pub(crate) fn deformation(&self) -> f64 {
         let axes = self.second.symmetric_eigenvalues();
         relative_difference(axes.max().max(0.0).sqrt(), axes.min().max(0.0).sqrt())
     }

@@ -29,7 +29,7 @@ const SAME_LINE: f64 = 6.0;
 const DRIVEN: f64 = 1e-3;
 
 /// Columns and measures of its table `[sph.measure.moving-drop]`.
-pub const GROUP: Group = Group { columns, measures, warnings: force_balance::warnings };
+pub(crate) const GROUP: Group = Group { columns, measures, warnings: force_balance::warnings };
 
 /// The lines that go ahead and those that follow, as means.
 struct Ends {

@@ -16,19 +16,19 @@ use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 
 /// Columns and measures of its table `[sph.measure.oscillating-drop]`.
-pub const GROUP: Group = Group { columns, ..Group::of(measures) };
+pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// A free drop in a fluid of equal density and viscosity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OscillatingDrop {
+pub(crate) struct OscillatingDrop {
     /// Radius at rest in m.
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// Interfacial tension in N/m.
-    pub tension: f64,
+    pub(crate) tension: f64,
     /// Density of either fluid in kg/m³.
-    pub density: f64,
+    pub(crate) density: f64,
     /// Dynamic viscosity of either fluid in Pa s.
-    pub viscosity: f64,
+    pub(crate) viscosity: f64,
 }
 
 /// The elliptic mode, n = 2.
@@ -36,8 +36,7 @@ const N: f64 = 2.0;
 
 impl OscillatingDrop {
     /// Inviscid angular frequency of the elliptic mode in 1/s: sqrt(3 sigma/(rho R³)).
-    #[must_use]
-    pub fn frequency(&self) -> f64 {
+    pub(crate) fn frequency(&self) -> f64 {
         (self.tension * N * (N * N - 1.0) / (2.0 * self.density * self.radius.powi(3))).sqrt()
     }
 
@@ -50,8 +49,7 @@ impl OscillatingDrop {
     /// Elongation at `time` (s) over that at time zero, from rest: the elliptic mode and the vorticity that spreads.
     ///
     /// Its Laplace transform is 1/(s + w0² (1 - 2 n I_n K_n)/s).
-    #[must_use]
-    pub fn elongation(&self, time: f64) -> f64 {
+    pub(crate) fn elongation(&self, time: f64) -> f64 {
         if time <= 0.0 { 1.0 } else { inverse_laplace(|s| (s + self.stiffness(s) / s).inv(), time) }
     }
 }

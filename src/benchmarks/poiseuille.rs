@@ -10,21 +10,21 @@ use crate::sph::measures::{Group, Subject, measure};
 use crate::sph::open::{Drive, OpenSide};
 
 /// Measures of its table `[sph.measure.poiseuille]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Flow between plates at y = 0 and y = H, driven by a body force per volume.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Poiseuille {
+pub(crate) struct Poiseuille {
     /// Driving force per volume G in N/m³.
-    pub force: f64,
+    pub(crate) force: f64,
     /// Dynamic viscosity in Pa s.
-    pub viscosity: f64,
+    pub(crate) viscosity: f64,
     /// Density in kg/m³, for the start-up.
-    pub density: f64,
+    pub(crate) density: f64,
     /// Distance of the plates H in m.
-    pub height: f64,
+    pub(crate) height: f64,
     /// Navier's slip length b of the plates in m, at least 0.
-    pub slip_length: f64,
+    pub(crate) slip_length: f64,
 }
 
 /// Terms of the start-up series: the last is below 1e-7 of the first, at time zero.
@@ -32,8 +32,7 @@ const SERIES_TERMS: usize = 200;
 
 impl Poiseuille {
     /// Final velocity in m/s at `y` (m): G (y (H - y) + H b)/(2 mu).
-    #[must_use]
-    pub fn steady(&self, y: f64) -> f64 {
+    pub(crate) fn steady(&self, y: f64) -> f64 {
         let height = self.height;
         self.force * (y * (height - y) + height * self.slip_length) / (2.0 * self.viscosity)
     }
@@ -42,8 +41,7 @@ impl Poiseuille {
     ///
     /// The steady flow less Σ c cos(k (y − H/2)) exp(−ν k² t), where b k tan(kH/2) = 1, as Navier's condition asks for, and
     /// c = (G/(μ k²)) (2 sin(kH/2)/k)/(H/2 + sin(kH)/(2k)).
-    #[must_use]
-    pub fn at(&self, y: f64, time: f64) -> f64 {
+    pub(crate) fn at(&self, y: f64, time: f64) -> f64 {
         let (height, nu) = (self.height, self.viscosity / self.density);
         let term = |n: usize| {
             let half = self.half_wave(n);

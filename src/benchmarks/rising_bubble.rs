@@ -13,7 +13,7 @@ use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
 
 /// Columns and measures of its table `[sph.measure.rising-bubble]`.
-pub const GROUP: Group = Group { columns, ..Group::of(measures) };
+pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// Height of the center, mean speed against gravity, and circularity.
 fn columns(flow: &Flow, seen: &Observation) -> Columns {

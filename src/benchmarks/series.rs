@@ -3,27 +3,25 @@
 use crate::solver::Series;
 
 /// The values of two columns of the series, row by row.
-#[must_use]
-pub fn pairs(series: &Series, column: &str) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn pairs(series: &Series, column: &str) -> (Vec<f64>, Vec<f64>) {
     series.column("time_s").zip(series.column(column)).unzip()
 }
 
 /// A largest or smallest value between records.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extremum {
+pub(crate) struct Extremum {
     /// Time in s.
-    pub time: f64,
+    pub(crate) time: f64,
     /// The value, in the unit of the column.
-    pub value: f64,
+    pub(crate) value: f64,
     /// Standard uncertainty of the value: what the parabola changes.
-    pub value_error: f64,
+    pub(crate) value_error: f64,
     /// Standard uncertainty of the time in s: half of the interval of the records over √3.
-    pub time_error: f64,
+    pub(crate) time_error: f64,
 }
 
 /// The vertex of the parabola through the record `row` and its neighbors, where `row` is the largest or smallest of the three; else the record.
-#[must_use]
-pub fn extremum(times: &[f64], values: &[f64], row: usize) -> Extremum {
+pub(crate) fn extremum(times: &[f64], values: &[f64], row: usize) -> Extremum {
     let at = |row: usize| Some((*times.get(row)?, *values.get(row)?));
     let (time, value) = at(row).unwrap_or((f64::NAN, f64::NAN));
     let vertex = || {
@@ -44,11 +42,10 @@ pub fn extremum(times: &[f64], values: &[f64], row: usize) -> Extremum {
 }
 
 /// The last part of the time that means are taken over.
-pub const LAST_QUARTER: f64 = 0.25;
+pub(crate) const LAST_QUARTER: f64 = 0.25;
 
 /// Mean and standard deviation of a column over the last part of the records, where it has values.
-#[must_use]
-pub fn last_mean(series: &Series, column: &str) -> (f64, f64) {
+pub(crate) fn last_mean(series: &Series, column: &str) -> (f64, f64) {
     let values: Vec<f64> = last(series, column, LAST_QUARTER).into_iter().map(|(_, value)| value).collect();
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
@@ -56,8 +53,7 @@ pub fn last_mean(series: &Series, column: &str) -> (f64, f64) {
 }
 
 /// Times in s and values of a column over the last `part` of the time.
-#[must_use]
-pub fn last(series: &Series, column: &str, part: f64) -> Vec<(f64, f64)> {
+pub(crate) fn last(series: &Series, column: &str, part: f64) -> Vec<(f64, f64)> {
     let end = series.column("time_s").last().unwrap_or(f64::NAN);
     let all = series.column("time_s").zip(series.column(column));
     all.filter(|(time, value)| *time >= (1.0 - part) * end && value.is_finite()).collect()

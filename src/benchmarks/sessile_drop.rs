@@ -16,20 +16,20 @@ use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 
 /// Columns and measures of its table `[sph.measure.sessile-drop]`.
-pub const GROUP: Group = Group { columns, ..Group::of(measures) };
+pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 const BASE: &str = "base_m";
 const HEIGHT: &str = "height_m";
 
 /// A point of a meniscus under gravity, the apex at the origin and z downward.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ProfilePoint {
+pub(crate) struct ProfilePoint {
     /// Horizontal distance from the apex in m.
-    pub x: f64,
+    pub(crate) x: f64,
     /// Depth below the apex in m.
-    pub z: f64,
+    pub(crate) z: f64,
     /// Area in m² between the apex and here, on one side.
-    pub area: f64,
+    pub(crate) area: f64,
 }
 
 /// Steps turn by no more than this (rad), and are no longer than this part of the capillary length: the error of the
@@ -41,8 +41,7 @@ const MOST_STEPS: usize = 200_000;
 /// The profile from the apex to the inclination `last` (rad).
 ///
 /// `apex_curvature` in 1/m, above 0; `capillary_length` in m. Empty where the inclination is not reached.
-#[must_use]
-pub fn profile(apex_curvature: f64, capillary_length: f64, last: f64) -> Vec<ProfilePoint> {
+pub(crate) fn profile(apex_curvature: f64, capillary_length: f64, last: f64) -> Vec<ProfilePoint> {
     let stiffness = capillary_length.powi(-2);
     // State: x, z, inclination and the area, of which x dz is added.
     let slope = |[x, z, phi, _]: [f64; 4]| [phi.cos(), phi.sin(), apex_curvature + stiffness * z, x * phi.sin()];
@@ -75,11 +74,11 @@ pub fn profile(apex_curvature: f64, capillary_length: f64, last: f64) -> Vec<Pro
 
 /// A drop on a flat floor under gravity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SessileDrop {
+pub(crate) struct SessileDrop {
     /// Length of the wetted floor in m.
-    pub base: f64,
+    pub(crate) base: f64,
     /// Height in m.
-    pub height: f64,
+    pub(crate) height: f64,
 }
 
 /// The drop that ends at the contact angle, with its area in m².
@@ -90,8 +89,7 @@ fn drop_from(apex_curvature: f64, capillary_length: f64, angle: f64) -> Option<(
 }
 
 /// The drop of `area` (m²) with the contact `angle` (rad) under gravity of the `capillary_length` (m).
-#[must_use]
-pub fn sessile_drop(area: f64, capillary_length: f64, angle: f64) -> Option<SessileDrop> {
+pub(crate) fn sessile_drop(area: f64, capillary_length: f64, angle: f64) -> Option<SessileDrop> {
     // Without gravity the cap's curvature; gravity flattens the apex, for puddles by many orders of magnitude.
     let cap = ((angle - angle.sin() * angle.cos()) / area).sqrt();
     let excess = |logarithm: f64| {

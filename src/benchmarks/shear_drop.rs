@@ -6,7 +6,7 @@ use crate::solver::Measure;
 use crate::sph::measures::{Group, Subject, measure};
 
 /// Columns and measures of its table `[sph.measure.shear-drop]`.
-pub const GROUP: Group = Group { columns, ..Group::of(measures) };
+pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// Deformation of a drop between walls that move against each other.
 fn measures(s: &Subject) -> Vec<Measure> {

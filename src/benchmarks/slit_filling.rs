@@ -10,23 +10,23 @@ use crate::sph::open::OpenSide;
 use crate::sph::particles::Phase;
 
 /// Columns and measures of its table `[sph.measure.slit-filling]`.
-pub const GROUP: Group = Group { columns, ..Group::of(measures) };
+pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// A slit with a wetting liquid behind its meniscus and another fluid before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SlitFilling {
+pub(crate) struct SlitFilling {
     /// Distance of the plates w in m.
-    pub width: f64,
+    pub(crate) width: f64,
     /// Length of the slit L in m.
-    pub length: f64,
+    pub(crate) length: f64,
     /// What drives in Pa: capillary pressure 2 σ cos θ/w and the pressure of the entry less that of the exit.
-    pub pressure: f64,
+    pub(crate) pressure: f64,
     /// Densities of liquid and other fluid in kg/m³.
-    pub densities: [f64; 2],
+    pub(crate) densities: [f64; 2],
     /// Dynamic viscosities of liquid and other fluid in Pa s.
-    pub viscosities: [f64; 2],
+    pub(crate) viscosities: [f64; 2],
     /// Body force per mass along the slit inwards in m/s².
-    pub gravity: f64,
+    pub(crate) gravity: f64,
 }
 
 /// Steps between two times asked for: second order, so that the error is some 1e-8 of the length.
@@ -44,8 +44,7 @@ impl SlitFilling {
     }
 
     /// Filled lengths in m at rising `times` (s), from rest at `start` (m) at time zero.
-    #[must_use]
-    pub fn lengths(&self, start: f64, times: &[f64]) -> Vec<f64> {
+    pub(crate) fn lengths(&self, start: f64, times: &[f64]) -> Vec<f64> {
         let (mut t, mut x, mut v) = (0.0, start, 0.0);
         times
             .iter()

@@ -6,7 +6,7 @@ use crate::sph::measures::{Columns, Group, Subject, measure};
 use crate::sph::observe::Observation;
 
 /// Columns and measures of its table `[sph.measure.spreading]`.
-pub const GROUP: Group = Group { columns, ..Group::of(measures) };
+pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// Distance in m of the two contact points.
 fn columns(_: &Flow, seen: &Observation) -> Columns {

@@ -6,11 +6,10 @@ use crate::solver::Measure;
 use crate::sph::measures::{Group, Subject, measure};
 
 /// Measures of its table `[sph.measure.taylor-green]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Speed of a Taylor-Green vortex of period `length` (m) over its initial speed: exp(-8 pi² nu t/L²).
-#[must_use]
-pub fn taylor_green_decay(kinematic_viscosity: f64, length: f64, time: f64) -> f64 {
+pub(crate) fn taylor_green_decay(kinematic_viscosity: f64, length: f64, time: f64) -> f64 {
     (-8.0 * PI * PI * kinematic_viscosity * time / (length * length)).exp()
 }
 

@@ -7,14 +7,13 @@ use crate::solver::Measure;
 use crate::sph::measures::{Group, Subject, measure};
 
 /// Measures of its table `[sph.measure.throat-entry]`.
-pub const GROUP: Group = Group::of(measures);
+pub(crate) const GROUP: Group = Group::of(measures);
 
 /// Entry curvature p_c*/sigma in 1/m of the throat between two discs with `radii` (m) and centers `distance` (m) apart.
 ///
 /// 1/r* with sqrt(R1² + r² + 2 R1 r cos theta) + sqrt(R2² + r² + 2 R2 r cos theta) = L, `angle` (rad) below 90 degrees
 /// or not far above. Nothing where the discs overlap or no such arc exists.
-#[must_use]
-pub fn entry_curvature(radii: [f64; 2], distance: f64, angle: f64) -> Option<f64> {
+pub(crate) fn entry_curvature(radii: [f64; 2], distance: f64, angle: f64) -> Option<f64> {
     let reach = |r: f64| radii.iter().map(|big| (big * big + r * r + 2.0 * big * r * angle.cos()).sqrt()).sum::<f64>();
     let r = bisect(|r| reach(r) - distance, 1e-12 * distance, 10.0 * distance)?;
     Some(1.0 / r)

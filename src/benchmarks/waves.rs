@@ -12,8 +12,7 @@ use nalgebra::Complex;
 const NODES: usize = 40;
 
 /// A function of time from its Laplace transform, at `time` (s) above 0 (fixed Talbot contour, Abate & Valkó 2004).
-#[must_use]
-pub fn inverse_laplace(transform: impl Fn(Complex<f64>) -> Complex<f64>, time: f64) -> f64 {
+pub(crate) fn inverse_laplace(transform: impl Fn(Complex<f64>) -> Complex<f64>, time: f64) -> f64 {
     let r = 2.0 * NODES as f64 / (5.0 * time);
     let first = 0.5 * (transform(Complex::new(r, 0.0)).re * (r * time).exp());
     let node = |k: usize| {

@@ -12,7 +12,7 @@ use crate::input::tables::{Key, tables};
 
 tables! {
     /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.
-    pub struct RawCase {
+    pub(crate) struct RawCase {
         /// Version of the format: 1.
         pub format: u32 => Key::required("format = 1"),
         /// One line that describes the case.

@@ -7,7 +7,7 @@ use crate::input::Problem;
 use crate::math::Vec2;
 
 /// Fewest particles across a throat: below, the kernels of both walls cover all of it.
-pub const FEWEST_IN_THROAT: f64 = 5.0;
+pub(crate) const FEWEST_IN_THROAT: f64 = 5.0;
 
 /// Most points along a side of the domain at which an initial shape is looked for.
 const MOST_SAMPLES: f64 = 2000.0;
@@ -29,7 +29,6 @@ impl std::fmt::Debug for Facts<'_> {
 }
 
 /// What is wrong with a case on its real geometry.
-#[must_use]
 pub fn check_against(case: &Case, facts: &Facts) -> Vec<Problem> {
     let Model::Sph(sph) = &case.model else { return Vec::new() };
     let mut problems: Vec<Problem> = throat(sph, facts).into_iter().collect();

@@ -53,7 +53,7 @@ pub struct Fluid {
 
 impl RawFluid {
     /// The properties of the preset, where there is one.
-    pub fn properties(&self) -> Option<Properties> {
+    pub(crate) fn properties(&self) -> Option<Properties> {
         self.preset.map(|preset| preset.at(self.temperature_c.unwrap_or(COLD)))
     }
 }

@@ -13,7 +13,7 @@ use crate::math::Vec2;
 
 tables! {
     /// The state at time zero.
-    pub struct RawInitial {
+    pub(crate) struct RawInitial {
         /// Phase outside of the shapes (default `non-wetting`).
         pub background: FluidPhase,
         /// Shapes filled with the phase that is not the background; each holds a particle of the pore (required with
@@ -26,7 +26,7 @@ tables! {
     }
 
     /// Initial velocity fields; exactly one of them.
-    pub struct RawVelocity {
+    pub(crate) struct RawVelocity {
         /// No motion.
         pub rest: Empty,
         /// Uniform velocity in m/s.
@@ -36,7 +36,7 @@ tables! {
     }
 
     /// Taylor-Green vortices.
-    pub struct RawTaylorGreen {
+    pub(crate) struct RawTaylorGreen {
         /// Largest speed in m/s.
         pub speed: f64 => Key::positive("a speed in m/s").example("speed = 1.0 # m/s"),
     }

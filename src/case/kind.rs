@@ -6,8 +6,7 @@ use crate::input::Problem;
 const TABLES: [&str; 4] = ["geometry", "sph", "thin-film", "network"];
 
 /// Whether a text is a case file rather than a shape file. A text that is no TOML counts as what its table headers look like.
-#[must_use]
-pub fn is_case(text: &str) -> bool {
+pub(crate) fn is_case(text: &str) -> bool {
     match text.trim_start_matches('\u{feff}').parse::<toml::Table>() {
         Ok(table) => TABLES.iter().any(|name| table.contains_key(*name)),
         Err(_) => text.lines().any(|line| {

@@ -24,7 +24,7 @@ macro_rules! groups {
     ($(#[doc = $doc:literal] pub $group:ident: [$($name:literal),*],)*) => {
         tables! {
             /// Groups of measures.
-            pub struct RawMeasures { $(#[doc = $doc] pub $group: Empty,)* }
+            pub(crate) struct RawMeasures { $(#[doc = $doc] pub $group: Empty,)* }
         }
 
         /// Named groups of measures a case can ask for; each is a table `[sph.measure.NAME]`.

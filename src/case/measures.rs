@@ -119,7 +119,6 @@ const COMPARISON: &[&str] = &[
 
 /// All measures that the solver of a model knows, those that the case does not have among them; `geometry` is missing where it was wrong,
 /// `is_steady` where the case has `[time.steady]`.
-#[must_use]
 pub fn offers(model: &Model, geometry: Option<&GeometrySpec>, is_steady: bool) -> Vec<Offer> {
     let steady = Offer::new(STEADY, "[time.steady]", is_steady);
     match model {
@@ -138,7 +137,6 @@ pub fn offers(model: &Model, geometry: Option<&GeometrySpec>, is_steady: bool) -
 }
 
 /// The measures of a comparison of a direct simulation with a network.
-#[must_use]
 pub fn offer_of_comparison() -> Offer {
     Offer::new(COMPARISON, "[compare] in a study", true)
 }
@@ -212,8 +210,7 @@ fn of_film(film: &ThinFilm) -> [Offer; 7] {
 }
 
 /// What is wrong with the name of a measure that the case does not have, and a way out; none where the case has it.
-#[must_use]
-pub fn unmeasured(name: &str, offers: &[Offer]) -> Option<(String, String)> {
+pub(crate) fn unmeasured(name: &str, offers: &[Offer]) -> Option<(String, String)> {
     let with_name = || offers.iter().filter(|offer| offer.names.contains(&name));
     if with_name().any(|offer| offer.is_given) {
         return None;

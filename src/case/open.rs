@@ -7,7 +7,7 @@ use crate::input::tables::{Key, checked_tables, tables, words};
 
 tables! {
     /// The open sides: a table for each side that fluid passes through.
-    pub struct RawOpenSides {
+    pub(crate) struct RawOpenSides {
         /// Flow through the side.
         pub left: RawOpenSide,
         /// Flow through the side.
@@ -19,7 +19,7 @@ tables! {
     }
 
     /// An inlet, an outlet, or a periodic side with a given flow; one of pressure, velocity and flow rate.
-    pub struct RawOpenSide {
+    pub(crate) struct RawOpenSide {
         /// Dirichlet pressure in Pa, in the phase that enters (default 0 at an outlet).
         pub pressure: f64,
         /// A pressure that rises in equal steps.

@@ -5,7 +5,7 @@ use crate::input::tables::{Key, tables, words};
 
 tables! {
     /// How long the simulation runs.
-    pub struct RawTime {
+    pub(crate) struct RawTime {
         /// End of the simulation in s; with `steady` the latest end.
         pub end: f64 => Key::within("an end time in s", 1.0e-15, 1.0e9).example("end = 0.01 # s"),
         /// Ends a run of `[sph]` when it is steady.
@@ -13,7 +13,7 @@ tables! {
     }
 
     /// What is written and when.
-    pub struct RawOutput {
+    pub(crate) struct RawOutput {
         /// Particles, grid and interface; of a network, menisci and regions (default: 50 records).
         pub vtk: RawVtk,
         /// Rows of `series.csv` (default: 200 records).
@@ -25,7 +25,7 @@ tables! {
     }
 
     /// Files for ParaView.
-    pub struct RawVtk {
+    pub(crate) struct RawVtk {
         /// Time between records in s.
         pub every_time: f64 => Key::positive("a time in s"),
         /// Displaced pore volumes between records.
@@ -35,7 +35,7 @@ tables! {
     }
 
     /// A schedule.
-    pub struct RawEvery {
+    pub(crate) struct RawEvery {
         /// Time between records in s.
         pub every_time: f64 => Key::positive("a time in s"),
         /// Displaced pore volumes between records.
@@ -43,13 +43,13 @@ tables! {
     }
 
     /// The regular grid of the output.
-    pub struct RawGrid {
+    pub(crate) struct RawGrid {
         /// Distance of grid nodes over particle spacing; at most the shorter side of the domain, and 2e7 nodes (default 1).
         pub ratio: f64 => Key::within("grid distance over particle spacing", 0.25, 100.0),
     }
 
     /// A measure that must come out as said.
-    pub struct RawExpectation {
+    pub(crate) struct RawExpectation {
         /// Name of a measure, such as `contact-angle-deg`.
         pub measure: String => Key::required("measure = \"contact-angle-deg\""),
         /// Expected value in the unit of the measure.

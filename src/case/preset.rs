@@ -71,7 +71,6 @@ impl Preset {
     ];
 
     /// The properties at `celsius`, from [`COLD`] to [`WARM`]; beyond, those at the nearer end.
-    #[must_use]
     pub fn at(self, celsius: f64) -> Properties {
         const PER_MILLI: f64 = 1.0e3;
         let (cold, warm) = self.rows();

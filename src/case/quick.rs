@@ -10,7 +10,7 @@ use crate::input::{Checker, Problem};
 ///
 /// # Errors
 /// All problems of the keys, by the names that they have in a case file.
-pub fn quick(title: &str, geometry: GeometrySpec, raw: &RawNetwork) -> Result<(Case, String), Vec<Problem>> {
+pub(crate) fn quick(title: &str, geometry: GeometrySpec, raw: &RawNetwork) -> Result<(Case, String), Vec<Problem>> {
     let mut checker = Checker::default();
     let raw = raw.clone().in_range(&mut checker, "network");
     let found = network(&mut checker, &raw, Some(&geometry), None).map(|network| Model::Network(Box::new(network)));

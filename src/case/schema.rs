@@ -17,7 +17,6 @@ const MODELS: [&str; 3] = ["sph", "thin-film", "network"];
 
 /// The JSON schema of a case file: every key with its unit in its description, the ranges of numbers, and of models that exclude each other a
 /// branch for each.
-#[must_use]
 pub fn schema() -> Value {
     let mut schema = schemars::schema_for!(RawCase).to_value();
     without_null(&mut schema);
@@ -82,7 +81,6 @@ fn without_null(schema: &mut Value) {
 }
 
 /// A case file with a comment on every key.
-#[must_use]
 pub fn starter_case() -> &'static str {
     include_str!("starter.toml")
 }

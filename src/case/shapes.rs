@@ -12,7 +12,7 @@ use crate::input::{Checker, Problem};
 
 tables! {
     /// A shape file: domain and solids.
-    pub struct RawShapeFile {
+    pub(crate) struct RawShapeFile {
         /// Version of the format: 1.
         pub format: u32 => Key::required("format = 1"),
         /// Lower left corner of the domain in m.
@@ -26,7 +26,7 @@ tables! {
     }
 
     /// Domain and solids of a case.
-    pub struct RawGeometry {
+    pub(crate) struct RawGeometry {
         /// Shape file or drawing.
         pub file: PathBuf,
         /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px (default: that of the file).

@@ -20,7 +20,7 @@ words! {
     }
 
     /// A side by its name.
-    pub enum SideName {
+    pub(crate) enum SideName {
         /// x = min.
         Left,
         /// x = max.
@@ -34,16 +34,16 @@ words! {
 
 impl SideName {
     /// All sides in the order of their numbers.
-    pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
+    pub(crate) const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
 
     /// The number of the side: 0 to 3 for left, right, bottom and top.
-    pub fn number(self) -> usize {
+    pub(crate) fn number(self) -> usize {
         self as usize
     }
 }
 
 /// Names of the sides in the order of their numbers.
-pub const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
+pub(crate) const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
 
 /// The four sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]

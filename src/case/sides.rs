@@ -7,7 +7,7 @@ use crate::input::tables::{Key, tables};
 
 tables! {
     /// The four sides of the domain.
-    pub struct RawSides {
+    pub(crate) struct RawSides {
         /// Kind of the side (default `wall`).
         pub left: Side,
         /// Kind of the side (default `wall`).
@@ -23,7 +23,7 @@ tables! {
     }
 
     /// Speeds of the walls at the sides, each along itself.
-    pub struct RawWallSpeeds {
+    pub(crate) struct RawWallSpeeds {
         /// Speed along the side, towards positive x or y, in m/s (default 0.0).
         pub left: f64,
         /// Speed along the side, towards positive x or y, in m/s (default 0.0).
@@ -35,7 +35,7 @@ tables! {
     }
 
     /// What all walls are like, those of shapes and those at the sides.
-    pub struct RawWalls {
+    pub(crate) struct RawWalls {
         /// Navier slip length of all walls in m (default 0.0).
         pub slip_length: f64 => Key::not_negative("a slip length in m"),
         /// Slip length near contact lines in m; needs a wetting model (default: `slip-length`, else one spacing).

@@ -18,7 +18,7 @@ use crate::wetting::Wetting;
 
 tables! {
     /// Direct simulation by incompressible SPH.
-    pub struct RawSph {
+    pub(crate) struct RawSph {
         /// Initial particle spacing `dx` in m: at least 10 across the domain, 5 across the narrowest throat; at most
         /// 2e7 particles, and no more than the free memory holds (1.6 kB each).
         pub spacing: f64 => Key::positive("a spacing in m").example("spacing = 2.0e-5 # m"),
@@ -91,14 +91,12 @@ pub struct Sph {
 
 impl Sph {
     /// The tension in N/m of an interface that moves; 0 where it is frozen.
-    #[must_use]
-    pub fn acting_tension(&self) -> f64 {
+    pub(crate) fn acting_tension(&self) -> f64 {
         if self.measure.relative_permeability { 0.0 } else { self.tension }
     }
 
     /// Whether contact lines slip by a spacing, with an angle that does not make up for it.
-    #[must_use]
-    pub fn has_lines_that_slip_by_a_spacing(&self) -> bool {
+    pub(crate) fn has_lines_that_slip_by_a_spacing(&self) -> bool {
         let law = self.wetting_model.filter(|law| !matches!(law, Wetting::Cox(_) | Wetting::CoxVoinov(_)));
         law.is_some()
             && self.acting_tension() > 0.0

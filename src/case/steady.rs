@@ -5,7 +5,7 @@ use crate::input::tables::{Key, tables};
 tables! {
     /// When a simulation counts as steady: what is left to change of each quantity, and how far it moves within the last
     /// window, are both below its tolerance.
-    pub struct RawSteady {
+    pub(crate) struct RawSteady {
         /// Length in s of each of the three compared windows: at least five records, at most a third of the end
         /// (default: a fifth of the elapsed time).
         pub window: f64 => Key::positive("a time in s"),
@@ -25,10 +25,10 @@ tables! {
 }
 
 /// Fewest rows of the series in a window: fewer tell no spread.
-pub const FEWEST_ROWS: f64 = 5.0;
+pub(crate) const FEWEST_ROWS: f64 = 5.0;
 
 /// Windows that are compared.
-pub const WINDOWS: f64 = 3.0;
+pub(crate) const WINDOWS: f64 = 3.0;
 
 /// When a run counts as steady, and whether it then ends.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]

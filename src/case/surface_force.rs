@@ -6,7 +6,7 @@ use crate::input::tables::{tables, words};
 
 tables! {
     /// Forms of the surface force.
-    pub struct RawSurfaceForce {
+    pub(crate) struct RawSurfaceForce {
         /// Continuum surface force with contact line force (Huber et al. 2013, Eqs. 20 and 23).
         pub csf: RawCsf,
         /// Pressure jump across a sharp interface with fitted curvature; the default model.
@@ -14,14 +14,14 @@ tables! {
     }
 
     /// The pressure jump.
-    pub struct RawPressureJump {
+    pub(crate) struct RawPressureJump {
         /// For tests: curvature of all interfaces in 1/m, positive where the wetting phase is convex; contact angles
         /// are then ignored (default: fitted).
         pub curvature: f64,
     }
 
     /// The continuum surface force.
-    pub struct RawCsf {
+    pub(crate) struct RawCsf {
         /// Line force normalized along each contact line (Eqs. 21 and 22), or in closed form per particle (default
         /// `normalized`).
         pub line_delta: LineDelta,

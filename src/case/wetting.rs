@@ -9,11 +9,11 @@ use crate::math::Vec2;
 use crate::wetting::{self, Wetting};
 
 /// `[sph.wetting]` and `[network.wetting]`.
-pub type RawWetting = wetting::RawWetting<RawWettingPatch>;
+pub(crate) type RawWetting = wetting::RawWetting<RawWettingPatch>;
 
 tables! {
     /// A part of the walls with angles of its own: those of the model.
-    pub struct RawWettingPatch {
+    pub(crate) struct RawWettingPatch {
         /// Shape whose surface is the patch, counted from 0; not with `side` (default: all walls).
         pub shape: u32,
         /// Wall side that is the patch (default: all walls).
@@ -29,7 +29,7 @@ tables! {
     }
 
     /// Stripes of a wall.
-    pub struct RawStripes {
+    pub(crate) struct RawStripes {
         /// Coordinate across the stripes (default `x`).
         pub along: RawAxis,
         /// Start of the first stripe in m (default 0).
@@ -43,7 +43,7 @@ tables! {
 
 words! {
     /// An axis.
-    pub enum RawAxis {
+    pub(crate) enum RawAxis {
         /// The first coordinate.
         X,
         /// The second coordinate.
@@ -89,8 +89,7 @@ pub struct Stripes {
 
 impl Stripes {
     /// Whether a point of the wall with the given coordinates in m lies in a stripe.
-    #[must_use]
-    pub fn contains(&self, x: Vec2) -> bool {
+    pub(crate) fn contains(&self, x: Vec2) -> bool {
         let along = x[self.axis] - self.start;
         let along = self.period.map_or(along, |period| along.rem_euclid(period));
         (0.0..self.width).contains(&along)

@@ -24,15 +24,15 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 bug, 2 usage or output folder, 3
 /// Without a command: runs the built-in case, a wetting liquid between four discs.
 #[derive(Debug, Parser)]
 #[command(name = "meniscus", version, after_help = EXIT_CODES)]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// What to do.
     #[command(subcommand)]
-    pub command: Option<Command>,
+    pub(crate) command: Option<Command>,
 }
 
 /// The commands.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub(crate) enum Command {
     /// Run a case: from a case file to VTK files, a series, a picture and a report
     Run(RunArguments),
     /// Tell everything that can be told before a run: mistakes, particles, time step, dimensionless numbers, duration
@@ -61,116 +61,115 @@ pub enum Command {
 
 /// `run`.
 #[derive(Debug, Default, Args)]
-pub struct RunArguments {
+pub(crate) struct RunArguments {
     /// Case file; the built-in case where there is none
-    pub case: Option<PathBuf>,
+    pub(crate) case: Option<PathBuf>,
     /// Output folder, new or empty; where there is none: out/NAME, NAME being that of the case file, or where an earlier run
     /// is in it out/NAME-2, out/NAME-3, ...
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Change a value of the case, as in --set sph.wetting.young.contact-angle-deg=60
     #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub overrides: Vec<String>,
+    pub(crate) overrides: Vec<String>,
     /// Number of threads; all cores where there is none. The results do not depend on it
     #[arg(long, value_name = "N")]
-    pub threads: Option<std::num::NonZeroUsize>,
+    pub(crate) threads: Option<std::num::NonZeroUsize>,
     /// Go on with the run in the output folder; without --out in the last one of out/NAME, out/NAME-2, ...
     #[arg(long)]
-    pub resume: bool,
+    pub(crate) resume: bool,
 }
 
 /// `check`.
 #[derive(Debug, Args)]
-pub struct CheckArguments {
+pub(crate) struct CheckArguments {
     /// Case file
-    pub case: PathBuf,
+    pub(crate) case: PathBuf,
     /// Change a value of the case
     #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub overrides: Vec<String>,
+    pub(crate) overrides: Vec<String>,
     /// Tell what a run would take as JSON, for other programs
     #[arg(long)]
-    pub json: bool,
+    pub(crate) json: bool,
 }
 
 /// `geometry`.
 #[derive(Debug, Args)]
-pub struct GeometryArguments {
+pub(crate) struct GeometryArguments {
     /// Shape file (TOML, list of discs, SVG, DXF, shapefile, GeoJSON, WKT, or a mask in PNG or TIFF), or a case file, whose geometry is
     /// measured with the sides of the case
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
     #[command(flatten)]
-    pub import: ImportArguments,
+    pub(crate) import: ImportArguments,
     /// Sides of a shape file that are joined; none where it is not given
     #[arg(long, value_enum, value_name = "AXES")]
-    pub periodic: Option<PeriodicAxes>,
+    pub(crate) periodic: Option<PeriodicAxes>,
     /// Folder for outline, signed distance and picture; nothing is written where there is none
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
-    pub drawings: WriteArguments,
+    pub(crate) drawings: WriteArguments,
 }
 
 /// `geometry --write`.
 #[derive(Debug, Default, Args)]
-pub struct WriteArguments {
+pub(crate) struct WriteArguments {
     /// Write the shapes as a drawing: .svg, .dxf, .wkt, .geojson, .xyr, .toml, .vtp, or a mask as .png; may be given several times
     #[arg(long, value_name = "FILE")]
-    pub write: Vec<PathBuf>,
+    pub(crate) write: Vec<PathBuf>,
     /// Side of a pixel of a mask in m; where there is none the longer side has 2048
     #[arg(long, value_name = "M")]
-    pub mask_pixel: Option<f64>,
+    pub(crate) mask_pixel: Option<f64>,
 }
 
 /// `network`.
 #[derive(Debug, Args)]
-pub struct NetworkArguments {
+pub(crate) struct NetworkArguments {
     /// What else is done with a network
     #[command(subcommand)]
-    pub command: Option<NetworkCommand>,
+    pub(crate) command: Option<NetworkCommand>,
     /// Shape file, or a case file
     #[arg(required = true)]
-    pub file: Option<PathBuf>,
+    pub(crate) file: Option<PathBuf>,
     /// Persistence ratio above which two maxima of the wall distance are one pore, 0.5 to 1 (default 0.95)
     #[arg(long, value_name = "RATIO")]
-    pub persistence: Option<f64>,
+    pub(crate) persistence: Option<f64>,
     /// Contact angle through the wetting phase in degrees (default 0)
     #[arg(long, value_name = "DEGREES")]
-    pub angle_deg: Option<f64>,
+    pub(crate) angle_deg: Option<f64>,
     /// Interfacial tension in N/m (default 1, so that pressures are those per N/m)
     #[arg(long, value_name = "N_PER_M")]
-    pub tension: Option<f64>,
+    pub(crate) tension: Option<f64>,
     /// Side that the invading phase enters through; where there is none, the network is extracted and nothing is displaced
     #[arg(long, value_parser = word::<SideName>(), value_name = "SIDE")]
-    pub inlet: Option<SideName>,
+    pub(crate) inlet: Option<SideName>,
     /// Side that the defending phase leaves through
     #[arg(long, value_parser = word::<SideName>(), value_name = "SIDE")]
-    pub outlet: Option<SideName>,
+    pub(crate) outlet: Option<SideName>,
     /// What is displaced (default drainage)
     #[arg(long, value_parser = word::<RawProcess>(), value_name = "PROCESS")]
-    pub process: Option<RawProcess>,
+    pub(crate) process: Option<RawProcess>,
     /// Number of cycles, with --process cycle (default 1)
     #[arg(long, value_name = "N")]
-    pub cycles: Option<u32>,
+    pub(crate) cycles: Option<u32>,
     /// Whether a defending region without a way to the outlet is trapped (default true)
     #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
-    pub trapping: Option<bool>,
+    pub(crate) trapping: Option<bool>,
     /// Joins opposite sides
     #[arg(long, value_enum, value_name = "AXES")]
-    pub periodic: Option<PeriodicAxes>,
+    pub(crate) periodic: Option<PeriodicAxes>,
     /// Output folder, new or empty; where there is none: out/NAME-network, out/NAME-network-2, ...
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Number of threads; all cores where there is none. The results do not depend on it
     #[arg(long, value_name = "N")]
-    pub threads: Option<std::num::NonZeroUsize>,
+    pub(crate) threads: Option<std::num::NonZeroUsize>,
     #[command(flatten)]
-    pub import: ImportArguments,
+    pub(crate) import: ImportArguments,
 }
 
 impl NetworkArguments {
     /// Whether menisci matter: something is displaced, or entry pressures are asked for.
-    #[must_use]
-    pub fn has_interface(&self) -> bool {
+    pub(crate) fn has_interface(&self) -> bool {
         self.inlet.is_some() || self.angle_deg.is_some() || self.tension.is_some()
     }
 }
@@ -185,7 +184,7 @@ fn word<W: Words + Send + Sync>() -> impl TypedValueParser<Value = W> {
 
 /// Axes along which opposite sides are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum PeriodicAxes {
+pub(crate) enum PeriodicAxes {
     /// Left and right
     X,
     /// Bottom and top
@@ -196,15 +195,14 @@ pub enum PeriodicAxes {
 
 impl PeriodicAxes {
     /// Whether x and y are among them.
-    #[must_use]
-    pub fn along(self) -> [bool; 2] {
+    pub(crate) fn along(self) -> [bool; 2] {
         [self != Self::Y, self != Self::X]
     }
 }
 
 /// `study`.
 #[derive(Debug, Subcommand)]
-pub enum StudyCommand {
+pub(crate) enum StudyCommand {
     /// Tell the runs of a study: what varies, particles, memory, expected duration
     Plan(StudyPlanArguments),
     /// Do all runs that are not complete, then write the report
@@ -215,62 +213,62 @@ pub enum StudyCommand {
 
 /// `study plan`.
 #[derive(Debug, Args)]
-pub struct StudyPlanArguments {
+pub(crate) struct StudyPlanArguments {
     /// Study files, one after the other
     #[arg(required = true, value_name = "STUDY")]
-    pub studies: Vec<PathBuf>,
+    pub(crate) studies: Vec<PathBuf>,
     /// Study folder, out/study-NAME where there is none; nothing is written. Of several studies: the folder that holds theirs
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
-    pub cores: CoresArguments,
+    pub(crate) cores: CoresArguments,
 }
 
 /// Threads and runs at once.
 #[derive(Debug, Args)]
-pub struct CoresArguments {
+pub(crate) struct CoresArguments {
     /// Threads of each run
     #[arg(long, value_name = "N", default_value = "1")]
-    pub threads: std::num::NonZeroUsize,
+    pub(crate) threads: std::num::NonZeroUsize,
     /// Runs at once; as many as the cores allow where there is none
     #[arg(long, value_name = "N")]
-    pub jobs: Option<std::num::NonZeroUsize>,
+    pub(crate) jobs: Option<std::num::NonZeroUsize>,
 }
 
 /// `study run`.
 #[derive(Debug, Args)]
-pub struct StudyRunArguments {
+pub(crate) struct StudyRunArguments {
     /// Study files, one after the other
     #[arg(required = true, value_name = "STUDY")]
-    pub studies: Vec<PathBuf>,
+    pub(crate) studies: Vec<PathBuf>,
     /// Study folder, new or of this study; out/study-NAME where there is none. Of several studies: the folder that holds theirs
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
-    pub cores: CoresArguments,
+    pub(crate) cores: CoresArguments,
     /// Memory for all runs at once in MiB; nine tenths of what is free where there is none
     #[arg(long, value_name = "MIB")]
-    pub memory: Option<u64>,
+    pub(crate) memory: Option<u64>,
     /// Where the runs are done
     #[arg(long, value_enum, default_value = "local")]
-    pub engine: Engine,
+    pub(crate) engine: Engine,
     /// Further option for the job array, as in --sbatch=--partition=long
     #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
-    pub sbatch: Vec<String>,
+    pub(crate) sbatch: Vec<String>,
     /// Do only the run of this number, in this process
     #[arg(long, value_name = "I")]
-    pub index: Option<std::num::NonZeroUsize>,
+    pub(crate) index: Option<std::num::NonZeroUsize>,
     /// Started by another process of the program, which holds the study folder and the standard input
     #[arg(long, hide = true, requires = "index")]
-    pub worker: bool,
+    pub(crate) worker: bool,
     /// The run must be of this case
     #[arg(long, hide = true, requires = "index")]
-    pub digest: Option<String>,
+    pub(crate) digest: Option<String>,
 }
 
 /// Where runs are done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Engine {
+pub(crate) enum Engine {
     /// On this machine
     Local,
     /// As a job array of Slurm
@@ -279,56 +277,56 @@ pub enum Engine {
 
 /// `study report`.
 #[derive(Debug, Args)]
-pub struct StudyReportArguments {
+pub(crate) struct StudyReportArguments {
     /// Study files, one after the other
     #[arg(required = true, value_name = "STUDY")]
-    pub studies: Vec<PathBuf>,
+    pub(crate) studies: Vec<PathBuf>,
     /// Study folder, out/study-NAME where there is none. Of several studies: the folder that holds theirs
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
 }
 
 /// `new`.
 #[derive(Debug, Args)]
-pub struct NewArguments {
+pub(crate) struct NewArguments {
     /// File to write, which must not exist; case.toml, or pack.toml with --pack, where there is none
-    pub file: Option<PathBuf>,
+    pub(crate) file: Option<PathBuf>,
     #[command(flatten)]
-    pub pack: PackArguments,
+    pub(crate) pack: PackArguments,
 }
 
 /// `new --pack`.
 #[derive(Debug, Args)]
-pub struct PackArguments {
+pub(crate) struct PackArguments {
     /// Write a shape file of generated grains in place of a case
     #[arg(long, value_enum, value_name = "KIND")]
-    pub pack: Option<PackKind>,
+    pub(crate) pack: Option<PackKind>,
     /// Chooses the random pack
     #[arg(long, default_value = "1", requires = "pack")]
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// Share of a random pack that is not solid
     #[arg(long, default_value = "0.6", requires = "pack")]
-    pub porosity: f64,
+    pub(crate) porosity: f64,
     /// Radius in m, the mean one of a random pack
     #[arg(long, value_name = "M", default_value = "1e-4", requires = "pack")]
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// Standard deviation of the radii of a random pack over their mean, 0 to 0.35
     #[arg(long, default_value = "0", requires = "pack")]
-    pub radius_deviation: f64,
+    pub(crate) radius_deviation: f64,
     /// Smallest gap between grains in m; of a cosine throat its width
     #[arg(long, value_name = "M", default_value = "2e-5", requires = "pack")]
-    pub gap: f64,
+    pub(crate) gap: f64,
     /// Width and height of the pack in m
     #[arg(long, value_name = "W,H", value_delimiter = ',', num_args = 1, default_values_t = [5e-3, 3e-3], requires = "pack")]
-    pub size: Vec<f64>,
+    pub(crate) size: Vec<f64>,
     /// Axes along which a random pack repeats itself
     #[arg(long, value_enum, default_value = "none", requires = "pack")]
-    pub periodic: PackPeriodic,
+    pub(crate) periodic: PackPeriodic,
 }
 
 /// What is generated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum PackKind {
+pub(crate) enum PackKind {
     /// Discs at random places
     Random,
     /// Discs on the corners of squares
@@ -343,7 +341,7 @@ pub enum PackKind {
 
 /// Axes of a periodic pack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum PackPeriodic {
+pub(crate) enum PackPeriodic {
     /// Neither
     None,
     /// Along x
@@ -356,15 +354,15 @@ pub enum PackPeriodic {
 
 /// `schema`.
 #[derive(Debug, Args)]
-pub struct SchemaArguments {
+pub(crate) struct SchemaArguments {
     /// Print that of a study file
     #[arg(long)]
-    pub study: bool,
+    pub(crate) study: bool,
 }
 
 /// `completions`.
 #[derive(Debug, Args)]
-pub struct CompletionArguments {
+pub(crate) struct CompletionArguments {
     /// The shell
-    pub shell: Shell,
+    pub(crate) shell: Shell,
 }

@@ -18,7 +18,7 @@ use crate::solver::{Series, Solver};
 const BYTES_PER_MEBIBYTE: f64 = 1048576.0;
 
 /// Tells what a run of the case would be like.
-pub fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
+pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let case = &source.case;
     let mut solver = built(&source, Mode::New)?;

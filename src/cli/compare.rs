@@ -18,27 +18,27 @@ use crate::run::folder;
 
 /// `compare`.
 #[derive(Debug, Args)]
-pub struct CompareArguments {
+pub(crate) struct CompareArguments {
     /// Case file with [network] and an inlet
-    pub network: PathBuf,
+    pub(crate) network: PathBuf,
     /// Case file with [sph] and two fluids, of the same geometry
-    pub direct: PathBuf,
+    pub(crate) direct: PathBuf,
     /// States of the direct simulation that are compared
     #[arg(long, value_name = "N", default_value = "100")]
-    pub records: std::num::NonZeroUsize,
+    pub(crate) records: std::num::NonZeroUsize,
     /// Output folder, new or empty; where there is none: out/NAME-compare, out/NAME-compare-2, ..., NAME being that of the direct case
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Go on with an interrupted comparison in its folder
     #[arg(long)]
-    pub resume: bool,
+    pub(crate) resume: bool,
     /// Number of threads; all cores where there is none. The results do not depend on it
     #[arg(long, value_name = "N")]
-    pub threads: Option<std::num::NonZeroUsize>,
+    pub(crate) threads: Option<std::num::NonZeroUsize>,
 }
 
 /// Runs both cases, writes the page, the numbers and the curves, and tells what came out.
-pub fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
+pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let direct = source::load_case(Some(&arguments.direct), &[])?;
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };

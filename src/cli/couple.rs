@@ -18,24 +18,24 @@ use crate::run::folder;
 
 /// `couple`.
 #[derive(Debug, Args)]
-pub struct CoupleArguments {
+pub(crate) struct CoupleArguments {
     /// Case file with [network], an inlet and an outlet, without [network.dynamic]
-    pub network: PathBuf,
+    pub(crate) network: PathBuf,
     /// Case file with [sph] and two fluids, of the same geometry, an inlet with a pressure and an outlet, which begins with
     /// [sph.initial] network = "..."; the state and the pressure are set by this command
-    pub direct: PathBuf,
+    pub(crate) direct: PathBuf,
     /// The avalanche of the direct simulation, by its first event of a kind: breakthrough, overlap (two menisci meet), or pore:N (the pore of this number in pores.csv is entered)
     #[arg(long, value_name = "WHICH", default_value = "breakthrough", value_parser = wanted)]
-    pub event: Wanted,
+    pub(crate) event: Wanted,
     /// Pressure beyond that of the event, as a share of it
     #[arg(long, value_name = "SHARE", default_value = "0.02", value_parser = share)]
-    pub excess: f64,
+    pub(crate) excess: f64,
     /// Output folder, new or empty; where there is none: out/NAME-couple, out/NAME-couple-2, ..., NAME being that of the direct case
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Number of threads; all cores where there is none. The results do not depend on it
     #[arg(long, value_name = "N")]
-    pub threads: Option<std::num::NonZeroUsize>,
+    pub(crate) threads: Option<std::num::NonZeroUsize>,
 }
 
 fn wanted(text: &str) -> Result<Wanted, String> {
@@ -68,7 +68,7 @@ struct Coupled {
 }
 
 /// Runs the three parts, writes `couple.json`, and tells what came out.
-pub fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
+pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     let network = source::load_case(Some(&arguments.network), &[])?;
     let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&network, &error))?;
     let name = arguments.direct.file_stem().map_or_else(|| "direct".into(), |stem| stem.to_string_lossy().into_owned());

@@ -11,7 +11,6 @@ use super::output::{say, tell};
 use super::{check, compare, couple, geometry, list, network, new, output, run, source, study, threads};
 
 /// Reads the command line and does what it says.
-#[must_use]
 pub fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|panic| {
         let place = panic.location().map_or(String::new(), |place| format!(" ({}:{})", place.file(), place.line()));

@@ -5,37 +5,37 @@ use miette::Diagnostic;
 use super::output::red;
 
 /// All went well.
-pub const DONE: u8 = 0;
+pub(crate) const DONE: u8 = 0;
 /// The program itself is wrong: please report it.
-pub const BUG: u8 = 1;
+pub(crate) const BUG: u8 = 1;
 /// The command line, or a folder or file that it names for output, cannot be used.
-pub const USAGE: u8 = 2;
+pub(crate) const USAGE: u8 = 2;
 /// A case or a shape file is wrong.
-pub const BAD_INPUT: u8 = 3;
+pub(crate) const BAD_INPUT: u8 = 3;
 /// The solver failed; its last good state was saved.
-pub const SOLVER_FAILED: u8 = 4;
+pub(crate) const SOLVER_FAILED: u8 = 4;
 /// The run reached its end, but a measure is not what the case expects.
-pub const EXPECTATION_FAILED: u8 = 5;
+pub(crate) const EXPECTATION_FAILED: u8 = 5;
 /// Interrupted by Ctrl-C; the run can be resumed. 128 plus the number of the signal, as shells have it.
-pub const INTERRUPTED: u8 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
 
 /// Why a command ends early: the exit code and what to tell.
 #[derive(Debug)]
-pub struct Failure {
+pub(crate) struct Failure {
     /// One of the constants of this module.
-    pub code: u8,
+    pub(crate) code: u8,
     /// The whole text for standard error.
-    pub message: String,
+    pub(crate) message: String,
 }
 
 impl Failure {
     /// A failure with its error, in one line.
-    pub fn new(code: u8, error: &dyn std::fmt::Display) -> Self {
+    pub(crate) fn new(code: u8, error: &dyn std::fmt::Display) -> Self {
         Self { code, message: format!("{}: {error}", red("error")) }
     }
 
     /// A mistake in a case or shape file, with its place in the file.
-    pub fn input(error: impl Diagnostic + Send + Sync + 'static) -> Self {
+    pub(crate) fn input(error: impl Diagnostic + Send + Sync + 'static) -> Self {
         Self { code: BAD_INPUT, message: format!("{:?}", miette::Report::new(error)) }
     }
 }

@@ -18,7 +18,7 @@ const STAGES: usize = 5;
 const WRITING_STAGES: usize = 1;
 
 /// Measures a shape file and writes what can be seen of it.
-pub fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
+pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
     let formats = formats(&arguments.drawings)?;
     let count = if arguments.out.is_some() { STAGES + WRITING_STAGES } else { STAGES };
     let stages = Stages::of(count);

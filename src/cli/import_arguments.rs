@@ -7,51 +7,51 @@ use crate::geometry::import::Options;
 /// How a drawing is read: the keys of `[geometry]` beside `file`.
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "How a drawing is read")]
-pub struct ImportArguments {
+pub(crate) struct ImportArguments {
     /// Unit of the drawing: m, cm, mm, um, nm, in, mil, ft, pt or px
     #[arg(long, value_name = "UNIT")]
-    pub unit: Option<String>,
+    pub(crate) unit: Option<String>,
     /// Length of the drawing unit in m, in place of --unit
     #[arg(long, value_name = "M")]
-    pub scale: Option<f64>,
+    pub(crate) scale: Option<f64>,
     /// Corners of the domain in m: shapes outside of it are left out
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = numbers::<f64, 4>, allow_hyphen_values = true)]
-    pub window: Option<[f64; 4]>,
+    pub(crate) window: Option<[f64; 4]>,
     /// Layers that are read; all where there is none
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
-    pub layers: Option<Vec<String>>,
+    pub(crate) layers: Option<Vec<String>>,
     /// Ends of lines of a DXF drawing that are so near meet, in units of the drawing
     #[arg(long, value_name = "LENGTH")]
-    pub join_within: Option<f64>,
+    pub(crate) join_within: Option<f64>,
     /// Gray value between solid and pore of a mask, from 0 (black) to 1 (white)
     #[arg(long, value_name = "GRAY")]
-    pub threshold: Option<f64>,
+    pub(crate) threshold: Option<f64>,
     /// Side of a pixel of a mask in m
     #[arg(long, value_name = "M")]
-    pub pixel_size: Option<f64>,
+    pub(crate) pixel_size: Option<f64>,
     /// What is drawn is the pore, and all else is solid
     #[arg(long)]
-    pub invert: bool,
+    pub(crate) invert: bool,
     /// Keep polygons whose vertices lie on a circle
     #[arg(long)]
-    pub no_circles: bool,
+    pub(crate) no_circles: bool,
     /// Vertices that turn by less than this many degrees become arcs; 20 where there is none, 0: none
     #[arg(long, value_name = "DEG")]
-    pub smooth_below_deg: Option<f64>,
+    pub(crate) smooth_below_deg: Option<f64>,
     /// Columns of x, y and radius in a list of discs, the first one being 0
     #[arg(long, value_name = "X,Y,R", value_parser = numbers::<usize, 3>)]
-    pub columns: Option<[usize; 3]>,
+    pub(crate) columns: Option<[usize; 3]>,
     /// The character between the columns of a list of discs
     #[arg(long, value_name = "CHAR")]
-    pub separator: Option<char>,
+    pub(crate) separator: Option<char>,
     /// The third column of a list of discs holds diameters
     #[arg(long)]
-    pub diameters: bool,
+    pub(crate) diameters: bool,
 }
 
 impl ImportArguments {
     /// The same as options of the reader.
-    pub fn options(&self) -> Options {
+    pub(crate) fn options(&self) -> Options {
         Options {
             unit: self.unit.clone(),
             scale: self.scale,

@@ -9,7 +9,7 @@ use super::output::tell;
 
 /// The flag that these signals set, the same one for all that a process does. Where no handler can be installed, they end the program as they
 /// always do.
-pub fn flag() -> Arc<AtomicBool> {
+pub(crate) fn flag() -> Arc<AtomicBool> {
     static FLAG: OnceLock<Arc<AtomicBool>> = OnceLock::new();
     Arc::clone(FLAG.get_or_init(|| {
         let flag = Arc::new(AtomicBool::new(false));

@@ -31,7 +31,7 @@ const DETAILS: [[&str; 3]; 6] = [
 ];
 
 /// Prints the models.
-pub fn list() {
+pub(crate) fn list() {
     MODELS.iter().for_each(row);
     for law in laws() {
         let (what, source) = law.what_and_source();

@@ -3,14 +3,14 @@
 //! [`arguments`] says what can be written, [`exit`] what the exit codes mean, `source` where cases and shapes come from;
 //! each command has a file of its own.
 
-pub mod arguments;
+pub(crate) mod arguments;
 mod check;
 mod compare;
 mod couple;
 mod entry;
-pub mod exit;
+pub(crate) mod exit;
 mod geometry;
-pub mod import_arguments;
+pub(crate) mod import_arguments;
 mod interrupt;
 mod list;
 mod network;
@@ -28,7 +28,7 @@ mod study_run;
 mod summary;
 mod threads;
 mod verify;
-pub mod verify_arguments;
+pub(crate) mod verify_arguments;
 mod write_shapes;
 
 pub use entry::main;

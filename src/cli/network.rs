@@ -23,7 +23,7 @@ const UNIT_TENSION: f64 = 1.0;
 const WHOLLY_WETTING: f64 = 0.0;
 
 /// Extracts the network of a shape file, or of the geometry of a case file, and displaces what the options say.
-pub fn network(arguments: &NetworkArguments) -> Result<u8, Failure> {
+pub(crate) fn network(arguments: &NetworkArguments) -> Result<u8, Failure> {
     if let Some(NetworkCommand::Verify(arguments)) = &arguments.command {
         return verify(arguments);
     }

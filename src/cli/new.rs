@@ -9,7 +9,7 @@ use super::{new_pack, source};
 use crate::io::atomic;
 
 /// Writes the starter case, or the generated grains, to a file that does not exist yet.
-pub fn new(arguments: &NewArguments) -> Result<u8, Failure> {
+pub(crate) fn new(arguments: &NewArguments) -> Result<u8, Failure> {
     let default = if arguments.pack.pack.is_some() { "pack.toml" } else { "case.toml" };
     let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(default));
     if file.exists() {

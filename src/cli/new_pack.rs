@@ -22,7 +22,7 @@ const THROAT_WALLS: f64 = 0.8;
 const THROAT_LENGTH: f64 = 0.5;
 
 /// Makes the grains, writes them, and tells porosity, smallest gap and whether fluid can pass.
-pub fn new_pack(kind: PackKind, arguments: &PackArguments, file: &Path) -> Result<u8, Failure> {
+pub(crate) fn new_pack(kind: PackKind, arguments: &PackArguments, file: &Path) -> Result<u8, Failure> {
     let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
     // The command line asks for two numbers.
     let size = [arguments.size.first().copied().unwrap_or(0.0), arguments.size.get(1).copied().unwrap_or(0.0)];

@@ -17,19 +17,19 @@ use crate::study::runs::{PlannedRun, plan};
 use crate::study::verdict::Verdict;
 
 /// A study with its checked runs and its folder.
-pub struct Opened {
+pub(crate) struct Opened {
     /// The study.
-    pub study: Study,
+    pub(crate) study: Study,
     /// Its runs.
-    pub runs: Vec<PlannedRun>,
+    pub(crate) runs: Vec<PlannedRun>,
     /// Where the results go.
-    pub folder: StudyFolder,
+    pub(crate) folder: StudyFolder,
     /// This program with the study file.
-    pub program: Program,
+    pub(crate) program: Program,
 }
 
 /// Loads study files and checks the cases of all their runs, so that nothing starts before all are right.
-pub fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>, Failure> {
+pub(crate) fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>, Failure> {
     let mut all: Vec<Opened> = Vec::new();
     for path in paths {
         let study = load(path).map_err(Failure::input)?;
@@ -53,14 +53,14 @@ fn folder_name(study: &Study) -> String {
 }
 
 /// The folder of a study: the one that was named, or `out/study-NAME`.
-pub fn folder(study: &Study, out: Option<&Path>) -> StudyFolder {
+pub(crate) fn folder(study: &Study, out: Option<&Path>) -> StudyFolder {
     let named = out.map_or_else(|| Path::new("out").join(folder_name(study)), Path::to_path_buf);
     StudyFolder::new(&named)
 }
 
 /// Does something with one study after the other. One that failed does not keep the next from its turn, an interruption does; the exit code
 /// is the gravest one.
-pub fn each(all: &[Opened], mut one: impl FnMut(&Opened) -> Result<u8, Failure>) -> Result<u8, Failure> {
+pub(crate) fn each(all: &[Opened], mut one: impl FnMut(&Opened) -> Result<u8, Failure>) -> Result<u8, Failure> {
     let mut gravest = DONE;
     for opened in all {
         match one(opened)? {
@@ -79,14 +79,14 @@ fn program(study: &Path) -> Result<Program, Failure> {
 }
 
 /// Threads and runs at once, within the cores of this machine.
-pub fn cores(arguments: &CoresArguments) -> Cores {
+pub(crate) fn cores(arguments: &CoresArguments) -> Cores {
     let threads = within_cores("--threads", usize::from(arguments.threads));
     let jobs = arguments.jobs.map(|jobs| within_cores("--jobs", usize::from(jobs)));
     Cores { threads, jobs: jobs.unwrap_or_else(|| (threads::cores() / threads).max(1)) }
 }
 
 /// Writes the report, tells it, and says how the study stands by the exit code.
-pub fn finish(opened: &Opened) -> Result<u8, Failure> {
+pub(crate) fn finish(opened: &Opened) -> Result<u8, Failure> {
     let written = report(&opened.study, &opened.runs, &opened.folder).map_err(|error| Failure::new(USAGE, &error))?;
     say(&opened.study.title);
     say(written.table.markdown().trim_end());

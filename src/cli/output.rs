@@ -8,13 +8,13 @@ use std::sync::OnceLock;
 static NOT_PRINTED: OnceLock<io::Error> = OnceLock::new();
 
 /// A line of results, on standard output.
-pub fn say(line: impl Display) {
+pub(crate) fn say(line: impl Display) {
     let mut out = io::stdout();
     printed(writeln!(out, "{line}").and_then(|()| out.flush()));
 }
 
 /// Notes how a print to standard output went.
-pub fn printed(result: io::Result<()>) {
+pub(crate) fn printed(result: io::Result<()>) {
     match result {
         // A closed pipe, as by `| head`, leaves no one to tell.
         Err(error) if error.kind() != ErrorKind::BrokenPipe => drop(NOT_PRINTED.set(error)),
@@ -23,17 +23,17 @@ pub fn printed(result: io::Result<()>) {
 }
 
 /// Why some results could not be printed, where that is so.
-pub fn not_printed() -> Option<&'static io::Error> {
+pub(crate) fn not_printed() -> Option<&'static io::Error> {
     NOT_PRINTED.get()
 }
 
 /// A line of progress or an error, on standard error.
-pub fn tell(line: impl Display) {
+pub(crate) fn tell(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
 /// The word in red where standard error is a terminal that shows colors.
-pub fn red(word: &str) -> String {
+pub(crate) fn red(word: &str) -> String {
     if io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none() {
         format!("\u{1b}[1;31m{word}\u{1b}[0m")
     } else {
@@ -42,7 +42,7 @@ pub fn red(word: &str) -> String {
 }
 
 /// A number as people read it: four significant digits, an exponent only where it helps.
-pub fn readable(value: f64) -> String {
+pub(crate) fn readable(value: f64) -> String {
     const FIXED: std::ops::Range<i32> = -2..5;
     if value == 0.0 {
         // Minus zero means nothing to people.
@@ -57,7 +57,7 @@ pub fn readable(value: f64) -> String {
 }
 
 /// A duration as people read it.
-pub fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     const MINUTE: f64 = 60.0;
     const HOUR: f64 = 3600.0;
     if seconds < MINUTE {

@@ -16,7 +16,7 @@ const BETWEEN_LINES: Duration = Duration::from_secs(15);
 const BETWEEN_UPDATES: Duration = Duration::from_millis(200);
 
 /// Shows where a run stands, how long it will take and which limit rules its time step.
-pub struct ProgressDisplay {
+pub(crate) struct ProgressDisplay {
     bar: Option<ProgressBar>,
     begun: Instant,
     shown: Instant,
@@ -26,19 +26,19 @@ pub struct ProgressDisplay {
 
 impl ProgressDisplay {
     /// A display that begins now.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let bar = console_bar();
         Self { bar, begun: Instant::now(), shown: Instant::now(), from: None }
     }
 
     /// Shows which share of the packing of particles before time zero is done.
-    pub fn packed(&mut self, share: f64) {
+    pub(crate) fn packed(&mut self, share: f64) {
         const TEXT: &str = "particles are packed to walls and interfaces";
         self.show(share, || TEXT.to_owned());
     }
 
     /// Shows which share of the steps that are tried is done.
-    pub fn tried(&mut self, share: f64) {
+    pub(crate) fn tried(&mut self, share: f64) {
         self.show(share, || "first steps are tried".to_owned());
     }
 
@@ -59,7 +59,7 @@ impl ProgressDisplay {
     }
 
     /// Removes the bar.
-    pub fn finish(&self) {
+    pub(crate) fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }

@@ -18,7 +18,7 @@ use crate::run::{folder, setup};
 use crate::solver::{Series, Solver};
 
 /// Runs a case; the exit code says how it ended.
-pub fn run(arguments: &RunArguments) -> Result<u8, Failure> {
+pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     let source = source::load_case(arguments.case.as_deref(), &arguments.overrides)?;
     let mode = if arguments.resume { Mode::Resume } else { Mode::New };
     let folder = new_folder(arguments.out.as_deref(), &source.name, mode);

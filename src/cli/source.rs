@@ -29,56 +29,56 @@ const THROATS: usize = 10;
 
 /// A checked case with the name of its output folder.
 #[derive(Debug)]
-pub struct Source {
+pub(crate) struct Source {
     /// The case.
-    pub case: Case,
+    pub(crate) case: Case,
     /// The case file with all that was filled in.
-    pub resolved: String,
+    pub(crate) resolved: String,
     /// Name of the case: that of its file without the ending.
-    pub name: String,
+    pub(crate) name: String,
     /// What the user should know of how its drawing was read.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
     /// The text of the case file; none where the command line is the case.
-    pub document: Option<Document>,
+    pub(crate) document: Option<Document>,
 }
 
 impl Source {
     /// A case that no solver can be made for, with the places in its file.
-    pub fn refused(&self, error: &SetupError) -> Failure {
+    pub(crate) fn refused(&self, error: &SetupError) -> Failure {
         let placed = self.document.as_ref().and_then(|document| document.refuse(error.problems()).err());
         placed.map_or_else(|| Failure::new(BAD_INPUT, error), Failure::input)
     }
 
     /// A case with problems that were found later, each with its place in the file.
-    pub fn refused_for(&self, problems: Vec<Problem>) -> Failure {
+    pub(crate) fn refused_for(&self, problems: Vec<Problem>) -> Failure {
         let told = problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
         let placed = self.document.as_ref().and_then(|document| document.refuse(problems).err());
         placed.map_or_else(|| Failure::new(BAD_INPUT, &told), Failure::input)
     }
 
     /// A case that does not fit, with the place of the key that a user would change.
-    pub fn refused_at(&self, key: &str, message: &str, help: &str) -> Failure {
+    pub(crate) fn refused_at(&self, key: &str, message: &str, help: &str) -> Failure {
         self.refused_for(vec![Problem::new(key, message, help)])
     }
 }
 
 /// What can be told and drawn of a shape file.
 #[derive(Debug)]
-pub struct Shapes {
+pub(crate) struct Shapes {
     /// Outline of the solids.
-    pub outline: Lines<'static>,
+    pub(crate) outline: Lines<'static>,
     /// Signed distance on a grid, in the field `wall-distance`.
-    pub distance: Grid<'static>,
+    pub(crate) distance: Grid<'static>,
     /// Porosity, specific surface, throats.
-    pub measures: Vec<Measure>,
+    pub(crate) measures: Vec<Measure>,
     /// What stands at the sides, where the user said it.
-    pub sides: Option<String>,
+    pub(crate) sides: Option<String>,
     /// The shapes as they were read.
-    pub spec: GeometrySpec,
+    pub(crate) spec: GeometrySpec,
 }
 
 /// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
-pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Failure> {
+pub(crate) fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Failure> {
     let source = sound(load(path, overrides).map_err(Failure::input)?, path)?;
     source.notes.iter().for_each(tell);
     Ok(source)
@@ -93,7 +93,7 @@ fn sound(loaded: Loaded, path: Option<&Path>) -> Result<Source, Failure> {
 }
 
 /// Loads a case file as if the file of the state that it begins with held `state`.
-pub fn load_started(path: &Path, overrides: &[String], state: &str) -> Result<Source, Failure> {
+pub(crate) fn load_started(path: &Path, overrides: &[String], state: &str) -> Result<Source, Failure> {
     let overrides = Overrides::parse(overrides).map_err(Failure::input)?;
     sound(case::load_started(path, &overrides, state).map_err(Failure::input)?, Some(path))
 }
@@ -107,19 +107,19 @@ fn load(path: Option<&Path>, overrides: &[String]) -> Result<Loaded, InputError>
 }
 
 /// Whether a file is a case file, and no shape file, by its content.
-pub fn is_case_file(path: &Path) -> bool {
+pub(crate) fn is_case_file(path: &Path) -> bool {
     // What cannot be read as text is for the readers of shape files to tell.
     let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
     is_toml && file::read_text(path).is_ok_and(|text| case::is_case(&text))
 }
 
 /// Whether a case is one of a network.
-pub fn is_network(case: &Case) -> bool {
+pub(crate) fn is_network(case: &Case) -> bool {
     matches!(case.model, Model::Network(_))
 }
 
 /// Loads a shape file.
-pub fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> Result<GeometrySpec, Failure> {
+pub(crate) fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> Result<GeometrySpec, Failure> {
     let mut read = case::load_shapes(path, options).map_err(Failure::input)?;
     if options.window.is_some() {
         let [x, y] = periodic;
@@ -131,7 +131,7 @@ pub fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> 
 }
 
 /// Loads and measures a shape file, or the geometry of a case with the case's sides; `at` is told what is being done.
-pub fn load_shapes(
+pub(crate) fn load_shapes(
     path: &Path,
     options: &Options,
     periodic: Option<[bool; 2]>,
@@ -224,11 +224,11 @@ fn measures(geometry: &Geometry) -> Vec<Measure> {
 }
 
 /// The commented starter case.
-pub fn starter_case() -> &'static str {
+pub(crate) fn starter_case() -> &'static str {
     case::starter_case()
 }
 
 /// The JSON schema of a case file.
-pub fn schema() -> String {
+pub(crate) fn schema() -> String {
     format!("{:#}", case::schema())
 }

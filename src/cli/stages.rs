@@ -27,14 +27,14 @@ struct Now {
 }
 
 /// Tells the stages of a command from the second second on, until it is dropped.
-pub struct Stages {
+pub(super) struct Stages {
     now: Arc<(Mutex<Now>, Condvar)>,
     teller: Option<JoinHandle<()>>,
 }
 
 impl Stages {
     /// Begins to watch a command of so many stages.
-    pub fn of(count: usize) -> Self {
+    pub(crate) fn of(count: usize) -> Self {
         let bar = terminal();
         let show = move |line: &str, is_new: bool| match &bar {
             Some(bar) => bar.set_message(line.to_owned()),
@@ -71,7 +71,7 @@ impl Stages {
     }
 
     /// The next stage begins.
-    pub fn at(&self, name: &'static str) {
+    pub(crate) fn at(&self, name: &'static str) {
         let mut now = self.now.0.lock().unwrap_or_else(PoisonError::into_inner);
         now.number += 1;
         now.name = name;

@@ -19,7 +19,7 @@ use crate::study::values::shown;
 const BYTES_PER_MEBIBYTE: f64 = 1_048_576.0;
 
 /// Does what the command says.
-pub fn study(command: &StudyCommand) -> Result<u8, Failure> {
+pub(crate) fn study(command: &StudyCommand) -> Result<u8, Failure> {
     match command {
         StudyCommand::Plan(arguments) => tell_plan(arguments),
         StudyCommand::Run(arguments) => study_run::run(arguments),
@@ -55,7 +55,7 @@ fn tell_one_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
 }
 
 /// The JSON schema of a study file.
-pub fn schema() -> String {
+pub(crate) fn schema() -> String {
     format!("{:#}", crate::study::schema())
 }
 

@@ -25,7 +25,7 @@ use crate::study::slurm::{Array, submit};
 const BYTES_PER_MEBIBYTE: u64 = 1 << 20;
 
 /// Does the runs; the exit code says how the studies stand.
-pub fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
+pub(crate) fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
     if let Some(index) = arguments.index {
         let [study] = arguments.studies.as_slice() else {
             return Err(Failure::new(USAGE, &"--index is the number of a run of one study; name that study alone"));

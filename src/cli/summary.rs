@@ -13,8 +13,7 @@ use crate::solver::Clock;
 const ANGLE: &str = "contact-angle-deg";
 
 /// The summary of a run as lines of text.
-#[must_use]
-pub fn summary(finished: &Finished) -> String {
+pub(crate) fn summary(finished: &Finished) -> String {
     let report = &finished.report;
     let mut text = format!("{}\n{}\n", report.case.title, ending(report));
     push_angles(&mut text, report);

@@ -9,12 +9,12 @@ use super::output::tell;
 const VARIABLE: &str = "RAYON_NUM_THREADS";
 
 /// Cores of this machine that this process may use.
-pub fn cores() -> usize {
+pub(crate) fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// The number asked for by `option`, at most the number of cores; less than asked for is told.
-pub fn within_cores(option: &str, asked_for: usize) -> usize {
+pub(crate) fn within_cores(option: &str, asked_for: usize) -> usize {
     let (found, note) = bounded(option, asked_for, cores());
     note.iter().for_each(tell);
     found
@@ -32,7 +32,7 @@ fn bounded(option: &str, asked_for: usize, cores: usize) -> (usize, Option<Strin
 ///
 /// # Errors
 /// The system gives no threads.
-pub fn pool(asked_for: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, Failure> {
+pub(crate) fn pool(asked_for: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, Failure> {
     let threads = match asked_for {
         Some(threads) => within_cores("--threads", usize::from(threads)),
         None => of_environment().unwrap_or_else(cores),
@@ -44,7 +44,7 @@ pub fn pool(asked_for: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, Failur
 }
 
 /// Keeps loops outside of a pool within the cores too.
-pub fn bound_environment() {
+pub(crate) fn bound_environment() {
     if asked_in_environment().is_some_and(|asked_for| asked_for > cores()) {
         // Only the first pool of a process can be set, and this is called before there is one.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(cores()).build_global();

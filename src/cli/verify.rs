@@ -23,7 +23,7 @@ use crate::verify::results::{Row, Status, row};
 use crate::verify::subject::{Subject, SubjectError};
 
 /// Chooses, writes, runs, and tells.
-pub fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
+pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
     let usage = |error: &dyn std::fmt::Display| Failure::new(USAGE, &error);

@@ -9,47 +9,47 @@ use super::arguments::Engine;
 
 /// What is done with a network.
 #[derive(Debug, Subcommand)]
-pub enum NetworkCommand {
+pub(crate) enum NetworkCommand {
     /// Verify chosen throats by direct simulation of cut-outs: entry pressures and conductances beside those of the formulas
     Verify(Box<VerifyArguments>),
 }
 
 /// `network verify`.
 #[derive(Debug, Args)]
-pub struct VerifyArguments {
+pub(crate) struct VerifyArguments {
     /// Case file with `[network]` and an interface
-    pub case: PathBuf,
+    pub(crate) case: PathBuf,
     /// Throats: critical, unsure, random:N, or numbers of throats.csv as in 3,7,12; may be given several times
     #[arg(long, value_name = "WHICH", required_unless_present = "events")]
-    pub throats: Vec<String>,
+    pub(crate) throats: Vec<String>,
     /// Touches and overlaps: critical, touch:N, overlap:N, or numbers of events.csv as in 1,4; may be given several times
     #[arg(long, value_name = "WHICH")]
-    pub events: Vec<String>,
+    pub(crate) events: Vec<String>,
     /// Spacings across each throat, one run for each
     #[arg(long, value_name = "N,N", value_delimiter = ',', num_args = 1, default_values = ["8", "16"])]
-    pub spacings: Vec<NonZeroU32>,
+    pub(crate) spacings: Vec<NonZeroU32>,
     /// Chooses the random throats and events
     #[arg(long, default_value = "1")]
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// Take two fluids alike that come to rest soon in place of those of [network.phases]; no pressure at rest depends on them
     #[arg(long)]
-    pub alike: bool,
+    pub(crate) alike: bool,
     /// Change a value of the case
     #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub overrides: Vec<String>,
+    pub(crate) overrides: Vec<String>,
     /// Folder for cases, runs and results; out/NAME-verify where there is none. The same command goes on in it
     #[arg(long, visible_alias = "output", value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    pub(crate) out: Option<PathBuf>,
     /// Write cases and study file, and run nothing
     #[arg(long)]
-    pub only_write: bool,
+    pub(crate) only_write: bool,
     /// Runs at once, each on one thread; as many as there are cores where there is none
     #[arg(long, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
+    pub(crate) threads: Option<NonZeroUsize>,
     /// Where the runs are done
     #[arg(long, value_enum, default_value = "local")]
-    pub engine: Engine,
+    pub(crate) engine: Engine,
     /// Further option for the job array, as in --sbatch=--partition=long
     #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
-    pub sbatch: Vec<String>,
+    pub(crate) sbatch: Vec<String>,
 }

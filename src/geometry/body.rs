@@ -35,11 +35,11 @@ enum Inside {
 #[derive(Clone)]
 pub(crate) struct Body {
     /// Index of the written shape it comes from.
-    pub shape: u32,
+    pub(crate) shape: u32,
     /// Its surface, solid on the left.
-    pub curves: CurveSet,
+    pub(crate) curves: CurveSet,
     /// A box around the surface, for culling; a body without end has a box without end.
-    pub bounds: Bounds,
+    pub(crate) bounds: Bounds,
     inside: Inside,
 }
 
@@ -73,7 +73,7 @@ impl Body {
     }
 
     /// The bodies of a written shape, number `shape` of its list. The box tells how far endless walls must reach.
-    pub fn of(spec: &ShapeSpec, shape: u32, domain: Bounds) -> Vec<Self> {
+    pub(crate) fn of(spec: &ShapeSpec, shape: u32, domain: Bounds) -> Vec<Self> {
         match spec {
             ShapeSpec::HalfPlane(HalfPlane { point, rotation_deg }) => {
                 vec![Self::half_plane(shape, Vec2::from(*point), rotation_deg.to_radians(), domain)]
@@ -103,7 +103,7 @@ impl Body {
     }
 
     /// The half-plane below the line through `point`, turned by `angle` in rad.
-    pub fn half_plane(shape: u32, point: Vec2, angle: f64, domain: Bounds) -> Self {
+    pub(crate) fn half_plane(shape: u32, point: Vec2, angle: f64, domain: Bounds) -> Self {
         let along = unit(angle);
         let middle = point + along * along.dot(&(domain.center() - point));
         let reach = along * (REACH * domain.size().norm());
@@ -125,7 +125,7 @@ impl Body {
     }
 
     /// A box as a body.
-    pub fn of_box(shape: u32, bounds: Bounds) -> Self {
+    pub(crate) fn of_box(shape: u32, bounds: Bounds) -> Self {
         let rectangle = Rectangle { center: bounds.center().into(), size: bounds.size().into(), rotation_deg: 0.0 };
         Self::rectangle(shape, &rectangle)
     }
@@ -195,12 +195,12 @@ impl Body {
     }
 
     /// Whether the body has no end (half-planes, channel and cosine walls).
-    pub fn is_endless(&self) -> bool {
+    pub(crate) fn is_endless(&self) -> bool {
         !self.bounds.min.x.is_finite()
     }
 
     /// The body shifted by `by` in m.
-    pub fn shifted(&self, by: Vec2) -> Self {
+    pub(crate) fn shifted(&self, by: Vec2) -> Self {
         Self {
             shape: self.shape,
             curves: self.curves.shifted(by),
@@ -210,18 +210,18 @@ impl Body {
     }
 
     /// The part of the body within a box, given the curves around that part.
-    pub fn within(&self, bounds: Bounds, curves: Vec<Curve>) -> Self {
+    pub(crate) fn within(&self, bounds: Bounds, curves: Vec<Curve>) -> Self {
         let curves = CurveSet::from(curves);
         Self { shape: self.shape, curves, bounds, inside: Inside::Within(Box::new(self.inside.clone()), bounds) }
     }
 
     /// Distance from the surface in m, below 0 in the body; near corners of clipped bodies only its sign is exact.
-    pub fn signed_distance(&self, x: Vec2) -> f64 {
+    pub(crate) fn signed_distance(&self, x: Vec2) -> f64 {
         self.inside.signed_distance(&self.curves, x)
     }
 
     /// Where `x` lies, up to a tolerance in m.
-    pub fn place(&self, x: Vec2, tolerance: f64) -> Place {
+    pub(crate) fn place(&self, x: Vec2, tolerance: f64) -> Place {
         if !self.bounds.grown(tolerance).contains(x) {
             return Place::Out;
         }

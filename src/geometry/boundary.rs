@@ -17,29 +17,29 @@ const TREE_FROM: usize = 16;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
     /// Where it runs.
-    pub curve: Curve,
+    pub(crate) curve: Curve,
     /// Index of its shape.
-    pub shape: u32,
+    pub(crate) shape: u32,
 }
 
 /// The nearest point of the surface.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Nearest {
     /// Index of the piece.
-    pub piece: usize,
+    pub(crate) piece: usize,
     /// The point on it.
-    pub closest: ClosestPoint,
+    pub(crate) closest: ClosestPoint,
 }
 
 /// A set of pieces that can be searched.
 #[derive(Clone)]
 pub(crate) struct Boundary {
     /// The pieces.
-    pub pieces: Vec<Piece>,
+    pub(crate) pieces: Vec<Piece>,
     /// For the start and end of each piece: the mean outward normal of the two pieces that join there.
-    pub corners: Vec<[Option<Vec2>; 2]>,
+    pub(crate) corners: Vec<[Option<Vec2>; 2]>,
     /// The tree over the boxes of the pieces.
-    pub tree: Tree,
+    pub(crate) tree: Tree,
 }
 
 /// The parts of `curve` between its meetings with `others`.
@@ -199,14 +199,14 @@ pub(crate) fn clip_body(body: &Body, bounds: Bounds, tolerance: f64) -> Body {
 
 impl Boundary {
     /// Prepares pieces for the search. Ends closer than `tolerance` (m) are joined.
-    pub fn new(pieces: Vec<Piece>, tolerance: f64) -> Self {
+    pub(crate) fn new(pieces: Vec<Piece>, tolerance: f64) -> Self {
         let tree = Tree::over(pieces.iter().map(|piece| piece.curve.bounds()));
         let corners = corners(&pieces, tolerance);
         Self { pieces, corners, tree }
     }
 
     /// The nearest points to `x` of all pieces within `reach` (m).
-    pub fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = Nearest> {
+    pub(crate) fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = Nearest> {
         self.tree.within(x, reach).filter_map(move |piece| {
             let closest = self.pieces.get(piece)?.curve.project(x);
             ((closest.point - x).norm() <= reach).then_some(Nearest { piece, closest })
@@ -214,7 +214,7 @@ impl Boundary {
     }
 
     /// The nearest point of the surface to `x`; none where there is no surface.
-    pub fn nearest(&self, x: Vec2) -> Option<Nearest> {
+    pub(crate) fn nearest(&self, x: Vec2) -> Option<Nearest> {
         let squared = |piece: &Piece| (piece.curve.project(x).point - x).norm_squared();
         let piece = if self.pieces.len() <= TREE_FROM {
             let all = self.pieces.iter().map(squared).enumerate();

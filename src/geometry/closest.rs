@@ -10,8 +10,7 @@ use crate::math::Vec2;
 const LEVEL: f64 = 1e-9;
 
 /// The closest points of two curves that do not cross, the first one on `one`. Where the distance is the same along both, one pair stands in the middle.
-#[must_use]
-pub fn closest_points(one: &Curve, other: &Curve) -> [ClosestPoint; 2] {
+pub(crate) fn closest_points(one: &Curve, other: &Curve) -> [ClosestPoint; 2] {
     let from_one = |x: Vec2| {
         let p = one.project(x);
         [p, other.project(p.point)]

@@ -39,23 +39,23 @@ pub struct ClosestPoint {
 }
 
 /// The unit vector of polar angle `angle` in rad.
-pub fn unit(angle: f64) -> Vec2 {
+pub(crate) fn unit(angle: f64) -> Vec2 {
     Vec2::new(angle.cos(), angle.sin())
 }
 
 /// The z component of the cross product.
-pub fn cross(a: Vec2, b: Vec2) -> f64 {
+pub(crate) fn cross(a: Vec2, b: Vec2) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
 impl Curve {
     /// A full circle: a disc's surface.
-    pub fn circle(center: Vec2, radius: f64) -> Self {
+    pub(crate) fn circle(center: Vec2, radius: f64) -> Self {
         Self::Arc { center, radius, start: 0.0, sweep: TAU }
     }
 
     /// The arc that leaves `a` along the unit tangent `t` and ends in `b`; a segment where it is straight.
-    pub fn arc_from_tangent(a: Vec2, t: Vec2, b: Vec2) -> Self {
+    pub(crate) fn arc_from_tangent(a: Vec2, t: Vec2, b: Vec2) -> Self {
         // A bend below this (sagitta / chord) is lost to rounding in the center's position.
         const STRAIGHT: f64 = 1e-7;
         let chord = b - a;
@@ -75,7 +75,7 @@ impl Curve {
     }
 
     /// The numbers that tell it: both ends of a segment, or center, radius, start and sweep of an arc.
-    pub fn numbers(&self) -> Vec<f64> {
+    pub(crate) fn numbers(&self) -> Vec<f64> {
         match *self {
             Self::Segment { a, b } => vec![a.x, a.y, b.x, b.y],
             Self::Arc { center, radius, start, sweep } => vec![center.x, center.y, radius, start, sweep],
@@ -83,7 +83,7 @@ impl Curve {
     }
 
     /// The curve of these [`numbers`](Self::numbers); none where there is no such curve.
-    pub fn from_numbers(numbers: &[f64]) -> Option<Self> {
+    pub(crate) fn from_numbers(numbers: &[f64]) -> Option<Self> {
         if !numbers.iter().all(|number| number.is_finite()) {
             return None;
         }
@@ -97,7 +97,7 @@ impl Curve {
     }
 
     /// Whether this is a full circle, which has no ends.
-    pub fn is_closed(&self) -> bool {
+    pub(crate) fn is_closed(&self) -> bool {
         // Only exact circles are built with this sweep.
         matches!(self, Self::Arc { sweep, .. } if sweep.abs() >= TAU)
     }
@@ -119,7 +119,7 @@ impl Curve {
     }
 
     /// The unit tangent at `u`.
-    pub fn tangent(&self, u: f64) -> Vec2 {
+    pub(crate) fn tangent(&self, u: f64) -> Vec2 {
         match self {
             Self::Segment { a, b } => (b - a).try_normalize(0.0).unwrap_or_else(Vec2::x),
             Self::Arc { start, sweep, .. } => perpendicular(unit(start + sweep * u)) * sweep.signum(),
@@ -127,7 +127,7 @@ impl Curve {
     }
 
     /// The unit normal at `u`, out of the solid.
-    pub fn normal(&self, u: f64) -> Vec2 {
+    pub(crate) fn normal(&self, u: f64) -> Vec2 {
         -perpendicular(self.tangent(u))
     }
 
@@ -163,7 +163,7 @@ impl Curve {
     }
 
     /// The smallest box around the curve.
-    pub fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         #[cfg(test)]
         work::count();
         let (p, q) = (self.point(0.0), self.point(1.0));
@@ -182,7 +182,7 @@ impl Curve {
     }
 
     /// The piece between two parameters; `to` may pass 1 on a full circle.
-    pub fn part(&self, from: f64, to: f64) -> Self {
+    pub(crate) fn part(&self, from: f64, to: f64) -> Self {
         match *self {
             Self::Segment { .. } => Self::Segment { a: self.point(from), b: self.point(to) },
             Self::Arc { center, radius, start, sweep } => {
@@ -192,7 +192,7 @@ impl Curve {
     }
 
     /// The same points run through backwards: solid and pore change places.
-    pub fn reversed(&self) -> Self {
+    pub(crate) fn reversed(&self) -> Self {
         match *self {
             Self::Segment { a, b } => Self::Segment { a: b, b: a },
             Self::Arc { center, radius, start, sweep } => {
@@ -202,7 +202,7 @@ impl Curve {
     }
 
     /// The curve shifted by `by`.
-    pub fn shifted(&self, by: Vec2) -> Self {
+    pub(crate) fn shifted(&self, by: Vec2) -> Self {
         match *self {
             Self::Segment { a, b } => Self::Segment { a: a + by, b: b + by },
             Self::Arc { center, radius, start, sweep } => Self::Arc { center: center + by, radius, start, sweep },
@@ -210,7 +210,7 @@ impl Curve {
     }
 
     /// The curve turned by `angle` (rad) about the origin, then shifted by `by`.
-    pub fn placed(&self, angle: f64, by: Vec2) -> Self {
+    pub(crate) fn placed(&self, angle: f64, by: Vec2) -> Self {
         let turn = |v: Vec2| nalgebra::Rotation2::new(angle) * v + by;
         match *self {
             Self::Segment { a, b } => Self::Segment { a: turn(a), b: turn(b) },
@@ -255,12 +255,12 @@ pub(crate) mod work {
         static DONE: Cell<u64> = const { Cell::new(0) };
     }
 
-    pub fn count() {
+    pub(crate) fn count() {
         DONE.set(DONE.get() + 1);
     }
 
     /// Boxes and nearest points of curves that this thread computes during `job`.
-    pub fn of(job: impl FnOnce()) -> u64 {
+    pub(crate) fn of(job: impl FnOnce()) -> u64 {
         let before = DONE.get();
         job();
         DONE.get() - before

@@ -33,7 +33,7 @@ impl Deref for CurveSet {
 
 impl CurveSet {
     /// Curves that may share a point with the box, in their order: all of them where there are few.
-    pub fn near(&self, bounds: Bounds) -> impl Iterator<Item = &Curve> {
+    pub(crate) fn near(&self, bounds: Bounds) -> impl Iterator<Item = &Curve> {
         let found = match &self.tree {
             Some(tree) => tree.near_in_order(bounds),
             None => (0..self.curves.len()).collect(),
@@ -42,7 +42,7 @@ impl CurveSet {
     }
 
     /// The nearest curve to `x` and the nearest point on it; of curves equally near the first.
-    pub fn nearest(&self, x: Vec2) -> Option<(&Curve, ClosestPoint)> {
+    pub(crate) fn nearest(&self, x: Vec2) -> Option<(&Curve, ClosestPoint)> {
         let Some(tree) = &self.tree else { return nearest_of(self.curves.iter(), x) };
         let (_, squared) = tree.nearest(x, |index| (self.curves[index].project(x).point - x).norm_squared())?;
         let mut as_near: Vec<usize> = tree.within(x, squared.sqrt()).collect();
@@ -51,17 +51,17 @@ impl CurveSet {
     }
 
     /// Distance of `x` from the nearest curve in m; infinite where there is none.
-    pub fn distance(&self, x: Vec2) -> f64 {
+    pub(crate) fn distance(&self, x: Vec2) -> f64 {
         self.nearest(x).map_or(f64::INFINITY, |(_, closest)| (closest.point - x).norm())
     }
 
     /// The curves shifted by `by` in m.
-    pub fn shifted(&self, by: Vec2) -> Self {
+    pub(crate) fn shifted(&self, by: Vec2) -> Self {
         self.curves.iter().map(|curve| curve.shifted(by)).collect::<Vec<_>>().into()
     }
 
     /// The smallest box around all curves.
-    pub fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         let empty = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
         self.curves
             .iter()

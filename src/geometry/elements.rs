@@ -7,7 +7,7 @@ use crate::geometry::tree::Tree;
 use crate::math::{Bounds, Vec2};
 
 /// Parts of the plane by their exact boundaries, ready to be asked for many points.
-pub struct Elements {
+pub(crate) struct Elements {
     boundaries: Vec<Vec<Curve>>,
     tree: Tree,
     images: Vec<Vec2>,
@@ -15,8 +15,7 @@ pub struct Elements {
 
 impl Elements {
     /// Parts with the pore on the right of their `boundaries` (m); `images` lead from a place to its images in a periodic domain in m, zero first.
-    #[must_use]
-    pub fn new(boundaries: Vec<Vec<Curve>>, images: Vec<Vec2>) -> Self {
+    pub(crate) fn new(boundaries: Vec<Vec<Curve>>, images: Vec<Vec2>) -> Self {
         let none = Bounds { min: Vec2::repeat(f64::INFINITY), max: Vec2::repeat(f64::NEG_INFINITY) };
         let around = |curves: &Vec<Curve>| curves.iter().map(Curve::bounds).fold(none, |a, b| a.united(&b));
         let tree = Tree::over(boundaries.iter().map(around));
@@ -24,8 +23,7 @@ impl Elements {
     }
 
     /// The part that a point (m) lies in; the first one where it lies on a border.
-    #[must_use]
-    pub fn at(&self, x: Vec2) -> Option<usize> {
+    pub(crate) fn at(&self, x: Vec2) -> Option<usize> {
         let winds =
             |element: usize, x: Vec2| self.boundaries[element].iter().map(|curve| curve.winding(x)).sum::<f64>() < -PI;
         self.images.iter().find_map(|image| {

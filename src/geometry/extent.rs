@@ -55,8 +55,7 @@ const MOST_IMAGES: f64 = 4e6;
 
 impl GeometrySpec {
     /// What is wrong with the shapes where the domain repeats itself along x and y; paths as in a shape file.
-    #[must_use]
-    pub fn periodic_problems(&self, periodic: [bool; 2]) -> Vec<Problem> {
+    pub(crate) fn periodic_problems(&self, periodic: [bool; 2]) -> Vec<Problem> {
         let domain = Bounds { min: Vec2::from(self.min), max: Vec2::from(self.max) };
         let (mut found, mut images) = (Vec::new(), 0.0);
         for (i, shape) in self.shapes.iter().enumerate().filter(|_| periodic != [false; 2]) {

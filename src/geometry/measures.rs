@@ -23,7 +23,6 @@ pub struct Porosity {
 
 impl Geometry {
     /// The share of the domain that is not solid.
-    #[must_use]
     pub fn porosity(&self) -> Porosity {
         let domain = self.bounds();
         let outline = self.solid_outline();
@@ -37,7 +36,6 @@ impl Geometry {
     }
 
     /// Wall length per area of the domain in 1/m.
-    #[must_use]
     pub fn specific_surface(&self) -> f64 {
         self.wall_length() / self.bounds().area()
     }
@@ -73,7 +71,6 @@ impl Geometry {
     /// Wall distance (m) and wall normal on a regular grid over the domain, about `spacing` (m) apart.
     ///
     /// The spacing is fitted so that nodes lie on all sides of the domain. No wall: distance infinite, normal zero.
-    #[must_use]
     pub fn distance_grid(&self, spacing: f64) -> Grid<'static> {
         use rayon::prelude::*;
         let domain = self.bounds();

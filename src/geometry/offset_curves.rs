@@ -36,7 +36,6 @@ pub struct OffsetCurve {
 
 impl OffsetCurve {
     /// Length in m.
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.segments().map(|(a, b)| (b - a).norm()).sum()
     }
@@ -48,14 +47,12 @@ impl OffsetCurve {
 
     /// Points at equal distances along the line, as near to `spacing` (m) as their number allows; an even number around a closed line, which
     /// keeps the symmetry of a disc.
-    #[must_use]
-    pub fn every(&self, spacing: f64) -> Vec<Vec2> {
+    pub(crate) fn every(&self, spacing: f64) -> Vec<Vec2> {
         let share = self.length() / spacing;
         self.divided(if self.closed { 2.0 * (0.5 * share).round() } else { share.round() } as usize)
     }
 
     /// `count` points at equal distances along the line, half of one away from the ends of an open line.
-    #[must_use]
     pub fn divided(&self, count: usize) -> Vec<Vec2> {
         let length = self.length();
         let mut points = Vec::with_capacity(count);
@@ -94,18 +91,17 @@ type Counts<'a> = dyn Fn(Vec2, Vec2) -> bool + Send + Sync + 'a;
 
 /// The nearest point of a surface that counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Near {
+pub(crate) struct Near {
     /// Signed distance in m, below 0 in the solid.
-    pub distance: f64,
+    pub(crate) distance: f64,
     /// Unit normal out of the solid.
-    pub normal: Vec2,
+    pub(crate) normal: Vec2,
     /// Whether no lattice fits the surface there; a corner is where one of its two sides is.
-    pub is_unfitted: bool,
+    pub(crate) is_unfitted: bool,
 }
 
 impl<'a> UnfittedSurface<'a> {
     /// The surface near the domain but the straight parts whose ends `is_on_lattice` takes.
-    #[must_use]
     pub fn new(geometry: &'a Geometry, reach: f64, is_on_lattice: impl Fn(Vec2, Vec2) -> bool) -> Self {
         let pieces = &geometry.boundary.pieces;
         let near = geometry.bounds().grown(reach);
@@ -124,26 +120,22 @@ impl<'a> UnfittedSurface<'a> {
     }
 
     /// The same surface, of which only the points count for which `counts` holds, by their place (m) and the normal there.
-    #[must_use]
-    pub fn where_it(self, counts: impl Fn(Vec2, Vec2) -> bool + Send + Sync + 'a) -> Self {
+    pub(crate) fn where_it(self, counts: impl Fn(Vec2, Vec2) -> bool + Send + Sync + 'a) -> Self {
         Self { counts: Some(Box::new(counts)), ..self }
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         !self.is_unfitted.contains(&true)
     }
 
     /// Whether the part nearest to `x` is one of these; a corner is where one of its two sides is.
-    #[must_use]
     pub fn own(&self, x: Vec2) -> bool {
         self.near(x, f64::INFINITY).is_some_and(|near| near.is_unfitted)
     }
 
     /// The point of the surface nearest to `x` that counts, where there is one within `reach` (m).
-    #[must_use]
-    pub fn near(&self, x: Vec2, reach: f64) -> Option<Near> {
+    pub(crate) fn near(&self, x: Vec2, reach: f64) -> Option<Near> {
         let (x, boundary) = (self.geometry.wrapped(x), &self.geometry.boundary);
         let nearest = match &self.counts {
             None => boundary.nearest(x).filter(|nearest| (nearest.closest.point - x).norm() <= reach),
@@ -166,7 +158,6 @@ impl<'a> UnfittedSurface<'a> {
     }
 
     /// The lines at `depth` below the surface, or above it where that is negative, as far as `within` holds, sampled every `step`; all in m.
-    #[must_use]
     pub fn offset_curves(&self, depth: f64, step: f64, within: impl Fn(Vec2) -> bool + Sync) -> Vec<OffsetCurve> {
         let mut offset_curves = Vec::new();
         for (chain, is_closed) in chains(&self.geometry.boundary.pieces, &self.next) {

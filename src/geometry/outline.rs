@@ -16,14 +16,12 @@ const COARSE_ANGLE: f64 = std::f64::consts::PI / 12.0;
 
 impl Geometry {
     /// The surface of the united solid within the domain, circles finely sampled, with the field `shape`.
-    #[must_use]
     pub fn outline(&self) -> Lines<'static> {
         self.outline_within(0.0)
     }
 
     /// The same with chords within `error` (m) of their arcs, as far as the angle between vertices stays from 1 to 15 degrees.
-    #[must_use]
-    pub fn outline_within(&self, error: f64) -> Lines<'static> {
+    pub(crate) fn outline_within(&self, error: f64) -> Lines<'static> {
         let pieces = self.visible_pieces();
         let next = followers(&pieces, 10.0 * self.tolerance());
         let (mut points, mut shapes, mut lines) = (Vec::new(), Vec::new(), Vec::new());
@@ -50,7 +48,6 @@ impl Geometry {
     }
 
     /// Length of the walls within the domain in m, walls on its sides included.
-    #[must_use]
     pub fn wall_length(&self) -> f64 {
         self.visible_pieces().iter().map(|piece| piece.curve.length()).sum()
     }

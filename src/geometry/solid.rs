@@ -39,8 +39,7 @@ pub enum GeometryError {
 
 impl GeometryError {
     /// The problems with their places in a case file, where the shapes are those of its `[geometry]`.
-    #[must_use]
-    pub fn problems_of_case(&self) -> Vec<Problem> {
+    pub(crate) fn problems_of_case(&self) -> Vec<Problem> {
         let Self::Invalid(problems) = self;
         problems.iter().map(|one| Problem { path: format!("geometry.{}", one.path), ..one.clone() }).collect()
     }
@@ -133,7 +132,6 @@ impl Geometry {
     /// whole periods where the domain is joined along x or y; at other sides the surface goes on straight outwards.
     ///
     /// Questions are answered by the nearest piece alone, so that they make sense in the domain and near it.
-    #[must_use]
     pub fn of_surface(domain: Bounds, periodic: [bool; 2], pieces: &[Curve]) -> Self {
         let spec = GeometrySpec {
             min: domain.min.into(),
@@ -148,8 +146,7 @@ impl Geometry {
     }
 
     /// A hash of the domain and of the written shapes, bit by bit (FNV-1a); what stands at the sides does not matter.
-    #[must_use]
-    pub fn hash(&self) -> u64 {
+    pub(crate) fn hash(&self) -> u64 {
         let side = f64::from(self.side == SolidSide::Inside);
         let corners = [self.domain.min.x, self.domain.min.y, self.domain.max.x, self.domain.max.y, side];
         let curves = self.shapes.iter().flat_map(|body| body.curves.iter()).flat_map(|curve| curve.numbers());
@@ -158,45 +155,38 @@ impl Geometry {
     }
 
     /// The domain.
-    #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.domain
     }
 
     /// Number of written shapes; walls on the left, right, bottom and top side have the four indices that follow.
-    #[must_use]
-    pub fn shape_count(&self) -> u32 {
+    pub(crate) fn shape_count(&self) -> u32 {
         self.shape_count
     }
 
     /// Whether the domain is joined along x and y.
-    #[must_use]
-    pub fn periodic(&self) -> [bool; 2] {
+    pub(crate) fn periodic(&self) -> [bool; 2] {
         self.periodic
     }
 
     /// Whether solid stands outside of the left, right, bottom and top side.
-    #[must_use]
-    pub fn wall_sides(&self) -> [bool; 4] {
+    pub(crate) fn wall_sides(&self) -> [bool; 4] {
         self.wall_sides
     }
 
     /// The same solids with both: periodic along x and y, and solid outside of the chosen sides (left, right, bottom, top).
-    #[must_use]
     pub fn with_sides(self, periodic: [bool; 2], wall_sides: [bool; 4]) -> Self {
         let is_same = self.periodic == periodic && self.wall_sides == wall_sides;
         if is_same { self } else { Self { periodic, wall_sides, ..self }.rebuilt() }
     }
 
     /// The same solids seen through the periodic images of the domain along x and y.
-    #[must_use]
     pub fn with_periodic(self, periodic: [bool; 2]) -> Self {
         let wall_sides = self.wall_sides;
         self.with_sides(periodic, wall_sides)
     }
 
     /// The same solids and solid half-planes outside of the chosen sides: left, right, bottom, top.
-    #[must_use]
     pub fn with_wall_sides(self, wall_sides: [bool; 4]) -> Self {
         let periodic = self.periodic;
         self.with_sides(periodic, wall_sides)
@@ -267,8 +257,7 @@ impl Geometry {
     }
 
     /// `x` brought into the domain along the periodic axes.
-    #[must_use]
-    pub fn wrapped(&self, x: Vec2) -> Vec2 {
+    pub(crate) fn wrapped(&self, x: Vec2) -> Vec2 {
         let (min, size) = (self.domain.min, self.domain.size());
         let mut y = x;
         for i in (0..2).filter(|&i| self.periodic[i]) {
@@ -280,7 +269,6 @@ impl Geometry {
     }
 
     /// Whether `x` lies in the solid, told by the shapes themselves.
-    #[must_use]
     pub fn is_solid(&self, x: Vec2) -> bool {
         let x = self.wrapped(x);
         let within = |body: &Body| body.bounds.contains(x) && body.signed_distance(x) < 0.0;
@@ -292,7 +280,6 @@ impl Geometry {
     ///
     /// Where several walls are equally near, as on a corner or on the line that halves a concave one, the normal is the mean of
     /// theirs, so that no side is preferred; between opposite walls, where that mean vanishes, it is the normal of one of them.
-    #[must_use]
     pub fn wall(&self, x: Vec2) -> Wall {
         let x = self.wrapped(x);
         let wall = self.nearest_wall(x);
@@ -347,7 +334,6 @@ impl Geometry {
     }
 
     /// Distance to the wall at `x` in m, above 0 in the pore.
-    #[must_use]
     pub fn signed_distance(&self, x: Vec2) -> f64 {
         self.nearest_wall(self.wrapped(x)).distance
     }

@@ -49,7 +49,7 @@ macro_rules! shapes {
 
         impl $name {
             /// Its fields and what they may hold.
-            pub const KEYS: &'static [(&'static str, Key)] = &[$((stringify!($field), tables!(@key $($key)?)),)*];
+            pub(crate) const KEYS: &'static [(&'static str, Key)] = &[$((stringify!($field), tables!(@key $($key)?)),)*];
         }
     )*};
 }
@@ -216,7 +216,6 @@ pub enum PackAxes {
 
 impl PackAxes {
     /// Along x and y.
-    #[must_use]
     pub fn axes(self) -> [bool; 2] {
         [matches!(self, Self::X | Self::Xy), matches!(self, Self::Y | Self::Xy)]
     }

@@ -25,14 +25,12 @@ pub struct Throat {
 
 impl Geometry {
     /// The narrowest throat, if there is one.
-    #[must_use]
     pub fn narrowest_throat(&self) -> Option<Throat> {
         throats(self).into_iter().next()
     }
 }
 
 /// All throats, the narrowest first; the definition stands at the top of this module.
-#[must_use]
 pub fn throats(geometry: &Geometry) -> Vec<Throat> {
     let walls = Walls::new(geometry, Sides::Beyond);
     let even = vec![1.0; walls.walls.len()];

@@ -21,7 +21,7 @@ pub(crate) struct Tree {
 
 impl Tree {
     /// The tree over things with these boxes, in m; an empty box (its least corner above its greatest) is never found.
-    pub fn over(boxes: impl IntoIterator<Item = Bounds>) -> Self {
+    pub(crate) fn over(boxes: impl IntoIterator<Item = Bounds>) -> Self {
         let (mut leaves, mut endless, mut finite) = (Vec::new(), Vec::new(), Vec::new());
         for (index, b) in (0_u32..).zip(boxes) {
             let is_finite = b.min.iter().chain(b.max.iter()).all(|v| v.is_finite());
@@ -36,7 +36,7 @@ impl Tree {
     }
 
     /// Things whose box shares a point with `near`, in the order of the tree.
-    pub fn near(&self, near: Bounds) -> impl Iterator<Item = usize> {
+    pub(crate) fn near(&self, near: Bounds) -> impl Iterator<Item = usize> {
         let leaves = self.bvh.leaves(move |node| {
             let (min, max) = (node.mins(), node.maxs());
             min.x <= near.max.x && near.min.x <= max.x && min.y <= near.max.y && near.min.y <= max.y
@@ -46,14 +46,14 @@ impl Tree {
     }
 
     /// The same things in the order of their index.
-    pub fn near_in_order(&self, near: Bounds) -> Vec<usize> {
+    pub(crate) fn near_in_order(&self, near: Bounds) -> Vec<usize> {
         let mut found: Vec<usize> = self.near(near).collect();
         found.sort_unstable();
         found
     }
 
     /// Things whose box comes within `reach` (m) of `x`, up to rounding, in the order of the tree.
-    pub fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = usize> {
+    pub(crate) fn within(&self, x: Vec2, reach: f64) -> impl Iterator<Item = usize> {
         // A hair more, so that rounding of a box hides nothing.
         let most = reach * reach * (1.0 + 1e-12);
         let leaves = self.bvh.leaves(move |node| squared_distance(x, node) <= most);
@@ -62,7 +62,7 @@ impl Tree {
     }
 
     /// The thing of least squared distance (m²) from `x` among those with an end, and that distance; `squared` tells it by index.
-    pub fn nearest(&self, x: Vec2, squared: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
+    pub(crate) fn nearest(&self, x: Vec2, squared: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let of_leaf = |leaf: u32| self.leaves.get(leaf as usize).map(|&index| squared(index as usize));
         let (leaf, least) =
             self.bvh.find_best(f64::MAX, |node, _| squared_distance(x, node), |leaf, _| of_leaf(leaf))?;

@@ -21,7 +21,6 @@ const NO_PORE: f64 = 1e-9;
 
 impl GeometrySpec {
     /// All that is wrong with the domain and the shapes; paths as in a shape file, such as `shapes[2].disc.radius`.
-    #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
         let mut problems = self.domain_problems();
         for (i, shape) in self.shapes.iter().enumerate() {
@@ -101,8 +100,7 @@ fn reaches(body: &Body, domain: Bounds) -> bool {
 
 impl ShapeSpec {
     /// The table name of the shape.
-    #[must_use]
-    pub fn key(&self) -> &'static str {
+    pub(crate) fn key(&self) -> &'static str {
         match self {
             Self::HalfPlane(_) => "half-plane",
             Self::Disc(_) => "disc",
@@ -119,8 +117,7 @@ impl ShapeSpec {
     }
 
     /// All that is wrong with the shape in the domain of a geometry; `at` is its place, such as `shapes[2]`.
-    #[must_use]
-    pub fn problems_in(&self, geometry: &GeometrySpec, at: &str) -> Vec<Problem> {
+    pub(crate) fn problems_in(&self, geometry: &GeometrySpec, at: &str) -> Vec<Problem> {
         let domain = Bounds { min: Vec2::from(geometry.min), max: Vec2::from(geometry.max) };
         let is_domain = geometry.domain_problems().is_empty();
         let extents = if is_domain { extent::shape_problems(domain, self, at) } else { Vec::new() };
@@ -130,7 +127,6 @@ impl ShapeSpec {
     }
 
     /// All that is wrong with the shape by itself; `at` is its place, such as `shapes[2]`.
-    #[must_use]
     pub fn problems(&self, at: &str) -> Vec<Problem> {
         let mut check = Check { at: format!("{at}.{}", self.key()), found: Vec::new() };
         match self {

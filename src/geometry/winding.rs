@@ -34,7 +34,7 @@ pub(crate) struct Winding {
 
 impl Winding {
     /// Prepares closed rings, each a chain of edges whose last one leads back to the first.
-    pub fn of(rings: impl IntoIterator<Item = Vec<Curve>>) -> Self {
+    pub(crate) fn of(rings: impl IntoIterator<Item = Vec<Curve>>) -> Self {
         let mut winding = Self { curves: Vec::new(), parts: Vec::new(), rings: Vec::new() };
         for ring in rings.into_iter().filter(|ring| !ring.is_empty()) {
             let first = winding.curves.len();
@@ -65,7 +65,7 @@ impl Winding {
     }
 
     /// The number of turns around `x`, above 0 counter-clockwise; a whole number off the rings.
-    pub fn turns(&self, x: Vec2) -> f64 {
+    pub(crate) fn turns(&self, x: Vec2) -> f64 {
         self.rings.iter().map(|&ring| self.angle(ring, x)).sum::<f64>() / std::f64::consts::TAU
     }
 
@@ -83,7 +83,7 @@ impl Winding {
     }
 
     /// The rings shifted by `by` in m.
-    pub fn shifted(&self, by: Vec2) -> Self {
+    pub(crate) fn shifted(&self, by: Vec2) -> Self {
         let shift = |part: &Part| Part {
             bounds: Bounds { min: part.bounds.min + by, max: part.bounds.max + by },
             ends: part.ends.map(|end| end + by),

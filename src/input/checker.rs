@@ -15,17 +15,17 @@ pub struct Checker {
 
 impl Checker {
     /// Notes a problem at the key path `path`, with a way out.
-    pub fn refuse(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
+    pub(crate) fn refuse(&mut self, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
         self.problems.push(Problem { path: path.into(), message: message.into(), help: help.into() });
     }
 
     /// Whether there is a problem at the key path `path` or within it.
-    pub fn is_refused(&self, path: &str) -> bool {
+    pub(crate) fn is_refused(&self, path: &str) -> bool {
         self.problems.iter().any(|problem| path::is_within(&problem.path, path))
     }
 
     /// The value, or a problem where it is missing and nothing else is wrong with it.
-    pub fn require<T>(&mut self, path: &str, value: Option<T>, example: &str) -> Option<T> {
+    pub(crate) fn require<T>(&mut self, path: &str, value: Option<T>, example: &str) -> Option<T> {
         if value.is_none() && !self.is_refused(path) {
             let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
             let place = if table.is_empty() { String::new() } else { format!(" in [{table}]") };
@@ -35,7 +35,7 @@ impl Checker {
     }
 
     /// Refuses a file of another format.
-    pub fn format(&mut self, found: Option<u32>) {
+    pub(crate) fn format(&mut self, found: Option<u32>) {
         if let Some(found) = found.filter(|found| *found != FORMAT) {
             self.refuse(
                 "format",

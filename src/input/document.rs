@@ -26,13 +26,13 @@ pub struct Document {
 
 /// A key of the version before that is still read.
 #[derive(Debug)]
-pub struct Renamed {
+pub(crate) struct Renamed {
     /// The table around it, from the root.
-    pub table: &'static [&'static str],
+    pub(crate) table: &'static [&'static str],
     /// Its name in the version before.
-    pub before: &'static str,
+    pub(crate) before: &'static str,
     /// Its present name.
-    pub now: &'static str,
+    pub(crate) now: &'static str,
 }
 
 impl Document {
@@ -40,7 +40,7 @@ impl Document {
     ///
     /// # Errors
     /// All syntax mistakes of the text, and the overrides that cannot be put in.
-    pub fn parse(name: &str, text: &str, overrides: &Overrides) -> Result<Self, InputError> {
+    pub(crate) fn parse(name: &str, text: &str, overrides: &Overrides) -> Result<Self, InputError> {
         let document =
             Self { name: name.to_owned(), text: Arc::from(text), overrides: overrides.clone(), renamed: &[] };
         let (_, mistakes) = document.parse_tree();
@@ -57,14 +57,12 @@ impl Document {
     }
 
     /// The same document with keys of the version before, read under their present names.
-    #[must_use]
-    pub fn with_renamed(self, renamed: &'static [Renamed]) -> Self {
+    pub(crate) fn with_renamed(self, renamed: &'static [Renamed]) -> Self {
         Self { renamed, ..self }
     }
 
     /// A sentence for each key that has its name of the version before.
-    #[must_use]
-    pub fn notes_on_renamed(&self) -> Vec<String> {
+    pub(crate) fn notes_on_renamed(&self) -> Vec<String> {
         let mut root = self.parse_tree().0;
         let is_old = |renamed: &&Renamed| renamed.apply(root.get_mut());
         self.renamed.iter().filter(is_old).map(Renamed::note).collect()
@@ -127,8 +125,7 @@ impl Document {
     }
 
     /// How the file is called in messages.
-    #[must_use]
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 

@@ -64,7 +64,6 @@ impl Mistake {
     }
 
     /// The way out, empty where the message says it all.
-    #[must_use]
     pub fn help_text(&self) -> &str {
         self.help.as_deref().unwrap_or_default()
     }
@@ -88,7 +87,6 @@ pub struct InputError {
 
 impl InputError {
     /// The mistakes as plain text without colors, in the order of their places.
-    #[must_use]
     pub fn render(&self) -> String {
         self.mistakes.iter().map(Mistake::render).collect()
     }

@@ -27,7 +27,7 @@ pub(super) struct Excerpt {
 
 impl Excerpt {
     /// The lines around the bytes `range` of `text`, which begin and end between letters, and where these bytes are in the excerpt.
-    pub fn new(name: &str, text: &str, range: Range<usize>, place: (usize, usize)) -> (Self, Range<usize>) {
+    pub(crate) fn new(name: &str, text: &str, range: Range<usize>, place: (usize, usize)) -> (Self, Range<usize>) {
         let begin = text[..range.start].rfind('\n').map_or(0, |end| end + 1);
         let end = text[range.start..].find('\n').map_or(text.len(), |length| range.start + length);
         let lines_before = text[..begin].strip_suffix('\n').map(|before| before.rsplit('\n').next().unwrap_or(before));

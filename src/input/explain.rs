@@ -7,17 +7,17 @@ use super::suggest::nearest;
 #[derive(Debug, Default)]
 pub(super) struct Explained {
     /// What was expected and what was found.
-    pub message: String,
+    pub(crate) message: String,
     /// A way out.
-    pub help: String,
+    pub(crate) help: String,
     /// The known key that was probably meant.
-    pub meant: Option<String>,
+    pub(crate) meant: Option<String>,
     /// The key that is missing, where the message is about one.
-    pub missing: Option<String>,
+    pub(crate) missing: Option<String>,
     /// Whether the message is about a table without its only key.
-    pub empty_choice: bool,
+    pub(crate) empty_choice: bool,
     /// Whether a name was wanted, alone or as the key of a table.
-    pub wants_name: bool,
+    pub(crate) wants_name: bool,
 }
 
 /// Explains a serde or TOML message.

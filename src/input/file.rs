@@ -5,16 +5,16 @@ use std::io::{self, Read};
 use std::path::Path;
 
 /// Largest file in bytes: a drawing or a mask of this size would unfold into more than a machine can hold.
-pub const LARGEST: u64 = 1 << 28;
+pub(crate) const LARGEST: u64 = 1 << 28;
 
 /// Largest text in bytes: a list of a million shapes has as much.
-pub const LARGEST_TEXT: u64 = 1 << 26;
+pub(crate) const LARGEST_TEXT: u64 = 1 << 26;
 
 /// The bytes of a file.
 ///
 /// # Errors
 /// The file is none, is larger than `largest` bytes, or cannot be read.
-pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
+pub(crate) fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     // Opening a pipe would wait for its other end.
     let metadata = std::fs::metadata(path)?;
     if !metadata.is_file() {
@@ -33,7 +33,7 @@ pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// See [`read`]; and [`io::ErrorKind::InvalidData`] with the line of the first byte that is no text in UTF-8.
-pub fn read_text(path: &Path) -> io::Result<String> {
+pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     let text = String::from_utf8(read(path, LARGEST_TEXT)?).map_err(|error| {
         let place = not_text(error.as_bytes()).unwrap_or_default();
         io::Error::new(io::ErrorKind::InvalidData, place)
@@ -42,8 +42,7 @@ pub fn read_text(path: &Path) -> io::Result<String> {
 }
 
 /// Where bytes are no text in UTF-8, as `line 3, byte 17`.
-#[must_use]
-pub fn not_text(bytes: &[u8]) -> Option<String> {
+pub(crate) fn not_text(bytes: &[u8]) -> Option<String> {
     let valid = std::str::from_utf8(bytes).err()?.valid_up_to();
     let line = bytes[..valid].iter().filter(|byte| **byte == b'\n').count() + 1;
     Some(format!("line {line}, byte {}", valid + 1))

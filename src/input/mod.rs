@@ -1,7 +1,7 @@
 //! TOML with places: every mistake of a file at once, each with its line.
 //!
 //! A [`Document`] is a file's text and tree. [`Document::read`] turns it into a type by serde and goes on after a mistake;
-//! the checkers of a type name [`Problem`]s by key path, and [`Reading::refuse`] finds their places. [`Overrides`] are
+//! the checkers of a type name [`Problem`]s by key path, and [`Reading::refuse`](read::Reading::refuse) finds their places. [`Overrides`] are
 //! the `--set KEY=VALUE` of the command line.
 
 mod checker;
@@ -9,21 +9,20 @@ mod document;
 mod error;
 mod excerpt;
 mod explain;
-pub mod file;
+pub(crate) mod file;
 mod overrides;
 mod path;
-pub mod problem;
+pub(crate) mod problem;
 mod range;
 mod read;
 mod suggest;
-pub mod tables;
+pub(crate) mod tables;
 mod tree;
 
-pub use checker::Checker;
-pub use document::{Document, Renamed};
+pub(crate) use checker::Checker;
+pub(crate) use document::{Document, Renamed};
 pub use error::{InputError, Mistake};
 pub use overrides::Overrides;
 pub use problem::Problem;
-pub use range::Range;
-pub use read::Reading;
-pub use suggest::nearest;
+pub(crate) use range::Range;
+pub(crate) use suggest::nearest;

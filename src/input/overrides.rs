@@ -19,7 +19,7 @@ pub struct Overrides {
 #[derive(Debug, Clone)]
 pub(super) struct Override {
     /// As it was given.
-    pub text: String,
+    pub(crate) text: String,
     steps: Vec<Step>,
     key_length: usize,
     /// The value as a line of TOML, where it is TOML.

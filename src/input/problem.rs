@@ -15,14 +15,12 @@ pub struct Problem {
 
 impl Problem {
     /// A problem at `path`.
-    #[must_use]
-    pub fn new(path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(crate) fn new(path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { path: path.into(), message: message.into(), help: help.into() }
     }
 
     /// A problem at `path` from the text of an error: its way out stands behind the first semicolon.
-    #[must_use]
-    pub fn of_text(path: impl Into<String>, text: &str) -> Self {
+    pub(crate) fn of_text(path: impl Into<String>, text: &str) -> Self {
         let (message, help) = text.split_once("; ").unwrap_or((text, ""));
         Self::new(path, message, help)
     }

@@ -19,8 +19,7 @@ pub enum Range {
 
 impl Range {
     /// Whether a value lies in it.
-    #[must_use]
-    pub fn contains(&self, value: f64) -> bool {
+    pub(crate) fn contains(&self, value: f64) -> bool {
         match *self {
             Self::Above(limit) => value > limit,
             Self::AtLeast(limit) => value >= limit,
@@ -30,8 +29,7 @@ impl Range {
     }
 
     /// The keywords of JSON Schema that say it.
-    #[must_use]
-    pub fn keywords(&self) -> Vec<(&'static str, Value)> {
+    pub(crate) fn keywords(&self) -> Vec<(&'static str, Value)> {
         match *self {
             Self::Above(limit) => vec![("exclusiveMinimum", number(limit))],
             Self::AtLeast(limit) => vec![("minimum", number(limit))],

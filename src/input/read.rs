@@ -29,7 +29,7 @@ const DEEPEST_ARRAY: usize = 3;
 
 /// A document read into a type, with the mistakes so far.
 #[derive(Debug)]
-pub struct Reading<'d, T> {
+pub(crate) struct Reading<'d, T> {
     /// The value; what was wrong is absent from it.
     pub value: T,
     document: &'d Document,
@@ -50,8 +50,7 @@ struct Removed {
 
 impl Document {
     /// Reads the document as a `T`.
-    #[must_use]
-    pub fn read<T: DeserializeOwned + Serialize + Default>(&self) -> Reading<'_, T> {
+    pub(crate) fn read<T: DeserializeOwned + Serialize + Default>(&self) -> Reading<'_, T> {
         let mut reader = Reader {
             document: self,
             root: self.tree(),
@@ -68,15 +67,8 @@ impl Document {
 }
 
 impl<T> Reading<'_, T> {
-    /// Whether nothing was wrong so far.
-    #[must_use]
-    pub fn is_clean(&self) -> bool {
-        self.mistakes.is_empty()
-    }
-
     /// All mistakes by place: those of reading, and `problems` where they do not follow from those.
-    #[must_use]
-    pub fn refuse(self, problems: Vec<Problem>) -> Vec<Mistake> {
+    pub(crate) fn refuse(self, problems: Vec<Problem>) -> Vec<Mistake> {
         let mut mistakes = self.mistakes;
         let tree = self.document.tree();
         let mut more = 0;
@@ -116,7 +108,7 @@ impl Document {
     ///
     /// # Errors
     /// [`InputError`] with all problems.
-    pub fn refuse(&self, problems: Vec<Problem>) -> Result<(), InputError> {
+    pub(crate) fn refuse(&self, problems: Vec<Problem>) -> Result<(), InputError> {
         let reading =
             Reading { value: (), document: self, mistakes: Vec::new(), removed: Removed::default(), complete: true };
         let mistakes = reading.refuse(problems);

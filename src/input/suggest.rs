@@ -2,8 +2,7 @@
 
 /// The candidate nearest to `word`, where one is near enough to be meant: at most a third of its letters differ, or it
 /// is the end of the word.
-#[must_use]
-pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .into_iter()
         .map(|candidate| (strsim::levenshtein(word, candidate), candidate))

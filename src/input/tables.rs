@@ -30,61 +30,67 @@ pub struct Key {
 
 impl Key {
     /// Anything of its type, or nothing.
-    pub const ANY: Self = Self { what: "", range: None, example: None, default: None, help: "" };
+    pub(crate) const ANY: Self = Self { what: "", range: None, example: None, default: None, help: "" };
 
     /// Anything of its type, as in `example`.
-    pub const fn required(example: &'static str) -> Self {
+    pub(crate) const fn required(example: &'static str) -> Self {
         Self { example: Some(example), ..Self::ANY }
     }
 
     /// A number in a range; `what` names it with its unit.
-    pub const fn number(what: &'static str, range: Range) -> Self {
+    pub(crate) const fn number(what: &'static str, range: Range) -> Self {
         Self { what, range: Some(range), ..Self::ANY }
     }
 
     /// A number above 0.
-    pub const fn positive(what: &'static str) -> Self {
+    pub(crate) const fn positive(what: &'static str) -> Self {
         Self::number(what, Range::Above(0.0))
     }
 
     /// A number of at least 0.
-    pub const fn not_negative(what: &'static str) -> Self {
+    pub(crate) const fn not_negative(what: &'static str) -> Self {
         Self::number(what, Range::AtLeast(0.0))
     }
 
     /// A number from one to another, both included.
-    pub const fn within(what: &'static str, low: f64, high: f64) -> Self {
+    pub(crate) const fn within(what: &'static str, low: f64, high: f64) -> Self {
         Self::number(what, Range::Within(low, high))
     }
 
     /// The same key with its line in a file, so that it is required unless it has a default.
-    pub const fn example(self, example: &'static str) -> Self {
+    pub(crate) const fn example(self, example: &'static str) -> Self {
         Self { example: Some(example), ..self }
     }
 
     /// The same key with a value where the file says nothing.
-    pub const fn default(self, default: f64) -> Self {
+    pub(crate) const fn default(self, default: f64) -> Self {
         Self { default: Some(default), ..self }
     }
 
     /// The same key with a way out where it is wrong.
-    pub const fn help(self, help: &'static str) -> Self {
+    pub(crate) const fn help(self, help: &'static str) -> Self {
         Self { help, ..self }
     }
 
     /// What is wrong with a number, if anything is.
-    pub fn misfit(&self, value: f64) -> Option<String> {
+    pub(crate) fn misfit(&self, value: f64) -> Option<String> {
         let range = self.range.filter(|range| !range.contains(value))?;
         Some(format!("expected {} {range}, found {value:?}", self.what))
     }
 
     /// Whether it must be there.
-    pub fn is_required(&self) -> bool {
+    pub(crate) fn is_required(&self) -> bool {
         self.example.is_some() && self.default.is_none()
     }
 
     /// The value of a field in the table at the key path `at`, where it is there and what it may be.
-    pub fn checked<V: Value>(&self, checker: &mut Checker, at: &str, field: &str, value: Option<V>) -> Option<V> {
+    pub(crate) fn checked<V: Value>(
+        &self,
+        checker: &mut Checker,
+        at: &str,
+        field: &str,
+        value: Option<V>,
+    ) -> Option<V> {
         let path = join(at, &name(field));
         let value = match self.example.filter(|_| self.is_required()) {
             Some(example) => checker.require(&path, value, example),
@@ -95,7 +101,7 @@ impl Key {
 }
 
 /// The name of a key, from that of its field.
-pub fn name(field: &str) -> String {
+pub(crate) fn name(field: &str) -> String {
     field.replace('_', "-")
 }
 
@@ -105,7 +111,7 @@ fn join(at: &str, key: &str) -> String {
 }
 
 /// A type that a key can have.
-pub trait Value: Sized {
+pub(crate) trait Value: Sized {
     /// The value where it is what `key` may hold; else a problem at `path`. A table keeps the keys that are right.
     fn checked(self, _key: &Key, _checker: &mut Checker, _path: &str) -> Option<Self> {
         Some(self)
@@ -147,12 +153,12 @@ impl<T, const N: usize> Value for [T; N] {}
 /// A table without keys: its name says all.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Empty {}
+pub(crate) struct Empty {}
 
 impl Value for Empty {}
 
 /// Adds to the schema of a table what its keys may hold and which are required.
-pub fn describe(schema: &mut Schema, keys: &[(&str, Key)]) {
+pub(crate) fn describe(schema: &mut Schema, keys: &[(&str, Key)]) {
     if let Some(properties) = schema.get_mut("properties").and_then(Json::as_object_mut) {
         for (field, key) in keys {
             describe_number(properties, &name(field), key);
@@ -178,25 +184,25 @@ macro_rules! tables {
     (@key $key:expr) => { $key };
     ($(
         $(#[$outer:meta])*
-        pub struct $name:ident { $($(#[$inner:meta])* pub $field:ident: $kind:ty $(=> $key:expr)?,)* }
+        $vis:vis struct $name:ident { $($(#[$inner:meta])* pub $field:ident: $kind:ty $(=> $key:expr)?,)* }
     )*) => {$(
         $(#[$outer])*
         #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
         #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
         #[schemars(transform = |schema: &mut schemars::Schema| $crate::input::tables::describe(schema, $name::KEYS))]
-        pub struct $name {
+        $vis struct $name {
             $($(#[$inner])*
             #[serde(skip_serializing_if = "Option::is_none")]
-            pub $field: Option<$kind>,)*
+            $vis $field: Option<$kind>,)*
         }
 
         impl $name {
             /// Its fields and what they may hold.
-            pub const KEYS: &'static [(&'static str, $crate::input::tables::Key)] =
+            pub(crate) const KEYS: &'static [(&'static str, $crate::input::tables::Key)] =
                 &[$((stringify!($field), $crate::input::tables::tables!(@key $($key)?)),)*];
 
             /// The table at the key path `at` with those of its keys that hold what they may.
-            pub fn in_range(self, checker: &mut $crate::input::Checker, at: &str) -> Self {
+            pub(crate) fn in_range(self, checker: &mut $crate::input::Checker, at: &str) -> Self {
                 Self {
                     $($field: $crate::input::tables::tables!(@key $($key)?)
                         .checked(checker, at, stringify!($field), self.$field),)*
@@ -222,31 +228,31 @@ pub(crate) use tables;
 macro_rules! checked_tables {
     ($(
         $(#[$outer:meta])*
-        pub struct $name:ident for $checked:ident {
+        $vis:vis struct $name:ident for $checked:ident {
             $($(#[$inner:meta])* pub $field:ident: $kind:ty $(=> $key:expr)?,)*
         }
     )*) => {$(
         $crate::input::tables::tables! {
             $(#[$outer])*
-            pub struct $name { $($(#[$inner])* pub $field: $kind $(=> $key)?,)* }
+            pub(crate) struct $name { $($(#[$inner])* pub $field: $kind $(=> $key)?,)* }
         }
 
         $(#[$outer])*
         #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-        pub struct $checked {
-            $($(#[$inner])* pub $field: $kind,)*
+        $vis struct $checked {
+            $($(#[$inner])* $vis $field: $kind,)*
         }
 
         impl $name {
             /// The table with what `default` says in place of what is missing.
             #[allow(dead_code, reason = "a table needs this or `complete`")]
-            pub fn or(self, default: $checked) -> $checked {
+            pub(crate) fn or(self, default: $checked) -> $checked {
                 $checked { $($field: self.$field.unwrap_or(default.$field),)* }
             }
 
             /// The table where nothing is missing.
             #[allow(dead_code, reason = "a table needs this or `or`")]
-            pub fn complete(self) -> Option<$checked> {
+            pub(crate) fn complete(self) -> Option<$checked> {
                 Some($checked { $($field: self.$field?,)* })
             }
         }
@@ -261,7 +267,7 @@ macro_rules! checked_tables {
 pub(crate) use checked_tables;
 
 /// The words that a key can hold.
-pub trait Words: Copy + serde::Serialize + 'static {
+pub(crate) trait Words: Copy + serde::Serialize + 'static {
     /// All of them with what they mean.
     const ALL: &'static [(Self, &'static str)];
 
@@ -273,11 +279,11 @@ pub trait Words: Copy + serde::Serialize + 'static {
 
 /// Declares enums whose variants are the words that a key can hold, in kebab case.
 macro_rules! words {
-    ($($(#[$outer:meta])* pub enum $name:ident { $($(#[doc = $doc:literal])+ $word:ident,)* })*) => {$(
+    ($($(#[$outer:meta])* $vis:vis enum $name:ident { $($(#[doc = $doc:literal])+ $word:ident,)* })*) => {$(
         $(#[$outer])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
         #[serde(rename_all = "kebab-case")]
-        pub enum $name { $($(#[doc = $doc])+ $word,)* }
+        $vis enum $name { $($(#[doc = $doc])+ $word,)* }
 
         impl $crate::input::tables::Value for $name {}
 

@@ -26,9 +26,9 @@ const MOST_NODES: usize = 20_000;
 
 /// The fitted shape of a meniscus.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Arc {
+pub(crate) struct Arc {
     /// Curvature, direction and place in the middle of the points, with their covariance.
-    pub middle: CircleFit,
+    pub(crate) middle: CircleFit,
     /// Δρ g/σ in 1/m².
     force: Vec2,
     /// How far it goes to both sides of the middle, and the way from node to node, in m.
@@ -60,7 +60,7 @@ impl Arc {
     ///
     /// # Errors
     /// As for circles.
-    pub fn fit(points: &[Vec2], force: Vec2, beyond: f64) -> Result<Self, CircleError> {
+    pub(crate) fn fit(points: &[Vec2], force: Vec2, beyond: f64) -> Result<Self, CircleError> {
         let circle = circle::fit(points)?;
         if force == Vec2::zeros() {
             return Ok(Self { middle: circle, force, lengths: [0.0; 2], nodes: Vec::new() });
@@ -150,8 +150,7 @@ impl Arc {
     }
 
     /// The arc with curvature, direction and offset in the middle changed by `change` (1/m, rad, m).
-    #[must_use]
-    pub fn perturbed(&self, change: Vector3<f64>) -> Self {
+    pub(crate) fn perturbed(&self, change: Vector3<f64>) -> Self {
         let middle = self.middle.perturbed(change);
         if self.nodes.is_empty() {
             Self { middle, ..self.clone() }
@@ -161,15 +160,13 @@ impl Arc {
     }
 
     /// Unit normal at `x` (m, near the arc), on the left of the points in their order.
-    #[must_use]
-    pub fn normal_at(&self, x: Vec2) -> Vec2 {
+    pub(crate) fn normal_at(&self, x: Vec2) -> Vec2 {
         let Some(node) = self.nodes.get(self.nearest(x)) else { return self.middle.normal_at(x) };
         perpendicular(turned(node.tangent, node.curvature * node.beside(x).1))
     }
 
     /// The point of the arc at the way `way` (m) from beside `from`, in the order of the points; its end for places beyond.
-    #[must_use]
-    pub fn walk(&self, from: Vec2, way: f64) -> Vec2 {
+    pub(crate) fn walk(&self, from: Vec2, way: f64) -> Vec2 {
         if self.nodes.is_empty() {
             return self.middle.walk(from, way);
         }
@@ -183,8 +180,7 @@ impl Arc {
     }
 
     /// Curvature in 1/m at `x`, positive where the arc turns to the left in the order of the points.
-    #[must_use]
-    pub fn curvature_at(&self, x: Vec2) -> f64 {
+    pub(crate) fn curvature_at(&self, x: Vec2) -> f64 {
         self.middle.curvature + self.force.dot(&(x - self.middle.at))
     }
 }

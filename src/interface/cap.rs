@@ -14,7 +14,6 @@ pub struct Cap {
 }
 
 /// The cap of `area` (m²) with the contact `angle` (rad, in (0, pi]): A = R² (theta - sin theta cos theta).
-#[must_use]
 pub fn cap(area: f64, angle: f64) -> Cap {
     let radius = (area / (angle - angle.sin() * angle.cos())).sqrt();
     Cap { radius, base: 2.0 * radius * angle.sin(), height: radius * (1.0 - angle.cos()), curvature: 1.0 / radius }

@@ -23,71 +23,35 @@ pub enum CircleError {
 
 /// A fitted circle or straight line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CircleFit {
+pub(crate) struct CircleFit {
     /// Curvature in 1/m: positive where the points turn to the left in their order.
-    pub curvature: f64,
+    pub(crate) curvature: f64,
     /// A point of the circle near the middle of the points, in m.
-    pub at: Vec2,
+    pub(crate) at: Vec2,
     /// Unit normal at `at`, on the left of the points in their order; towards the center where `curvature` is positive.
-    pub normal: Vec2,
+    pub(crate) normal: Vec2,
     /// Root mean square of the distances of the points in m.
-    pub rms: f64,
+    pub(crate) rms: f64,
     /// Number of points.
-    pub count: usize,
+    pub(crate) count: usize,
     /// Covariance of curvature (1/m), turn of the normal (rad) and shift of the point along the normal (m).
-    pub covariance: Matrix3<f64>,
+    pub(crate) covariance: Matrix3<f64>,
 }
 
 impl CircleFit {
-    /// Radius in m, infinite for a straight line.
-    #[must_use]
-    pub fn radius(&self) -> f64 {
-        self.curvature.abs().recip()
-    }
-
-    /// Center in m, which is not finite for a straight line.
-    #[must_use]
-    pub fn center(&self) -> Vec2 {
-        self.at + self.normal / self.curvature
-    }
-
-    /// Standard error of the curvature in 1/m.
-    #[must_use]
-    pub fn curvature_error(&self) -> f64 {
-        self.covariance[(0, 0)].max(0.0).sqrt()
-    }
-
-    /// Standard error of the radius in m.
-    #[must_use]
-    pub fn radius_error(&self) -> f64 {
-        self.curvature_error() / (self.curvature * self.curvature)
-    }
-
-    /// Standard errors of the center in m: along `normal` and across it.
-    #[must_use]
-    pub fn center_error(&self) -> [f64; 2] {
-        // center = at + normal/curvature: along the normal the shift less d(curvature)/curvature², across it the turn.
-        let along = Vector3::new(-self.curvature.powi(-2), 0.0, 1.0);
-        let variance = (along.transpose() * self.covariance * along)[(0, 0)];
-        [variance.max(0.0).sqrt(), self.covariance[(1, 1)].max(0.0).sqrt() / self.curvature.abs()]
-    }
-
     /// Signed distance in m of `x` from the circle, positive on the side of `normal`.
-    #[must_use]
-    pub fn distance(&self, x: Vec2) -> f64 {
+    pub(crate) fn distance(&self, x: Vec2) -> f64 {
         -Parameters::of(self).distance(x - self.at)
     }
 
     /// Unit normal at `x` (near the circle), on the left of the points in their order.
-    #[must_use]
-    pub fn normal_at(&self, x: Vec2) -> Vec2 {
+    pub(crate) fn normal_at(&self, x: Vec2) -> Vec2 {
         let to_center = self.normal - self.curvature * (x - self.at);
         to_center / to_center.norm()
     }
 
     /// The point of the circle at the arc length `way` (m) from its nearest point to `from`, in the order of the points.
-    #[must_use]
-    pub fn walk(&self, from: Vec2, way: f64) -> Vec2 {
+    pub(crate) fn walk(&self, from: Vec2, way: f64) -> Vec2 {
         let normal = self.normal_at(from);
         let start = from - self.distance(from) * normal;
         let tangent = -perpendicular(normal);
@@ -99,8 +63,7 @@ impl CircleFit {
     }
 
     /// The same circle with its three parameters changed by `change` (1/m, rad, m).
-    #[must_use]
-    pub fn perturbed(&self, change: Vector3<f64>) -> Self {
+    pub(crate) fn perturbed(&self, change: Vector3<f64>) -> Self {
         let turn = nalgebra::Rotation2::new(change[1]);
         let normal = turn * self.normal;
         Self { curvature: self.curvature + change[0], at: self.at + change[2] * self.normal, normal, ..*self }
@@ -169,7 +132,7 @@ impl Parameters {
 ///
 /// # Errors
 /// Fewer than three points, or points that coincide or are not finite.
-pub fn fit(points: &[Vec2]) -> Result<CircleFit, CircleError> {
+pub(crate) fn fit(points: &[Vec2]) -> Result<CircleFit, CircleError> {
     if points.len() < 3 {
         return Err(CircleError::TooFewPoints(points.len()));
     }
@@ -309,6 +272,20 @@ pub(super) fn variance_of(residuals: &[f64]) -> f64 {
     // Three points leave no freedom; one is the least that can be divided by.
     let freedom = (residuals.len() as f64 - 3.0).max(1.0);
     sum / freedom * (1.0 + correlation) / (1.0 - correlation)
+}
+
+/// What tests compare with.
+#[cfg(test)]
+impl CircleFit {
+    /// Center in m, which is not finite for a straight line.
+    pub(crate) fn center(&self) -> Vec2 {
+        self.at + self.normal / self.curvature
+    }
+
+    /// Standard error of the curvature in 1/m.
+    pub(crate) fn curvature_error(&self) -> f64 {
+        self.covariance[(0, 0)].max(0.0).sqrt()
+    }
 }
 
 #[cfg(test)]

@@ -33,7 +33,7 @@ pub struct ContactSettings {
 }
 
 /// How far a contour may lie off the interface beyond its scatter, over h. Calibrated: docs/numerics/error-bars.md.
-pub const ACCURACY: f64 = 0.015;
+pub(crate) const ACCURACY: f64 = 0.015;
 
 /// The exclusion distance is at most this share of the length of a meniscus, so that five sixths of a short one are left, but not less than
 /// half of that of long ones.
@@ -50,15 +50,13 @@ const OTHER_EXCLUSIONS: [f64; 2] = [0.5, 1.5];
 
 impl ContactSettings {
     /// The settings for a smoothing length in m: 2h left out, ends within 3h of the wall, whole menisci, no body force.
-    #[must_use]
     pub fn for_smoothing_length(h: f64) -> Self {
         let window = f64::INFINITY;
         Self { exclusion: 2.0 * h, reach: 3.0 * h, window, force: Vec2::zeros(), accuracy: ACCURACY * h }
     }
 
     /// The same under the body force Δρ g/σ (1/m²).
-    #[must_use]
-    pub fn under(self, force: Vec2) -> Self {
+    pub(crate) fn under(self, force: Vec2) -> Self {
         Self { force, ..self }
     }
 
@@ -135,12 +133,11 @@ const MISSED: f64 = 0.5;
 const LONGEST: f64 = 20.0;
 
 /// The fewest points that are fitted: twice the unknowns.
-pub const LEAST_POINTS: usize = 6;
+pub(crate) const LEAST_POINTS: usize = 6;
 
 /// The contact lines of `contours`: both ends of each open contour that come to the wall.
 ///
 /// Ends away from walls (at an open side, or at the seam of a periodic one) are no contact lines.
-#[must_use]
 pub fn contact_lines(
     contours: &[Polyline],
     wall: &dyn Fn(Vec2) -> WallPoint,
@@ -325,7 +322,6 @@ pub struct AngleSummary {
 }
 
 /// Mean and spread over the contact lines that have an angle.
-#[must_use]
 pub fn summarize(lines: &[ContactLine]) -> AngleSummary {
     let good: Vec<&ContactLine> = lines.iter().filter(|line| line.angle_deg.is_finite()).collect();
     let (measured, count) = (good.len(), good.len() as f64);

@@ -28,7 +28,6 @@ const NO_EDGE: usize = usize::MAX;
 ///
 /// Open lines come before closed ones, each group in the order of the grid. A line round a periodic axis is open, its
 /// last vertex the image of the first.
-#[must_use]
 pub fn contour(lattice: &Lattice, values: &[f64], level: f64) -> Vec<Polyline> {
     let tracer = Tracer { lattice, values, level };
     let mut next = vec![NO_EDGE; 2 * lattice.len()];

@@ -18,32 +18,22 @@ pub struct Lattice {
 
 impl Lattice {
     /// An open lattice.
-    #[must_use]
     pub fn open(origin: Vec2, spacing: Vec2, counts: [usize; 2]) -> Self {
         Self { origin, spacing, counts, periodic: [false; 2] }
     }
 
     /// Number of nodes.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.counts[0] * self.counts[1]
     }
 
-    /// Whether there is no node.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// Position in m of the node with the indices `i` along x and `j` along y, which may lie beyond the ends.
-    #[must_use]
-    pub fn position(&self, i: usize, j: usize) -> Vec2 {
+    pub(crate) fn position(&self, i: usize, j: usize) -> Vec2 {
         self.origin + Vec2::new(i as f64 * self.spacing.x, j as f64 * self.spacing.y)
     }
 
     /// Index of a node in a field, or nothing where the lattice ends.
-    #[must_use]
-    pub fn index(&self, i: isize, j: isize) -> Option<usize> {
+    pub(crate) fn index(&self, i: isize, j: isize) -> Option<usize> {
         let wrap = |k: isize, axis: usize| -> Option<usize> {
             let count = self.counts[axis] as isize;
             let inside = if self.periodic[axis] { k.rem_euclid(count.max(1)) } else { k };
@@ -53,20 +43,17 @@ impl Lattice {
     }
 
     /// All nodes in m, in the order of a field.
-    #[must_use]
     pub fn nodes(&self) -> Vec<Vec2> {
         (0..self.counts[1]).flat_map(|j| (0..self.counts[0]).map(move |i| self.position(i, j))).collect()
     }
 
     /// Period in m along each axis, where it has one.
-    #[must_use]
-    pub fn period(&self) -> [Option<f64>; 2] {
+    pub(crate) fn period(&self) -> [Option<f64>; 2] {
         [0, 1].map(|axis| self.periodic[axis].then(|| self.counts[axis] as f64 * self.spacing[axis]))
     }
 
     /// The lattice with `fields`, each of [`len`](Self::len) values, as output sees it.
-    #[must_use]
-    pub fn grid<'a>(&self, fields: Vec<Field<'a>>) -> Grid<'a> {
+    pub(crate) fn grid<'a>(&self, fields: Vec<Field<'a>>) -> Grid<'a> {
         Grid { origin: self.origin, spacing: self.spacing, counts: self.counts, fields }
     }
 }

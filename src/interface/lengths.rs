@@ -4,10 +4,9 @@ use super::polyline::Polyline;
 use crate::math::Vec2;
 
 /// Color above which a place is of the wetting phase: the level of the interface.
-pub const WETTING_COLOR: f64 = 0.5;
+pub(crate) const WETTING_COLOR: f64 = 0.5;
 
 /// Total length of `contours` in m.
-#[must_use]
 pub fn interface_length(contours: &[Polyline]) -> f64 {
     contours.iter().map(Polyline::length).sum()
 }
@@ -31,7 +30,6 @@ pub struct WallSample {
 }
 
 /// Cuts wall outlines into pieces no longer than `longest` (m).
-#[must_use]
 pub fn wall_samples(outlines: &[Polyline], longest: f64) -> Vec<WallSample> {
     let mut samples = Vec::new();
     for (a, b) in outlines.iter().flat_map(Polyline::segments) {
@@ -45,7 +43,6 @@ pub fn wall_samples(outlines: &[Polyline], longest: f64) -> Vec<WallSample> {
 }
 
 /// Wetted length from the smoothed color at each sample; samples without one (NaN: no fluid near) are left out.
-#[must_use]
 pub fn wetted_length(samples: &[WallSample], colors: &[f64]) -> WettedLength {
     let sum = |inside: &dyn Fn(f64) -> bool| {
         samples.iter().zip(colors).filter(|(_, c)| inside(**c)).map(|(sample, _)| sample.length).sum()

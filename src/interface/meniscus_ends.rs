@@ -14,11 +14,11 @@ use crate::math::{Vec2, perpendicular};
 
 /// A contact line under a body force.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeniscusEnd {
+pub(crate) struct MeniscusEnd {
     /// Where the fitted meniscus meets the wall, in m.
-    pub position: Vec2,
+    pub(crate) position: Vec2,
     /// Angle through the wetting phase in degrees.
-    pub angle_deg: f64,
+    pub(crate) angle_deg: f64,
 }
 
 /// Steps from the first point used to the wall are this share of its distance.
@@ -30,8 +30,7 @@ const MOST_STEPS: usize = 2000;
 /// Both ends of each open contour that come to the wall and are long enough for a fit.
 ///
 /// `force` = Δρ g/σ in 1/m², Δρ the density of the wetting less that of the other phase.
-#[must_use]
-pub fn ends_under_force(
+pub(crate) fn ends_under_force(
     contours: &[Polyline],
     wall: &dyn Fn(Vec2) -> WallPoint,
     settings: &ContactSettings,

@@ -6,15 +6,15 @@
 //! Contact lines: [`contact`] has their angles with error bars, [`meniscus_ends`] those of interfaces that move under a body force.
 //! [`menisci`] between two walls: place, burst, touch, overlap.
 
-pub mod arc;
+pub(crate) mod arc;
 pub mod cap;
-pub mod circle;
+pub(crate) mod circle;
 pub mod contact;
 pub mod contour;
 pub mod lattice;
 pub mod lengths;
 pub mod menisci;
-pub mod meniscus_ends;
+pub(crate) mod meniscus_ends;
 pub mod polyline;
 pub mod wall;
-pub mod weighted_circle;
+pub(crate) mod weighted_circle;

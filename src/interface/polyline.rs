@@ -14,21 +14,19 @@ pub struct Polyline {
 
 impl Polyline {
     /// Length in m.
-    #[must_use]
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.segments().map(|(a, b)| (b - a).norm()).sum()
     }
 
     /// The segments from vertex to vertex, with the closing one of a closed line.
-    pub fn segments(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+    pub(crate) fn segments(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
         let count = self.points.len();
         let segments = if self.closed && count > 1 { count } else { count.saturating_sub(1) };
         (0..segments).map(move |i| (self.points[i], self.points[(i + 1) % count]))
     }
 
     /// Area in m² on the left of a closed line: positive where it runs counter-clockwise.
-    #[must_use]
-    pub fn signed_area(&self) -> f64 {
+    pub(crate) fn signed_area(&self) -> f64 {
         let from = self.points.first().copied().unwrap_or_else(Vec2::zeros);
         0.5 * self.segments().map(|(a, b)| (a - from).perp(&(b - from))).sum::<f64>()
     }
@@ -36,8 +34,7 @@ impl Polyline {
     /// Curvature in 1/m at each vertex, by a circle fitted to the vertices within `reach` (m) along the line.
     ///
     /// Positive for a drop of the high side. NaN where fewer than five vertices are in reach.
-    #[must_use]
-    pub fn curvature(&self, reach: f64) -> Vec<f64> {
+    pub(crate) fn curvature(&self, reach: f64) -> Vec<f64> {
         (0..self.points.len())
             .map(|i| {
                 let window = self.window(i, reach);
@@ -50,8 +47,7 @@ impl Polyline {
     /// The interface whose color, smoothed with `smoothing_length` (m), has this line as its level 1/2.
     ///
     /// Smoothing draws the level towards the center of curvature, see [`LINE_MOMENT`]. The curvature is that within 2.5 smoothing lengths.
-    #[must_use]
-    pub fn on_interface(&self, smoothing_length: f64) -> Self {
+    pub(crate) fn on_interface(&self, smoothing_length: f64) -> Self {
         let count = self.points.len();
         let limit = 1.0 / smoothing_length;
         let moved = |(i, kappa): (usize, f64)| {

@@ -26,15 +26,13 @@ const TURNED: f64 = 0.8;
 const BENT: f64 = 0.5;
 
 /// Whether the walls nearest to two points (m) are the faces of an edge.
-#[must_use]
-pub fn is_edge_between(wall: &dyn Fn(Vec2) -> WallPoint, behind: Vec2, ahead: Vec2) -> bool {
+pub(crate) fn is_edge_between(wall: &dyn Fn(Vec2) -> WallPoint, behind: Vec2, ahead: Vec2) -> bool {
     wall(behind).normal.dot(&wall(ahead).normal) < BENT
 }
 
 /// Normal of the wall at a point `x` (m) of it; where an edge stands within `reach` (m) to the left, for someone who looks into the
 /// pore, or else to the right, of the face behind that.
-#[must_use]
-pub fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool, reach: f64) -> Vec2 {
+pub(crate) fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool, reach: f64) -> Vec2 {
     let normal = wall(x).normal;
     let along = if left { perpendicular(normal) } else { -perpendicular(normal) };
     let there = wall(x + reach * along).normal;
@@ -45,7 +43,6 @@ pub fn face_beside(wall: &dyn Fn(Vec2) -> WallPoint, x: Vec2, left: bool, reach:
 ///
 /// Contour a field that goes on for a spacing or two into the solid and cut it here: a field that is missing at each
 /// node of the solid tears contours that meet the wall at a small angle into pieces.
-#[must_use]
 pub fn clip(lines: &[Polyline], wall: &dyn Fn(Vec2) -> WallPoint) -> Vec<Polyline> {
     lines.iter().flat_map(|line| clip_line(line, wall)).collect()
 }

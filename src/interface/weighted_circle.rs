@@ -24,22 +24,22 @@ const CONVERGED: f64 = 1e-9;
 
 /// Fewest points of a fit from the wall: two unknowns and some redundancy. A line that moves fast parts the particles at its
 /// tip, and few pairs span the interface there.
-pub const FEWEST_FROM_CONTACT: usize = 3;
+pub(crate) const FEWEST_FROM_CONTACT: usize = 3;
 
 /// A point that a circle is fitted to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WeightedPoint {
+pub(crate) struct WeightedPoint {
     /// Its number among the points of the interface.
-    pub index: usize,
+    pub(crate) index: usize,
     /// Its place in m, relative to the origin of the fit.
-    pub x: Vec2,
+    pub(crate) x: Vec2,
     /// Its weight.
-    pub weight: f64,
+    pub(crate) weight: f64,
 }
 
 /// The circle v = a + b u + k (u² + v²)/2 in the frame of `tangent` and `normal`, its origin where that of the points was.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WeightedCircle {
+pub(crate) struct WeightedCircle {
     a: f64,
     b: f64,
     k: f64,
@@ -49,8 +49,7 @@ pub struct WeightedCircle {
 
 impl WeightedCircle {
     /// Weighted least squares through `near`, none through fewer than five points; `normal` is about that of the interface.
-    #[must_use]
-    pub fn through(near: &[WeightedPoint], normal: Vec2) -> Option<Self> {
+    pub(crate) fn through(near: &[WeightedPoint], normal: Vec2) -> Option<Self> {
         if near.len() < FEWEST {
             return None;
         }
@@ -67,8 +66,7 @@ impl WeightedCircle {
     }
 
     /// k/√(1 + b² − 2ka) in 1/m, positive for a drop on the side of `normal`; none where there is no real circle.
-    #[must_use]
-    pub fn curvature(&self) -> Option<f64> {
+    pub(crate) fn curvature(&self) -> Option<f64> {
         let square = 1.0 + self.b * self.b - 2.0 * self.k * self.a;
         (square > 0.0).then(|| self.k / square.sqrt())
     }
@@ -76,8 +74,7 @@ impl WeightedCircle {
     /// The point of the circle nearest to `x` (m) and the unit normal there, none for the center.
     ///
     /// F = a + b u + k (u² + v²)/2 − v is quadratic, and on the line through x along ∇F it is F − t|∇F| + k t²/2.
-    #[must_use]
-    pub fn closest_point(&self, x: Vec2) -> Option<(Vec2, Vec2)> {
+    pub(crate) fn closest_point(&self, x: Vec2) -> Option<(Vec2, Vec2)> {
         let slope = |u: f64, v: f64| Vec2::new(self.b + self.k * u, self.k * v - 1.0);
         let (u, v) = (x.dot(&self.tangent), x.dot(&self.normal));
         let off = self.a + self.b * u + 0.5 * self.k * (u * u + v * v) - v;
@@ -96,11 +93,11 @@ impl WeightedCircle {
 
 /// Directions at a point of a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WallFrame {
+pub(crate) struct WallFrame {
     /// ν: unit vector along the wall, from the wetting to the other phase.
-    pub outward: Vec2,
+    pub(crate) outward: Vec2,
     /// Unit normal into the fluid.
-    pub normal: Vec2,
+    pub(crate) normal: Vec2,
 }
 
 /// Curvature of the circle that leaves the wall at `contact` + δ ν with the `angle` (rad), and δ in m, which is fitted too.
@@ -109,8 +106,12 @@ pub struct WallFrame {
 /// v = k (u² + v²)/2 passes through it; a fit of v = a + k (u² + v²)/2 misses it by a, and Newton's method moves it until a = 0. At 0 and
 /// 180 degrees the circle touches the wall: moved along the wall by δ the circle then moves by k u δ alone, which is what the points
 /// farther from the wall tell. None where the points do not determine the fit.
-#[must_use]
-pub fn fit_from_contact(near: &[WeightedPoint], contact: Vec2, wall: WallFrame, angle: f64) -> Option<(f64, f64)> {
+pub(crate) fn fit_from_contact(
+    near: &[WeightedPoint],
+    contact: Vec2,
+    wall: WallFrame,
+    angle: f64,
+) -> Option<(f64, f64)> {
     let WallFrame { outward, normal } = wall;
     let (sin, cos) = angle.clamp(0.0, PI).sin_cos();
     let extent = near.iter().map(|q| (q.x - contact).norm()).fold(0.0, f64::max);
@@ -144,8 +145,7 @@ pub fn fit_from_contact(near: &[WeightedPoint], contact: Vec2, wall: WallFrame, 
 /// normal `wall`; `normal` is about that of the interface.
 ///
 /// Least squares of v = b u + k (u² + v²)/2 about the anchor: the normal there is (−b, 1)/√(1 + b²). None where the points do not determine it.
-#[must_use]
-pub fn angle_through(near: &[WeightedPoint], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {
+pub(crate) fn angle_through(near: &[WeightedPoint], anchor: Vec2, normal: Vec2, wall: Vec2) -> Option<f64> {
     let tangent = -perpendicular(normal);
     let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
     for q in near {

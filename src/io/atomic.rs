@@ -54,12 +54,12 @@ pub enum FileError {
 
 impl FileError {
     /// A [`FileError::Write`], for `map_err`.
-    pub fn write(path: &Path) -> impl Fn(io::Error) -> Self {
+    pub(crate) fn write(path: &Path) -> impl Fn(io::Error) -> Self {
         move |source| Self::Write { path: path.to_path_buf(), source }
     }
 
     /// A [`FileError::Read`], for `map_err`.
-    pub fn read(path: &Path) -> impl Fn(io::Error) -> Self {
+    pub(crate) fn read(path: &Path) -> impl Fn(io::Error) -> Self {
         move |source| Self::Read { path: path.to_path_buf(), source }
     }
 }
@@ -94,10 +94,7 @@ fn way_out(source: &io::Error) -> &'static str {
 }
 
 /// Makes a folder and all above it; no error where it exists.
-///
-/// # Errors
-/// [`FileError::Folder`].
-pub fn make_folder(path: &Path) -> Result<(), FileError> {
+pub(crate) fn make_folder(path: &Path) -> Result<(), FileError> {
     fs::create_dir_all(path).map_err(|source| FileError::Folder { path: path.to_path_buf(), source })
 }
 
@@ -105,7 +102,7 @@ pub fn make_folder(path: &Path) -> Result<(), FileError> {
 ///
 /// # Errors
 /// [`FileError`]; then the old file, if any, is as it was and nothing else is left behind.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         make_folder(folder)?;
     }
@@ -128,7 +125,7 @@ fn fill(mut file: fs::File, bytes: &[u8]) -> io::Result<()> {
 ///
 /// # Errors
 /// [`FileError`] where a folder cannot be read or a file cannot be removed.
-pub fn remove_leftovers(folder: &Path) -> Result<(), FileError> {
+pub(crate) fn remove_leftovers(folder: &Path) -> Result<(), FileError> {
     for entry in fs::read_dir(folder).map_err(FileError::read(folder))? {
         let path = entry.map_err(FileError::read(folder))?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();

@@ -4,7 +4,7 @@ use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
 /// Width of a legend beside a drawing in pixels.
-pub const LEGEND: u32 = 270;
+pub(crate) const LEGEND: u32 = 270;
 /// Height of a line of the legend in pixels.
 const LEGEND_LINE: i32 = 20;
 /// Share of the range that is left free on either side of the data.
@@ -24,17 +24,17 @@ const COLORS: [RGBColor; 10] = [
 ];
 
 /// An axis of numbers, linear or logarithmic.
-pub trait NumberAxis: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>> {}
+pub(crate) trait NumberAxis: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>> {}
 
 impl<A: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>> NumberAxis for A {}
 
 /// The color of a line by its number.
-pub fn color_of(number: usize) -> RGBColor {
+pub(crate) fn color_of(number: usize) -> RGBColor {
     COLORS[number % COLORS.len()]
 }
 
 /// The range of some values with a rim.
-pub fn range(values: impl Iterator<Item = f64> + Clone, logarithmic: bool) -> std::ops::Range<f64> {
+pub(crate) fn range(values: impl Iterator<Item = f64> + Clone, logarithmic: bool) -> std::ops::Range<f64> {
     /// Half the range around a single value, as a share of it.
     const AROUND_ONE: f64 = 0.5;
     let to = |value: f64| if logarithmic { value.ln() } else { value };
@@ -48,7 +48,7 @@ pub fn range(values: impl Iterator<Item = f64> + Clone, logarithmic: bool) -> st
 }
 
 /// Round numbers in a range of a logarithmic axis: powers of ten where there are enough of them, else more.
-pub fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
+pub(crate) fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
     /// Fewest numbers that tell a scale.
     const FEWEST: usize = 3;
     const STEPS: [&[f64]; 3] = [&[1.0], &[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]];
@@ -64,10 +64,10 @@ pub fn logarithmic_ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
 }
 
 /// Why nothing could be drawn.
-pub type DrawingError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+pub(crate) type DrawingError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
 /// Draws the names of the lines beside the drawing, where they hide nothing.
-pub fn draw_legend<'a>(
+pub(crate) fn draw_legend<'a>(
     area: &DrawingArea<SVGBackend<'a>, plotters::coord::Shift>,
     names: &[(String, RGBColor)],
 ) -> Result<(), DrawingError<'a>> {
@@ -80,7 +80,7 @@ pub fn draw_legend<'a>(
 }
 
 /// A number at an axis: no more digits than it has.
-pub fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     /// Outside of these an exponent is shorter than zeros.
     const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
     /// Rounds off what computing with ticks leaves.

@@ -18,14 +18,13 @@ impl Default for Fnv1a {
 
 impl Fnv1a {
     /// Takes in the next piece.
-    pub fn pass(&mut self, bytes: &[u8]) {
+    pub(crate) fn pass(&mut self, bytes: &[u8]) {
         self.0 = math::fnv1a(self.0, bytes.iter().copied());
     }
 }
 
 /// The FNV-1a hash of `bytes`.
-#[must_use]
-pub fn fnv1a(bytes: &[u8]) -> u64 {
+pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
     let mut hash = Fnv1a::default();
     hash.pass(bytes);
     hash.0

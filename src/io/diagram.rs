@@ -26,9 +26,6 @@ pub struct DiagramError {
 }
 
 /// The diagram as SVG; none where nothing can be shown.
-///
-/// # Errors
-/// [`DiagramError`].
 pub fn svg(diagram: &Diagram) -> Result<Option<String>, DiagramError> {
     let shown = |axis: &Axis, value: f64| value.is_finite() && (!axis.logarithmic || value > 0.0);
     let fits = |point: &[f64; 2]| shown(&diagram.x, point[0]) && shown(&diagram.y, point[1]);

@@ -12,7 +12,7 @@ use super::journal::{self, Journal, Mark};
 
 /// A file that was written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Written {
+pub(crate) struct Written {
     /// Where the run stood: time in s.
     pub time: f64,
     /// The file, relative to the folder of the run.
@@ -25,43 +25,34 @@ pub struct Written {
 
 /// The list on disk and in memory.
 #[derive(Debug)]
-pub struct FrameList {
+pub(crate) struct FrameList {
     folder: PathBuf,
     journal: Journal,
 }
 
 /// The file in the folder of a run.
-#[must_use]
-pub fn path(folder: &Path) -> PathBuf {
+pub(crate) fn path(folder: &Path) -> PathBuf {
     folder.join("restart").join("frames.csv")
 }
 
 impl FrameList {
     /// A new, empty list.
-    #[must_use]
-    pub fn new(folder: &Path) -> Self {
+    pub(crate) fn new(folder: &Path) -> Self {
         Self { folder: folder.to_path_buf(), journal: Journal::new(path(folder)) }
     }
 
     /// Goes on behind `mark`, after [`read`].
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn resume(folder: &Path, mark: Mark) -> Result<Self, FileError> {
+    pub(crate) fn resume(folder: &Path, mark: Mark) -> Result<Self, FileError> {
         Ok(Self { folder: folder.to_path_buf(), journal: Journal::resume(path(folder), mark)? })
     }
 
     /// How much of the list there is.
-    #[must_use]
-    pub fn mark(&self) -> Mark {
+    pub(crate) fn mark(&self) -> Mark {
         self.journal.mark()
     }
 
     /// Writes a file and notes it.
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn write(&mut self, time: f64, file: &str, content: &[u8]) -> Result<(), FileError> {
+    pub(crate) fn write(&mut self, time: f64, file: &str, content: &[u8]) -> Result<(), FileError> {
         atomic::write(&self.folder.join(file), content)?;
         let format = |what: String| FileError::Format { path: path(&self.folder), what };
         let mut writer = csv::WriterBuilder::new().has_headers(self.mark().bytes == 0).from_writer(Vec::<u8>::new());
@@ -76,7 +67,7 @@ impl FrameList {
 ///
 /// # Errors
 /// [`FileError`] where the list is not what it was when the mark was made.
-pub fn read(folder: &Path, mark: Mark) -> Result<Vec<Written>, FileError> {
+pub(crate) fn read(folder: &Path, mark: Mark) -> Result<Vec<Written>, FileError> {
     let path = path(folder);
     let text = journal::read(&path, mark)?;
     let rows: Result<Vec<Written>, _> = csv::Reader::from_reader(text.as_slice()).deserialize().collect();
@@ -87,7 +78,7 @@ pub fn read(folder: &Path, mark: Mark) -> Result<Vec<Written>, FileError> {
 ///
 /// # Errors
 /// [`FileError`] of the first that is not.
-pub fn check(folder: &Path, frames: &[Written]) -> Result<(), FileError> {
+pub(crate) fn check(folder: &Path, frames: &[Written]) -> Result<(), FileError> {
     for (index, frame) in frames.iter().enumerate() {
         // Only the last content of a file can be there.
         if frames[index + 1..].iter().take(AGAIN).any(|later| later.file == frame.file) {

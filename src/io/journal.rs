@@ -23,8 +23,7 @@ pub struct Mark {
 
 impl Mark {
     /// The mark behind `bytes`.
-    #[must_use]
-    pub fn behind(bytes: &[u8]) -> Self {
+    pub(crate) fn behind(bytes: &[u8]) -> Self {
         let mut mark = Self::default();
         mark.pass(bytes);
         mark
@@ -38,7 +37,7 @@ impl Mark {
 
 /// A file that grows.
 #[derive(Debug)]
-pub struct Journal {
+pub(crate) struct Journal {
     path: PathBuf,
     /// None until the first piece.
     file: Option<File>,
@@ -47,16 +46,12 @@ pub struct Journal {
 
 impl Journal {
     /// A new one; the file is made with its first piece.
-    #[must_use]
-    pub fn new(path: PathBuf) -> Self {
+    pub(crate) fn new(path: PathBuf) -> Self {
         Self { path, file: None, mark: Mark::default() }
     }
 
     /// Goes on behind `mark`, after [`read`] found all before it unchanged: what is behind it is cut off.
-    ///
-    /// # Errors
-    /// [`FileError::Write`].
-    pub fn resume(path: PathBuf, mark: Mark) -> Result<Self, FileError> {
+    pub(crate) fn resume(path: PathBuf, mark: Mark) -> Result<Self, FileError> {
         let mut journal = Self::new(path);
         if mark.bytes > 0 {
             let file = journal.open().and_then(|file| file.set_len(mark.bytes).map(|()| file));
@@ -67,14 +62,12 @@ impl Journal {
     }
 
     /// The file.
-    #[must_use]
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
     /// How much there is.
-    #[must_use]
-    pub fn mark(&self) -> Mark {
+    pub(crate) fn mark(&self) -> Mark {
         self.mark
     }
 
@@ -82,7 +75,7 @@ impl Journal {
     ///
     /// # Errors
     /// [`FileError::Write`]; then the file is as it was, as far as the system allows.
-    pub fn append(&mut self, piece: &[u8]) -> Result<(), FileError> {
+    pub(crate) fn append(&mut self, piece: &[u8]) -> Result<(), FileError> {
         if self.file.is_none() {
             return self.replace(piece);
         }
@@ -97,10 +90,7 @@ impl Journal {
     }
 
     /// Puts `content` in place of all that is there.
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn replace(&mut self, content: &[u8]) -> Result<(), FileError> {
+    pub(crate) fn replace(&mut self, content: &[u8]) -> Result<(), FileError> {
         atomic::write(&self.path, content)?;
         self.file = Some(self.open().map_err(FileError::write(&self.path))?);
         self.mark = Mark::behind(content);
@@ -116,7 +106,7 @@ impl Journal {
 ///
 /// # Errors
 /// [`FileError::Read`], or [`FileError::Content`] where it is not what it was when the mark was made.
-pub fn read(path: &Path, mark: Mark) -> Result<Vec<u8>, FileError> {
+pub(crate) fn read(path: &Path, mark: Mark) -> Result<Vec<u8>, FileError> {
     if mark.bytes == 0 {
         return Ok(Vec::new());
     }

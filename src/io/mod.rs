@@ -4,17 +4,17 @@
 //! lists them, [`series`] keeps `series.csv`, [`restart`] the saved state, [`picture`] and [`diagram`]
 //! draw. Nothing here knows a solver or a case.
 
-pub mod atomic;
-pub mod axes;
-pub mod checksum;
+pub(crate) mod atomic;
+pub(crate) mod axes;
+pub(crate) mod checksum;
 pub mod diagram;
-pub mod frames;
-pub mod journal;
-pub mod picture;
-pub mod pvd;
+pub(crate) mod frames;
+pub(crate) mod journal;
+pub(crate) mod picture;
+pub(crate) mod pvd;
 pub mod restart;
-pub mod series;
+pub(crate) mod series;
 pub mod table;
-pub mod vtk;
+pub(crate) mod vtk;
 
-pub use atomic::FileError;
+pub(crate) use atomic::FileError;

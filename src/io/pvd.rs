@@ -13,7 +13,7 @@ use super::frames::{FrameList, Written};
 
 /// A time series of VTK files: `NAME.pvd` beside the folder `NAME/` with `NAME-000000.EXT` and so on.
 #[derive(Debug)]
-pub struct Collection {
+pub(crate) struct Collection {
     folder: PathBuf,
     name: String,
     extension: &'static str,
@@ -48,8 +48,7 @@ impl Entries {
 
 impl Collection {
     /// The series in `folder` that holds what was `written` before; files of other series are passed over.
-    #[must_use]
-    pub fn new(folder: &Path, name: &str, extension: &'static str, written: &[Written]) -> Self {
+    pub(crate) fn new(folder: &Path, name: &str, extension: &'static str, written: &[Written]) -> Self {
         let mut entries = Entries::default();
         for frame in written.iter().filter(|frame| series_of(frame) == name) {
             entries.cut(frame.time);
@@ -59,16 +58,12 @@ impl Collection {
     }
 
     /// The `.pvd` file.
-    #[must_use]
-    pub fn path(&self) -> PathBuf {
+    pub(crate) fn path(&self) -> PathBuf {
         self.folder.join(format!("{}.pvd", self.name))
     }
 
     /// Writes the VTK file of `time` (s), notes it in `frames`, then writes the `.pvd` that names it.
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn record(&mut self, time: f64, content: &[u8], frames: &mut FrameList) -> Result<(), FileError> {
+    pub(crate) fn record(&mut self, time: f64, content: &[u8], frames: &mut FrameList) -> Result<(), FileError> {
         self.entries.cut(time);
         let file = format!("{0}/{0}-{1:06}.{2}", self.name, self.entries.times.len(), self.extension);
         frames.write(time, &file, content)?;
@@ -91,10 +86,7 @@ fn series_of(frame: &Written) -> &str {
 }
 
 /// Makes the `.pvd` files anew that name what was `written`, whatever is there.
-///
-/// # Errors
-/// [`FileError`].
-pub fn rebuild(folder: &Path, written: &[Written]) -> Result<(), FileError> {
+pub(crate) fn rebuild(folder: &Path, written: &[Written]) -> Result<(), FileError> {
     let names: BTreeSet<&str> = written.iter().map(series_of).collect();
     names.into_iter().try_for_each(|name| Collection::new(folder, name, "", written).write())
 }

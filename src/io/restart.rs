@@ -49,7 +49,6 @@ struct Header {
 }
 
 /// The file of the saved state of the run in `folder`.
-#[must_use]
 pub fn path(folder: &Path) -> PathBuf {
     folder.join("restart").join("state.bin")
 }

@@ -14,21 +14,19 @@ const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// The time series on disk and in memory.
 #[derive(Debug)]
-pub struct SeriesFile {
+pub(crate) struct SeriesFile {
     journal: Journal,
     series: Series,
 }
 
 /// The file in the folder of a run.
-#[must_use]
-pub fn path(folder: &Path) -> PathBuf {
+pub(crate) fn path(folder: &Path) -> PathBuf {
     folder.join("series.csv")
 }
 
 impl SeriesFile {
     /// A new, empty series in `folder`.
-    #[must_use]
-    pub fn new(folder: &Path) -> Self {
+    pub(crate) fn new(folder: &Path) -> Self {
         Self { journal: Journal::new(path(folder)), series: Series::default() }
     }
 
@@ -36,21 +34,19 @@ impl SeriesFile {
     ///
     /// # Errors
     /// [`FileError`] where the file is not what it was when the mark was made.
-    pub fn resume(folder: &Path, mark: Mark) -> Result<Self, FileError> {
+    pub(crate) fn resume(folder: &Path, mark: Mark) -> Result<Self, FileError> {
         let path = path(folder);
         let series = parse(&journal::read(&path, mark)?, &path)?;
         Ok(Self { journal: Journal::resume(path, mark)?, series })
     }
 
     /// All rows so far.
-    #[must_use]
-    pub fn series(&self) -> &Series {
+    pub(crate) fn series(&self) -> &Series {
         &self.series
     }
 
     /// How much of the file there is.
-    #[must_use]
-    pub fn mark(&self) -> Mark {
+    pub(crate) fn mark(&self) -> Mark {
         self.journal.mark()
     }
 
@@ -58,7 +54,7 @@ impl SeriesFile {
     ///
     /// # Errors
     /// [`FileError::Format`] where the columns differ from those of the rows before, or another [`FileError`].
-    pub fn record(&mut self, columns: &[&str], row: Vec<f64>) -> Result<(), FileError> {
+    pub(crate) fn record(&mut self, columns: &[&str], row: Vec<f64>) -> Result<(), FileError> {
         if self.series.columns.is_empty() {
             self.series.columns = columns.iter().map(|&name| name.to_owned()).collect();
         }
@@ -111,7 +107,7 @@ pub(super) fn number(value: f64) -> String {
 ///
 /// # Errors
 /// [`FileError::Read`] or [`FileError::Content`].
-pub fn read(path: &Path) -> Result<Series, FileError> {
+pub(crate) fn read(path: &Path) -> Result<Series, FileError> {
     parse(&std::fs::read(path).map_err(FileError::read(path))?, path)
 }
 

@@ -7,9 +7,6 @@ use super::series::number;
 use crate::table::{Cells, Table};
 
 /// Writes `NAME.csv` in `folder`.
-///
-/// # Errors
-/// [`FileError`].
 pub fn write(folder: &Path, table: &Table) -> Result<(), FileError> {
     let path = folder.join(format!("{}.csv", table.name));
     let text = text(table).map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;

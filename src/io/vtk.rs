@@ -8,7 +8,7 @@ mod array;
 
 use std::fmt::Write as _;
 
-pub use array::Compression;
+pub(crate) use array::Compression;
 
 use crate::math::Vec2;
 use crate::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines, Values};
@@ -18,7 +18,7 @@ const VERTEX: u8 = 1;
 
 /// A snapshot that cannot be written as VTK.
 #[derive(Debug, thiserror::Error)]
-pub enum VtkError {
+pub(crate) enum VtkError {
     /// A field that is longer or shorter than the points it belongs to.
     #[error("the field {name} has {found} values, expected {expected}")]
     Length {
@@ -32,10 +32,7 @@ pub enum VtkError {
 }
 
 /// Points as a `.vtu` file, each a vertex cell; `time` in s.
-///
-/// # Errors
-/// [`VtkError`].
-pub fn points(cloud: &Cloud<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
+pub(crate) fn points(cloud: &Cloud<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
     let count = cloud.points.len();
     let fields = arrays(&cloud.fields, count, compression)?;
     let types = compression.bytes("types", &vec![VERTEX; count]);
@@ -48,10 +45,7 @@ pub fn points(cloud: &Cloud<'_>, time: f64, compression: Compression) -> Result<
 }
 
 /// Fields on a regular grid as a `.vti` file; `time` in s.
-///
-/// # Errors
-/// [`VtkError`].
-pub fn grid(grid: &Grid<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
+pub(crate) fn grid(grid: &Grid<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
     let fields = arrays(&grid.fields, grid.counts[0] * grid.counts[1], compression)?;
     let [last_x, last_y] = grid.counts.map(|count| count.saturating_sub(1));
     let extent = format!("0 {last_x} 0 {last_y} 0 0");
@@ -65,20 +59,14 @@ pub fn grid(grid: &Grid<'_>, time: f64, compression: Compression) -> Result<Vec<
 }
 
 /// Polylines as a `.vtp` file; `time` in s.
-///
-/// # Errors
-/// [`VtkError`].
-pub fn lines(lines: &Lines<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
+pub(crate) fn lines(lines: &Lines<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
     let fields = arrays(&lines.fields, lines.points.len(), compression)?;
     let data = format!("<PointData>{fields}</PointData>");
     Ok(poly_data(&lines.points, CellKind::Lines, &lines.lines, &data, time, compression))
 }
 
 /// Cells with fields on them as a `.vtp` file; `time` in s, or where the clock of the run stands.
-///
-/// # Errors
-/// [`VtkError`].
-pub fn layer(layer: &Layer<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
+pub(crate) fn layer(layer: &Layer<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
     let fields = arrays(&layer.fields, layer.cells.len(), compression)?;
     let data = format!("<CellData>{fields}</CellData>");
     Ok(poly_data(&layer.points, layer.kind, &layer.cells, &data, time, compression))

@@ -16,15 +16,13 @@ const SHORTEST: f64 = 1e-6;
 pub(super) const LEAST_RESISTANCE: f64 = 12.0 * SHORTEST;
 
 /// The conductances of all throats in m².
-#[must_use]
 pub fn conductances(network: &Network) -> Vec<f64> {
     let of = |(throat, halves): (usize, [f64; 2])| finite(halves[0] + halves[1], network.throats[throat].width);
     resistances(network).into_iter().enumerate().map(of).collect()
 }
 
 /// The resistances of all throats in 1/m², from the chord to the center of the first and of the second region.
-#[must_use]
-pub fn resistances(network: &Network) -> Vec<[f64; 2]> {
+pub(crate) fn resistances(network: &Network) -> Vec<[f64; 2]> {
     let mut resistances = vec![[0.0; 2]; network.throats.len()];
     each_edge(network, |region, index, edge| {
         if let Edge::Throat { throat, end, from, to } = *edge
@@ -37,14 +35,12 @@ pub fn resistances(network: &Network) -> Vec<[f64; 2]> {
 }
 
 /// The conductances of all openings in m², from the side to the center of the region behind it.
-#[must_use]
-pub fn opening_conductances(network: &Network) -> Vec<f64> {
+pub(crate) fn opening_conductances(network: &Network) -> Vec<f64> {
     opening_resistances(network).into_iter().map(|resistance| 1.0 / resistance).collect()
 }
 
 /// The resistances of all openings in 1/m², from the side to the center of the region behind it.
-#[must_use]
-pub fn opening_resistances(network: &Network) -> Vec<f64> {
+pub(crate) fn opening_resistances(network: &Network) -> Vec<f64> {
     let mut found = vec![f64::INFINITY; network.openings.len()];
     each_edge(network, |region, index, edge| {
         if let Edge::Opening { opening, from, to } = *edge

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use super::displacement::{Beginning, Conditions, Displacement, EventKind, Phase};
 use super::graph::{Network, Pores};
 use super::moment::Moment;
-pub use crate::case::FluidPhase;
+pub(crate) use crate::case::FluidPhase;
 
 impl FluidPhase {
     /// Its name in files.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Wetting => "wetting",
             Self::NonWetting => "non-wetting",
@@ -21,8 +21,7 @@ impl FluidPhase {
 
     /// Curvature of menisci bulging into the wetting phase in 1/m for one that bulges into the defending phase by `curvature` where this
     /// fluid invades, so that tension times it is p_n - p_w.
-    #[must_use]
-    pub fn towards_wetting(self, curvature: f64) -> f64 {
+    pub(crate) fn towards_wetting(self, curvature: f64) -> f64 {
         match self {
             Self::NonWetting => curvature,
             Self::Wetting => -curvature,
@@ -30,8 +29,7 @@ impl FluidPhase {
     }
 
     /// The other fluid.
-    #[must_use]
-    pub fn other(self) -> Self {
+    pub(crate) fn other(self) -> Self {
         match self {
             Self::Wetting => Self::NonWetting,
             Self::NonWetting => Self::Wetting,
@@ -52,7 +50,7 @@ pub struct End {
 #[derive(Debug, Clone, PartialEq)]
 pub struct HalfCycle {
     /// The phase that invades.
-    pub invading: FluidPhase,
+    pub(crate) invading: FluidPhase,
     /// Angles, open sides and the largest applied curvature.
     pub conditions: Conditions,
     /// Where it ends early.
@@ -61,8 +59,7 @@ pub struct HalfCycle {
 
 impl HalfCycle {
     /// `drainage` or `imbibition`.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub(crate) fn name(&self) -> &'static str {
         match self.invading {
             FluidPhase::NonWetting => "drainage",
             FluidPhase::Wetting => "imbibition",
@@ -71,8 +68,7 @@ impl HalfCycle {
 
     /// Curvature of menisci bulging into the wetting phase for one that bulges into the defending phase by `curvature`, so that
     /// tension times it is p_n - p_w.
-    #[must_use]
-    pub fn towards_wetting(&self, curvature: f64) -> f64 {
+    pub(crate) fn towards_wetting(&self, curvature: f64) -> f64 {
         self.invading.towards_wetting(curvature)
     }
 }
@@ -107,13 +103,13 @@ pub struct Invasion {
 
 /// How a half cycle went.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Outcome {
+pub(crate) struct Outcome {
     /// Number of its events.
-    pub events: usize,
+    pub(crate) events: usize,
     /// At the event by which the invading phase reached the outlet: applied curvature in 1/m and share of the invading phase.
-    pub breakthrough: Option<(f64, f64)>,
+    pub(crate) breakthrough: Option<(f64, f64)>,
     /// Saturation of the wetting phase at its beginning, before and after what is open at the inlet is filled.
-    pub first_saturation: [f64; 2],
+    pub(crate) first_saturation: [f64; 2],
 }
 
 /// A displacement through its half cycles.
@@ -154,8 +150,7 @@ fn tidy(saturation: f64) -> f64 {
 impl Cycles {
     /// The beginning of the first of the half cycles, in a pore space full of the defending phase or in the phases of `initial`; none where
     /// there is no half cycle.
-    #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         network: Arc<Network>,
         pores: Arc<Pores>,
         half_cycles: Vec<HalfCycle>,
@@ -235,14 +230,13 @@ impl Cycles {
     }
 
     /// The same displacement at its beginning.
-    #[must_use]
-    pub fn restarted(&self) -> Option<Self> {
+    pub(crate) fn restarted(&self) -> Option<Self> {
         let initial = self.initial.clone();
         Self::new(Arc::clone(&self.network), Arc::clone(&self.pores), self.half_cycles.clone(), initial)
     }
 
     /// Does the next event, or turns to the next half cycle; none where the displacement is over.
-    pub fn advance(&mut self) -> Option<&'static str> {
+    pub(crate) fn advance(&mut self) -> Option<&'static str> {
         if self.is_done {
             return None;
         }
@@ -270,7 +264,6 @@ impl Cycles {
     }
 
     /// The moment after the event by which an invading phase first reached its outlet.
-    #[must_use]
     pub fn breakthrough(&self) -> Option<&Moment> {
         self.breakthrough.as_deref()
     }
@@ -299,55 +292,46 @@ impl Cycles {
     }
 
     /// The half cycle that goes on or has ended last.
-    #[must_use]
-    pub fn half_cycle(&self) -> &HalfCycle {
+    pub(crate) fn half_cycle(&self) -> &HalfCycle {
         &self.half_cycles[self.half_cycle]
     }
 
     /// Its index.
-    #[must_use]
-    pub fn half_cycle_index(&self) -> usize {
+    pub(crate) fn half_cycle_index(&self) -> usize {
         self.half_cycle
     }
 
     /// All half cycles.
-    #[must_use]
     pub fn half_cycles(&self) -> &[HalfCycle] {
         &self.half_cycles
     }
 
     /// Those that have begun: how they went.
-    #[must_use]
-    pub fn outcomes(&self) -> &[Outcome] {
+    pub(crate) fn outcomes(&self) -> &[Outcome] {
         &self.outcomes
     }
 
     /// Whether nothing will happen any more.
-    #[must_use]
-    pub fn is_done(&self) -> bool {
+    pub(crate) fn is_done(&self) -> bool {
         self.is_done
     }
 
     /// Number of calls of [`advance`](Self::advance) that this state is the result of.
-    #[must_use]
-    pub fn steps(&self) -> u64 {
+    pub(crate) fn steps(&self) -> u64 {
         self.steps
     }
 
     /// The displaced pore volumes of all half cycles, a sum of areas over the pore area.
-    #[must_use]
-    pub fn displaced(&self) -> f64 {
+    pub(crate) fn displaced(&self) -> f64 {
         self.displaced_area / self.pore_area
     }
 
     /// Saturation of the wetting phase.
-    #[must_use]
-    pub fn saturation(&self) -> f64 {
+    pub(crate) fn saturation(&self) -> f64 {
         tidy(self.wetting_area / self.pore_area)
     }
 
     /// Share of the pore space that holds the defending phase and cannot let it go.
-    #[must_use]
     pub fn trapped_saturation(&self) -> f64 {
         let elements = self.displacement.elements().iter().enumerate();
         let trapped = elements.filter(|(index, _)| self.displacement.is_trapped(*index));
@@ -355,36 +339,22 @@ impl Cycles {
     }
 
     /// All events so far.
-    #[must_use]
     pub fn history(&self) -> &[Entry] {
         &self.history
     }
 
     /// The applied curvature towards the wetting phase in 1/m; none before the first event of a half cycle.
-    #[must_use]
-    pub fn applied(&self) -> Option<f64> {
+    pub(crate) fn applied(&self) -> Option<f64> {
         self.history.last().filter(|entry| entry.half_cycle == self.half_cycle).map(|entry| entry.applied)
     }
 
     /// The displacement of the present half cycle.
-    #[must_use]
-    pub fn displacement(&self) -> &Displacement {
+    pub(crate) fn displacement(&self) -> &Displacement {
         &self.displacement
     }
 
     /// When the elements were filled in the present half cycle.
-    #[must_use]
-    pub fn invasions(&self) -> &[Option<Invasion>] {
+    pub(crate) fn invasions(&self) -> &[Option<Invasion>] {
         &self.invasions
-    }
-
-    /// The fluid in an element.
-    #[must_use]
-    pub fn fluid(&self, element: usize) -> FluidPhase {
-        let invading = self.half_cycle().invading;
-        match self.displacement.phase(element) {
-            Phase::Invading => invading,
-            Phase::Defending => invading.other(),
-        }
     }
 }

@@ -14,10 +14,10 @@ use crate::table::Table;
 const STATES: u32 = 9;
 
 /// Permeabilities of random packs are within 5 % of Stokes flow above this solid fraction; below, other shapes were up to 25 % off.
-pub const LEAST_SOLID: f64 = 0.3;
+pub(crate) const LEAST_SOLID: f64 = 0.3;
 
 /// What can drive a flow along an axis; none where its sides are closed.
-pub fn drive(setting: &Setting, axis: usize) -> Option<Drive> {
+pub(crate) fn drive(setting: &Setting, axis: usize) -> Option<Drive> {
     let opens = |side: usize| setting.network.openings.iter().any(|opening| opening.side == side);
     if setting.periodic[axis] {
         Some(Drive::Periodic(axis))
@@ -41,7 +41,7 @@ fn of_phase(solver: &NetworkSolver, drive: Drive, holds: &[bool]) -> Result<f64,
 }
 
 /// Permeability of the whole pore space along an axis in m2; NaN where its sides are closed or the flow cannot be solved.
-pub fn along(solver: &NetworkSolver, axis: usize) -> f64 {
+pub(crate) fn along(solver: &NetworkSolver, axis: usize) -> f64 {
     let everywhere = vec![true; solver.setting().network.regions.len()];
     drive(solver.setting(), axis).and_then(|drive| of_phase(solver, drive, &everywhere).ok()).unwrap_or(f64::NAN)
 }
@@ -66,7 +66,7 @@ fn wetting_regions(setting: &Setting, cycles: &Cycles, displaced: f64) -> (Vec<b
 }
 
 /// Relative permeabilities from inlet to outlet along the last half cycle: rows of wetting saturation, wetting and non-wetting phase.
-pub fn relative(solver: &NetworkSolver, states: &[f64]) -> Vec<[f64; 3]> {
+pub(crate) fn relative(solver: &NetworkSolver, states: &[f64]) -> Vec<[f64; 3]> {
     let setting = solver.setting();
     let drive = setting.inlet.and_then(|inlet| drive(setting, inlet / 2));
     let (Some(cycles), Some(drive)) = (solver.cycles(), drive) else { return Vec::new() };
@@ -90,7 +90,7 @@ pub fn relative(solver: &NetworkSolver, states: &[f64]) -> Vec<[f64; 3]> {
 }
 
 /// `relative_permeability.csv`; none where nothing flows from side to side.
-pub fn table(solver: &NetworkSolver) -> Option<Table> {
+pub(crate) fn table(solver: &NetworkSolver) -> Option<Table> {
     let states: Vec<f64> = (0..STATES).map(|state| f64::from(state) / f64::from(STATES - 1)).collect();
     let rows = relative(solver, &states);
     let column = |side: usize| rows.iter().map(move |row| row[side]);

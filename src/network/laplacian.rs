@@ -25,39 +25,39 @@ pub struct FlowError {
 }
 
 /// Where a conductor begins and ends; without an end it leads to a given pressure.
-pub type Ends = (usize, Option<usize>);
+pub(crate) type Ends = (usize, Option<usize>);
 
 /// What drives a flow through a conductor: flow = conductance × (pressure of its first node + jump − pressure of its second node).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Conductor {
+pub(crate) struct Conductor {
     /// Flow over pressure difference, above 0.
-    pub conductance: f64,
+    pub(crate) conductance: f64,
     /// Pressure difference between both ends besides that of the nodes.
-    pub jump: f64,
+    pub(crate) jump: f64,
 }
 
 /// Pressures and flows.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Flow {
+pub(crate) struct Flow {
     /// Pressure of each node.
-    pub pressure: Vec<f64>,
+    pub(crate) pressure: Vec<f64>,
     /// Flow through each conductor, from its first node to its second. Sums over a node are right to rounding of the flows, however
     /// much larger pressures are than their differences.
-    pub through: Vec<f64>,
+    pub(crate) through: Vec<f64>,
 }
 
 /// A conductor of a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Edge {
+pub(crate) struct Edge {
     /// Where it begins and ends.
-    pub ends: Ends,
+    pub(crate) ends: Ends,
     /// Whether it may conduct far better than others.
-    pub is_good: bool,
+    pub(crate) is_good: bool,
 }
 
 /// A graph of conductors.
 #[derive(Debug, Clone)]
-pub struct Laplacian {
+pub(crate) struct Laplacian {
     nodes: usize,
     edges: Vec<Edge>,
     /// By edge.
@@ -91,7 +91,7 @@ impl Laplacian {
     ///
     /// # Errors
     /// [`FlowError`] where it does not fit into the memory.
-    pub fn new(nodes: usize, edges: Vec<Edge>) -> Result<Self, FlowError> {
+    pub(crate) fn new(nodes: usize, edges: Vec<Edge>) -> Result<Self, FlowError> {
         factor_in_one_thread();
         let (rows_of, size) = unknowns(nodes, &edges);
         let incidences = edges.iter().map(|edge| incidence(edge, &rows_of)).collect();
@@ -108,8 +108,7 @@ impl Laplacian {
     }
 
     /// Whether a source in a node has a way to a given pressure.
-    #[must_use]
-    pub fn hangs_on_a_pressure(&self, node: usize) -> bool {
+    pub(crate) fn hangs_on_a_pressure(&self, node: usize) -> bool {
         let mut parent = parts(self.nodes, self.edges.iter().map(|edge| edge.ends));
         let part = root(&mut parent, node);
         self.edges.iter().any(|edge| edge.ends.1.is_none() && root(&mut parent, edge.ends.0) == part)
@@ -127,8 +126,7 @@ impl Laplacian {
     }
 
     /// The pressure drop along an edge.
-    #[must_use]
-    pub fn drop(&self, edge: usize, pressure: &[f64]) -> f64 {
+    pub(crate) fn drop(&self, edge: usize, pressure: &[f64]) -> f64 {
         let (from, to) = self.edges[edge].ends;
         pressure[from] - to.map_or(0.0, |to| pressure[to])
     }
@@ -137,7 +135,7 @@ impl Laplacian {
     ///
     /// # Errors
     /// [`FlowError`] where a conductance is not a number above 0.
-    pub fn factor(&self, conductances: Vec<f64>) -> Result<Factored<'_>, FlowError> {
+    pub(crate) fn factor(&self, conductances: Vec<f64>) -> Result<Factored<'_>, FlowError> {
         let error = FlowError { nodes: self.nodes };
         let Some(Pattern { matrix, order, elimination, .. }) = &self.pattern else {
             return Ok(Factored { laplacian: self, conductances, factors: None });
@@ -154,7 +152,7 @@ impl Laplacian {
     ///
     /// # Errors
     /// [`FlowError`] where a conductance is not a number above 0.
-    pub fn solve(&self, conductors: &[Conductor], sources: &[f64]) -> Result<Flow, FlowError> {
+    pub(crate) fn solve(&self, conductors: &[Conductor], sources: &[f64]) -> Result<Flow, FlowError> {
         let jumps: Vec<f64> = conductors.iter().map(|conductor| conductor.jump).collect();
         let factored = self.factor(conductors.iter().map(|conductor| conductor.conductance).collect())?;
         let mut flow = factored.solve(&jumps, sources)?;
@@ -164,7 +162,7 @@ impl Laplacian {
 }
 
 /// A graph with its conductances.
-pub struct Factored<'a> {
+pub(crate) struct Factored<'a> {
     laplacian: &'a Laplacian,
     conductances: Vec<f64>,
     /// None where there is nothing to solve.
@@ -173,8 +171,7 @@ pub struct Factored<'a> {
 
 impl Factored<'_> {
     /// By conductor.
-    #[must_use]
-    pub fn conductances(&self) -> &[f64] {
+    pub(crate) fn conductances(&self) -> &[f64] {
         &self.conductances
     }
 
@@ -183,7 +180,7 @@ impl Factored<'_> {
     ///
     /// # Errors
     /// [`FlowError`] where they are no numbers.
-    pub fn solve(&self, jumps: &[f64], sources: &[f64]) -> Result<Flow, FlowError> {
+    pub(crate) fn solve(&self, jumps: &[f64], sources: &[f64]) -> Result<Flow, FlowError> {
         let mut flow = Flow {
             pressure: vec![0.0; self.laplacian.nodes],
             through: self.conductances.iter().zip(jumps).map(|(conductance, jump)| conductance * jump).collect(),
@@ -197,7 +194,7 @@ impl Factored<'_> {
     ///
     /// # Errors
     /// [`FlowError`] where they are no numbers.
-    pub fn balance(&self, flow: &mut Flow, sources: &[f64]) -> Result<(), FlowError> {
+    pub(crate) fn balance(&self, flow: &mut Flow, sources: &[f64]) -> Result<(), FlowError> {
         let mut before = f64::INFINITY;
         for _ in 0..REFINEMENTS {
             let (left, largest) = self.left_over(flow, sources);
@@ -309,7 +306,7 @@ fn parts(nodes: usize, ends: impl Iterator<Item = Ends>) -> Vec<usize> {
 }
 
 /// The smallest index of the part of a node, where each node leads to a smaller one of its part.
-pub fn root(parent: &mut [usize], mut node: usize) -> usize {
+pub(crate) fn root(parent: &mut [usize], mut node: usize) -> usize {
     while parent[node] != node {
         parent[node] = parent[parent[node]];
         node = parent[node];

@@ -36,13 +36,13 @@ fn joined(parts: impl IntoIterator<Item = Vec<Vec2>>) -> (Vec<Vec2>, Vec<Vec<u32
 }
 
 /// Menisci as polylines.
-pub fn menisci(menisci: Vec<Vec<Vec2>>) -> Lines<'static> {
+pub(crate) fn menisci(menisci: Vec<Vec<Vec2>>) -> Lines<'static> {
     let (points, lines) = joined(menisci);
     Lines { points: points.into(), lines, fields: Vec::new() }
 }
 
 /// The parts of the pore space that events fill, with pore, phase, sequence and capillary pressure at invasion.
-pub fn regions(setting: &Setting, occupation: Option<&Occupation>) -> Layer<'static> {
+pub(crate) fn regions(setting: &Setting, occupation: Option<&Occupation>) -> Layer<'static> {
     let pores = &setting.pores;
     let Some(occupation) = occupation else { return plain_regions(setting) };
     let elements = occupation.elements;
@@ -77,7 +77,7 @@ fn plain_regions(setting: &Setting) -> Layer<'static> {
 }
 
 /// `pores.vtp` and `throats.vtp`.
-pub fn pores_and_throats(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Vec<Layer<'static>> {
+pub(crate) fn pores_and_throats(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Vec<Layer<'static>> {
     let setting = solver.setting();
     let count = setting.pores.main_region.len();
     let centers: Vec<Vec2> = (0..count).map(|pore| center(setting, pore)).collect();

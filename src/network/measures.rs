@@ -13,7 +13,7 @@ fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Mea
 }
 
 /// All measures.
-pub fn all(solver: &NetworkSolver) -> Vec<Measure> {
+pub(crate) fn all(solver: &NetworkSolver) -> Vec<Measure> {
     let setting = solver.setting();
     let mut found = of_network_with_flow(solver);
     found.extend(replaced(solver));
@@ -24,7 +24,7 @@ pub fn all(solver: &NetworkSolver) -> Vec<Measure> {
 }
 
 /// The measures that know no displacement.
-pub fn of_network_with_flow(solver: &NetworkSolver) -> Vec<Measure> {
+pub(crate) fn of_network_with_flow(solver: &NetworkSolver) -> Vec<Measure> {
     let mut found = of_network(solver.setting());
     found.extend(permeabilities(solver));
     found.extend(entry_pressures(solver));

@@ -7,7 +7,6 @@ use crate::network::graph::{Network, Pores};
 
 impl Pores {
     /// The pores for the persistence ratio f, above 0 and at most 1; 1 keeps all.
-    #[must_use]
     pub fn merged(network: &Network, persistence: f64) -> Self {
         let regions = &network.regions;
         // The region with the largest circle stands for its set.

@@ -2,12 +2,12 @@
 
 mod channel;
 pub mod conductance;
-pub mod cycles;
+pub(crate) mod cycles;
 pub mod displacement;
 pub mod dynamic;
 pub mod extract;
 pub mod graph;
-pub mod laplacian;
+pub(crate) mod laplacian;
 pub mod permeability;
 pub mod setup;
 pub mod solver;
@@ -16,7 +16,7 @@ mod flow;
 mod layers;
 mod measures;
 mod merge;
-pub mod moment;
+pub(crate) mod moment;
 mod occupation;
 mod openpnm;
 mod pictures;

@@ -20,7 +20,6 @@ pub struct Moment {
 
 impl Cycles {
     /// The present moment.
-    #[must_use]
     pub fn moment(&self) -> Moment {
         Moment {
             displacement: self.displacement().clone(),

@@ -6,49 +6,40 @@ use crate::math::Vec2;
 
 /// Which fluid holds what, and how it came there.
 #[derive(Debug, Clone)]
-pub struct Occupation<'a> {
+pub(crate) struct Occupation<'a> {
     /// The elements; they tile the pore space.
-    pub elements: &'a [Element],
+    pub(crate) elements: &'a [Element],
     /// The phase that comes in.
-    pub invading: FluidPhase,
+    pub(crate) invading: FluidPhase,
     /// Share of each element that it holds.
-    pub share: Vec<f64>,
+    pub(crate) share: Vec<f64>,
     /// Whether an element holds the other phase without a way to the outlet.
-    pub trapped: Vec<bool>,
+    pub(crate) trapped: Vec<bool>,
     /// When elements were invaded in this displacement or half cycle.
-    pub invasions: &'a [Option<Invasion>],
+    pub(crate) invasions: &'a [Option<Invasion>],
     /// The events of this displacement or half cycle in their order: the throat that was passed.
-    pub passed: Vec<Option<usize>>,
+    pub(crate) passed: Vec<Option<usize>>,
     /// The menisci, each a polyline in m.
-    pub menisci: Vec<Vec<Vec2>>,
+    pub(crate) menisci: Vec<Vec<Vec2>>,
     /// What it is and how far it has come, for pictures.
-    pub note: String,
+    pub(crate) note: String,
 }
 
 impl Occupation<'_> {
     /// Whether the invading phase holds most of an element.
-    #[must_use]
-    pub fn is_invaded(&self, element: usize) -> bool {
+    pub(crate) fn is_invaded(&self, element: usize) -> bool {
         self.share[element] > 0.5
     }
 
     /// The fluid that holds most of an element.
-    #[must_use]
-    pub fn fluid(&self, element: usize) -> FluidPhase {
+    pub(crate) fn fluid(&self, element: usize) -> FluidPhase {
         if self.is_invaded(element) { self.invading } else { self.invading.other() }
-    }
-
-    /// Curvature of menisci bulging into the wetting phase in 1/m for one that bulges into the phase that is displaced by `curvature`.
-    #[must_use]
-    pub fn towards_wetting(&self, curvature: f64) -> f64 {
-        self.invading.towards_wetting(curvature)
     }
 }
 
 impl Cycles {
     /// The present state.
-    #[must_use]
-    pub fn occupation(&self) -> Occupation<'_> {
+    pub(crate) fn occupation(&self) -> Occupation<'_> {
         let displacement = self.displacement();
         let elements = displacement.elements();
         let present = self.history().iter().filter(|entry| entry.half_cycle == self.half_cycle_index());
@@ -70,8 +61,7 @@ impl Cycles {
     }
 
     /// The menisci at the applied pressure, each a polyline in m.
-    #[must_use]
-    pub fn menisci(&self) -> Vec<Vec<Vec2>> {
+    pub(crate) fn menisci(&self) -> Vec<Vec<Vec2>> {
         let applied = self.applied().map_or(0.0, |applied| self.half_cycle().towards_wetting(applied));
         self.displacement().menisci(applied)
     }

@@ -64,7 +64,7 @@ fn place(opening: &Opening) -> Vec2 {
 }
 
 /// The table.
-pub fn table(solver: &NetworkSolver) -> Table {
+pub(crate) fn table(solver: &NetworkSolver) -> Table {
     let setting = solver.setting();
     let mut columns = pore_columns(setting);
     columns.extend(throat_columns(solver));

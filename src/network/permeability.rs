@@ -31,9 +31,6 @@ pub struct Paths<'a> {
 const ROUNDING: f64 = 1e-24;
 
 /// The permeability in m² that a network gives its domain; 0 where nothing leads through it.
-///
-/// # Errors
-/// [`FlowError`].
 pub fn permeability(network: &Network, paths: Paths, domain: Bounds, drive: Drive) -> Result<f64, FlowError> {
     let (edges, conductors): (Vec<Edge>, Vec<Conductor>) =
         conductors(network, paths, domain, drive).into_iter().unzip();

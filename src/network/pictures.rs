@@ -18,7 +18,7 @@ const INVADED_BEFORE: Color = [248, 232, 176];
 const TRAPPED: Color = [204, 121, 167];
 
 /// The diagrams of a displacement.
-pub fn diagrams(solver: &NetworkSolver) -> Vec<Diagram> {
+pub(crate) fn diagrams(solver: &NetworkSolver) -> Vec<Diagram> {
     solver.cycles().and_then(|cycles| capillary_pressure(solver.setting(), cycles)).into_iter().collect()
 }
 
@@ -121,7 +121,7 @@ fn images(setting: &Setting, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// The maps: the order of invasion, or the pores by their size where nothing is displaced.
-pub fn mosaics(setting: &Setting, occupation: Option<&Occupation>) -> Vec<Mosaic> {
+pub(crate) fn mosaics(setting: &Setting, occupation: Option<&Occupation>) -> Vec<Mosaic> {
     vec![occupation.map_or_else(|| sizes(setting), |occupation| order(setting, occupation))]
 }
 

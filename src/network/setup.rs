@@ -76,8 +76,7 @@ pub enum SetupError {
 
 impl SetupError {
     /// The key of the case that a user would change.
-    #[must_use]
-    pub fn key(&self) -> String {
+    pub(crate) fn key(&self) -> String {
         match self {
             Self::Extract(ExtractError::NotOpen { .. }) => "network".to_owned(),
             Self::Geometry(_) | Self::Extract(_) | Self::NoPore => "geometry".to_owned(),
@@ -96,7 +95,7 @@ fn kinds(network: &PoreNetwork) -> [Side; 4] {
 ///
 /// # Errors
 /// [`SetupError::Geometry`] with what is wrong with the shapes.
-pub fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupError> {
+pub(crate) fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupError> {
     let sides = kinds(network);
     let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
     let walls = sides.map(|side| side == Side::Wall);
@@ -104,10 +103,7 @@ pub fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupErr
 }
 
 /// The solver of a case with nothing displaced yet.
-///
-/// # Errors
-/// [`SetupError`].
-pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
+pub(crate) fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
     let still = build_still(case, wanted)?;
     Ok(match in_time(wanted, &still) {
         Some((dynamic, invading, end)) => Box::new(DynamicSolver::new(still, dynamic, invading, end)),
@@ -116,9 +112,6 @@ pub fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, Setup
 }
 
 /// The same as a quasi-static displacement; without one where the case asks for a displacement in time.
-///
-/// # Errors
-/// [`SetupError`].
 pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
     let clock = Instant::now();
     let geometry = geometry(case, wanted)?;
@@ -204,8 +197,7 @@ fn beginning(
 }
 
 /// The solver of a network that is known; `initial` are the phases that its displacement begins with.
-#[must_use]
-pub fn assemble(
+pub(crate) fn assemble(
     wanted: &PoreNetwork,
     geometry: &Geometry,
     (network, pores): (Network, Pores),

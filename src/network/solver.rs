@@ -78,8 +78,7 @@ const DISPLACED: Clock = Clock { name: "displaced pore volumes", symbol: "V", un
 
 impl NetworkSolver {
     /// A network with nothing displaced yet.
-    #[must_use]
-    pub fn new(setting: Setting, cycles: Option<Cycles>) -> Self {
+    pub(crate) fn new(setting: Setting, cycles: Option<Cycles>) -> Self {
         Self {
             setting,
             cycles,
@@ -92,33 +91,28 @@ impl NetworkSolver {
     }
 
     /// The same with the time that its extraction took, in s.
-    #[must_use]
-    pub fn timed(mut self, extraction: f64) -> Self {
+    pub(crate) fn timed(mut self, extraction: f64) -> Self {
         self.seconds[0] = extraction;
         self
     }
 
     /// The time that its extraction took, in s.
-    #[must_use]
-    pub fn extraction_time(&self) -> f64 {
+    pub(crate) fn extraction_time(&self) -> f64 {
         self.seconds[0]
     }
 
     /// What stands still.
-    #[must_use]
     pub fn setting(&self) -> &Setting {
         &self.setting
     }
 
     /// The displacement; none where the network is extracted only.
-    #[must_use]
     pub fn cycles(&self) -> Option<&Cycles> {
         self.cycles.as_ref()
     }
 
     /// Curvatures at which drainage enters the throats of the network, in 1/m; none where no angle is known.
-    #[must_use]
-    pub fn entry_curvatures(&self) -> Option<&[f64]> {
+    pub(crate) fn entry_curvatures(&self) -> Option<&[f64]> {
         let Setting { network, pores, entry, .. } = &self.setting;
         let conditions = entry.as_ref()?;
         let throats = network.throats.len();
@@ -131,8 +125,7 @@ impl NetworkSolver {
     }
 
     /// Number of throats of the network whose measured entry pressure takes the place of that of the formula under some conditions.
-    #[must_use]
-    pub fn measured_throats(&self, conditions: &Conditions) -> usize {
+    pub(crate) fn measured_throats(&self, conditions: &Conditions) -> usize {
         let Setting { network, pores, .. } = &self.setting;
         let (throats, formula) = (network.throats.len(), Conditions { measured: Vec::new(), ..conditions.clone() });
         let displacement = Displacement::new(network, pores, formula.clone());
@@ -141,8 +134,7 @@ impl NetworkSolver {
     }
 
     /// The conductances of all throats of the network.
-    #[must_use]
-    pub fn conductances(&self) -> &[f64] {
+    pub(crate) fn conductances(&self) -> &[f64] {
         self.conductances.get_or_init(|| conductances(&self.setting.network))
     }
 

@@ -13,7 +13,7 @@ const NOTE: &str = "SI units; curvatures above 0 where an interface bulges into 
                     curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
 
 /// The states at the first breakthrough and at the present moment.
-pub fn documents(solver: &NetworkSolver) -> Vec<Document> {
+pub(crate) fn documents(solver: &NetworkSolver) -> Vec<Document> {
     let Some(cycles) = solver.cycles() else { return Vec::new() };
     let breakthrough =
         cycles.breakthrough().map(|moment| document("at-breakthrough.json", solver.setting(), cycles, moment));
@@ -28,7 +28,6 @@ fn document(name: &'static str, setting: &Setting, cycles: &Cycles, moment: &Mom
 }
 
 /// The state at a moment.
-#[must_use]
 pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> NetworkState {
     let half = &half_cycles[moment.half_cycle];
     let displacement = &moment.displacement;
@@ -99,8 +98,7 @@ fn meniscus(half: &HalfCycle, standing: &Standing) -> MeniscusState {
 }
 
 /// The phases of a state for a half cycle in which `invading` invades.
-#[must_use]
-pub fn beginning(state: &NetworkState, invading: FluidPhase) -> Beginning {
+pub(crate) fn beginning(state: &NetworkState, invading: FluidPhase) -> Beginning {
     let is_same = state.invading == invading;
     let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let largest = state.largest_applied_curvature_per_m.map(|applied| sign * applied);

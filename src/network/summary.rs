@@ -10,23 +10,22 @@ use crate::table::Document;
 
 /// The state of one pore.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PoreState {
+pub(crate) struct PoreState {
     /// The fluid that holds more than half of it.
-    pub fluid: FluidPhase,
+    pub(crate) fluid: FluidPhase,
     /// The event of the present half cycle by which the invading phase came to hold more than half of it.
-    pub invasion: Option<Invasion>,
+    pub(crate) invasion: Option<Invasion>,
     /// Whether more than half of it is trapped.
-    pub is_trapped: bool,
+    pub(crate) is_trapped: bool,
 }
 
 /// The states of all pores.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PoreStates(pub Vec<PoreState>);
+pub(crate) struct PoreStates(pub Vec<PoreState>);
 
 impl PoreStates {
     /// The present states.
-    #[must_use]
-    pub fn new(setting: &Setting, occupation: &Occupation) -> Self {
+    pub(crate) fn new(setting: &Setting, occupation: &Occupation) -> Self {
         let pores = setting.pores.main_region.len();
         let mut elements_of: Vec<Vec<usize>> = vec![Vec::new(); pores];
         for (index, element) in occupation.elements.iter().enumerate() {
@@ -37,8 +36,7 @@ impl PoreStates {
 }
 
 /// Number of pores that the invading phase came to hold in the present half cycle.
-#[must_use]
-pub fn invaded_pores(setting: &Setting, occupation: &Occupation) -> usize {
+pub(crate) fn invaded_pores(setting: &Setting, occupation: &Occupation) -> usize {
     let mut filled = vec![[0.0; 2]; setting.pores.main_region.len()];
     for (index, element) in occupation.elements.iter().enumerate() {
         let [before, now] = &mut filled[setting.pores.pore_of[element.region]];
@@ -152,7 +150,7 @@ const MERGES: &str = "the network before the merge: regions with their pore, and
                       both radii, and the joined pore keeps the larger one";
 
 /// `network.json`.
-pub fn network_json(solver: &NetworkSolver) -> Document {
+pub(crate) fn network_json(solver: &NetworkSolver) -> Document {
     let setting = solver.setting();
     let (network, pores) = (&setting.network, &setting.pores);
     let description = Description {

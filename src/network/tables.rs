@@ -9,7 +9,7 @@ use crate::math::Vec2;
 use crate::table::{Cells, Column, Table};
 
 /// The tables of pores and throats.
-pub fn all(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Vec<Table> {
+pub(crate) fn all(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Vec<Table> {
     vec![pores(solver.setting(), occupation), throats(solver, occupation)]
 }
 
@@ -188,7 +188,7 @@ pub(super) fn numbers_of_throats(setting: &Setting) -> Vec<Option<usize>> {
 }
 
 /// `events.csv` of a quasi-static displacement.
-pub fn events(setting: &Setting, cycles: &Cycles) -> Table {
+pub(crate) fn events(setting: &Setting, cycles: &Cycles) -> Table {
     let tension = setting.tension.unwrap_or(f64::NAN);
     let number_of = numbers_of_throats(setting);
     let history = cycles.history();

@@ -9,7 +9,7 @@ use crate::case::Side;
 const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];
 
 /// The warnings that a network asks for.
-pub fn warnings(setting: &Setting) -> Vec<String> {
+pub(crate) fn warnings(setting: &Setting) -> Vec<String> {
     let names: Vec<&str> =
         (0..2).filter(|&axis| drive(setting, axis).is_some()).map(|axis| PERMEABILITIES[axis]).collect();
     let loose = || loose(setting).filter(|_| !names.is_empty()).map(|note| format!("{}: {note}", names.join(", ")));
@@ -17,7 +17,7 @@ pub fn warnings(setting: &Setting) -> Vec<String> {
 }
 
 /// What the permeability along an axis, if there is one, does not tell.
-pub fn notes_on_permeability(setting: &Setting, axis: usize) -> Vec<String> {
+pub(crate) fn notes_on_permeability(setting: &Setting, axis: usize) -> Vec<String> {
     if drive(setting, axis).is_none() {
         return Vec::new();
     }

@@ -31,54 +31,53 @@ const PERSISTENCE: f64 = 0.95;
 /// What is known before a choice of the model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub struct Advice {
+pub(crate) struct Advice {
     /// Number of pores.
-    pub pores: usize,
+    pub(crate) pores: usize,
     /// Number of throats.
-    pub throats: usize,
+    pub(crate) throats: usize,
     /// Wall time in s that finding them took.
-    pub network_s: f64,
+    pub(crate) network_s: f64,
     /// Width of the narrowest throat in m.
-    pub narrowest_throat_m: f64,
+    pub(crate) narrowest_throat_m: f64,
     /// Spacing in m of a direct simulation: that of the case, or the one that puts eight across the narrowest throat.
-    pub spacing_m: f64,
+    pub(crate) spacing_m: f64,
     /// Spacings across the narrowest throat.
-    pub spacings_across: f64,
+    pub(crate) spacings_across: f64,
     /// Throats with fewer than eight spacings across.
-    pub coarse_throats: usize,
+    pub(crate) coarse_throats: usize,
     /// Particles of a direct simulation at that spacing.
-    pub particles: f64,
+    pub(crate) particles: f64,
     /// Steps of a direct simulation, where they were tried.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub steps: Option<f64>,
+    pub(crate) steps: Option<f64>,
     /// Hours of a direct simulation on as many threads as there are now, where it was tried.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub hours: Option<f64>,
+    pub(crate) hours: Option<f64>,
     /// Numbers of the smallest, the median and the largest pore.
-    pub numbers: Vec<PoreNumbers>,
+    pub(crate) numbers: Vec<PoreNumbers>,
     /// Which model can answer.
-    pub sentence: String,
+    pub(crate) sentence: String,
 }
 
 /// Dimensionless numbers of a pore of inscribed radius R.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub struct PoreNumbers {
+pub(crate) struct PoreNumbers {
     /// Which pore: `smallest`, `median`, `largest`.
-    pub pore: &'static str,
+    pub(crate) pore: &'static str,
     /// R in m.
-    pub radius_m: f64,
+    pub(crate) radius_m: f64,
     /// Ca = mu U / sigma, U being the given speed, or sqrt(sigma / rho R) where menisci drive the flow.
-    pub capillary: f64,
+    pub(crate) capillary: f64,
     /// Oh = mu / sqrt(rho sigma R): viscous forces against inertia where menisci drive the flow.
-    pub viscous: f64,
+    pub(crate) viscous: f64,
     /// Bo = |rho_w - rho_n| g R² / sigma.
-    pub bond: f64,
+    pub(crate) bond: f64,
 }
 
 /// The advice for a case with two fluids and solids that leave throats between them; `trial` is that of its direct simulation.
-#[must_use]
-pub fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
+pub(crate) fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
     if case.geometry.shapes.is_empty() || case.geometry.shapes.len() > MOST_SHAPES {
         return None;
     }

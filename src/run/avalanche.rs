@@ -18,7 +18,7 @@ const AT_END: &str = "at-end.json";
 
 /// Which avalanche is meant: the one with the first such event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wanted {
+pub(crate) enum Wanted {
     /// The invading phase reaches the outlet.
     Breakthrough,
     /// Two menisci meet.
@@ -29,7 +29,7 @@ pub enum Wanted {
 
 /// A displacement in which the avalanche cannot be found.
 #[derive(Debug, thiserror::Error)]
-pub enum AvalancheError {
+pub(crate) enum AvalancheError {
     /// The case is no slow displacement in a network.
     #[error("the first case has no slow displacement in a network; give [network] an inlet, and no [network.dynamic]")]
     NoNetwork,
@@ -54,26 +54,23 @@ pub enum AvalancheError {
 
 /// An avalanche of the first half cycle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Avalanche {
+pub(crate) struct Avalanche {
     /// The phase that invades.
-    pub invading: FluidPhase,
+    pub(crate) invading: FluidPhase,
     /// Capillary pressure p_n - p_w in Pa at which it begins.
-    pub pressure_pa: f64,
+    pub(crate) pressure_pa: f64,
     /// One at which the menisci rest before it, in Pa.
-    pub rest_pressure_pa: f64,
+    pub(crate) rest_pressure_pa: f64,
     /// Saturation of the wetting phase before and after it.
-    pub saturation: [f64; 2],
+    pub(crate) saturation: [f64; 2],
     /// Number of its events.
-    pub events: usize,
+    pub(crate) events: usize,
     /// Number of the inlet's side: left, right, bottom, top are 0 to 3.
-    pub inlet: usize,
+    pub(crate) inlet: usize,
 }
 
 /// Finds an avalanche.
-///
-/// # Errors
-/// [`AvalancheError`].
-pub fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheError> {
+pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheError> {
     let Model::Network(network) = &case.model else { return Err(AvalancheError::NoNetwork) };
     if network.is_dynamic() {
         return Err(AvalancheError::NoNetwork);
@@ -116,10 +113,7 @@ pub fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheError> {
 }
 
 /// The text of the state that a displacement leaves at its end.
-///
-/// # Errors
-/// [`AvalancheError`].
-pub fn state_at_end(case: &Case) -> Result<String, AvalancheError> {
+pub(crate) fn state_at_end(case: &Case) -> Result<String, AvalancheError> {
     let mut solver = super::setup::build(case)?;
     while !solver.is_done() {
         solver.step(f64::INFINITY)?;

@@ -12,7 +12,7 @@ use crate::io::{FileError, atomic};
 
 /// The right to work in a folder; it ends when this is dropped.
 #[derive(Debug)]
-pub struct Claim(File);
+pub(crate) struct Claim(File);
 
 impl Drop for Claim {
     fn drop(&mut self) {
@@ -29,7 +29,7 @@ fn path(folder: &Path) -> PathBuf {
 ///
 /// # Errors
 /// [`FolderError::InUse`] where another process has it, [`FolderError::File`].
-pub fn claim(folder: &Path) -> Result<Claim, FolderError> {
+pub(crate) fn claim(folder: &Path) -> Result<Claim, FolderError> {
     let path = path(folder);
     atomic::make_folder(&folder.join("restart"))?;
     let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
@@ -41,10 +41,7 @@ pub fn claim(folder: &Path) -> Result<Claim, FolderError> {
 }
 
 /// Looks whether another process works in `folder`; nothing is made or changed there.
-///
-/// # Errors
-/// [`FolderError::InUse`].
-pub fn existing(folder: &Path) -> Result<(), FolderError> {
+pub(crate) fn existing(folder: &Path) -> Result<(), FolderError> {
     match File::open(path(folder)) {
         Ok(file) => lock(folder, file).map(drop),
         Err(_) => Ok(()),

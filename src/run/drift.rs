@@ -14,21 +14,20 @@ use crate::solver::{Quantity, Series, Watched};
 
 /// How a quantity moves at the end of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drift {
+pub(crate) struct Drift {
     /// How far it may be from its end, in its unit.
-    pub left: f64,
+    pub(crate) left: f64,
     /// Its rate over the last window, in its unit per s.
-    pub rate: f64,
+    pub(crate) rate: f64,
     /// How far the flow may still carry it, in its unit, however little it moves.
-    pub by_flow: f64,
+    pub(crate) by_flow: f64,
     /// How far it is from the only value at which it can rest, in its unit; 0 where it may rest at others.
-    pub off: f64,
+    pub(crate) off: f64,
 }
 
 impl Drift {
     /// The drift of a column of `series` over windows of a fifth of the time; none where it is not known in each of them.
-    #[must_use]
-    pub fn of(series: &Series, column: &str) -> Option<Self> {
+    pub(crate) fn of(series: &Series, column: &str) -> Option<Self> {
         let index = series.columns.iter().position(|one| one == column)?;
         let windows = last_windows(&series.rows, &SteadyStop::default())?;
         let values = windows.map(|rows| rows.iter().map(|row| row[index]).collect::<Vec<f64>>());
@@ -41,8 +40,7 @@ impl Drift {
     }
 
     /// The drift of a watched quantity that has come to `value`.
-    #[must_use]
-    pub fn of_watched(series: &Series, Watched { column, kind }: Watched, value: f64) -> Option<Self> {
+    pub(crate) fn of_watched(series: &Series, Watched { column, kind }: Watched, value: f64) -> Option<Self> {
         let mut drift = Self::of(series, column)?;
         if let Quantity::Angle { energy, length, tension, at_rest, pins } = kind {
             let length = series.column(length).last().unwrap_or(f64::NAN);
@@ -59,15 +57,13 @@ impl Drift {
 
     /// The same for a quantity of a standard uncertainty `known` at one time: what is farther from the only value at which it can rest than its error
     /// explains has not come to rest, however slowly it moves.
-    #[must_use]
-    pub fn beside(self, known: f64) -> Self {
+    pub(crate) fn beside(self, known: f64) -> Self {
         let is_off = self.off > FAR * known && self.off > FARTHEST_ERROR;
         Self { left: if is_off { self.left.max(self.off) } else { self.left }, ..self }
     }
 
     /// The same for a quantity that changes by `factor` times as much.
-    #[must_use]
-    pub fn times(self, factor: f64) -> Self {
+    pub(crate) fn times(self, factor: f64) -> Self {
         let size = factor.abs();
         Self { left: size * self.left, rate: factor * self.rate, by_flow: size * self.by_flow, off: size * self.off }
     }

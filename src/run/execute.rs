@@ -73,10 +73,7 @@ pub struct Finished {
 }
 
 /// The hash that tells whether a saved state belongs to a case: equal for equal values, however they were written.
-///
-/// # Errors
-/// [`RunError::Case`].
-pub fn case_hash(case: &Case) -> Result<u64, RunError> {
+pub(crate) fn case_hash(case: &Case) -> Result<u64, RunError> {
     serde_json::to_vec(case).map(|bytes| fnv1a(&bytes)).map_err(|error| RunError::Case(error.to_string()))
 }
 
@@ -222,6 +219,7 @@ fn draw_diagrams(job: &Job<'_>, solver: &dyn Solver) -> Result<(), FileError> {
 }
 
 #[cfg(test)]
+#[allow(unreachable_pub, reason = "the tests beside the library use it too")]
 #[path = "../../tests/support/files.rs"]
 mod files;
 

@@ -63,14 +63,12 @@ pub enum FolderError {
 /// The folder of a new run that was given no name of its own: `base`, or where that is in use `base-2`, `base-3`, ...
 ///
 /// An earlier run is never touched.
-#[must_use]
-pub fn next_free(base: &Path) -> PathBuf {
+pub(crate) fn next_free(base: &Path) -> PathBuf {
     numbered(base).find(|folder| is_free(folder)).unwrap_or_else(|| base.to_path_buf())
 }
 
 /// The last folder that [`next_free`] gave away, to go on with; `base` where there is none.
-#[must_use]
-pub fn last_used(base: &Path) -> PathBuf {
+pub(crate) fn last_used(base: &Path) -> PathBuf {
     numbered(base).take_while(|folder| !is_free(folder)).last().unwrap_or_else(|| base.to_path_buf())
 }
 
@@ -97,7 +95,7 @@ fn is_free(folder: &Path) -> bool {
 ///
 /// # Errors
 /// [`FolderError::InUse`] and [`FolderError::NotEmpty`] where there is something in it, [`FolderError::File`].
-pub fn create(folder: &Path) -> Result<Claim, FolderError> {
+pub(crate) fn create(folder: &Path) -> Result<Claim, FolderError> {
     atomic::make_folder(folder)?;
     let mut entries = std::fs::read_dir(folder).map_err(FileError::read(folder))?;
     if entries.next().is_some() {
@@ -112,7 +110,7 @@ pub fn create(folder: &Path) -> Result<Claim, FolderError> {
 ///
 /// # Errors
 /// [`FolderError::InUse`], [`FolderError::NothingToResume`], [`FolderError::File`].
-pub fn take_up(folder: &Path, run: &Path) -> Result<Claim, FolderError> {
+pub(crate) fn take_up(folder: &Path, run: &Path) -> Result<Claim, FolderError> {
     claim::existing(folder)?;
     let state = restart::path(run);
     if !state.exists() {
@@ -126,7 +124,7 @@ pub fn take_up(folder: &Path, run: &Path) -> Result<Claim, FolderError> {
 ///
 /// # Errors
 /// [`FolderError`] where there is none, where another process works at it, where it is damaged, or where it belongs to another case.
-pub fn resume(folder: &Path, case_hash: u64) -> Result<(Saved, Claim), FolderError> {
+pub(crate) fn resume(folder: &Path, case_hash: u64) -> Result<(Saved, Claim), FolderError> {
     let claim = take_up(folder, folder)?;
     let saved = restart::load(folder)?;
     if saved.case_hash != case_hash {

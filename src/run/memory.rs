@@ -31,7 +31,7 @@ pub struct NoRoom {
 ///
 /// # Errors
 /// [`NoRoom`] where it is.
-pub fn holds(area: f64, spacing: f64, available: u64) -> Result<(), NoRoom> {
+pub(crate) fn holds(area: f64, spacing: f64, available: u64) -> Result<(), NoRoom> {
     let (particles, available) = (area / (spacing * spacing), available as f64);
     let needed = BYTES_PER_PARTICLE * particles;
     if needed <= available {
@@ -48,14 +48,12 @@ fn rounded_up(value: f64) -> f64 {
 }
 
 /// Memory in bytes that this process can still take, where the system tells.
-#[must_use]
-pub fn available() -> Option<u64> {
+pub(crate) fn available() -> Option<u64> {
     [free(), address_space()].into_iter().flatten().min()
 }
 
 /// Free memory in bytes, where the system tells, within the limit of the group of processes that this one belongs to.
-#[must_use]
-pub fn free() -> Option<u64> {
+pub(crate) fn free() -> Option<u64> {
     let free = kibibytes(&std::fs::read_to_string("/proc/meminfo").ok()?, "MemAvailable:")?;
     let limit = std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok().and_then(|text| text.trim().parse().ok());
     Some(free.min(limit.unwrap_or(u64::MAX)))

@@ -22,17 +22,17 @@ const STEP: f64 = 0.0234;
 
 /// Particles on circles about the origin.
 #[derive(Debug, Clone)]
-pub struct MockSolver {
+pub(crate) struct MockSolver {
     time: f64,
     dt: f64,
     steps: u64,
     points: Vec<Vec2>,
     /// Fails in the step after this one.
-    pub fails_after: Option<u64>,
+    pub(crate) fails_after: Option<u64>,
 }
 
 impl MockSolver {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let points = (1..=36).map(|i| Vec2::new(f64::from(i % 6 + 1) / 6.0, f64::from(i / 6) / 6.0)).collect();
         Self { time: 0.0, dt: 0.0, steps: 0, points, fails_after: None }
     }
@@ -141,9 +141,9 @@ impl Solver for MockSolver {
 }
 
 /// Stops the run after some steps.
-pub struct Interrupter<'a> {
-    pub steps: u64,
-    pub interrupt: &'a AtomicBool,
+pub(crate) struct Interrupter<'a> {
+    pub(crate) steps: u64,
+    pub(crate) interrupt: &'a AtomicBool,
 }
 
 impl Watcher for Interrupter<'_> {
@@ -153,7 +153,7 @@ impl Watcher for Interrupter<'_> {
 }
 
 /// A case of one second with 11 rows, 6 VTK records and 3 saved states after time zero; what it says of SPH is not used.
-pub fn case() -> Case {
+pub(crate) fn case() -> Case {
     let wetting = Fluid { density: 1000.0, viscosity: 1.0e-3 };
     let sph = Sph {
         spacing: 1.0 / 6.0,

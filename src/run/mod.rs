@@ -4,23 +4,23 @@
 //! [`schedule`] and hands [`sink`]s what is due, and the [`report`] says at the end what came out. [`setup`] is the one
 //! place that knows both a case and a solver. Nothing here prints: a [`Watcher`](simulation::Watcher) is told of each step.
 
-pub mod advice;
-pub mod avalanche;
-pub mod claim;
-pub mod compare;
-pub mod drift;
+pub(crate) mod advice;
+pub(crate) mod avalanche;
+pub(crate) mod claim;
+pub(crate) mod compare;
+pub(crate) mod drift;
 pub mod execute;
-pub mod folder;
-pub mod memory;
+pub(crate) mod folder;
+pub(crate) mod memory;
 #[cfg(test)]
 pub(crate) mod mock;
-pub mod numbers;
-pub mod processor_time;
+pub(crate) mod numbers;
+pub(crate) mod processor_time;
 pub mod report;
-pub mod schedule;
+pub(crate) mod schedule;
 pub mod setup;
 pub mod simulation;
-pub mod sink;
-pub mod steady;
-pub mod trial;
+pub(crate) mod sink;
+pub(crate) mod steady;
+pub(crate) mod trial;
 mod writer;

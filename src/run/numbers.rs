@@ -34,8 +34,7 @@ pub struct Length {
 
 impl Length {
     /// The length that the physics of a case has: see the head of this file.
-    #[must_use]
-    pub fn of(case: &Case) -> Self {
+    pub(crate) fn of(case: &Case) -> Self {
         if let Model::Sph(sph) = &case.model
             && let Some(value) = sph.reference_length
         {
@@ -53,8 +52,7 @@ impl Length {
 }
 
 /// A speed to expect, in m/s, with its formula: what is known before a run.
-#[must_use]
-pub fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
+pub(crate) fn expected_speed(case: &Case, length: Length) -> (f64, &'static str) {
     let sph = match &case.model {
         Model::Sph(sph) => sph,
         Model::ThinFilm(film) => return (spreading_speed(film), "sigma (H / r)^3 / 3 mu"),
@@ -92,8 +90,7 @@ fn given_speeds<'a>(case: &Case, sph: &'a Sph) -> impl Iterator<Item = f64> + us
 }
 
 /// The numbers of a case at the speed `speed` in m/s; those that need a tension are absent without one.
-#[must_use]
-pub fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
+pub(crate) fn numbers(case: &Case, length: Length, speed: f64) -> Vec<Number> {
     let sph = match &case.model {
         Model::Sph(sph) => sph,
         Model::ThinFilm(film) => return of_thin_film(film, speed),

@@ -12,7 +12,7 @@ use crate::io::{FileError, atomic};
 
 /// Counts the processor time of this process since it began with a run, and knows that of the processes before.
 #[derive(Debug, Clone, Copy)]
-pub struct ProcessorTime {
+pub(crate) struct ProcessorTime {
     /// In s; none where an earlier process did not tell.
     before: Option<f64>,
     /// None where the system does not tell.
@@ -26,14 +26,12 @@ fn file(folder: &Path) -> PathBuf {
 
 impl ProcessorTime {
     /// From now on, for a new run.
-    #[must_use]
-    pub fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self { before: Some(0.0), begun: ProcessTime::try_now().ok() }
     }
 
     /// With what the processes before this one took until they saved the state in `folder`.
-    #[must_use]
-    pub fn after_that_in(self, folder: &Path) -> Self {
+    pub(crate) fn after_that_in(self, folder: &Path) -> Self {
         let told = std::fs::read_to_string(file(folder)).ok();
         let before = told.and_then(|text| {
             let (seconds, checksum) = text.trim().split_once(' ')?;
@@ -43,17 +41,13 @@ impl ProcessorTime {
     }
 
     /// In s until now; none where a process did not tell its part.
-    #[must_use]
-    pub fn seconds(&self) -> Option<f64> {
+    pub(crate) fn seconds(&self) -> Option<f64> {
         Some(self.before? + self.begun?.try_elapsed().ok()?.as_secs_f64())
     }
 }
 
 /// Keeps `seconds` of processor time for the process that goes on with the run in `folder`.
-///
-/// # Errors
-/// [`FileError`].
-pub fn save(folder: &Path, seconds: Option<f64>) -> Result<(), FileError> {
+pub(crate) fn save(folder: &Path, seconds: Option<f64>) -> Result<(), FileError> {
     let text = seconds.map_or("unknown".to_owned(), |seconds| seconds.to_string());
     let text = format!("{text} {}\n", checksum_of(&text));
     atomic::write(&file(folder), text.as_bytes())

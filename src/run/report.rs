@@ -13,7 +13,7 @@ use crate::io::{FileError, atomic};
 use crate::solver::{Clock, Measure, PartTime, Quantity, Series, Statistics, Watched};
 
 /// Name of the file.
-pub const REPORT: &str = "report.json";
+pub(crate) const REPORT: &str = "report.json";
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -42,8 +42,7 @@ pub struct Machine {
 
 impl Machine {
     /// This machine and the present thread pool.
-    #[must_use]
-    pub fn present() -> Self {
+    pub(crate) fn present() -> Self {
         Self {
             cores: std::thread::available_parallelism().map_or(1, usize::from),
             threads: rayon::current_num_threads(),
@@ -181,15 +180,13 @@ impl From<&Statistics> for SolverReport {
 }
 
 /// Wall time by part, as the report holds it.
-#[must_use]
-pub fn wall_time(total: f64, parts: impl Iterator<Item = PartTime>) -> WallTime {
+pub(crate) fn wall_time(total: f64, parts: impl Iterator<Item = PartTime>) -> WallTime {
     WallTime { total, parts: parts.map(|part| (part.part, part.seconds)).collect() }
 }
 
 /// Measures by name. Those that stand in the `series` too, as one of the `watched` quantities or as a column that they move with, are as
 /// uncertain as these still move.
-#[must_use]
-pub fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) -> BTreeMap<String, Reading> {
+pub(crate) fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) -> BTreeMap<String, Reading> {
     // Adding zero turns minus zero, which means nothing to people, into zero.
     let finite = |value: f64| value.is_finite().then_some(value + 0.0);
     measures
@@ -219,8 +216,7 @@ pub fn readings(measures: Vec<Measure>, series: &Series, watched: &[Watched]) ->
 pub const STEADY_AT: &str = "steady-at-s";
 
 /// When the run was steady, as a measure with its name.
-#[must_use]
-pub fn steady_reading(steady: &Steadiness) -> (String, Reading) {
+pub(crate) fn steady_reading(steady: &Steadiness) -> (String, Reading) {
     let method = match (steady.at_s, steady.quantities.is_empty()) {
         (Some(_), _) => format!("first record that ends three windows of {:.3e} s without a change", steady.window_s),
         (None, true) => "the run was too short to tell: a window holds too few records".to_owned(),
@@ -233,8 +229,7 @@ pub fn steady_reading(steady: &Steadiness) -> (String, Reading) {
 }
 
 /// Each expectation beside what was measured; a measure that is missing or NaN misses.
-#[must_use]
-pub fn verdicts(expectations: &[Expectation], readings: &BTreeMap<String, Reading>) -> Vec<Verdict> {
+pub(crate) fn verdicts(expectations: &[Expectation], readings: &BTreeMap<String, Reading>) -> Vec<Verdict> {
     expectations
         .iter()
         .map(|expected| {
@@ -252,8 +247,7 @@ pub fn verdicts(expectations: &[Expectation], readings: &BTreeMap<String, Readin
 }
 
 /// Whether a folder holds the report of a run that reached its end.
-#[must_use]
-pub fn is_of_the_end(folder: &Path) -> bool {
+pub(crate) fn is_of_the_end(folder: &Path) -> bool {
     #[derive(Deserialize)]
     struct Told {
         status: Status,
@@ -264,10 +258,7 @@ pub fn is_of_the_end(folder: &Path) -> bool {
 
 impl Report {
     /// Writes `report.json` in `folder`.
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn write(&self, folder: &Path) -> Result<(), FileError> {
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), FileError> {
         let path = folder.join(REPORT);
         let text = serde_json::to_string_pretty(self)
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;

@@ -10,27 +10,27 @@ const SAME: f64 = 1.0e-9;
 
 /// What is to be recorded at a stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Due {
+pub(crate) struct Due {
     /// A row of the series.
-    pub series: bool,
+    pub(crate) series: bool,
     /// VTK files.
-    pub vtk: bool,
+    pub(crate) vtk: bool,
     /// The saved state.
-    pub restart: bool,
+    pub(crate) restart: bool,
 }
 
 impl Due {
     /// Everything, as at the beginning and at the end.
-    pub const ALL: Self = Self { series: true, vtk: true, restart: true };
+    pub(crate) const ALL: Self = Self { series: true, vtk: true, restart: true };
     /// What is left of a run that failed: the last good state to look at and to start from.
-    pub const LAST_GOOD_STATE: Self = Self { series: false, vtk: true, restart: true };
+    pub(crate) const LAST_GOOD_STATE: Self = Self { series: false, vtk: true, restart: true };
     /// What an interrupted run needs to go on.
-    pub const TO_RESUME: Self = Self { series: false, vtk: false, restart: true };
+    pub(crate) const TO_RESUME: Self = Self { series: false, vtk: false, restart: true };
 }
 
 /// A time that the solver must land on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stop {
+pub(crate) struct Stop {
     /// Time in s.
     pub time: f64,
     /// What is to be recorded then.
@@ -39,7 +39,7 @@ pub struct Stop {
 
 /// The stops of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Schedule {
+pub(crate) struct Schedule {
     series: f64,
     vtk: f64,
     restart: f64,
@@ -48,20 +48,17 @@ pub struct Schedule {
 
 impl Schedule {
     /// The stops of a run that ends at `end` in s.
-    #[must_use]
-    pub fn new(output: &Output, end: f64) -> Self {
+    pub(crate) fn new(output: &Output, end: f64) -> Self {
         Self { series: output.series_every, vtk: output.vtk_every, restart: output.restart_every, end }
     }
 
     /// The end in s.
-    #[must_use]
-    pub fn end(&self) -> f64 {
+    pub(crate) fn end(&self) -> f64 {
         self.end
     }
 
     /// The first stop after `time` in s; none where the run is over. At the end everything is due.
-    #[must_use]
-    pub fn next_after(&self, time: f64) -> Option<Stop> {
+    pub(crate) fn next_after(&self, time: f64) -> Option<Stop> {
         if time >= self.end {
             return None;
         }

@@ -28,7 +28,6 @@ pub enum SetupError {
 
 impl SetupError {
     /// The mistakes of the case, each at the key that a user would change.
-    #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
         let key = match self {
             Self::Sph(sph::setup::SetupError::Geometry(error))
@@ -43,17 +42,11 @@ impl SetupError {
 }
 
 /// The solver of a case, in its initial state.
-///
-/// # Errors
-/// [`SetupError`].
 pub fn build(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     build_watched(case, &mut |_| {})
 }
 
 /// The solver of a case, in its initial state; `packed` is told the share of the packing of particles that is done, where there is one.
-///
-/// # Errors
-/// [`SetupError`].
 pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => {
@@ -67,9 +60,6 @@ pub fn build_watched(case: &Case, packed: &mut dyn FnMut(f64)) -> Result<Box<dyn
 }
 
 /// The solver of a case that takes up a saved state before anything else: particles stand where they are put first, unpacked.
-///
-/// # Errors
-/// [`SetupError`].
 pub fn build_to_resume(case: &Case) -> Result<Box<dyn Solver>, SetupError> {
     match &case.model {
         Model::Sph(sph) => {
@@ -95,7 +85,6 @@ fn memory(case: &Case, sph: &Sph) -> Result<(), SetupError> {
 }
 
 /// What is wrong with a case on its real geometry: throats that are not resolved, phases inside the solid, open sides without an opening.
-#[must_use]
 pub fn problems(case: &Case) -> Vec<Problem> {
     let Model::Sph(sph) = &case.model else { return Vec::new() };
     let geometry = match sph::setup::checked_geometry(case, sph) {
@@ -125,7 +114,6 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
 }
 
 /// What a reader must know before trusting a run of the case, by the case and by the present state of its solver with the rows so far.
-#[must_use]
 pub fn warnings(case: &Case, solver: &dyn Solver, series: &Series) -> Vec<String> {
     let of_case = match &case.model {
         Model::ThinFilm(film) => film.notes(case.end),
@@ -182,8 +170,7 @@ const NODES: usize = 160;
 
 /// Area in m² of the drop or bubble that a case starts with: of the phase with the smaller area, where that does not reach from one side of
 /// the domain to the opposite one.
-#[must_use]
-pub fn drop_area(case: &Case) -> Option<f64> {
+pub(crate) fn drop_area(case: &Case) -> Option<f64> {
     let Model::Sph(sph) = &case.model else { return None };
     if sph.initial.wetting.is_empty() {
         return None;
@@ -208,8 +195,7 @@ pub fn drop_area(case: &Case) -> Option<f64> {
 }
 
 /// Width of the narrowest throat of a case in m; none where there is no throat, or no usable geometry.
-#[must_use]
-pub fn throat(case: &Case) -> Option<f64> {
+pub(crate) fn throat(case: &Case) -> Option<f64> {
     let Model::Sph(sph) = &case.model else { return None };
     let geometry = sph::setup::geometry(case, sph).ok()?;
     geometry.narrowest_throat().map(|throat| throat.width)

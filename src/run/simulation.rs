@@ -19,7 +19,7 @@ use crate::solver::{Clock, PartTime, Series, Solver, SolverError, StepInfo};
 
 /// How a run ended.
 #[derive(Debug)]
-pub enum Outcome {
+pub(crate) enum Outcome {
     /// It reached the end, or was steady before.
     Done,
     /// It was asked to stop, and can be resumed.
@@ -47,8 +47,7 @@ pub struct Progress {
 
 impl Progress {
     /// Where a solver stands after a step towards the end of its run.
-    #[must_use]
-    pub fn after(solver: &dyn Solver, step: StepInfo, end: f64) -> Self {
+    pub(crate) fn after(solver: &dyn Solver, step: StepInfo, end: f64) -> Self {
         Self { clock: solver.clock(), time: solver.time(), end, step: solver.steps(), dt: step.dt, limit: step.limit }
     }
 }
@@ -75,7 +74,7 @@ impl Watcher for Unwatched {
 }
 
 /// All that a run writes while it goes on, and the wall time it takes.
-pub struct Records {
+pub(crate) struct Records {
     series: SeriesSink,
     writer: Writer,
     processor_time: ProcessorTime,
@@ -89,7 +88,7 @@ impl Records {
     ///
     /// # Errors
     /// [`FileError`] where files of a resumed run cannot be read.
-    pub fn new(
+    pub(crate) fn new(
         folder: &Path,
         case_hash: u64,
         start: Start,
@@ -112,14 +111,12 @@ impl Records {
     }
 
     /// The rows of the series so far.
-    #[must_use]
-    pub fn series(&self) -> &Series {
+    pub(crate) fn series(&self) -> &Series {
         self.series.series()
     }
 
     /// Processor time in s of all processes that worked at the run; none where one did not tell.
-    #[must_use]
-    pub fn processor_time(&self) -> Option<f64> {
+    pub(crate) fn processor_time(&self) -> Option<f64> {
         self.processor_time.seconds()
     }
 
@@ -127,13 +124,12 @@ impl Records {
     ///
     /// # Errors
     /// [`FileError`] where one could not be written.
-    pub fn finish(&mut self) -> Result<(), FileError> {
+    pub(crate) fn finish(&mut self) -> Result<(), FileError> {
         self.writer.finish()
     }
 
     /// Wall time that records took from the solver, by part, in s.
-    #[must_use]
-    pub fn parts(&self) -> Vec<PartTime> {
+    pub(crate) fn parts(&self) -> Vec<PartTime> {
         let names = ["output: series", "output: vtk", "output: restart"];
         names.into_iter().zip(self.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
     }
@@ -163,36 +159,30 @@ impl Records {
 }
 
 /// A run in progress.
-pub struct Simulation<'a> {
+pub(crate) struct Simulation<'a> {
     /// The solver.
-    pub solver: &'a mut dyn Solver,
+    pub(crate) solver: &'a mut dyn Solver,
     /// When to record.
-    pub schedule: Schedule,
+    pub(crate) schedule: Schedule,
     /// When the run ends before its end, where it does.
-    pub steady: Option<SteadyStop>,
+    pub(crate) steady: Option<SteadyStop>,
     /// What records.
-    pub records: &'a mut Records,
+    pub(crate) records: &'a mut Records,
     /// Set by others to stop the run after the present step.
-    pub interrupt: &'a AtomicBool,
+    pub(crate) interrupt: &'a AtomicBool,
     /// Who is told of each step.
-    pub watcher: &'a mut dyn Watcher,
+    pub(crate) watcher: &'a mut dyn Watcher,
 }
 
 impl Simulation<'_> {
     /// Writes `solid.vtp` and the record of time zero.
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn begin(&mut self, folder: &Path) -> Result<(), FileError> {
+    pub(crate) fn begin(&mut self, folder: &Path) -> Result<(), FileError> {
         self.write_outline(folder)?;
         self.record(Due::ALL)
     }
 
     /// Writes anew what follows from the solver whatever its state: `solid.vtp` and `units.json`.
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn go_on(&mut self, folder: &Path) -> Result<(), FileError> {
+    pub(crate) fn go_on(&mut self, folder: &Path) -> Result<(), FileError> {
         self.write_outline(folder)?;
         UnitFile::of(folder).write(&Frame::of(self.solver))
     }
@@ -211,8 +201,7 @@ impl Simulation<'_> {
     }
 
     /// Whether nothing is left to do.
-    #[must_use]
-    pub fn is_at_end(&self) -> bool {
+    pub(crate) fn is_at_end(&self) -> bool {
         self.solver.time() >= self.schedule.end() || self.solver.is_done() || self.ends_steady()
     }
 
@@ -236,7 +225,7 @@ impl Simulation<'_> {
     ///
     /// # Errors
     /// [`FileError`] where a record cannot be written.
-    pub fn run(&mut self) -> Result<Outcome, FileError> {
+    pub(crate) fn run(&mut self) -> Result<Outcome, FileError> {
         if self.is_at_end() {
             return Ok(Outcome::Done);
         }

@@ -14,7 +14,7 @@ use crate::snapshot::{Layer, Snapshot};
 use crate::solver::{Series, Solver};
 
 /// What the VTK files need of the solver between two steps, without the solver: it goes on while they are written.
-pub struct Frame {
+pub(crate) struct Frame {
     /// Where the run stands, in s.
     time: f64,
     snapshot: Snapshot<'static>,
@@ -23,15 +23,14 @@ pub struct Frame {
 
 impl Frame {
     /// A frame of the solver's present state.
-    #[must_use]
-    pub fn of(solver: &dyn Solver) -> Self {
+    pub(crate) fn of(solver: &dyn Solver) -> Self {
         let layers = solver.layers().into_iter().map(Layer::into_owned).collect();
         Self { time: solver.time(), snapshot: solver.snapshot().into_owned(), layers }
     }
 }
 
 /// Something that records a frame in a file.
-pub trait Sink: Send {
+pub(crate) trait Sink: Send {
     /// Records the frame and notes in `frames` what was written. A time that was recorded before is replaced, never doubled.
     ///
     /// # Errors
@@ -41,7 +40,7 @@ pub trait Sink: Send {
 
 /// Where a run's files begin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Start {
+pub(crate) enum Start {
     /// With a new folder.
     New,
     /// With what stands in the folder before these marks.
@@ -58,8 +57,7 @@ fn format_error(path: PathBuf) -> impl Fn(VtkError) -> FileError {
 }
 
 /// What the case says of compression, as the writer of VTK files has it.
-#[must_use]
-pub fn compression(output: &Output) -> Compression {
+pub(crate) fn compression(output: &Output) -> Compression {
     match output.vtk_compression {
         case::Compression::None => Compression::None,
         case::Compression::Zlib => Compression::Zlib,
@@ -68,16 +66,16 @@ pub fn compression(output: &Output) -> Compression {
 }
 
 /// `particles.pvd` and its files.
-pub struct ParticleFiles(Collection, Compression);
+pub(crate) struct ParticleFiles(Collection, Compression);
 
 /// `grid.pvd` and its files, where the solver offers a grid.
-pub struct GridFiles(Collection, Compression);
+pub(crate) struct GridFiles(Collection, Compression);
 
 /// `interface.pvd` and its files, where there is an interface.
-pub struct InterfaceFiles(Collection, Compression);
+pub(crate) struct InterfaceFiles(Collection, Compression);
 
 /// `NAME.pvd` and its files for each layer of cells that the solver offers.
-pub struct LayerFiles {
+pub(crate) struct LayerFiles {
     folder: PathBuf,
     written: Vec<Written>,
     compression: Compression,
@@ -85,11 +83,10 @@ pub struct LayerFiles {
 }
 
 /// `units.json`: the unit of each field by file series and name.
-pub struct UnitFile(PathBuf);
+pub(crate) struct UnitFile(PathBuf);
 
 /// The VTK sinks of a run in whose folder these files were `written` before.
-#[must_use]
-pub fn vtk_sinks(folder: &Path, written: Vec<Written>, compression: Compression) -> Vec<Box<dyn Sink>> {
+pub(crate) fn vtk_sinks(folder: &Path, written: Vec<Written>, compression: Compression) -> Vec<Box<dyn Sink>> {
     let collection = |name: &str, extension| Collection::new(folder, name, extension, &written);
     vec![
         Box::new(UnitFile::of(folder)),
@@ -158,16 +155,12 @@ impl Sink for UnitFile {
 
 impl UnitFile {
     /// The file in the folder of a run.
-    #[must_use]
-    pub fn of(folder: &Path) -> Self {
+    pub(crate) fn of(folder: &Path) -> Self {
         Self(folder.join("units.json"))
     }
 
     /// Writes the units of a frame.
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn write(&self, frame: &Frame) -> Result<(), FileError> {
+    pub(crate) fn write(&self, frame: &Frame) -> Result<(), FileError> {
         let snapshot = &frame.snapshot;
         let groups = [
             ("particles", Some(&snapshot.particles.fields).filter(|fields| !fields.is_empty())),
@@ -187,14 +180,14 @@ impl UnitFile {
 }
 
 /// `series.csv`.
-pub struct SeriesSink(SeriesFile);
+pub(crate) struct SeriesSink(SeriesFile);
 
 impl SeriesSink {
     /// The series of a run.
     ///
     /// # Errors
     /// [`FileError`] where the file of a resumed run cannot be read.
-    pub fn new(folder: &Path, start: Start) -> Result<Self, FileError> {
+    pub(crate) fn new(folder: &Path, start: Start) -> Result<Self, FileError> {
         Ok(Self(match start {
             Start::New => SeriesFile::new(folder),
             Start::Resumed { series, .. } => SeriesFile::resume(folder, series)?,
@@ -205,21 +198,19 @@ impl SeriesSink {
     ///
     /// # Errors
     /// [`FileError`] with the path and a way out.
-    pub fn record(&mut self, solver: &dyn Solver) -> Result<(), FileError> {
+    pub(crate) fn record(&mut self, solver: &dyn Solver) -> Result<(), FileError> {
         let (columns, row): (Vec<&str>, Vec<f64>) =
             solver.sample().iter().map(|sample| (sample.name, sample.value)).unzip();
         self.0.record(&columns, row)
     }
 
     /// How much of the file there is.
-    #[must_use]
-    pub fn mark(&self) -> Mark {
+    pub(crate) fn mark(&self) -> Mark {
         self.0.mark()
     }
 
     /// All rows so far.
-    #[must_use]
-    pub fn series(&self) -> &Series {
+    pub(crate) fn series(&self) -> &Series {
         self.0.series()
     }
 }

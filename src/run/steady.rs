@@ -12,10 +12,10 @@ use crate::case::{FEWEST_ROWS, SteadyStop};
 use crate::solver::{Quantity, Series, Watched};
 
 /// Length of a window over the time so far, where the case gives none: slow changes have that much longer to show.
-pub const SHARE: f64 = 0.2;
+pub(crate) const SHARE: f64 = 0.2;
 
 /// Largest ratio of the changes from window to window.
-pub const SLOWEST: f64 = 0.9;
+pub(crate) const SLOWEST: f64 = 0.9;
 
 /// Rows nearer to the end of a window than this share of it lie on it.
 const SAME: f64 = 1.0e-6;
@@ -35,8 +35,7 @@ pub struct Change {
 
 impl Change {
     /// Whether it has come to its end.
-    #[must_use]
-    pub fn is_steady(&self) -> bool {
+    pub(crate) fn is_steady(&self) -> bool {
         self.change <= self.tolerance
     }
 }
@@ -55,8 +54,7 @@ pub struct Steadiness {
 
 impl Steadiness {
     /// What still changes and by how much, in words.
-    #[must_use]
-    pub fn unsettled(&self) -> String {
+    pub(crate) fn unsettled(&self) -> String {
         let changing = self.quantities.iter().filter(|one| !one.is_steady());
         let words = changing.map(|one| {
             let (column, mean) = (one.column, one.mean);
@@ -69,8 +67,7 @@ impl Steadiness {
     }
 
     /// The first steady row of a series, or its last row.
-    #[must_use]
-    pub fn of(series: &Series, watched: &[Watched], steady: &SteadyStop) -> Self {
+    pub(crate) fn of(series: &Series, watched: &[Watched], steady: &SteadyStop) -> Self {
         let times: Vec<f64> = series.rows.iter().filter_map(|row| row.first().copied()).collect();
         let found = (1..=times.len()).map(|rows| changes(&series.rows[..rows], &series.columns, watched, steady));
         let mut last = Vec::new();
@@ -87,8 +84,7 @@ impl Steadiness {
 }
 
 /// Whether a run is steady at the last row of its series.
-#[must_use]
-pub fn is_steady(series: &Series, watched: &[Watched], steady: &SteadyStop) -> bool {
+pub(crate) fn is_steady(series: &Series, watched: &[Watched], steady: &SteadyStop) -> bool {
     all_steady(&changes(&series.rows, &series.columns, watched, steady))
 }
 

@@ -23,19 +23,19 @@ const PATIENCE: f64 = 10.0;
 /// What a run would take.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub struct Trial {
+pub(crate) struct Trial {
     /// Number of unknowns: particles or nodes.
-    pub unknowns: usize,
+    pub(crate) unknowns: usize,
     /// Time step of the last step tried, in s.
-    pub time_step_s: f64,
+    pub(crate) time_step_s: f64,
     /// The limit that ruled it.
-    pub limit: String,
+    pub(crate) limit: String,
     /// Expected number of steps.
-    pub steps: f64,
+    pub(crate) steps: f64,
     /// Expected wall time in s on as many threads as there are now.
-    pub duration_s: f64,
+    pub(crate) duration_s: f64,
     /// Most memory of this process so far in bytes, where the system tells.
-    pub memory_bytes: Option<u64>,
+    pub(crate) memory_bytes: Option<u64>,
 }
 
 /// Does the first steps of a case with its solver at time zero: five, or twenty where nothing else tells how many there will be, or as many as ten
@@ -43,7 +43,7 @@ pub struct Trial {
 ///
 /// # Errors
 /// [`SolverError`] of a step that fails.
-pub fn trial(case: &Case, solver: &mut dyn Solver, tried: &mut dyn FnMut(f64)) -> Result<Trial, SolverError> {
+pub(crate) fn trial(case: &Case, solver: &mut dyn Solver, tried: &mut dyn FnMut(f64)) -> Result<Trial, SolverError> {
     trial_within(case, solver, PATIENCE, tried)
 }
 

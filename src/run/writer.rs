@@ -18,7 +18,7 @@ use crate::io::restart::{self, Saved};
 const WAITING: usize = 1;
 
 /// What is handed over.
-pub enum Record {
+pub(crate) enum Record {
     /// A frame for the VTK files.
     Frame(Box<Frame>),
     /// A state to resume from, but for the mark in the list of frames, and the processor time in s until then.
@@ -26,7 +26,7 @@ pub enum Record {
 }
 
 /// A thread that writes.
-pub struct Writer {
+pub(crate) struct Writer {
     records: Option<SyncSender<Record>>,
     thread: Option<JoinHandle<Result<(), FileError>>>,
 }
@@ -36,7 +36,7 @@ impl Writer {
     ///
     /// # Errors
     /// [`FileError::Write`] where the system starts no thread.
-    pub fn start(folder: &Path, sinks: Vec<Box<dyn Sink>>, frames: FrameList) -> Result<Self, FileError> {
+    pub(crate) fn start(folder: &Path, sinks: Vec<Box<dyn Sink>>, frames: FrameList) -> Result<Self, FileError> {
         let (sender, receiver) = sync_channel(WAITING);
         let place = folder.to_path_buf();
         let thread = std::thread::Builder::new()
@@ -50,7 +50,7 @@ impl Writer {
     ///
     /// # Errors
     /// The [`FileError`] of a record before, which ended the thread.
-    pub fn write(&mut self, record: Record) -> Result<(), FileError> {
+    pub(crate) fn write(&mut self, record: Record) -> Result<(), FileError> {
         match self.records.as_ref().map(|records| records.send(record)) {
             Some(Ok(())) => Ok(()),
             // The other end is gone: something went wrong there.
@@ -62,7 +62,7 @@ impl Writer {
     ///
     /// # Errors
     /// The [`FileError`] of the record that could not be written, once.
-    pub fn finish(&mut self) -> Result<(), FileError> {
+    pub(crate) fn finish(&mut self) -> Result<(), FileError> {
         self.records = None;
         match self.thread.take().map(JoinHandle::join) {
             Some(Ok(written)) => written,

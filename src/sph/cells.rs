@@ -8,7 +8,7 @@ use crate::sph::pairs::GRAIN;
 
 /// Points sorted into cells at least as wide as the support.
 #[derive(Debug, Clone, Default)]
-pub struct Cells {
+pub(super) struct Cells {
     origin: Vec2,
     inverse_size: Vec2,
     counts: [usize; 2],
@@ -30,8 +30,7 @@ struct Run {
 
 impl Cells {
     /// Sorts `points` into cells at least `support` (m) wide.
-    #[must_use]
-    pub fn build(points: &[Vec2], domain: &Domain, support: f64) -> Self {
+    pub(crate) fn build(points: &[Vec2], domain: &Domain, support: f64) -> Self {
         let (mut low, mut high) = (domain.bounds.min, domain.bounds.max);
         for x in points.iter().filter(|x| x.iter().all(|v| v.is_finite())) {
             low = low.inf(x);
@@ -91,15 +90,14 @@ impl Cells {
     }
 
     /// The points in the order of their cells.
-    #[must_use]
-    pub fn order(&self) -> &[u32] {
+    pub(crate) fn order(&self) -> &[u32] {
         &self.order
     }
 
     /// Calls `visit(index, x − x_index)` for each point in the cells around `x`, always in the same order.
     ///
     /// A periodic direction must be at least three supports long, or a point would be met twice.
-    pub fn visit_near(&self, x: Vec2, mut visit: impl FnMut(u32, Vec2)) {
+    pub(crate) fn visit_near(&self, x: Vec2, mut visit: impl FnMut(u32, Vec2)) {
         let [column, row] = self.column_and_row(x);
         for (row, shift_y) in self.three(1, row) {
             for run in self.runs(row, column, shift_y) {
@@ -115,7 +113,7 @@ impl Cells {
     ///
     /// Every candidate is written and the end moved on by whether it stays: a branch that is taken for every third candidate at random
     /// would cost more than all the arithmetic.
-    pub fn collect_within(&self, x: Vec2, reach2: f64, but: u32, found: &mut Vec<u32>) {
+    pub(crate) fn collect_within(&self, x: Vec2, reach2: f64, but: u32, found: &mut Vec<u32>) {
         let [column, row] = self.column_and_row(x);
         for (row, shift_y) in self.three(1, row) {
             for run in self.runs(row, column, shift_y) {

@@ -3,7 +3,7 @@
 use crate::math::{Bounds, Vec2};
 
 /// The signed distance in m (above 0 in the pore) and the wall normal at a point.
-pub type WallQuery = Box<dyn Fn(Vec2) -> (f64, Vec2) + Send + Sync>;
+pub(crate) type WallQuery = Box<dyn Fn(Vec2) -> (f64, Vec2) + Send + Sync>;
 
 /// A mirror side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +27,7 @@ pub enum ImageVelocity {
 
 impl Mirror {
     /// The velocity of the image of a particle with velocity `v`.
-    #[must_use]
-    pub fn velocity(&self, v: Vec2) -> Vec2 {
+    pub(crate) fn velocity(&self, v: Vec2) -> Vec2 {
         match self.image {
             ImageVelocity::Reversed => -v,
             ImageVelocity::Mirrored => self.reflect(v),
@@ -36,8 +35,7 @@ impl Mirror {
     }
 
     /// The vector `v` reflected at the side: its normal component changes sign.
-    #[must_use]
-    pub fn reflect(&self, v: Vec2) -> Vec2 {
+    pub(crate) fn reflect(&self, v: Vec2) -> Vec2 {
         let mut image = v;
         image[self.axis] = -v[self.axis];
         image
@@ -59,7 +57,6 @@ pub struct Domain {
 
 impl Domain {
     /// A box with periodic directions and mirrors.
-    #[must_use]
     pub fn new(bounds: Bounds, periodic: [bool; 2], mirrors: Vec<Mirror>) -> Self {
         let size = bounds.size();
         let pick = |i: usize, value: f64| if periodic[i] { value } else { 0.0 };
@@ -74,7 +71,6 @@ impl Domain {
 
     /// x_a − x_b in m, by the shortest way through periodic sides.
     #[inline]
-    #[must_use]
     pub fn separation(&self, x_a: Vec2, x_b: Vec2) -> Vec2 {
         let mut r = x_a - x_b;
         for i in 0..2 {
@@ -88,7 +84,6 @@ impl Domain {
     }
 
     /// The point's copy inside the box along periodic directions.
-    #[must_use]
     pub fn wrapped(&self, x: Vec2) -> Vec2 {
         let mut y = x;
         for i in 0..2 {
@@ -102,8 +97,7 @@ impl Domain {
     }
 
     /// The periods as options, for functions that take one per direction.
-    #[must_use]
-    pub fn periods(&self) -> [Option<f64>; 2] {
+    pub(crate) fn periods(&self) -> [Option<f64>; 2] {
         [0, 1].map(|i| self.periodic[i].then_some(self.period[i]))
     }
 }

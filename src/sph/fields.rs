@@ -74,21 +74,20 @@ pub struct Fields {
 
 impl Fields {
     /// All fields but those of the wall particles.
-    pub fn update(&mut self, setting: &Setting, state: &FlowState, neighborhood: &Neighborhood) {
+    pub(crate) fn update(&mut self, setting: &Setting, state: &FlowState, neighborhood: &Neighborhood) {
         self.update_bulk(setting, &state.particles, neighborhood);
         self.update_interface(setting, state, neighborhood);
     }
 
     /// Finds where each wall particle faces and how its wall bends.
-    pub fn face_walls(&mut self, setting: &Setting, particles: &Particles) {
+    pub(crate) fn face_walls(&mut self, setting: &Setting, particles: &Particles) {
         let walls = &particles.position[particles.moving()..];
         self.wall_facing = walls.iter().map(|&x| (setting.wall)(x).1).collect();
         self.wall_curvature = walls.iter().map(|&x| setting.curvature_of_wall(x)).collect();
     }
 
     /// Where each wall particle and its images face; zero on the `moving` particles before them.
-    #[must_use]
-    pub fn facing(&self, moving: usize, images: &Images) -> Vec<Vec2> {
+    pub(crate) fn facing(&self, moving: usize, images: &Images) -> Vec<Vec2> {
         let mut facing = vec![Vec2::zeros(); moving];
         facing.extend_from_slice(&self.wall_facing);
         images.extend_reflected(&mut facing);

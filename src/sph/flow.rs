@@ -61,8 +61,7 @@ pub struct Work {
 
 impl Flow {
     /// The flow at time zero. `wall_depth` in m as `fill` returns it.
-    #[must_use]
-    pub fn new(setting: Setting, particles: Particles, wall_depth: Vec<f64>) -> Self {
+    pub(crate) fn new(setting: Setting, particles: Particles, wall_depth: Vec<f64>) -> Self {
         let mut state = FlowState::new(particles, wall_depth, setting.open.through.len());
         order_walls(&mut state, &setting);
         let mut flow = Self {
@@ -103,24 +102,21 @@ impl Flow {
     }
 
     /// The periodic sides with a given flow rate, each with how its flow goes on.
-    pub fn given_flows(&self) -> impl Iterator<Item = (&OpenSide, &GivenFlow)> {
+    pub(crate) fn given_flows(&self) -> impl Iterator<Item = (&OpenSide, &GivenFlow)> {
         self.setting.open.through.iter().zip(&self.state.given_flows)
     }
 
     /// The mean pressure gradient −∇P in Pa/m that drives the given flows.
-    #[must_use]
     pub fn driving_gradient(&self) -> Vec2 {
         self.given_flows().map(|(side, given)| given.gradient * side.way()).sum()
     }
 
     /// Wall time by part in s.
-    #[must_use]
-    pub fn part_times(&self) -> Vec<PartTime> {
+    pub(crate) fn part_times(&self) -> Vec<PartTime> {
         PARTS.iter().zip(self.work.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
     }
 
     /// Bytes held per particle by pairs, matrix, hierarchy and fields.
-    #[must_use]
     pub fn bytes(&self) -> usize {
         // Sixteen numbers of fields and particles, and ten of work space in step and solve, of 8 bytes or a pair of them.
         let fields = self.state.particles.len() * (16 + 10) * 8 * 3 / 2;

@@ -7,32 +7,29 @@
 use crate::sph::flow::Flow;
 
 /// Number of flows: of the whole pore, of the wetting and of the non-wetting phase, in this order.
-pub const FLOWS: usize = 3;
+pub(crate) const FLOWS: usize = 3;
 
 /// Makes a flow at rest and at time zero.
-pub type FlowAtRest = Box<dyn Fn() -> Flow + Send + Sync>;
+pub(crate) type FlowAtRest = Box<dyn Fn() -> Flow + Send + Sync>;
 
 /// The flows beside an interface that is frozen.
-pub struct FrozenInterface {
+pub(crate) struct FrozenInterface {
     flows: [FlowAtRest; FLOWS],
 }
 
 impl FrozenInterface {
     /// The flows of the whole pore, of the wetting and of the non-wetting phase.
-    #[must_use]
-    pub fn new(flows: [FlowAtRest; FLOWS]) -> Self {
+    pub(crate) fn new(flows: [FlowAtRest; FLOWS]) -> Self {
         Self { flows }
     }
 
     /// The flow of the whole pore at time zero.
-    #[must_use]
-    pub fn first(&self) -> Flow {
+    pub(crate) fn first(&self) -> Flow {
         self.flows[0]()
     }
 
     /// The flow of a stage at its start, which `before` has come to.
-    #[must_use]
-    pub fn flow(&self, stage: usize, before: &Flow) -> Flow {
+    pub(crate) fn flow(&self, stage: usize, before: &Flow) -> Flow {
         let mut flow = self.flows[stage.min(FLOWS - 1)]();
         (flow.state.time, flow.state.steps) = (before.state.time, before.state.steps);
         flow.work = before.work;

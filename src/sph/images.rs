@@ -17,7 +17,6 @@ impl Images {
     /// Finds all images within `support` (m) of the mirrors and appends their positions to `points`.
     ///
     /// Corner images are images of images, so that a particle near two mirrors has three.
-    #[must_use]
     pub fn append(points: &mut Vec<Vec2>, domain: &Domain, support: f64) -> Self {
         let first = points.len();
         let mut images = Self { first, mirrors: domain.mirrors.clone(), ..Self::default() };
@@ -42,15 +41,13 @@ impl Images {
 
     /// The particle that index `b` is or is the image of.
     #[inline]
-    #[must_use]
-    pub fn source(&self, b: usize) -> usize {
+    pub(crate) fn source(&self, b: usize) -> usize {
         if b < self.first { b } else { self.source[b - self.first] as usize }
     }
 
     /// Position of index `b` in m, given those of the particles.
     #[inline]
-    #[must_use]
-    pub fn position(&self, b: usize, particles: &[Vec2]) -> Vec2 {
+    pub(crate) fn position(&self, b: usize, particles: &[Vec2]) -> Vec2 {
         let mut x = particles[self.source(b)];
         if b >= self.first {
             for mirror in self.mirrors_of(self.via[b - self.first]) {
@@ -65,13 +62,12 @@ impl Images {
     }
 
     /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.source.is_empty()
     }
 
     /// Appends the images' values of a field that the reflection leaves alone: p' = p [Huber2013, Eq. 34].
-    pub fn extend<T: Copy>(&self, field: &mut Vec<T>) {
+    pub(crate) fn extend<T: Copy>(&self, field: &mut Vec<T>) {
         field.truncate(self.first);
         for &source in &self.source {
             field.push(field[source as usize]);
@@ -79,7 +75,7 @@ impl Images {
     }
 
     /// Appends the images of a polar vector such as a normal.
-    pub fn extend_reflected(&self, field: &mut Vec<Vec2>) {
+    pub(crate) fn extend_reflected(&self, field: &mut Vec<Vec2>) {
         self.extend_by(field, |mirror, v| mirror.reflect(v));
     }
 

@@ -19,7 +19,7 @@ const FULL_CORRECTION_WAY: f64 = 0.005;
 
 /// Forms of the pressure gradient, see `terms::pressure_gradient`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PressureGradient {
+pub(crate) enum PressureGradient {
     /// [Huber2013, Eq. 15].
     Symmetric,
     /// Hu & Adams 2006.
@@ -61,26 +61,22 @@ pub struct Method {
 
 impl Method {
     /// The fluid of a phase; walls count as wetting.
-    #[must_use]
     pub fn fluid(&self, phase: Phase) -> &Fluid {
         if phase == Phase::NonWetting { &self.other_fluid } else { &self.wetting_fluid }
     }
 
     /// ρ̄ = (ρ_w + ρ_n)/2 in kg/m³.
-    #[must_use]
-    pub fn mean_density(&self) -> f64 {
+    pub(crate) fn mean_density(&self) -> f64 {
         0.5 * (self.wetting_fluid.density + self.other_fluid.density)
     }
 
     /// The larger viscosity in Pa s.
-    #[must_use]
-    pub fn largest_viscosity(&self) -> f64 {
+    pub(crate) fn largest_viscosity(&self) -> f64 {
         self.wetting_fluid.viscosity.max(self.other_fluid.viscosity)
     }
 
     /// Larger over smaller density.
-    #[must_use]
-    pub fn density_ratio(&self) -> f64 {
+    pub(crate) fn density_ratio(&self) -> f64 {
         let (a, b) = (self.wetting_fluid.density, self.other_fluid.density);
         (a / b).max(b / a)
     }
@@ -89,8 +85,7 @@ impl Method {
     ///
     /// The paper's with its surface force at small density ratios; the differences where a jump enters them, without
     /// tension, and at large ratios, which the others do not survive.
-    #[must_use]
-    pub fn pressure_gradient(&self) -> PressureGradient {
+    pub(crate) fn pressure_gradient(&self) -> PressureGradient {
         let ratio = self.density_ratio();
         let has_jump = matches!(self.surface_force, SurfaceForce::PressureJump { .. });
         if self.tension == 0.0 || has_jump || ratio > LARGEST_WEIGHTED_RATIO {
@@ -106,8 +101,7 @@ impl Method {
     ///
     /// With ρ/ρ̄ light particles are not thrown about, but at a concave interface the heavy fluid is then pulled towards
     /// the light one like a heavy layer on a light one, and they mix: four discs at ratio 10 shed particles.
-    #[must_use]
-    pub fn force_weight(&self, rho: f64) -> f64 {
+    pub(crate) fn force_weight(&self, rho: f64) -> f64 {
         if self.pressure_gradient() == PressureGradient::Difference { rho / self.mean_density() } else { 1.0 }
     }
 
@@ -116,28 +110,24 @@ impl Method {
     ///
     /// Density errors come with motion. Where hardly anything moves, to push for errors that are there would be what moves the particles.
     /// And they come in time, not in steps: a light gas, whose viscosity asks for short steps, must not be pushed in every one as hard.
-    #[must_use]
     pub fn density_correction_rate(&self, fastest: f64) -> f64 {
         let tau = self.density_correction_time(fastest);
         self.numerics.density_error_correction / tau * (fastest * tau / (FULL_CORRECTION_WAY * self.spacing)).min(1.0)
     }
 
     /// The background pressure p_0 in Pa for a fluid whose largest speed is `speed` (m/s).
-    #[must_use]
-    pub fn background_pressure_at(&self, speed: f64) -> f64 {
+    pub(crate) fn background_pressure_at(&self, speed: f64) -> f64 {
         let scale = if self.tension > 0.0 { self.tension / self.kernel.h } else { self.mean_density() * speed * speed };
         self.numerics.background_pressure * scale
     }
 
     /// ∇κ = (ρ_w − ρ_n) g/σ in 1/m² of an interface at rest, κ positive where the wetting phase is convex (Young and Laplace).
-    #[must_use]
-    pub fn curvature_gradient(&self) -> Vec2 {
+    pub(crate) fn curvature_gradient(&self) -> Vec2 {
         (self.wetting_fluid.density - self.other_fluid.density) / self.tension * self.gravity
     }
 
     /// The speed of capillary waves of the length h, sqrt(σ/(ρ̄ h)), in m/s.
-    #[must_use]
-    pub fn capillary_speed(&self) -> f64 {
+    pub(crate) fn capillary_speed(&self) -> f64 {
         (self.tension / (self.mean_density() * self.kernel.h)).sqrt()
     }
 }

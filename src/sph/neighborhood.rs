@@ -20,7 +20,7 @@ pub struct Neighborhood {
 
 impl Neighborhood {
     /// Finds both for particles at `position` (m).
-    pub fn find_anew(&mut self, position: &[Vec2], domain: &Domain, kernel: &WendlandC2) {
+    pub(crate) fn find_anew(&mut self, position: &[Vec2], domain: &Domain, kernel: &WendlandC2) {
         let mut points = position.to_vec();
         self.images = Images::append(&mut points, domain, kernel.support());
         let cells = Cells::build(&points, domain, kernel.support());
@@ -29,8 +29,7 @@ impl Neighborhood {
 
     /// x_a − x_b in m of a particle and a particle or image, from the `position` (m) of the particles.
     #[inline]
-    #[must_use]
-    pub fn separation(&self, a: usize, b: usize, position: &[Vec2], domain: &Domain) -> Vec2 {
+    pub(crate) fn separation(&self, a: usize, b: usize, position: &[Vec2], domain: &Domain) -> Vec2 {
         domain.separation(position[a], self.images.position(b, position))
     }
 }

@@ -44,12 +44,11 @@ pub struct Observation {
 
 impl Observation {
     /// The contact lines with an angle: those of pockets of a few particles at the wall have none.
-    pub fn lines_with_angle(&self) -> impl Iterator<Item = &ContactLine> {
+    pub(crate) fn lines_with_angle(&self) -> impl Iterator<Item = &ContactLine> {
         self.contact_lines.iter().filter(|line| line.angle_deg.is_finite())
     }
 
     /// Looks at the flow; `wall` samples as `interface::lengths::wall_samples` makes them.
-    #[must_use]
     pub fn of(flow: &Flow, wall: &[WallSample]) -> Self {
         let fluids = flow.state.particles.fluids;
         // Interpolation near open sides needs their buffers; areas do not.
@@ -85,19 +84,17 @@ impl Observation {
     }
 
     /// Where a phase is thinner than about three particles; `flow` is the flow that is seen.
-    pub fn thin(&self, flow: &Flow) -> &ThinParts {
+    pub(crate) fn thin(&self, flow: &Flow) -> &ThinParts {
         self.thin.get_or_init(|| ThinParts::of(flow))
     }
 
     /// Mean contact angle with its spread over the contact lines.
-    #[must_use]
-    pub fn angle(&self) -> AngleSummary {
+    pub(crate) fn angle(&self) -> AngleSummary {
         summarize(&self.contact_lines)
     }
 
     /// Length of the interface in m.
-    #[must_use]
-    pub fn interface_length(&self) -> f64 {
+    pub(crate) fn interface_length(&self) -> f64 {
         interface_length(&self.interface)
     }
 }
@@ -116,14 +113,12 @@ fn pressures_at_interface(flow: &Flow, interface: &[Polyline]) -> Vec<f64> {
 }
 
 /// Color of the particles of fluid and buffers: 1 in the wetting phase, else 0.
-#[must_use]
-pub fn sharp_color(flow: &Flow) -> Vec<f64> {
+pub(crate) fn sharp_color(flow: &Flow) -> Vec<f64> {
     flow.state.particles.phase[..flow.state.particles.moving()].iter().map(|p: &Phase| p.color()).collect()
 }
 
 /// The particles of fluid and buffers as samples for interpolation.
-#[must_use]
-pub fn fluid_samples(flow: &Flow) -> Samples<'_> {
+pub(crate) fn fluid_samples(flow: &Flow) -> Samples<'_> {
     let moving = flow.state.particles.moving();
     Samples {
         points: &flow.state.particles.position[..moving],
@@ -134,8 +129,7 @@ pub fn fluid_samples(flow: &Flow) -> Samples<'_> {
 }
 
 /// Nodes about `spacing` (m) apart over the domain, a little beyond its walls.
-#[must_use]
-pub fn nodes(flow: &Flow, spacing: f64) -> Lattice {
+pub(crate) fn nodes(flow: &Flow, spacing: f64) -> Lattice {
     let (domain, size) = (&flow.setting.domain, flow.setting.domain.bounds.size());
     let mut lattice = Lattice::open(domain.bounds.min, Vec2::zeros(), [0; 2]);
     lattice.periodic = domain.periodic;

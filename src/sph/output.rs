@@ -33,8 +33,7 @@ fn integer(name: &'static str, values: Vec<i64>) -> Field<'static> {
 }
 
 /// The state for output; `grid_spacing` in m.
-#[must_use]
-pub fn snapshot(flow: &Flow, observation: &Observation, grid_spacing: f64) -> Snapshot<'static> {
+pub(crate) fn snapshot(flow: &Flow, observation: &Observation, grid_spacing: f64) -> Snapshot<'static> {
     let mut particles = particles(flow, observation.thin(flow));
     let grid = grid(flow, &particles, grid_spacing);
     without(&mut particles, flow.state.particles.buffer());

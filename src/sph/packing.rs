@@ -55,23 +55,23 @@ const DISTURBED: f64 = 1e-6;
 const TOLERANCE: Tolerance = Tolerance { residual: 1e-3, iterations: 100 };
 
 /// What does not move while a pore is packed.
-pub struct Packing<'a> {
+pub(crate) struct Packing<'a> {
     /// Particles that hold still, in m: walls, layers beside the interface, and what stands beyond open sides.
-    pub fixed: &'a [Vec2],
+    pub(crate) fixed: &'a [Vec2],
     /// Box and sides.
-    pub domain: &'a Domain,
+    pub(crate) domain: &'a Domain,
     /// Smoothing kernel.
-    pub kernel: &'a WendlandC2,
+    pub(crate) kernel: &'a WendlandC2,
     /// Spacing dx in m.
-    pub spacing: f64,
+    pub(crate) spacing: f64,
     /// V_0 in m², the room of a particle.
-    pub volume: f64,
+    pub(crate) volume: f64,
     /// The pore.
-    pub pore: &'a Geometry,
+    pub(crate) pore: &'a Geometry,
     /// The interface between two phases that has layers beside it.
-    pub interface: Option<&'a UnfittedSurface<'a>>,
+    pub(crate) interface: Option<&'a UnfittedSurface<'a>>,
     /// Sides of the box that no particle crosses, open sides and mirrors: axis, and place along it in m.
-    pub sides: &'a [(usize, f64)],
+    pub(crate) sides: &'a [(usize, f64)],
 }
 
 /// The particles of a round with all that they see.
@@ -97,7 +97,7 @@ impl Packing<'_> {
     /// Moves the particles `fluid` (m) to their places; `done` is told the share of the rounds that are done.
     ///
     /// Those farther than 24 spacings from all that is no lattice stay where they are.
-    pub fn pack(&self, fluid: &mut [Vec2], done: &mut dyn FnMut(f64)) {
+    pub(crate) fn pack(&self, fluid: &mut [Vec2], done: &mut dyn FnMut(f64)) {
         let moves = self.order(&self.round(fluid, self.fixed), fluid.len());
         let disturbed =
             fluid.iter().zip(&moves).filter(|(_, m)| m.by.norm() > DISTURBED * self.spacing).map(|(x, _)| *x);

@@ -12,7 +12,7 @@ use crate::sph::domain::Domain;
 use crate::sph::kernel::WendlandC2;
 
 /// Particles handled by one task: large against the cost of a task, small against the particle count of a real case.
-pub const GRAIN: usize = 512;
+pub(crate) const GRAIN: usize = 512;
 
 /// ζ over h [Huber2013, Eq. 16]: keeps the denominators of the Laplacians above zero.
 const ZETA: f64 = 0.01;
@@ -51,7 +51,6 @@ type Rows = (Vec<u32>, Vec<u32>);
 
 impl Pairs {
     /// Finds the neighbors of the first `count` of `points` among all of them.
-    #[must_use]
     pub fn find(points: &[Vec2], count: usize, domain: &Domain, kernel: &WendlandC2) -> Self {
         Self::find_in(&Cells::build(points, domain, kernel.support()), points, count, domain, kernel)
     }
@@ -97,20 +96,6 @@ impl Pairs {
         self.take_rows(&chunks, points, domain, kernel);
     }
 
-    /// Every pair tried: the oracle of [`Pairs::find`], in the order of the indices.
-    #[must_use]
-    pub fn brute_force(points: &[Vec2], count: usize, domain: &Domain, kernel: &WendlandC2) -> Self {
-        let row = |a: usize| -> Vec<u32> {
-            let near = |&b: &usize| b != a && domain.separation(points[a], points[b]).norm() < kernel.support();
-            (0..points.len()).filter(near).map(|b| b as u32).collect()
-        };
-        let rows: Vec<Vec<u32>> = (0..count).map(row).collect();
-        let chunk = |rows: &[Vec<u32>]| (rows.iter().map(|r| r.len() as u32).collect(), rows.concat());
-        let mut pairs = Self::default();
-        pairs.take_rows(&rows.chunks(GRAIN).map(chunk).collect::<Vec<Rows>>(), points, domain, kernel);
-        pairs
-    }
-
     /// Lays the rows of chunks of [`GRAIN`] particles end to end and evaluates the kernel on them.
     fn take_rows(&mut self, chunks: &[Rows], points: &[Vec2], domain: &Domain, kernel: &WendlandC2) {
         let mut start = reclaimed(&mut self.start);
@@ -153,39 +138,28 @@ impl Pairs {
     }
 
     /// Number of particles that have a row.
-    #[must_use]
-    pub fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.start.len() - 1
     }
 
     /// Number of neighbors over all rows.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.b.len()
     }
 
-    /// Whether nobody has a neighbor.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.b.is_empty()
-    }
-
     /// Where the row of `a` lies in [`Pairs::neighbors`].
     #[inline]
-    #[must_use]
-    pub fn row(&self, a: usize) -> Range<usize> {
+    pub(crate) fn row(&self, a: usize) -> Range<usize> {
         self.start[a]..self.start[a + 1]
     }
 
     /// The row starts, one more than there are rows.
-    #[must_use]
-    pub fn starts(&self) -> &Arc<Vec<usize>> {
+    pub(crate) fn starts(&self) -> &Arc<Vec<usize>> {
         &self.start
     }
 
     /// The neighbors, row after row.
-    #[must_use]
-    pub fn neighbors(&self) -> &Arc<Vec<u32>> {
+    pub(crate) fn neighbors(&self) -> &Arc<Vec<u32>> {
         &self.b
     }
 
@@ -205,13 +179,12 @@ impl Pairs {
     }
 
     /// `out[a]` = Σ_b `term(a, ab)` for each a of `out`, in parallel with one writer per element.
-    pub fn sum_into<T: Sum + Send>(&self, out: &mut [T], term: impl Fn(usize, &Pair) -> T + Sync) {
+    pub(crate) fn sum_into<T: Sum + Send>(&self, out: &mut [T], term: impl Fn(usize, &Pair) -> T + Sync) {
         each(out, |a| self.of(a).map(|ab| term(a, &ab)).sum());
     }
 
     /// Bytes held.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.start.len() * 8 + self.b.len() * (4 + 4 + 8 + 4)
     }
 }
@@ -222,7 +195,7 @@ fn reclaimed<T>(shared: &mut Arc<Vec<T>>) -> Vec<T> {
 }
 
 /// Cuts `values`, one per pair, into the parts of `GRAIN` rows each, with the rows that they belong to: one task each.
-pub fn split_rows<'a, T>(
+pub(crate) fn split_rows<'a, T>(
     starts: &'a [usize],
     values: &'a mut [T],
 ) -> impl Iterator<Item = (Range<usize>, &'a mut [T])> {
@@ -237,12 +210,12 @@ pub fn split_rows<'a, T>(
 }
 
 /// `out[a] = value(a)` in parallel, one writer per element, so that any number of threads gives the same bits.
-pub fn each<T: Send>(out: &mut [T], value: impl Fn(usize) -> T + Sync) {
+pub(crate) fn each<T: Send>(out: &mut [T], value: impl Fn(usize) -> T + Sync) {
     out.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, out)| *out = value(a));
 }
 
 /// Σ_a `value(a)` over 0..n, in parts of fixed length added in order: the same bits for any number of threads.
-pub fn total(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
+pub(crate) fn total(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
     let parts: Vec<f64> = (0..n.div_ceil(GRAIN))
         .into_par_iter()
         .map(|part| (part * GRAIN..((part + 1) * GRAIN).min(n)).map(&value).sum())
@@ -251,8 +224,25 @@ pub fn total(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
 }
 
 /// The largest `value(a)` over 0..n with its index; the first of equals. None for n = 0.
-pub fn largest(n: usize, value: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
+pub(crate) fn largest(n: usize, value: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
     (0..n).map(|a| (a, value(a))).reduce(|best, next| if next.1 > best.1 { next } else { best })
+}
+
+/// What tests compare with.
+#[cfg(test)]
+impl Pairs {
+    /// Every pair tried: the oracle of [`Pairs::find`], in the order of the indices.
+    pub(crate) fn brute_force(points: &[Vec2], count: usize, domain: &Domain, kernel: &WendlandC2) -> Self {
+        let row = |a: usize| -> Vec<u32> {
+            let near = |&b: &usize| b != a && domain.separation(points[a], points[b]).norm() < kernel.support();
+            (0..points.len()).filter(near).map(|b| b as u32).collect()
+        };
+        let rows: Vec<Vec<u32>> = (0..count).map(row).collect();
+        let chunk = |rows: &[Vec<u32>]| (rows.iter().map(|r| r.len() as u32).collect(), rows.concat());
+        let mut pairs = Self::default();
+        pairs.take_rows(&rows.chunks(GRAIN).map(chunk).collect::<Vec<Rows>>(), points, domain, kernel);
+        pairs
+    }
 }
 
 #[cfg(test)]

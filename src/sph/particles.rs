@@ -23,8 +23,7 @@ pub enum Phase {
 
 impl Phase {
     /// The number in the output: 0 wetting, 1 non-wetting, 2 solid.
-    #[must_use]
-    pub fn number(self) -> i64 {
+    pub(crate) fn number(self) -> i64 {
         match self {
             Self::Wetting => 0,
             Self::NonWetting => 1,
@@ -33,8 +32,7 @@ impl Phase {
     }
 
     /// Color c: 1 in the wetting phase, else 0.
-    #[must_use]
-    pub fn color(self) -> f64 {
+    pub(crate) fn color(self) -> f64 {
         if self == Self::Wetting { 1.0 } else { 0.0 }
     }
 }
@@ -64,43 +62,27 @@ pub struct Particles {
 
 impl Particles {
     /// Number of particles.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.position.len()
     }
 
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.position.is_empty()
-    }
-
-    /// Whether particle `a` is fluid.
-    #[must_use]
-    pub fn is_fluid(&self, a: usize) -> bool {
-        a < self.fluids
-    }
-
     /// Number of particles that move: fluid and buffers. Walls begin there.
-    #[must_use]
     pub fn moving(&self) -> usize {
         self.fluids + self.open
     }
 
     /// The buffers of open sides.
-    #[must_use]
-    pub fn buffer(&self) -> Range<usize> {
+    pub(crate) fn buffer(&self) -> Range<usize> {
         self.fluids..self.moving()
     }
 
     /// The largest speed of the fluid in m/s.
-    #[must_use]
     pub fn fluid_speed(&self) -> f64 {
         largest(self.fluids, |a| self.velocity[a].norm()).map_or(0.0, |l| l.1)
     }
 
     /// Adds a particle at rest; fluid must come before walls.
-    pub fn push(&mut self, phase: Phase, position: Vec2) {
+    pub(crate) fn push(&mut self, phase: Phase, position: Vec2) {
         debug_assert!(phase == Phase::Solid || self.fluids == self.len(), "fluid comes before walls");
         if phase == Phase::Solid {
             self.walls += 1;
@@ -111,7 +93,7 @@ impl Particles {
     }
 
     /// Adds a particle at rest behind all others; [`Particles::arrange`] must give it its place and kind.
-    pub fn append(&mut self, phase: Phase, position: Vec2) {
+    pub(crate) fn append(&mut self, phase: Phase, position: Vec2) {
         self.id.push(u32::try_from(self.len()).unwrap_or(u32::MAX));
         self.phase.push(phase);
         self.position.push(position);
@@ -121,7 +103,7 @@ impl Particles {
     }
 
     /// Adds a particle like `a` with another phase, place (m) and name behind all others, as [`Particles::append`] does.
-    pub fn append_like(&mut self, a: usize, phase: Phase, position: Vec2, id: u32) {
+    pub(crate) fn append_like(&mut self, a: usize, phase: Phase, position: Vec2, id: u32) {
         self.id.push(id);
         self.phase.push(phase);
         self.position.push(position);
@@ -131,13 +113,13 @@ impl Particles {
     }
 
     /// Keeps the particles of `order` in that order: `fluids` fluid ones, `open` in buffers, and walls.
-    pub fn arrange(&mut self, order: &[usize], fluids: usize, open: usize) {
+    pub(crate) fn arrange(&mut self, order: &[usize], fluids: usize, open: usize) {
         self.reorder(order);
         (self.fluids, self.open, self.walls) = (fluids, open, order.len() - fluids - open);
     }
 
     /// Reorders the particles: the new particle i is the old `order[i]`. Fluid must stay before walls.
-    pub fn reorder(&mut self, order: &[usize]) {
+    pub(crate) fn reorder(&mut self, order: &[usize]) {
         fn pick<T: Copy>(values: &mut Vec<T>, order: &[usize]) {
             *values = order.iter().map(|&i| values[i]).collect();
         }

@@ -34,8 +34,7 @@ impl Setting {
     /// The part of gravity in m/s² that the pressure can balance: not along periods, where it drives the flow.
     ///
     /// The forms of the gradient with the sum of pressures do not have it: their sums differ from those of the pressure equation.
-    #[must_use]
-    pub fn balanced_gravity(&self) -> Vec2 {
+    pub(crate) fn balanced_gravity(&self) -> Vec2 {
         if self.method.pressure_gradient() != PressureGradient::Difference {
             return Vec2::zeros();
         }
@@ -44,8 +43,7 @@ impl Setting {
     }
 
     /// The turn of the normal along the wall nearest to `x` (m) over its length, in 1/m; positive where the solid is convex, 0 at edges.
-    #[must_use]
-    pub fn curvature_of_wall(&self, x: Vec2) -> f64 {
+    pub(crate) fn curvature_of_wall(&self, x: Vec2) -> f64 {
         let (distance, normal) = (self.wall)(x);
         let (inside, along) = (x - distance * normal, perpendicular(normal));
         let normal_at = |way: f64| (self.wall)(inside + way * along).1;
@@ -56,14 +54,12 @@ impl Setting {
 
     /// Whether the pressure of a long step becomes that of its end. Not with surface tension, which keeps steps so short that the pressure
     /// follows, and not with inlets and outlets, where this is unstable: their buffers have no viscous forces.
-    #[must_use]
-    pub fn has_viscous_pressure(&self) -> bool {
+    pub(crate) fn has_viscous_pressure(&self) -> bool {
         self.method.tension == 0.0 && self.open.sides.is_empty()
     }
 
     /// Whether the divergence at the place `x` (m) counts: deep beyond an open side the sums see no fluid, and no neighbors at its end.
-    #[must_use]
-    pub fn sees_the_fluid(&self, x: Vec2) -> bool {
+    pub(crate) fn sees_the_fluid(&self, x: Vec2) -> bool {
         let support = self.method.kernel.support();
         self.open.sides.iter().all(|side| side.beyond(x) < support)
     }

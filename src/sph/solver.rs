@@ -35,28 +35,28 @@ pub struct SphSolver {
 }
 
 /// A text made from the particles and the capillary pressure in Pa.
-pub type HandBack = Box<dyn Fn(&Particles, f64) -> Document + Send + Sync>;
+pub(crate) type HandBack = Box<dyn Fn(&Particles, f64) -> Document + Send + Sync>;
 
 /// What stands still around the flow.
-pub struct Surroundings {
+pub(crate) struct Surroundings {
     /// Outline of the solids.
-    pub outline: Lines<'static>,
+    pub(crate) outline: Lines<'static>,
     /// Pieces of wall for the wetted length.
-    pub wall_samples: Vec<WallSample>,
+    pub(crate) wall_samples: Vec<WallSample>,
     /// The discs among the solids.
-    pub discs: Vec<DiscOf>,
+    pub(crate) discs: Vec<DiscOf>,
     /// The upright rectangles among the solids.
-    pub plates: Vec<Bounds>,
+    pub(crate) plates: Vec<Bounds>,
     /// Speeds of the walls at the left, right, bottom and top side in m/s.
-    pub wall_speeds: [f64; 4],
+    pub(crate) wall_speeds: [f64; 4],
     /// Whether walls may have edges, where contact lines pin: they have not where there are no solids in the box.
-    pub has_edges: bool,
+    pub(crate) has_edges: bool,
     /// Body forces that act one after the other, where that is what is measured.
-    pub stages: Option<Stages>,
+    pub(crate) stages: Option<Stages>,
     /// Distance of grid nodes in m.
-    pub grid_spacing: f64,
+    pub(crate) grid_spacing: f64,
     /// Where the flow began with the state of a network: what it hands back.
-    pub hand_back: Option<HandBack>,
+    pub(crate) hand_back: Option<HandBack>,
 }
 
 impl SphSolver {
@@ -73,8 +73,7 @@ impl SphSolver {
     }
 
     /// A solver at time zero.
-    #[must_use]
-    pub fn new(flow: Flow, surroundings: Surroundings) -> Self {
+    pub(crate) fn new(flow: Flow, surroundings: Surroundings) -> Self {
         let seen = Observation::of(&flow, &surroundings.wall_samples);
         let groups = Vec::new();
         let mut solver =
@@ -84,15 +83,13 @@ impl SphSolver {
     }
 
     /// A solver at time zero of the flows beside a frozen interface, one after the other.
-    #[must_use]
-    pub fn beside(interface: FrozenInterface, surroundings: Surroundings) -> Self {
+    pub(crate) fn beside(interface: FrozenInterface, surroundings: Surroundings) -> Self {
         let first = interface.first();
         Self { frozen: Some((interface, 0)), ..Self::new(first, surroundings) }
     }
 
     /// The same solver that has the columns and measures of `groups` too.
-    #[must_use]
-    pub fn measuring(self, groups: Vec<Group>) -> Self {
+    pub(crate) fn measuring(self, groups: Vec<Group>) -> Self {
         Self { groups, ..self }
     }
 
@@ -116,8 +113,7 @@ impl SphSolver {
     }
 
     /// What can be seen of the flow now. Found once between two steps: series, files and report all ask for it.
-    #[must_use]
-    pub fn observe(&self) -> &Observation {
+    pub(crate) fn observe(&self) -> &Observation {
         self.seen.get_or_init(|| Observation::of(&self.flow, &self.surroundings.wall_samples))
     }
 

@@ -21,8 +21,7 @@ pub struct Stages {
 
 impl Stages {
     /// The components of `force` (m/s²) that are not zero, x first, for the same time each until `end` (s); none where there is no force.
-    #[must_use]
-    pub fn new(force: Vec2, end: f64) -> Option<Self> {
+    pub(crate) fn new(force: Vec2, end: f64) -> Option<Self> {
         let axes: Vec<usize> = (0..2).filter(|&axis| force[axis] != 0.0).collect();
         let length = end / axes.len() as f64;
         (!axes.is_empty()).then_some(Self { axes, force, length })
@@ -30,47 +29,40 @@ impl Stages {
 
     /// The `force` (m/s²), which is along one axis, `times` over for the same time each until `end` (s): for a flow that begins anew each time. None
     /// where there is no force.
-    #[must_use]
-    pub fn repeated(force: Vec2, times: usize, end: f64) -> Option<Self> {
+    pub(crate) fn repeated(force: Vec2, times: usize, end: f64) -> Option<Self> {
         let of_one = Self::new(force, end)?;
         let axis = of_one.axes[0];
         Some(Self { axes: vec![axis; times], force, length: end / times as f64 })
     }
 
     /// The axes in the order of their stages.
-    #[must_use]
-    pub fn axes(&self) -> &[usize] {
+    pub(crate) fn axes(&self) -> &[usize] {
         &self.axes
     }
 
     /// Body force per mass in m/s² of the step that begins at `time` (s).
-    #[must_use]
-    pub fn force(&self, time: f64) -> Vec2 {
+    pub(crate) fn force(&self, time: f64) -> Vec2 {
         self.force_of(self.stage(time))
     }
 
     /// The stage of the step that begins at `time` (s).
-    #[must_use]
-    pub fn stage(&self, time: f64) -> usize {
+    pub(crate) fn stage(&self, time: f64) -> usize {
         (1..self.axes.len()).filter(|&stage| self.starts_by(stage, time)).count()
     }
 
     /// Start in s of the stage of the step that begins at `time` (s).
-    #[must_use]
-    pub fn since(&self, time: f64) -> f64 {
+    pub(crate) fn since(&self, time: f64) -> f64 {
         self.start(self.stage(time))
     }
 
     /// Body force per mass in m/s² of a stage; none of one that is not there.
-    #[must_use]
-    pub fn force_of(&self, stage: usize) -> Vec2 {
+    pub(crate) fn force_of(&self, stage: usize) -> Vec2 {
         let acts = |axis| self.axes.get(stage) == Some(&axis);
         Vec2::from_fn(|axis, _| if acts(axis) { self.force[axis] } else { 0.0 })
     }
 
     /// The end of a step from `time` (s) to `until` (s), at the next turn of the force where that comes first.
-    #[must_use]
-    pub fn stop(&self, time: f64, until: f64) -> f64 {
+    pub(crate) fn stop(&self, time: f64, until: f64) -> f64 {
         let starts = (1..self.axes.len()).filter(|&stage| !self.starts_by(stage, time));
         starts.map(|stage| self.start(stage)).fold(until, |stop, start| {
             let is_before = start < stop - SAME * self.length;
@@ -79,8 +71,7 @@ impl Stages {
     }
 
     /// The last two rows of the series within a stage, which may begin with the row at its start; none where it has fewer.
-    #[must_use]
-    pub fn last_rows<'s>(&self, series: &'s Series, stage: usize) -> Option<[&'s [f64]; 2]> {
+    pub(crate) fn last_rows<'s>(&self, series: &'s Series, stage: usize) -> Option<[&'s [f64]; 2]> {
         let slack = SAME * self.length;
         let (from, to) = (self.start(stage) - slack, self.start(stage + 1) + slack);
         let rows: Vec<&Vec<f64>> = series.rows.iter().filter(|row| (from..=to).contains(&row[0])).collect();

@@ -34,8 +34,7 @@ pub struct FlowState {
 
 impl FlowState {
     /// The state at time zero. `wall_depth` in m as `fill` returns it; `given_flows` periodic sides have a given flow rate.
-    #[must_use]
-    pub fn new(particles: Particles, wall_depth: Vec<f64>, given_flows: usize) -> Self {
+    pub(crate) fn new(particles: Particles, wall_depth: Vec<f64>, given_flows: usize) -> Self {
         let next_id = u32::try_from(particles.len()).unwrap_or(u32::MAX);
         Self {
             time: 0.0,
@@ -52,7 +51,6 @@ impl FlowState {
 }
 
 /// The state of the flow as bytes.
-#[must_use]
 pub fn save(flow: &Flow) -> Vec<u8> {
     // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
     postcard::to_stdvec(&flow.state).unwrap_or_default()

@@ -56,32 +56,29 @@ struct Constants {
 
 /// A time step with the limit that rules it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TimeStep {
+pub(crate) struct TimeStep {
     /// Δt in s.
-    pub dt: f64,
+    pub(crate) dt: f64,
     /// Name of the limit.
-    pub limit: &'static str,
+    pub(crate) limit: &'static str,
 }
 
 impl TimeStep {
     /// This step, or one of length `dt` (s) by another limit if that is shorter.
-    #[must_use]
-    pub fn tighter(self, dt: f64, limit: &'static str) -> Self {
+    pub(crate) fn tighter(self, dt: f64, limit: &'static str) -> Self {
         if dt < self.dt { Self { dt, limit } } else { self }
     }
 }
 
 impl Method {
     /// The largest stable Δt for the fastest particle `speed` (m/s) and the largest viscous rate (1/s, see `Viscous::rate`).
-    #[must_use]
-    pub fn time_step(&self, speed: f64, viscous_rate: f64) -> TimeStep {
+    pub(crate) fn time_step(&self, speed: f64, viscous_rate: f64) -> TimeStep {
         let over_rate = if self.numerics.viscous_term == ViscousTerm::Szewc { 1.0 / SZEWC_OVER_MORRIS } else { 1.0 };
         self.inviscid_time_step(speed).tighter(self.numerics.time_step_factor * over_rate / viscous_rate, "viscosity")
     }
 
     /// The same without the limit by viscosity.
-    #[must_use]
-    pub fn inviscid_time_step(&self, speed: f64) -> TimeStep {
+    pub(crate) fn inviscid_time_step(&self, speed: f64) -> TimeStep {
         let f = self.numerics.time_step_factor;
         let capillary = match self.numerics.viscous_step {
             ViscousStep::Implicit if speed < SLOW * self.capillary_speed() => self.in_gas() * RESTING_CAPILLARY,
@@ -93,14 +90,12 @@ impl Method {
 
     /// The largest Δt in s where a contact line is pinned. The curvature of the end of the step, which is used there, makes steps
     /// unstable above a factor of 4.5/√3 = 2.6, so that neither rest nor a factor of the user makes them longer.
-    #[must_use]
-    pub fn pinned_time_step(&self) -> f64 {
+    pub(crate) fn pinned_time_step(&self) -> f64 {
         self.numerics.time_step_factor.min(1.0) * self.moving_capillary() * self.time_of_waves()
     }
 
     /// The largest Δt in s where the slowest viscous motion decays in `viscous_time` (s) and the forces have acted for `age` (s).
-    #[must_use]
-    pub fn viscous_time_step(&self, viscous_time: f64, age: f64) -> f64 {
+    pub(crate) fn viscous_time_step(&self, viscous_time: f64, age: f64) -> f64 {
         self.numerics.time_step_factor * (VISCOUS * viscous_time).max(VISCOUS_LATER * age)
     }
 
@@ -133,7 +128,6 @@ impl Method {
 
     /// The time in s in which the pressure takes its share of the density error back, whatever the step: with the shortest of the constants,
     /// since measured, less often is less even.
-    #[must_use]
     pub fn density_correction_time(&self, speed: f64) -> f64 {
         self.bounded(speed, &Constants { velocity: COURANT, body_force: COURANT, capillary: CAPILLARY }).dt
     }
@@ -150,23 +144,20 @@ impl Method {
     /// The step in s to take in place of one of length `dt` (s) in which a particle goes as far as `way` (m); none if it may go so far.
     ///
     /// What goes too far is taken to be accelerated: its way falls with the square of the step.
-    #[must_use]
-    pub fn shorter_step(&self, dt: f64, way: f64) -> Option<f64> {
+    pub(crate) fn shorter_step(&self, dt: f64, way: f64) -> Option<f64> {
         let meant = self.courant() * self.kernel.h;
         (way > OVERSHOOT * meant).then(|| dt * (meant / way).sqrt())
     }
 
     /// The smallest Δt that is accepted, in s.
-    #[must_use]
-    pub fn smallest_time_step(&self, viscous_rate: f64) -> f64 {
+    pub(crate) fn smallest_time_step(&self, viscous_rate: f64) -> f64 {
         let step = self.time_step(0.0, viscous_rate).dt;
         if step.is_finite() { COLLAPSE * step } else { 0.0 }
     }
 }
 
 /// Shortens `step` so that it lands on `until` (s) from `time` (s) without a last sliver.
-#[must_use]
-pub fn landing(step: TimeStep, time: f64, until: f64) -> TimeStep {
+pub(crate) fn landing(step: TimeStep, time: f64, until: f64) -> TimeStep {
     let left = until - time;
     if step.dt >= left {
         TimeStep { dt: left, limit: "record" }

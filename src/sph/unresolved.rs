@@ -6,21 +6,20 @@ use crate::sph::flow::Flow;
 use crate::sph::particles::Phase;
 
 /// Pieces of fewer particles than this, five across, have no curvature that a fit could find.
-pub const SMALLEST_PIECE: usize = 20;
+pub(crate) const SMALLEST_PIECE: usize = 20;
 
 /// Where a phase is thinner than about three particles.
 #[derive(Debug, Clone)]
-pub struct ThinParts {
+pub(crate) struct ThinParts {
     /// Whether the phase around each fluid particle is that thin.
-    pub is_thin: Vec<bool>,
+    pub(crate) is_thin: Vec<bool>,
     /// Thin particles over the number of particles of the phase that has fewer.
-    pub share: f64,
+    pub(crate) share: f64,
 }
 
 impl ThinParts {
     /// Looks at the fluid of a flow.
-    #[must_use]
-    pub fn of(flow: &Flow) -> Self {
+    pub(crate) fn of(flow: &Flow) -> Self {
         let (is_wetting, smaller) = (wetting(flow), smaller_phase(flow));
         if smaller == 0 {
             return Self { is_thin: vec![false; is_wetting.len()], share: 0.0 };
@@ -33,8 +32,7 @@ impl ThinParts {
 }
 
 /// Connected pieces of either phase with fewer particles than have a curvature; `wetting_pieces` are those of the wetting phase.
-#[must_use]
-pub fn small_pieces(flow: &Flow, wetting_pieces: &[Blob]) -> usize {
+pub(crate) fn small_pieces(flow: &Flow, wetting_pieces: &[Blob]) -> usize {
     if smaller_phase(flow) == 0 {
         return 0;
     }

@@ -33,8 +33,7 @@ const FEWEST: usize = 5;
 const ROUNDING: f64 = 1e-9;
 
 /// The warnings that a flow asks for now.
-#[must_use]
-pub fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<String> {
+pub(crate) fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<String> {
     if flow.setting.method.tension == 0.0 {
         return Vec::new();
     }
@@ -65,7 +64,7 @@ fn pieces_and_films(flow: &Flow, seen: &Observation, series: &Series) -> Option<
 }
 
 /// The most pieces below the resolution of all records, and when there were so many first, in s.
-pub fn most_small_pieces(series: &Series) -> Option<(f64, f64)> {
+pub(crate) fn most_small_pieces(series: &Series) -> Option<(f64, f64)> {
     let records = series.column("small_pieces").zip(series.column("time_s"));
     records.reduce(|most, record| if record.0 > most.0 { record } else { most })
 }

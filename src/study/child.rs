@@ -13,11 +13,11 @@ use super::runs::Run;
 
 /// The program, to be started again.
 #[derive(Debug, Clone)]
-pub struct Program {
+pub(crate) struct Program {
     /// Its file.
-    pub path: PathBuf,
+    pub(crate) path: PathBuf,
     /// The study file.
-    pub study: PathBuf,
+    pub(crate) study: PathBuf,
 }
 
 /// Number of threads of the loops of a process.
@@ -28,7 +28,7 @@ impl Program {
     ///
     /// # Errors
     /// What the process said.
-    pub fn check(&self, run: &Run, threads: usize) -> Result<Vec<u8>, String> {
+    pub(crate) fn check(&self, run: &Run, threads: usize) -> Result<Vec<u8>, String> {
         let mut command = Command::new(&self.path);
         command.args(["check", "--json"]).env(THREADS, threads.to_string()).stdin(Stdio::null());
         for text in run.overrides() {
@@ -45,7 +45,7 @@ impl Program {
     ///
     /// # Errors
     /// [`io::Error`] where it cannot be started.
-    pub fn start(&self, run: &Run, digest: &str, folder: &Path, threads: usize, log: File) -> io::Result<Child> {
+    pub(crate) fn start(&self, run: &Run, digest: &str, folder: &Path, threads: usize, log: File) -> io::Result<Child> {
         let also_log = log.try_clone()?;
         Command::new(&self.path)
             .args(["study", "run", "--worker", "--digest", digest, "--index", &run.index.to_string()])
@@ -61,14 +61,12 @@ impl Program {
 }
 
 /// What a process wrote as results, on one line.
-#[must_use]
-pub fn words_of(output: &Output) -> String {
+pub(crate) fn words_of(output: &Output) -> String {
     one_line(&output.stdout)
 }
 
 /// What a process wrote as errors, on one line.
-#[must_use]
-pub fn errors_of(output: &Output) -> String {
+pub(crate) fn errors_of(output: &Output) -> String {
     one_line(&output.stderr)
 }
 

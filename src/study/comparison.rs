@@ -32,11 +32,11 @@ pub struct NetworkRun {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DirectRun<'a> {
     /// Its base case.
-    pub case: &'a Path,
+    pub(crate) case: &'a Path,
     /// Where the base case is named: a key path in the study file.
-    pub origin: &'a str,
+    pub(crate) origin: &'a str,
     /// What differs from it.
-    pub assignments: &'a [Assignment],
+    pub(crate) assignments: &'a [Assignment],
 }
 
 /// The network of a run with its case checked.

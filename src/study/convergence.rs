@@ -12,47 +12,43 @@ const SPACING: &str = "spacing";
 
 /// The error of a measure along a parameter, in runs that differ in nothing else.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Convergence {
+pub(crate) struct Convergence {
     /// The runs: the values of the other parameters.
-    pub of: String,
+    pub(crate) of: String,
     /// Name of the measure.
-    pub measure: String,
+    pub(crate) measure: String,
     /// Name of the parameter.
-    pub along: String,
+    pub(crate) along: String,
     /// Error that counts as converged: what the study states, and at least the rounding of the measure.
-    pub floor: f64,
+    pub(crate) floor: f64,
     /// Parameter and error of each complete run, from the largest parameter to the smallest.
-    pub points: Vec<(f64, f64)>,
+    pub(crate) points: Vec<(f64, f64)>,
     /// Whether all runs of it are complete and measured.
-    pub complete: bool,
+    pub(crate) complete: bool,
     /// Whether all runs of it reached their end; a measure that is missing then is a miss.
-    pub ended: bool,
+    pub(crate) ended: bool,
 }
 
 impl Convergence {
     /// The observed order of the errors above the floor; none for fewer than two of them.
-    #[must_use]
-    pub fn order(&self) -> Option<f64> {
+    pub(crate) fn order(&self) -> Option<f64> {
         let above = self.points.iter().copied().filter(|(_, error)| *error > self.floor);
         let (parameters, errors): (Vec<f64>, Vec<f64>) = above.unzip();
         Some(observed_order(&parameters, &errors)).filter(|order| errors.len() > 1 && order.is_finite())
     }
 
     /// Whether the error falls from each point to the next, as far as it lies above the floor.
-    #[must_use]
-    pub fn falls(&self) -> bool {
+    pub(crate) fn falls(&self) -> bool {
         self.points.windows(2).all(|pair| pair[1].1 < pair[0].1 || pair[1].1 <= self.floor)
     }
 
     /// Whether the error has fallen to the floor.
-    #[must_use]
-    pub fn is_at_floor(&self) -> bool {
+    pub(crate) fn is_at_floor(&self) -> bool {
         self.floor > 0.0 && self.points.last().is_some_and(|(_, error)| *error <= self.floor)
     }
 
     /// The observed order as text: `at its floor` where too few errors lie above it, `none` where there is none.
-    #[must_use]
-    pub fn order_text(&self) -> String {
+    pub(crate) fn order_text(&self) -> String {
         match self.order() {
             Some(order) => format!("{order:.2}"),
             None if self.is_at_floor() => "at its floor".to_owned(),
@@ -62,8 +58,7 @@ impl Convergence {
 }
 
 /// The results in groups that differ in nothing but the parameter `along` and those that vary with it, each with its name.
-#[must_use]
-pub fn groups<'a>(
+pub(crate) fn groups<'a>(
     study: &Study,
     along: &str,
     results: impl Iterator<Item = &'a RunResult>,
@@ -98,8 +93,7 @@ pub fn groups<'a>(
 }
 
 /// The spacing that varies, if one does.
-#[must_use]
-pub fn spacing(study: &Study) -> Option<&Column> {
+pub(crate) fn spacing(study: &Study) -> Option<&Column> {
     let is_spacing = |target: &Target| match target {
         Target::Keys(keys) => keys.iter().any(|key| key.rsplit('.').next() == Some(SPACING)),
         _ => false,
@@ -108,8 +102,7 @@ pub fn spacing(study: &Study) -> Option<&Column> {
 }
 
 /// The errors of a trend, one list per combination of the other parameters.
-#[must_use]
-pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<Convergence> {
+pub(crate) fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<Convergence> {
     let groups = groups(study, &trend.along, results.iter().filter(|result| result.run.is_in(&trend.only)));
     let convergence = |(of, results): (String, Vec<&RunResult>)| {
         let point = |result: &&RunResult| {
@@ -135,8 +128,7 @@ pub fn convergences(study: &Study, trend: &Trend, results: &[RunResult]) -> Vec<
 }
 
 /// The errors of all trends; and where a spacing varies, of every measure of which the study expects a value.
-#[must_use]
-pub fn all(study: &Study, results: &[RunResult]) -> Vec<Convergence> {
+pub(crate) fn all(study: &Study, results: &[RunResult]) -> Vec<Convergence> {
     let spacing = spacing(study);
     let mut trends = study.trends.clone();
     for expected in &study.expectations {

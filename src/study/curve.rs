@@ -15,26 +15,26 @@ const SIZE: (u32, u32) = (720, 480);
 /// A curve that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-pub struct CurveError(String);
+pub(crate) struct CurveError(String);
 
 /// A point of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Point {
+pub(crate) struct Point {
     /// x.
-    pub x: f64,
+    pub(crate) x: f64,
     /// y.
-    pub y: f64,
+    pub(crate) y: f64,
     /// Uncertainty of y.
-    pub uncertainty: Option<f64>,
+    pub(crate) uncertainty: Option<f64>,
     /// Whether y no longer moved at the end of its run, nor x; other points are hollow.
-    pub is_at_rest: bool,
+    pub(crate) is_at_rest: bool,
     /// Whether y is an error that is rounding, which has no order.
-    pub is_rounding: bool,
+    pub(crate) is_rounding: bool,
 }
 
 /// One line of a curve.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub(crate) struct Line {
     /// Its name; empty where there is only one line.
     pub name: String,
     /// Points by rising x.
@@ -44,8 +44,7 @@ pub struct Line {
 }
 
 /// The lines of a curve, from runs that have the values; points that a logarithmic scale cannot show are left out.
-#[must_use]
-pub fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
+pub(crate) fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
     let mut lines: Vec<Line> = Vec::new();
     let fits = |scale, value: f64| value.is_finite() && (scale == RawScale::Linear || value > 0.0);
     for result in results {
@@ -78,10 +77,7 @@ pub fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
 }
 
 /// Draws a curve; `None` where there is no point yet.
-///
-/// # Errors
-/// [`CurveError`].
-pub fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, CurveError> {
+pub(crate) fn svg(curve: &Curve, results: &[RunResult]) -> Result<Option<String>, CurveError> {
     let lines = lines(curve, results);
     if lines.is_empty() {
         return Ok(None);

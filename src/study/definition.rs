@@ -58,15 +58,8 @@ pub struct Axis {
 
 impl Axis {
     /// Number of values.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.columns.first().map_or(0, |column| column.values.len())
-    }
-
-    /// Whether there is no value.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 }
 
@@ -171,7 +164,7 @@ pub struct Curve {
 
 impl Study {
     /// All parameters in the order of the axes.
-    pub fn parameters(&self) -> impl Iterator<Item = &Column> {
+    pub(crate) fn parameters(&self) -> impl Iterator<Item = &Column> {
         self.axes.iter().flat_map(|axis| &axis.columns)
     }
 
@@ -179,7 +172,7 @@ impl Study {
     ///
     /// # Errors
     /// [`InputError`] where there are problems.
-    pub fn refuse(&self, problems: Vec<Problem>) -> Result<(), InputError> {
+    pub(crate) fn refuse(&self, problems: Vec<Problem>) -> Result<(), InputError> {
         self.document.refuse(problems)
     }
 }

@@ -16,13 +16,13 @@ use crate::io::{FileError, atomic};
 use crate::run::memory;
 
 /// Exit codes of a process that does one run.
-pub mod code {
+pub(crate) mod code {
     /// Complete.
-    pub const DONE: u8 = 0;
+    pub(crate) const DONE: u8 = 0;
     /// The solver failed.
-    pub const FAILED: u8 = 4;
+    pub(crate) const FAILED: u8 = 4;
     /// Interrupted; it can be taken up.
-    pub const INTERRUPTED: u8 = 130;
+    pub(crate) const INTERRUPTED: u8 = 130;
 }
 
 /// Memory that a run is given over what its first steps took: later states take more.
@@ -39,7 +39,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(10);
 
 /// What is to be done.
 #[derive(Debug)]
-pub struct Work<'a> {
+pub(crate) struct Work<'a> {
     /// The runs.
     pub runs: &'a [PlannedRun],
     /// What each is expected to take.
@@ -58,7 +58,7 @@ pub struct Work<'a> {
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum End {
+pub(crate) enum End {
     /// It was complete before.
     WasComplete,
     /// It is complete now.
@@ -71,7 +71,7 @@ pub enum End {
 
 /// What happened.
 #[derive(Debug)]
-pub enum Event<'a> {
+pub(crate) enum Event<'a> {
     /// A run was begun or taken up.
     Started(&'a Run),
     /// A run ended after so long.
@@ -87,14 +87,12 @@ struct Worker {
 }
 
 /// Memory that runs may take in bytes, where the system tells: a share of what is free.
-#[must_use]
-pub fn free_memory() -> Option<u64> {
+pub(crate) fn free_memory() -> Option<u64> {
     memory::free().map(|free| (free as f64 * MEMORY_SHARE) as u64)
 }
 
 /// Memory that is kept for a run in bytes; 0 where it is not known.
-#[must_use]
-pub fn memory_of(estimate: Option<&Estimate>) -> u64 {
+pub(crate) fn memory_of(estimate: Option<&Estimate>) -> u64 {
     let known = estimate.and_then(|estimate| estimate.as_ref().ok()).and_then(|trial| trial.memory_bytes);
     known.map_or(0, |bytes| (bytes as f64 * MEMORY_MARGIN + MEMORY_OF_OUTPUT) as u64)
 }
@@ -104,7 +102,7 @@ pub fn memory_of(estimate: Option<&Estimate>) -> u64 {
 ///
 /// # Errors
 /// [`FileError`] where a log cannot be written.
-pub fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<Vec<End>, FileError> {
+pub(crate) fn work(work: &Work<'_>, told: &mut dyn FnMut(&Event<'_>)) -> Result<Vec<End>, FileError> {
     let complete = |planned: &PlannedRun| is_complete(&work.folder.run(&planned.run.name), planned);
     let mut ends: Vec<End> =
         work.runs.iter().map(|run| if complete(run) { End::WasComplete } else { End::Interrupted }).collect();

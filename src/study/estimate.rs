@@ -12,20 +12,20 @@ use crate::io::atomic;
 use crate::run::trial::Trial;
 
 /// What a run takes, or why that is not known.
-pub type Estimate = Result<Trial, String>;
+pub(crate) type Estimate = Result<Trial, String>;
 
 /// How many processes at once, of how many threads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Cores {
+pub(crate) struct Cores {
     /// Threads of each run.
-    pub threads: usize,
+    pub(crate) threads: usize,
     /// Runs at once.
-    pub jobs: usize,
+    pub(crate) jobs: usize,
 }
 
 /// Estimates of runs in their order. `kept` is a file of earlier ones, which is read where it is there and written where
 /// `write` says so; an interrupt leaves the rest unknown.
-pub fn estimates(
+pub(crate) fn estimates(
     runs: &[PlannedRun],
     program: &Program,
     cores: Cores,

@@ -18,7 +18,7 @@ use crate::run::simulation::Watcher;
 
 /// How a run ended.
 #[derive(Debug)]
-pub enum Ending {
+pub(crate) enum Ending {
     /// It was complete before.
     WasComplete,
     /// It is complete now.
@@ -31,7 +31,7 @@ pub enum Ending {
 
 /// A run that cannot be done.
 #[derive(Debug, thiserror::Error)]
-pub enum ExecuteError {
+pub(crate) enum ExecuteError {
     /// The study folder.
     #[error(transparent)]
     Folder(#[from] FolderError),
@@ -47,7 +47,7 @@ pub enum ExecuteError {
 ///
 /// # Errors
 /// [`ExecuteError`]; a solver that fails is no error here.
-pub fn run(
+pub(crate) fn run(
     planned: &PlannedRun,
     folder: &StudyFolder,
     interrupt: &AtomicBool,

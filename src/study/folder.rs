@@ -20,7 +20,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// A study folder that cannot be used.
 #[derive(Debug, thiserror::Error)]
-pub enum FolderError {
+pub(crate) enum FolderError {
     /// There are other files in it.
     #[error("the folder {} is not empty and no study is in it; choose another one with --out DIR", .0.display())]
     Foreign(PathBuf),
@@ -47,19 +47,19 @@ pub enum FolderError {
 
 /// The folder of a study.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StudyFolder {
+pub(crate) struct StudyFolder {
     root: PathBuf,
 }
 
 /// The right to work in a folder or at a run; it ends when this is dropped.
 #[derive(Debug)]
-pub struct Claim {
+pub(crate) struct Claim {
     _lock: File,
 }
 
 /// How many processes may hold a lock at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Share {
+pub(crate) enum Share {
     /// This one only.
     Alone,
     /// All that ask for it so.
@@ -68,40 +68,32 @@ pub enum Share {
 
 impl StudyFolder {
     /// The folder at a path; nothing is read or made.
-    #[must_use]
-    pub fn new(root: &Path) -> Self {
+    pub(crate) fn new(root: &Path) -> Self {
         Self { root: root.to_path_buf() }
     }
 
     /// The folder itself.
-    #[must_use]
-    pub fn root(&self) -> &Path {
+    pub(crate) fn root(&self) -> &Path {
         &self.root
     }
 
     /// The folder of a run.
-    #[must_use]
-    pub fn run(&self, name: &str) -> PathBuf {
+    pub(crate) fn run(&self, name: &str) -> PathBuf {
         self.root.join("runs").join(name)
     }
 
     /// What a run says.
-    #[must_use]
-    pub fn log(&self, name: &str) -> PathBuf {
+    pub(crate) fn log(&self, name: &str) -> PathBuf {
         self.root.join("logs").join(format!("{name}.log"))
     }
 
     /// What runs are expected to take.
-    #[must_use]
-    pub fn estimates(&self) -> PathBuf {
+    pub(crate) fn estimates(&self) -> PathBuf {
         self.root.join("estimates.json")
     }
 
     /// Makes the folder where it is missing, and takes the right to work in it.
-    ///
-    /// # Errors
-    /// [`FolderError`].
-    pub fn claim(&self, share: Share) -> Result<Claim, FolderError> {
+    pub(crate) fn claim(&self, share: Share) -> Result<Claim, FolderError> {
         let path = self.root.join(LOCK);
         if !path.exists() {
             atomic::make_folder(&self.root)?;
@@ -128,10 +120,7 @@ impl StudyFolder {
     }
 
     /// Takes the right to work at a run; waits while another process does, `None` where it was interrupted meanwhile.
-    ///
-    /// # Errors
-    /// [`FolderError`].
-    pub fn claim_run(&self, name: &str, interrupt: &AtomicBool) -> Result<Option<Claim>, FolderError> {
+    pub(crate) fn claim_run(&self, name: &str, interrupt: &AtomicBool) -> Result<Option<Claim>, FolderError> {
         let path = self.root.join("locks").join(name);
         atomic::make_folder(&self.root.join("locks"))?;
         let file = open(&path)?;

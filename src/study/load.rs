@@ -24,7 +24,6 @@ const MOST_RECORDS: usize = 10_000;
 const TAKEN: [&str; 2] = ["run", "status"];
 
 /// The JSON schema of a study file.
-#[must_use]
 pub fn schema() -> serde_json::Value {
     schemars::schema_for!(RawStudy).to_value()
 }

@@ -7,7 +7,7 @@ use super::runs::{Run, runs};
 use crate::run::report::{Motion, Reading, Status};
 
 /// A study of these axes, expectations and curves.
-pub fn study(text: &str) -> Study {
+pub(crate) fn study(text: &str) -> Study {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mock.toml");
     std::fs::write(&path, format!("format = 1\ntitle = \"Mock\"\ncase = \"none.toml\"\n{text}")).unwrap();
@@ -15,13 +15,13 @@ pub fn study(text: &str) -> Study {
 }
 
 /// Lets the measure `m` of a complete run move at a rate in degrees per s.
-pub fn set_moving(result: &mut RunResult, rate: f64) {
+pub(crate) fn set_moving(result: &mut RunResult, rate: f64) {
     let Standing::Complete(report) = &mut result.standing else { panic!("complete") };
     report.measures.get_mut("m").unwrap().not_at_rest = Some(Motion { rate, unit: "deg/s".into() });
 }
 
 /// Complete runs whose measure `m` in degrees is what `value` says, with an uncertainty of 0.1; NaN is not measured.
-pub fn complete(study: &Study, value: impl Fn(&Run) -> f64) -> Vec<RunResult> {
+pub(crate) fn complete(study: &Study, value: impl Fn(&Run) -> f64) -> Vec<RunResult> {
     let result = |run: Run| {
         let value = Some(value(&run)).filter(|value| value.is_finite());
         let reading =

@@ -7,29 +7,29 @@
 
 mod axis;
 mod base_case;
-pub mod child;
-pub mod comparison;
-pub mod convergence;
-pub mod curve;
-pub mod definition;
-pub mod engine;
-pub mod estimate;
-pub mod execute;
-pub mod folder;
+pub(crate) mod child;
+pub(crate) mod comparison;
+pub(crate) mod convergence;
+pub(crate) mod curve;
+pub(crate) mod definition;
+pub(crate) mod engine;
+pub(crate) mod estimate;
+pub(crate) mod execute;
+pub(crate) mod folder;
 pub mod load;
 mod measured;
 #[cfg(test)]
 mod mock;
 mod names;
-pub mod page;
-pub mod raw;
-pub mod report;
-pub mod resolution;
-pub mod results;
+pub(crate) mod page;
+pub(crate) mod raw;
+pub(crate) mod report;
+pub(crate) mod resolution;
+pub(crate) mod results;
 pub mod runs;
-pub mod slurm;
-pub mod table;
-pub mod values;
-pub mod verdict;
+pub(crate) mod slurm;
+pub(crate) mod table;
+pub(crate) mod values;
+pub(crate) mod verdict;
 
 pub use load::schema;

@@ -13,9 +13,9 @@ use crate::input::{Checker, nearest};
 /// The parameters, by which expectations and curves name values.
 pub(super) struct Names<'a> {
     /// The axes.
-    pub axes: &'a [Axis],
+    pub(crate) axes: &'a [Axis],
     /// Whether all axes were understood.
-    pub complete: bool,
+    pub(crate) complete: bool,
 }
 
 impl Names<'_> {
@@ -91,7 +91,7 @@ impl Names<'_> {
         chosen.map(Choice)
     }
 
-    pub fn expectation(&self, checker: &mut Checker, raw: &RawExpectation, at: &str) -> Option<Expectation> {
+    pub(crate) fn expectation(&self, checker: &mut Checker, raw: &RawExpectation, at: &str) -> Option<Expectation> {
         let key = format!("{at}.value");
         let value = raw.value.as_ref().and_then(|value| self.quantity(checker, &key, value));
         let key = format!("{at}.tolerance");
@@ -103,7 +103,7 @@ impl Names<'_> {
         Some(Expectation { measure: raw.measure.clone()?, value: value?, tolerance: tolerance?, only: only? })
     }
 
-    pub fn trend(&self, checker: &mut Checker, raw: &RawTrend, at: &str) -> Option<Trend> {
+    pub(crate) fn trend(&self, checker: &mut Checker, raw: &RawTrend, at: &str) -> Option<Trend> {
         let reference = match &raw.reference {
             Some(value) => self.quantity(checker, &format!("{at}.reference"), value),
             None => Some(Quantity::Number(0.0)),
@@ -121,7 +121,7 @@ impl Names<'_> {
         })
     }
 
-    pub fn report(&self, checker: &mut Checker, raw: Option<&RawReport>) -> Option<ReportPlan> {
+    pub(crate) fn report(&self, checker: &mut Checker, raw: Option<&RawReport>) -> Option<ReportPlan> {
         let raw = raw.cloned().unwrap_or_default();
         let curves = raw.curve.iter().flatten().enumerate();
         let curves: Vec<Option<Curve>> =

@@ -23,28 +23,27 @@ figure{margin:0}figure img{width:100%;border:1px solid #ddd}figcaption{font-size
 
 /// What stands on the page.
 #[derive(Debug)]
-pub struct Content<'a> {
+pub(crate) struct Content<'a> {
     /// The study.
-    pub study: &'a Study,
+    pub(crate) study: &'a Study,
     /// Its runs.
-    pub results: &'a [RunResult],
+    pub(crate) results: &'a [RunResult],
     /// The table for people.
-    pub table: &'a Table,
+    pub(crate) table: &'a Table,
     /// The curves as SVG.
-    pub curves: &'a [String],
+    pub(crate) curves: &'a [String],
     /// The expectations.
-    pub judgments: &'a [Judgment],
+    pub(crate) judgments: &'a [Judgment],
     /// Errors along spacings.
-    pub convergences: &'a [Convergence],
+    pub(crate) convergences: &'a [Convergence],
     /// Names of the files of diagrams, a list per run.
-    pub diagrams: &'a [Vec<String>],
+    pub(crate) diagrams: &'a [Vec<String>],
     /// Capillary pressure over saturation of both models as SVG, one per run that was compared with a network and is complete.
-    pub comparisons: &'a [(&'a RunResult, String)],
+    pub(crate) comparisons: &'a [(&'a RunResult, String)],
 }
 
 /// The page as HTML.
-#[must_use]
-pub fn page(content: &Content<'_>) -> String {
+pub(crate) fn page(content: &Content<'_>) -> String {
     let title = escaped(&content.study.title);
     let done = content.results.iter().filter(|result| result.standing.report().is_some()).count();
     let moving = match moving(content.results, &shown_measures(content.study, content.results)) {

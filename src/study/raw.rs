@@ -7,7 +7,7 @@ use crate::input::tables::{Key, Value, tables};
 
 tables! {
     /// A study file: one or more base cases, what varies, what must come out, what is shown.
-    pub struct RawStudy {
+    pub(crate) struct RawStudy {
         /// Version of the format: 1 (required).
         pub format: u32 => Key::required("format = 1"),
         /// One line that describes the study (required).
@@ -29,7 +29,7 @@ tables! {
     }
 
     /// What the case is compared with.
-    pub struct RawComparison {
+    pub(crate) struct RawComparison {
         /// Case of the network, relative to the study file (required).
         pub network: PathBuf => Key::required("network = \"../cases/network/compare.toml\""),
         /// Number of compared states of the direct simulation, 1 to 10 000 (default 100).
@@ -38,7 +38,7 @@ tables! {
 
     /// What varies: one key with `values` or a `range`, several keys that vary together (`pair`), the rows of a CSV file
     /// (`table`), or several base cases (`cases`).
-    pub struct RawAxis {
+    pub(crate) struct RawAxis {
         /// Name of the parameter: letters, digits, `-` and `_` (default: last part of the key).
         pub name: String,
         /// Key path in the case file, as in `--set`; with `values` or `range`.
@@ -61,7 +61,7 @@ tables! {
     }
 
     /// One of several parameters that vary together.
-    pub struct RawColumn {
+    pub(crate) struct RawColumn {
         /// Name of the parameter (default: last part of the key).
         pub name: String,
         /// Key path in the case file; a parameter without a key is a number to compare with.
@@ -76,7 +76,7 @@ tables! {
     }
 
     /// Numbers from one to another, both included.
-    pub struct RawRange {
+    pub(crate) struct RawRange {
         /// First number (required).
         pub from: f64 => Key::required("from = 1.0"),
         /// Last number, included (required).
@@ -88,7 +88,7 @@ tables! {
     }
 
     /// A measure that must come out as said.
-    pub struct RawExpectation {
+    pub(crate) struct RawExpectation {
         /// Name of a measure (required).
         pub measure: String => Key::required("measure = \"contact-angle-deg\""),
         /// Expected value: number or name of a parameter (required).
@@ -104,7 +104,7 @@ tables! {
     }
 
     /// An error that must fall as a parameter falls.
-    pub struct RawTrend {
+    pub(crate) struct RawTrend {
         /// Name of a measure (required).
         pub measure: String => Key::required("measure = \"contact-angle-deg\""),
         /// Ideal value, number or name of a parameter (default 0).
@@ -124,7 +124,7 @@ tables! {
     }
 
     /// What the report shows.
-    pub struct RawReport {
+    pub(crate) struct RawReport {
         /// Measures in the table; also `steps`, `unknowns`, `wall-time-s`, `solver-time-s`, `cpu-s` (default: all
         /// measures).
         pub measures: Vec<String>,
@@ -135,7 +135,7 @@ tables! {
     }
 
     /// A curve.
-    pub struct RawCurve {
+    pub(crate) struct RawCurve {
         /// Title (default: names of y and x).
         pub title: String,
         /// Parameter or measure along x (required).

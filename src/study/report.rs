@@ -19,7 +19,7 @@ use crate::run::compare::CURVES;
 
 /// A report that cannot be written.
 #[derive(Debug, thiserror::Error)]
-pub enum ReportError {
+pub(crate) enum ReportError {
     /// A file.
     #[error(transparent)]
     File(#[from] FileError),
@@ -30,21 +30,21 @@ pub enum ReportError {
 
 /// A report as written.
 #[derive(Debug)]
-pub struct StudyReport {
+pub(crate) struct StudyReport {
     /// The runs and where they stand.
-    pub results: Vec<RunResult>,
+    pub(crate) results: Vec<RunResult>,
     /// The table for people.
-    pub table: Table,
+    pub(crate) table: Table,
     /// The expectations.
-    pub judgments: Vec<Judgment>,
+    pub(crate) judgments: Vec<Judgment>,
     /// Errors along spacings, with their orders.
-    pub convergences: Vec<Convergence>,
+    pub(crate) convergences: Vec<Convergence>,
     /// Complete runs with a shown measure that is not at rest.
-    pub moving: usize,
+    pub(crate) moving: usize,
     /// Names in the study file that are neither a parameter nor a measure of its runs, with a way out.
-    pub unknown: Vec<String>,
+    pub(crate) unknown: Vec<String>,
     /// The page.
-    pub page: PathBuf,
+    pub(crate) page: PathBuf,
 }
 
 /// The diagrams that a complete run left in its folder, by name.
@@ -65,10 +65,7 @@ fn comparisons<'r>(study: &Study, results: &'r [RunResult], folder: &StudyFolder
 }
 
 /// Writes `table.csv`, `table.md`, `curve-1.svg` and so on, and `report.html`.
-///
-/// # Errors
-/// [`ReportError`].
-pub fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Result<StudyReport, ReportError> {
+pub(crate) fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Result<StudyReport, ReportError> {
     let results = results(runs, folder);
     let judgments = judgments(study, &results);
     let convergences = convergence::all(study, &results);

@@ -17,15 +17,14 @@ const OTHERS: [&str; 2] = [STEADY_AT, "parasitic-capillary-number"];
 
 /// Standard uncertainties of the measures of runs by their spacing.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Resolution {
+pub(crate) struct Resolution {
     /// By measure and number of the run, in the unit of the measure.
     uncertainties: BTreeMap<String, BTreeMap<usize, f64>>,
 }
 
 impl Resolution {
     /// That of all measures that at least three spacings of a group have.
-    #[must_use]
-    pub fn of(study: &Study, results: &[RunResult]) -> Self {
+    pub(crate) fn of(study: &Study, results: &[RunResult]) -> Self {
         let Some(column) = spacing(study) else { return Self::default() };
         let groups = groups(study, &column.name, results.iter());
         let of_measure = |name: &str| {
@@ -53,14 +52,12 @@ impl Resolution {
     }
 
     /// Whether any run has one of this measure.
-    #[must_use]
-    pub fn has(&self, measure: &str) -> bool {
+    pub(crate) fn has(&self, measure: &str) -> bool {
         self.uncertainties.get(measure).is_some_and(|runs| runs.values().any(|uncertainty| *uncertainty > 0.0))
     }
 
     /// The uncertainty of a measure of a run.
-    #[must_use]
-    pub fn uncertainty(&self, result: &RunResult, measure: &str) -> Option<f64> {
+    pub(crate) fn uncertainty(&self, result: &RunResult, measure: &str) -> Option<f64> {
         self.uncertainties.get(measure)?.get(&result.run.index).copied()
     }
 }

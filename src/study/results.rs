@@ -12,50 +12,50 @@ use crate::run::compare::DIRECT_RUN;
 use crate::run::report::{Motion, REPORT, Reading, Status};
 
 /// What is known of a run besides its measures.
-pub const RUN_NUMBERS: [&str; 5] = ["steps", "unknowns", "wall-time-s", "solver-time-s", "cpu-s"];
+pub(crate) const RUN_NUMBERS: [&str; 5] = ["steps", "unknowns", "wall-time-s", "solver-time-s", "cpu-s"];
 
 /// The report of a run, as far as studies read it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub struct RunReport {
+pub(crate) struct RunReport {
     /// How the run ended.
-    pub status: Status,
+    pub(crate) status: Status,
     /// What went wrong.
-    pub error: Option<String>,
+    pub(crate) error: Option<String>,
     /// Steps since time zero.
-    pub steps: u64,
+    pub(crate) steps: u64,
     /// Measures by name.
-    pub measures: BTreeMap<String, Reading>,
+    pub(crate) measures: BTreeMap<String, Reading>,
     /// The case file with all that was filled in.
-    pub resolved_case: String,
+    pub(crate) resolved_case: String,
     /// Wall time.
-    pub wall_time_s: Total,
+    pub(crate) wall_time_s: Total,
     /// Processor time in s of all processes that worked at it; absent where it is not known.
-    pub cpu_s: Option<f64>,
+    pub(crate) cpu_s: Option<f64>,
     /// The solver's work.
-    pub solver: Unknowns,
+    pub(crate) solver: Unknowns,
 }
 
 /// Wall time in s of the last process that worked at the run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Total {
+pub(crate) struct Total {
     /// From the start to the report.
-    pub total: f64,
+    pub(crate) total: f64,
 }
 
 /// What the solver did.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Unknowns {
+pub(crate) struct Unknowns {
     /// Particles or nodes.
-    pub unknowns: usize,
+    pub(crate) unknowns: usize,
     /// Wall time in s without output; not told by older reports.
     #[serde(rename = "wall-time-s", default)]
-    pub wall_time_s: Option<f64>,
+    pub(crate) wall_time_s: Option<f64>,
 }
 
 /// Where a run stands.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Standing {
+pub(crate) enum Standing {
     /// Nothing was done, or it was done with another case.
     New,
     /// It was begun.
@@ -68,8 +68,7 @@ pub enum Standing {
 
 impl Standing {
     /// One word for tables.
-    #[must_use]
-    pub fn word(&self) -> &'static str {
+    pub(crate) fn word(&self) -> &'static str {
         match self {
             Self::New => "to do",
             Self::Partial => "partial",
@@ -79,8 +78,7 @@ impl Standing {
     }
 
     /// The report of a complete run.
-    #[must_use]
-    pub fn report(&self) -> Option<&RunReport> {
+    pub(crate) fn report(&self) -> Option<&RunReport> {
         match self {
             Self::Complete(report) => Some(report),
             _ => None,
@@ -89,8 +87,7 @@ impl Standing {
 }
 
 /// Where the run in a folder stands, if it is of the case that `resolved` says.
-#[must_use]
-pub fn standing(folder: &Path, resolved: &str) -> Standing {
+pub(crate) fn standing(folder: &Path, resolved: &str) -> Standing {
     let report: Option<RunReport> =
         std::fs::read(folder.join(REPORT)).ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
     match report {
@@ -107,25 +104,23 @@ pub fn standing(folder: &Path, resolved: &str) -> Standing {
 
 /// Whether nothing is left to do for a run in its folder. The picture is drawn after the report, of which a kill may have kept it; the files of a
 /// comparison come before its report.
-#[must_use]
-pub fn is_complete(folder: &Path, planned: &PlannedRun) -> bool {
+pub(crate) fn is_complete(folder: &Path, planned: &PlannedRun) -> bool {
     let is_drawn = planned.network.is_some() || folder.join("picture.png").exists();
     is_drawn && standing(folder, &planned.resolved).report().is_some()
 }
 
 /// A run with where it stands.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RunResult {
+pub(crate) struct RunResult {
     /// The run.
-    pub run: Run,
+    pub(crate) run: Run,
     /// Where it stands.
-    pub standing: Standing,
+    pub(crate) standing: Standing,
 }
 
 impl RunResult {
     /// A parameter that is a number, a measure, or one of [`RUN_NUMBERS`] of a complete run.
-    #[must_use]
-    pub fn number(&self, name: &str) -> Option<f64> {
+    pub(crate) fn number(&self, name: &str) -> Option<f64> {
         if let Some(value) = self.run.value(name) {
             return super::values::number_of(value);
         }
@@ -141,8 +136,7 @@ impl RunResult {
     }
 
     /// The uncertainty of a measure.
-    #[must_use]
-    pub fn uncertainty(&self, measure: &str) -> Option<f64> {
+    pub(crate) fn uncertainty(&self, measure: &str) -> Option<f64> {
         self.standing.report()?.measures.get(measure)?.uncertainty
     }
 }
@@ -152,14 +146,12 @@ const ROUNDING: f64 = 1.0e-11;
 
 impl RunResult {
     /// How a measure still moved at the end of its run, where that is by more than its uncertainty.
-    #[must_use]
-    pub fn motion(&self, measure: &str) -> Option<&Motion> {
+    pub(crate) fn motion(&self, measure: &str) -> Option<&Motion> {
         self.standing.report()?.measures.get(measure)?.not_at_rest.as_ref()
     }
 
     /// The error of a measure that is rounding: a share of its value, of its `reference` or, for a pure number, of 1.
-    #[must_use]
-    pub fn rounding(&self, measure: &str, reference: f64) -> f64 {
+    pub(crate) fn rounding(&self, measure: &str, reference: f64) -> f64 {
         let reading = self.standing.report().and_then(|report| report.measures.get(measure));
         let one = if reading.is_some_and(|reading| reading.unit.is_empty()) { 1.0 } else { 0.0 };
         ROUNDING * self.number(measure).unwrap_or(0.0).abs().max(reference.abs()).max(one)
@@ -167,14 +159,12 @@ impl RunResult {
 }
 
 /// How many complete runs have one of the `measures` not at rest.
-#[must_use]
-pub fn moving(results: &[RunResult], measures: &[String]) -> usize {
+pub(crate) fn moving(results: &[RunResult], measures: &[String]) -> usize {
     results.iter().filter(|result| measures.iter().any(|measure| result.motion(measure).is_some())).count()
 }
 
 /// All runs with where they stand.
-#[must_use]
-pub fn results(runs: &[PlannedRun], folder: &StudyFolder) -> Vec<RunResult> {
+pub(crate) fn results(runs: &[PlannedRun], folder: &StudyFolder) -> Vec<RunResult> {
     let result = |planned: &PlannedRun| RunResult {
         run: planned.run.clone(),
         standing: standing(&folder.run(&planned.run.name), &planned.resolved),
@@ -183,8 +173,7 @@ pub fn results(runs: &[PlannedRun], folder: &StudyFolder) -> Vec<RunResult> {
 }
 
 /// The measures of all complete runs with their units, by name.
-#[must_use]
-pub fn measures(results: &[RunResult]) -> BTreeMap<String, String> {
+pub(crate) fn measures(results: &[RunResult]) -> BTreeMap<String, String> {
     let reports = results.iter().filter_map(|result| result.standing.report());
     reports.flat_map(|report| report.measures.iter().map(|(name, m)| (name.clone(), m.unit.clone()))).collect()
 }

@@ -66,7 +66,6 @@ pub struct PlannedRun {
 
 impl PlannedRun {
     /// Tells whether a run is of this case: the hash of the resolved case.
-    #[must_use]
     pub fn digest(&self) -> String {
         format!("{:016x}", fnv1a(self.resolved.as_bytes()))
     }
@@ -74,14 +73,12 @@ impl PlannedRun {
 
 impl Run {
     /// The value of a parameter.
-    #[must_use]
-    pub fn value(&self, name: &str) -> Option<&Value> {
+    pub(crate) fn value(&self, name: &str) -> Option<&Value> {
         self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| &parameter.value)
     }
 
     /// The number that a quantity is in this run.
-    #[must_use]
-    pub fn quantity(&self, quantity: &Quantity) -> Option<f64> {
+    pub(crate) fn quantity(&self, quantity: &Quantity) -> Option<f64> {
         match quantity {
             Quantity::Number(number) => Some(*number),
             Quantity::Parameter(name) => self.value(name).and_then(number_of),
@@ -89,14 +86,12 @@ impl Run {
     }
 
     /// Whether the run is among those chosen.
-    #[must_use]
-    pub fn is_in(&self, choice: &Choice) -> bool {
+    pub(crate) fn is_in(&self, choice: &Choice) -> bool {
         choice.0.iter().all(|(name, value)| self.value(name).is_some_and(|found| same(found, value)))
     }
 
     /// What differs from the base case, as `--set` takes it.
-    #[must_use]
-    pub fn overrides(&self) -> Vec<String> {
+    pub(crate) fn overrides(&self) -> Vec<String> {
         base_case::overrides(&self.assignments)
     }
 
@@ -152,7 +147,6 @@ impl Run {
 }
 
 /// All runs of a study; the last axis varies fastest.
-#[must_use]
 pub fn runs(study: &Study) -> Vec<Run> {
     let count: usize = study.axes.iter().map(|axis| axis.len()).product();
     let mut names = BTreeSet::new();

@@ -21,7 +21,7 @@ const LEAST_MEMORY: u64 = 64;
 
 /// An array that cannot be submitted.
 #[derive(Debug, thiserror::Error)]
-pub enum SlurmError {
+pub(crate) enum SlurmError {
     /// The script cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
@@ -45,28 +45,27 @@ pub enum SlurmError {
 
 /// What goes into an array.
 #[derive(Debug)]
-pub struct Array<'a> {
+pub(crate) struct Array<'a> {
     /// Name of the study.
-    pub name: &'a str,
+    pub(crate) name: &'a str,
     /// The runs that are not complete.
-    pub runs: &'a [&'a PlannedRun],
+    pub(crate) runs: &'a [&'a PlannedRun],
     /// What each of them is expected to take.
-    pub estimates: &'a [Estimate],
+    pub(crate) estimates: &'a [Estimate],
     /// Where the results go.
-    pub folder: &'a StudyFolder,
+    pub(crate) folder: &'a StudyFolder,
     /// This program.
-    pub program: &'a Program,
+    pub(crate) program: &'a Program,
     /// Threads of each run.
-    pub threads: usize,
+    pub(crate) threads: usize,
     /// How many may run at once; absent for as many as the cluster allows.
-    pub jobs: Option<usize>,
+    pub(crate) jobs: Option<usize>,
     /// Further options of `sbatch`, as they are written in a script.
-    pub options: &'a [String],
+    pub(crate) options: &'a [String],
 }
 
 /// The script of an array.
-#[must_use]
-pub fn script(array: &Array<'_>) -> String {
+pub(crate) fn script(array: &Array<'_>) -> String {
     const BYTES_PER_MEBIBYTE: u64 = 1 << 20;
     let indices: Vec<usize> = array.runs.iter().map(|planned| planned.run.index).collect();
     let largest = array.estimates.iter().map(|estimate| memory_of(Some(estimate))).max().unwrap_or(0);
@@ -96,10 +95,7 @@ pub fn script(array: &Array<'_>) -> String {
 }
 
 /// Writes the script and submits it.
-///
-/// # Errors
-/// [`SlurmError`].
-pub fn submit(array: &Array<'_>) -> Result<String, SlurmError> {
+pub(crate) fn submit(array: &Array<'_>) -> Result<String, SlurmError> {
     let path = array.folder.root().join("slurm.sh");
     atomic::make_folder(&array.folder.root().join("logs"))?;
     atomic::write(&path, script(array).as_bytes())?;

@@ -9,7 +9,7 @@ use crate::io::FileError;
 
 /// A table with its numbers as text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Table {
+pub(crate) struct Table {
     /// Heads.
     pub heads: Vec<String>,
     /// Rows, each as long as the heads.
@@ -17,15 +17,13 @@ pub struct Table {
 }
 
 /// The measures that the table shows: those asked for, or all that the runs have.
-#[must_use]
-pub fn shown_measures(study: &Study, results: &[RunResult]) -> Vec<String> {
+pub(crate) fn shown_measures(study: &Study, results: &[RunResult]) -> Vec<String> {
     study.report.measures.clone().unwrap_or_else(|| measures(results).into_keys().collect())
 }
 
 /// The table for other programs: all digits, beside each measure its uncertainty in the run and that by the spacing where they are known,
 /// the rate in its unit per s where it is not at rest, nothing where there is no value. It does not depend on how often the study was interrupted.
-#[must_use]
-pub fn full(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
+pub(crate) fn full(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
     let names = shown_measures(study, results);
     let has_uncertainty = |name: &str| results.iter().any(|result| result.uncertainty(name).is_some());
     let moves = |name: &str| results.iter().any(|result| result.motion(name).is_some());
@@ -69,8 +67,7 @@ pub fn full(study: &Study, results: &[RunResult], resolution: &Resolution) -> Ta
 
 /// The table for people: four digits with the uncertainty behind them, that by the spacing included, units in the heads; what is not at rest
 /// is marked.
-#[must_use]
-pub fn short(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
+pub(crate) fn short(study: &Study, results: &[RunResult], resolution: &Resolution) -> Table {
     let names = shown_measures(study, results);
     let units = measures(results);
     let mut heads: Vec<String> = study.parameters().map(|column| column.name.clone()).collect();
@@ -104,10 +101,7 @@ pub fn short(study: &Study, results: &[RunResult], resolution: &Resolution) -> T
 
 impl Table {
     /// The table as CSV.
-    ///
-    /// # Errors
-    /// [`FileError::Format`].
-    pub fn csv(&self) -> Result<Vec<u8>, FileError> {
+    pub(crate) fn csv(&self) -> Result<Vec<u8>, FileError> {
         let failed = |what: String| FileError::Format { path: "table.csv".into(), what };
         let mut writer = csv::Writer::from_writer(Vec::new());
         for row in std::iter::once(&self.heads).chain(&self.rows) {
@@ -117,8 +111,7 @@ impl Table {
     }
 
     /// The table as Markdown, its columns aligned.
-    #[must_use]
-    pub fn markdown(&self) -> String {
+    pub(crate) fn markdown(&self) -> String {
         let escaped = |text: &String| text.replace('|', "\\|");
         let rows: Vec<Vec<String>> =
             std::iter::once(&self.heads).chain(&self.rows).map(|row| row.iter().map(escaped).collect()).collect();

@@ -3,8 +3,7 @@
 use toml::Value;
 
 /// A value as people read it.
-#[must_use]
-pub fn shown(value: &Value) -> String {
+pub(crate) fn shown(value: &Value) -> String {
     /// Outside of these an exponent is shorter than zeros.
     const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e6;
     match value {
@@ -16,14 +15,12 @@ pub fn shown(value: &Value) -> String {
 }
 
 /// The number that a value is, whole or not.
-#[must_use]
-pub fn number_of(value: &Value) -> Option<f64> {
+pub(crate) fn number_of(value: &Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 /// Whether two values are the same; numbers are, however they were written.
-#[must_use]
-pub fn same(a: &Value, b: &Value) -> bool {
+pub(crate) fn same(a: &Value, b: &Value) -> bool {
     match (number_of(a), number_of(b)) {
         (Some(a), Some(b)) => a == b,
         _ => a == b,

@@ -7,7 +7,7 @@ use super::values::shown;
 
 /// What became of an expectation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub(crate) enum Verdict {
     /// It is met.
     Met,
     /// It is missed.
@@ -18,8 +18,7 @@ pub enum Verdict {
 
 impl Verdict {
     /// One word for tables.
-    #[must_use]
-    pub fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Met => "met",
             Self::Missed => "MISSED",
@@ -34,22 +33,21 @@ impl Verdict {
 
 /// An expectation of the study and what became of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Judgment {
+pub(crate) struct Judgment {
     /// Of which run or runs.
-    pub of: String,
+    pub(crate) of: String,
     /// Name of the measure.
-    pub measure: String,
+    pub(crate) measure: String,
     /// What was expected.
-    pub expected: String,
+    pub(crate) expected: String,
     /// What came out.
-    pub found: String,
+    pub(crate) found: String,
     /// The verdict.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
 }
 
 /// All judgments of a study.
-#[must_use]
-pub fn judgments(study: &Study, results: &[RunResult]) -> Vec<Judgment> {
+pub(crate) fn judgments(study: &Study, results: &[RunResult]) -> Vec<Judgment> {
     let single = study.expectations.iter().flat_map(|expected| {
         results.iter().filter(|result| result.run.is_in(&expected.only)).map(|result| judge(expected, result))
     });
@@ -111,14 +109,12 @@ fn judge_trend(trend: &Trend, convergence: &Convergence) -> Judgment {
 }
 
 /// A number with four digits; a whole one as it is.
-#[must_use]
-pub fn digits(number: f64) -> String {
+pub(crate) fn digits(number: f64) -> String {
     significant(number, 4)
 }
 
 /// A number with so many digits; a whole one as it is.
-#[must_use]
-pub fn significant(number: f64, digits: usize) -> String {
+pub(crate) fn significant(number: f64, digits: usize) -> String {
     /// Outside of these an exponent is shorter than zeros.
     const FIXED: std::ops::Range<f64> = 1.0e-3..1.0e5;
     let size = number.abs();

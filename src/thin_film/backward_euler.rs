@@ -11,9 +11,9 @@ use super::sparse::Factors;
 
 /// Newton's method stops below this norm of the residual or of a change: √∫ r² over the wall, in scaled heights. The paper takes 1e-9
 /// of the plain 2-norm over the nodes, which rounding keeps a fine grid from [Pang2022, Sect. 6].
-pub const RESIDUAL: f64 = 1.0e-9;
+pub(crate) const RESIDUAL: f64 = 1.0e-9;
 /// More factorizations than this mean a step that is too large; a healthy one takes 1 or 2.
-pub const FACTORS: u32 = 12;
+pub(crate) const FACTORS: u32 = 12;
 /// The factors of a Jacobian are used again after a change that left at most this share of the residual.
 const KEPT: f64 = 0.2;
 /// Shortest share of a Newton step that is tried.
@@ -68,7 +68,6 @@ impl StepRule {
     pub const ADAPTIVE: Self = Self { first: 1.0e-6, growth: 1.3, share: 0.02, longest: f64::INFINITY };
 
     /// Equal steps.
-    #[must_use]
     pub fn fixed(dt: f64) -> Self {
         Self { first: dt, growth: 1.0, share: f64::INFINITY, longest: dt }
     }
@@ -103,14 +102,12 @@ pub struct BackwardEuler {
 
 impl BackwardEuler {
     /// Heights at time zero.
-    #[must_use]
-    pub fn new(height: Vec<f64>, rule: StepRule) -> Self {
+    pub(crate) fn new(height: Vec<f64>, rule: StepRule) -> Self {
         Self { height, time: 0.0, next: rule.first, rule, iterations: 0, factors: 0, rejected: 0 }
     }
 
     /// How many steps lead to `end` where none is rejected.
-    #[must_use]
-    pub fn steps_to(&self, end: f64) -> f64 {
+    pub(crate) fn steps_to(&self, end: f64) -> f64 {
         let (mut time, mut next, mut count) = (self.time, self.next, 0.0);
         while time < end && count < MOST_COUNTED {
             let dt: f64 = next.min(self.rule.longest).min((self.rule.share * time).max(self.rule.first));
@@ -125,7 +122,7 @@ impl BackwardEuler {
     ///
     /// # Errors
     /// [`NotSolved`]; the state is kept.
-    pub fn step(&mut self, balance: &(impl Balance + ?Sized), until: f64) -> Result<f64, NotSolved> {
+    pub(crate) fn step(&mut self, balance: &(impl Balance + ?Sized), until: f64) -> Result<f64, NotSolved> {
         loop {
             let left = until - self.time;
             let longest = self.rule.longest.min((self.rule.share * self.time).max(self.rule.first));
@@ -153,10 +150,7 @@ impl BackwardEuler {
     }
 
     /// Runs to `until`.
-    ///
-    /// # Errors
-    /// [`NotSolved`].
-    pub fn run(&mut self, balance: &(impl Balance + ?Sized), until: f64) -> Result<(), NotSolved> {
+    pub(crate) fn run(&mut self, balance: &(impl Balance + ?Sized), until: f64) -> Result<(), NotSolved> {
         while self.time < until {
             self.step(balance, until)?;
         }

@@ -61,9 +61,6 @@ pub struct Cells {
 impl Cells {
     /// Droplets in cells, with the heights that the equation is solved for; `weights` says whether cells hold their share of
     /// the droplets or the height in their middle.
-    ///
-    /// # Errors
-    /// [`TooLarge`].
     pub fn new(layout: Layout, droplets: &[Droplet], weights: FilmWeights) -> Result<(Self, Vec<f64>), TooLarge> {
         let Layout { from, count, spacing, symmetry, model, .. } = layout;
         let edge = |i: usize| from + i as f64 * spacing;

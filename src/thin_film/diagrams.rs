@@ -18,8 +18,7 @@ const PLACE: &str = "x in m";
 const TIME: &str = "time in s";
 
 /// All diagrams that there is something to show in.
-#[must_use]
-pub fn all(solver: &ThinFilmSolver) -> Vec<Diagram> {
+pub(crate) fn all(solver: &ThinFilmSolver) -> Vec<Diagram> {
     let found = [
         Some(space_time(solver)),
         trajectories(solver),

@@ -26,8 +26,7 @@ pub struct PointMasses {
 
 impl Droplet {
     /// Height in its middle.
-    #[must_use]
-    pub fn peak(&self) -> f64 {
+    pub(crate) fn peak(&self) -> f64 {
         0.75 * self.area / self.half_width
     }
 
@@ -36,20 +35,17 @@ impl Droplet {
     }
 
     /// Height at x.
-    #[must_use]
-    pub fn height(&self, x: f64) -> f64 {
+    pub(crate) fn height(&self, x: f64) -> f64 {
         self.peak() * (1.0 - self.share(x).powi(2)).max(0.0)
     }
 
     /// Mass to the left of x, ∫ h dx.
-    #[must_use]
-    pub fn mass_below(&self, x: f64) -> f64 {
+    pub(crate) fn mass_below(&self, x: f64) -> f64 {
         let share = self.share(x).clamp(-1.0, 1.0);
         self.area * (0.5 + 0.75 * share - 0.25 * share.powi(3))
     }
 
     /// Volume within the distance `r` of an axis through the middle, ∫ h 2πr dr.
-    #[must_use]
     pub fn volume_within(&self, r: f64) -> f64 {
         let share = (r / self.half_width).clamp(0.0, 1.0);
         TAU * self.peak() * self.half_width.powi(2) * (0.5 * share.powi(2) - 0.25 * share.powi(4))
@@ -57,7 +53,6 @@ impl Droplet {
 }
 
 /// Particles on the nodes k Δx of a lattice through x = 0. Nodes without mass are left out: they would move nothing.
-#[must_use]
 pub fn particles(droplets: &[Droplet], spacing: f64, rule: FilmWeights) -> PointMasses {
     let mut masses = PointMasses::default();
     let ends = |droplet: &Droplet| [droplet.center - droplet.half_width, droplet.center + droplet.half_width];

@@ -32,24 +32,15 @@ const SEARCH_STEP: f64 = 1.01;
 
 impl Equilibrium {
     /// The equilibrium with the wave number `xi`.
-    #[must_use]
-    pub fn of_wave_number(alpha: f64, area: f64, xi: f64) -> Self {
+    pub(crate) fn of_wave_number(alpha: f64, area: f64, xi: f64) -> Self {
         let s = alpha * xi;
         let radius = (PI - 2.0 * s.atan()) / xi;
         let cosine = area / (2.0 * (1.0 + s * s) * (radius + 2.0 * alpha));
         Self { alpha, area, xi, radius, cosine, level: cosine * (1.0 + s * s) }
     }
 
-    /// The equilibrium for the wetting parameter χ; none where ξ would leave the range of the search.
-    #[must_use]
-    pub fn of_wetting(alpha: f64, area: f64, wetting: f64) -> Option<Self> {
-        let at = |xi: f64| Self::of_wave_number(alpha, area, xi);
-        bisect(|xi| at(xi).wetting() - wetting, XI_RANGE.0, XI_RANGE.1).map(at)
-    }
-
     /// The equilibrium for χ under gravity, which takes the Bond number off ξ²: κ² = ξ² − Bo stands in the place of ξ² in all
     /// but ξ² = 2χA²/⟨h,h̄⟩². None where κ would leave the range of the search.
-    #[must_use]
     pub fn under_gravity(alpha: f64, area: f64, wetting: f64, bond: f64) -> Option<Self> {
         let at = |kappa: f64| Self::of_wave_number(alpha, area, kappa);
         let excess = |kappa: f64| kappa * kappa + bond - 2.0 * wetting * (area / at(kappa).overlap()).powi(2);
@@ -59,7 +50,6 @@ impl Equilibrium {
     /// The equilibrium of unit mass with unit slope at π/(2ξ): it calibrates χ [Pang2022, Sect. 5].
     ///
     /// B₁ξ = 1 is ξ² = 2(1 + s²)(π − 2 arctan s + 2s). None where α is too large for a droplet of unit slope.
-    #[must_use]
     pub fn of_unit_slope(alpha: f64) -> Option<Self> {
         let excess = |xi: f64| {
             let s = alpha * xi;
@@ -73,14 +63,12 @@ impl Equilibrium {
     }
 
     /// χ = ξ²⟨h,h̄⟩²/(2A²).
-    #[must_use]
     pub fn wetting(&self) -> f64 {
         0.5 * (self.xi * self.overlap() / self.area).powi(2)
     }
 
     /// ⟨h,h̄⟩ = ∫ h h̄ dx.
-    #[must_use]
-    pub fn overlap(&self) -> f64 {
+    pub(crate) fn overlap(&self) -> f64 {
         let (xi, r) = (self.xi, self.radius);
         let q = 1.0 + (self.alpha * xi).powi(2);
         let waves = (1.0 + q * q) * (xi * r).sin() / xi + q * (2.0 * xi * r).sin() / (4.0 * xi);
@@ -88,7 +76,6 @@ impl Equilibrium {
     }
 
     /// h̄ at x.
-    #[must_use]
     pub fn height(&self, x: f64) -> f64 {
         let d = x.abs() - self.radius;
         if d < 0.0 {
@@ -100,17 +87,25 @@ impl Equilibrium {
         (edge + (slope + edge / self.alpha) * d) * (-d / self.alpha).exp()
     }
 
+    /// Where the tangent at the steepest place meets the wall, the contact line.
+    pub(crate) fn foot(&self) -> f64 {
+        PI / (2.0 * self.xi) + self.level / (self.cosine * self.xi)
+    }
+}
+
+/// What tests compare with.
+#[cfg(test)]
+impl Equilibrium {
     /// h at x; it jumps to 0 at r.
-    #[must_use]
-    pub fn sharp_height(&self, x: f64) -> f64 {
+    pub(crate) fn sharp_height(&self, x: f64) -> f64 {
         let q = 1.0 + (self.alpha * self.xi).powi(2);
         if x.abs() < self.radius { self.cosine * q * q * (self.xi * x).cos() + self.level } else { 0.0 }
     }
 
-    /// Where the tangent at the steepest place meets the wall, the contact line.
-    #[must_use]
-    pub fn foot(&self) -> f64 {
-        PI / (2.0 * self.xi) + self.level / (self.cosine * self.xi)
+    /// The equilibrium for the wetting parameter χ; none where ξ would leave the range of the search.
+    pub(crate) fn of_wetting(alpha: f64, area: f64, wetting: f64) -> Option<Self> {
+        let at = |xi: f64| Self::of_wave_number(alpha, area, xi);
+        bisect(|xi| at(xi).wetting() - wetting, XI_RANGE.0, XI_RANGE.1).map(at)
     }
 }
 

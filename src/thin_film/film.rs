@@ -8,7 +8,7 @@ use super::profile::Profile;
 
 /// A film on its way.
 #[derive(Debug, Clone)]
-pub enum Film {
+pub(crate) enum Film {
     /// Particles on an infinite line.
     Particles {
         /// The equation.
@@ -22,7 +22,7 @@ pub enum Film {
 
 /// A step that was not found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stuck {
+pub(crate) enum Stuck {
     /// No step of the particles is accurate enough, down to this one.
     Inaccurate(f64),
     /// Newton's method on the grid ended at heights below 0.
@@ -33,30 +33,28 @@ pub enum Stuck {
 
 /// What is seen of a film at its particles or nodes.
 #[derive(Debug, Clone, Default)]
-pub struct Seen {
+pub(crate) struct Seen {
     /// Places.
-    pub x: Vec<f64>,
+    pub(crate) x: Vec<f64>,
     /// h̄.
-    pub height: Vec<f64>,
+    pub(crate) height: Vec<f64>,
     /// h̄ₓₓ.
-    pub curvature: Vec<f64>,
+    pub(crate) curvature: Vec<f64>,
     /// Velocity along the wall.
-    pub velocity: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
     /// Mass of the particle or node.
-    pub mass: Vec<f64>,
+    pub(crate) mass: Vec<f64>,
 }
 
 impl Film {
     /// Particles at time zero.
-    #[must_use]
-    pub fn particles(method: ParticleMethod, masses: &PointMasses, state: Integrator) -> Self {
+    pub(crate) fn particles(method: ParticleMethod, masses: &PointMasses, state: Integrator) -> Self {
         debug_assert_eq!(masses.x.len(), state.x.len());
         Self::Particles { method: Box::new(method), state }
     }
 
     /// Scaled time.
-    #[must_use]
-    pub fn time(&self) -> f64 {
+    pub(crate) fn time(&self) -> f64 {
         match self {
             Self::Particles { state, .. } => state.time,
             Self::Grid(grid) => grid.state.time,
@@ -67,7 +65,7 @@ impl Film {
     ///
     /// # Errors
     /// [`Stuck`]; the state is kept.
-    pub fn step(&mut self, until: f64) -> Result<f64, Stuck> {
+    pub(crate) fn step(&mut self, until: f64) -> Result<f64, Stuck> {
         match self {
             Self::Particles { method, state } => {
                 if method.corrects() && widest_gap(&state.x) > WIDEST_GAP * method.kernel().alpha() {
@@ -82,8 +80,7 @@ impl Film {
     }
 
     /// Particles or nodes with what is known there.
-    #[must_use]
-    pub fn seen(&self) -> Seen {
+    pub(crate) fn seen(&self) -> Seen {
         match self {
             Self::Particles { method, state } => {
                 // The sums need room to work in; this one is thrown away.
@@ -105,8 +102,7 @@ impl Film {
     }
 
     /// The profile at ascending places; nodes of a grid stand where they stand.
-    #[must_use]
-    pub fn profile(&self, places: &[f64]) -> Profile {
+    pub(crate) fn profile(&self, places: &[f64]) -> Profile {
         match self {
             Self::Particles { method, state } => {
                 let s = method.profile(&state.x, places);
@@ -121,8 +117,7 @@ impl Film {
     }
 
     /// Heights at ascending places, between nodes of a grid by straight lines; 0 beyond its ends.
-    #[must_use]
-    pub fn heights(&self, places: &[f64]) -> Vec<f64> {
+    pub(crate) fn heights(&self, places: &[f64]) -> Vec<f64> {
         match self {
             Self::Particles { method, state } => method.profile(&state.x, places).height,
             Self::Grid(film) => {
@@ -144,8 +139,7 @@ impl Film {
     }
 
     /// The places of up to `count` particles from the middle one to the last, evenly chosen; none on a grid.
-    #[must_use]
-    pub fn ways(&self, count: usize) -> Vec<f64> {
+    pub(crate) fn ways(&self, count: usize) -> Vec<f64> {
         let Self::Particles { state, .. } = self else { return Vec::new() };
         let right = &state.x[state.x.len() / 2..];
         let last = right.len().saturating_sub(1);
@@ -154,8 +148,7 @@ impl Film {
     }
 
     /// h̄ at x = 0.
-    #[must_use]
-    pub fn center_height(&self) -> f64 {
+    pub(crate) fn center_height(&self) -> f64 {
         match self {
             Self::Particles { method, state } => method.profile(&state.x, &[0.0]).height[0],
             Self::Grid(grid) => grid.center_height(),
@@ -163,8 +156,7 @@ impl Film {
     }
 
     /// The last particle, where there are particles.
-    #[must_use]
-    pub fn last_particle(&self) -> Option<f64> {
+    pub(crate) fn last_particle(&self) -> Option<f64> {
         match self {
             Self::Particles { state, .. } => state.x.last().copied(),
             Self::Grid(_) => None,
@@ -172,8 +164,7 @@ impl Film {
     }
 
     /// Energy.
-    #[must_use]
-    pub fn energy(&self) -> f64 {
+    pub(crate) fn energy(&self) -> f64 {
         match self {
             Self::Particles { method, state } => method.clone().energy(&state.x),
             Self::Grid(grid) => grid.energy(),
@@ -181,8 +172,7 @@ impl Film {
     }
 
     /// Mass.
-    #[must_use]
-    pub fn mass(&self) -> f64 {
+    pub(crate) fn mass(&self) -> f64 {
         match self {
             Self::Particles { method, .. } => method.area(),
             Self::Grid(grid) => grid.mass(),
@@ -190,8 +180,7 @@ impl Film {
     }
 
     /// Slope of the contact angle that the lattice of particles imitates; none on a grid, or where it is taken off.
-    #[must_use]
-    pub fn lattice_slope(&self) -> Option<f64> {
+    pub(crate) fn lattice_slope(&self) -> Option<f64> {
         match self {
             Self::Particles { method, .. } => (!method.corrects()).then(|| method.lattice_slope()),
             Self::Grid(_) => None,
@@ -199,8 +188,7 @@ impl Film {
     }
 
     /// Counts of the work by name.
-    #[must_use]
-    pub fn counts(&self) -> Vec<(&'static str, f64)> {
+    pub(crate) fn counts(&self) -> Vec<(&'static str, f64)> {
         match self {
             Self::Particles { state, .. } => vec![
                 ("rate-evaluations", state.work.rates as f64),

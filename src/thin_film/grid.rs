@@ -50,13 +50,11 @@ pub struct GridFilm {
 
 impl GridFilm {
     /// A film at time zero.
-    #[must_use]
     pub fn new(equation: Equation, height: Vec<f64>, rule: StepRule) -> Self {
         Self { equation, state: BackwardEuler::new(height, rule) }
     }
 
     /// Its equation.
-    #[must_use]
     pub fn grid(&self) -> &dyn Grid {
         self.equation.grid()
     }
@@ -70,27 +68,21 @@ impl GridFilm {
     }
 
     /// Runs to `until`.
-    ///
-    /// # Errors
-    /// [`NotSolved`].
     pub fn run(&mut self, until: f64) -> Result<(), NotSolved> {
         self.state.run(self.equation.grid(), until)
     }
 
     /// Mass: Σ heights × sizes; steps do not change it.
-    #[must_use]
     pub fn mass(&self) -> f64 {
         self.grid().sizes().iter().zip(&self.state.height).map(|(size, v)| size * v).sum()
     }
 
     /// Energy.
-    #[must_use]
-    pub fn energy(&self) -> f64 {
+    pub(crate) fn energy(&self) -> f64 {
         self.grid().energy(&self.state.height)
     }
 
     /// Height in the middle, x = 0, by a parabola through the three nodes about it.
-    #[must_use]
     pub fn center_height(&self) -> f64 {
         let (x, v) = (self.grid().nodes(), &self.state.height);
         let after = x.partition_point(|&x| x < 0.0);

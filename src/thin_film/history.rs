@@ -15,28 +15,28 @@ const FRAMES_PER_DECADE: f64 = 10.0;
 const FIRST: f64 = 1.0e-4;
 /// The law of Cox and Voinov is fitted to records in this window of scaled time. Its two constants depend on the window, which
 /// is why there is no choice.
-pub const WINDOW: (f64, f64) = (1.0e-2, 1.0);
+pub(crate) const WINDOW: (f64, f64) = (1.0e-2, 1.0);
 /// Factor of the law in units of the scaled speed 3 Ca: θ³ = θₑ³ + 9 Ca ln(x/d).
-pub const COX_VOINOV: f64 = 3.0;
+pub(crate) const COX_VOINOV: f64 = 3.0;
 /// Fewest records for a fit.
 const FEWEST: usize = 8;
 
 /// The contact line at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub(crate) struct Record {
     /// Time.
     pub time: f64,
     /// Where the contact line is.
-    pub position: f64,
+    pub(crate) position: f64,
     /// Slope of the apparent contact angle.
-    pub slope: f64,
+    pub(crate) slope: f64,
     /// Position of the last particle, where there are particles.
-    pub last: Option<f64>,
+    pub(crate) last: Option<f64>,
 }
 
 /// The film at one time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Frame {
+pub(crate) struct Frame {
     /// Time.
     pub time: f64,
     /// Heights at places that stay the same.
@@ -47,53 +47,48 @@ pub struct Frame {
 
 /// Records and frames so far.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct History {
+pub(crate) struct History {
     /// In the order of time.
-    pub records: Vec<Record>,
+    pub(crate) records: Vec<Record>,
     /// In the order of time.
-    pub frames: Vec<Frame>,
+    pub(crate) frames: Vec<Frame>,
 }
 
 /// A law of Cox and Voinov: θ³ = θₑ³ + c v ln(x/d).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CoxVoinov {
+pub(crate) struct CoxVoinov {
     /// c.
-    pub factor: f64,
+    pub(crate) factor: f64,
     /// d.
-    pub length: f64,
+    pub(crate) length: f64,
     /// Root mean square of the misfit of θ³.
-    pub error: f64,
+    pub(crate) error: f64,
 }
 
 impl History {
     /// Whether a record is due at `time`.
-    #[must_use]
-    pub fn is_due(&self, time: f64) -> bool {
+    pub(crate) fn is_due(&self, time: f64) -> bool {
         is_next(PER_DECADE, time, self.records.last().map(|last| last.time))
     }
 
     /// Whether a frame is due at `time`.
-    #[must_use]
-    pub fn is_frame_due(&self, time: f64) -> bool {
+    pub(crate) fn is_frame_due(&self, time: f64) -> bool {
         is_next(FRAMES_PER_DECADE, time, self.frames.last().map(|last| last.time))
     }
 
     /// Exponent of a length in time from `start` on.
-    #[must_use]
-    pub fn exponent(&self, start: f64, length: impl Fn(&Record) -> Option<f64>) -> Option<f64> {
+    pub(crate) fn exponent(&self, start: f64, length: impl Fn(&Record) -> Option<f64>) -> Option<f64> {
         let later = self.records.iter().filter(|record| record.time >= start);
         exponent(later.filter_map(|record| Some((record.time, length(record)?))))
     }
 
     /// The law of Cox and Voinov for the slope of rest `rest`, by linear least squares in c and c ln d over the window.
-    #[must_use]
-    pub fn cox_voinov(&self, rest: f64) -> Option<CoxVoinov> {
+    pub(crate) fn cox_voinov(&self, rest: f64) -> Option<CoxVoinov> {
         self.cox_voinov_points(rest).map(|(law, _)| law)
     }
 
     /// The law, and what it was fitted to: speed, place and cubed slope of the contact line.
-    #[must_use]
-    pub fn cox_voinov_points(&self, rest: f64) -> Option<(CoxVoinov, Vec<[f64; 3]>)> {
+    pub(crate) fn cox_voinov_points(&self, rest: f64) -> Option<(CoxVoinov, Vec<[f64; 3]>)> {
         let found: Vec<[f64; 3]> = self
             .records
             .windows(3)

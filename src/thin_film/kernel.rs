@@ -6,7 +6,7 @@
 
 /// Derivatives of Φ by order; the fourth is that of x ≠ 0 and leaves out the delta at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Order {
+pub(crate) enum Order {
     /// Φ.
     Value,
     /// Φ'.
@@ -35,13 +35,11 @@ pub struct Kernel {
 
 impl Kernel {
     /// The kernel of filter length `alpha`, above 0, in the unit of x.
-    #[must_use]
     pub fn new(alpha: f64) -> Self {
         Self { alpha }
     }
 
     /// Filter length α.
-    #[must_use]
     pub fn alpha(&self) -> f64 {
         self.alpha
     }
@@ -57,26 +55,11 @@ impl Kernel {
         }
     }
 
-    /// Helmholtz kernel K(x).
-    #[must_use]
-    pub fn helmholtz(&self, x: f64) -> f64 {
-        (-x.abs() / self.alpha).exp() / (2.0 * self.alpha)
-    }
-
     /// Φ(x) or a derivative of it.
-    #[must_use]
-    pub fn at(&self, order: Order, x: f64) -> f64 {
+    pub(crate) fn at(&self, order: Order, x: f64) -> f64 {
         let Term { constant, linear, odd } = self.term(order);
         let d = x.abs();
         sign(odd, x) * (constant + linear * d) * (-d / self.alpha).exp()
-    }
-
-    /// ∫ Φ from −∞ to x.
-    #[must_use]
-    pub fn integral(&self, x: f64) -> f64 {
-        let a = self.alpha;
-        let beyond = (2.0 * a + x.abs()) * (-x.abs() / a).exp() / (4.0 * a);
-        if x <= 0.0 { beyond } else { 1.0 - beyond }
     }
 }
 
@@ -89,38 +72,12 @@ fn sign(odd: bool, x: f64) -> f64 {
     }
 }
 
-/// Φ summed over all images at distances of `period`, in closed form.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PeriodicKernel {
-    kernel: Kernel,
-    period: f64,
-}
-
-impl PeriodicKernel {
-    /// The kernel of filter length `alpha` on an interval of length `period`, both above 0.
-    #[must_use]
-    pub fn new(alpha: f64, period: f64) -> Self {
-        Self { kernel: Kernel::new(alpha), period }
-    }
-
-    /// Φ_P(x) or a derivative of it.
-    ///
-    /// With Q = e^(−P/α), images to the left give e^(−x/α) [(c₀ + c₁x)/(1−Q) + c₁PQ/(1−Q)²], those to the right
-    /// ±e^(−(P−x)/α) [(c₀ − c₁x)/(1−Q) + c₁P/(1−Q)²]; no exponent is positive.
-    #[must_use]
-    pub fn at(&self, order: Order, x: f64) -> f64 {
-        let Term { constant, linear, odd } = self.kernel.term(order);
-        let (alpha, period) = (self.kernel.alpha, self.period);
-        let x = x.rem_euclid(period);
-        if odd && x == 0.0 {
-            return 0.0;
-        }
-        let q = (-period / alpha).exp();
-        let geometric = 1.0 / (1.0 - q);
-        let arithmetic = linear * period * geometric * geometric;
-        let left = (-x / alpha).exp() * ((constant + linear * x) * geometric + q * arithmetic);
-        let right = ((x - period) / alpha).exp() * ((constant - linear * x) * geometric + arithmetic);
-        if odd { left - right } else { left + right }
+/// What tests compare with.
+#[cfg(test)]
+impl Kernel {
+    /// Helmholtz kernel K(x).
+    pub(crate) fn helmholtz(&self, x: f64) -> f64 {
+        (-x.abs() / self.alpha).exp() / (2.0 * self.alpha)
     }
 }
 
@@ -167,11 +124,6 @@ mod tests {
         let half = |f: &dyn Fn(f64) -> f64| simpson(20_000, 0.0, 40.0 * ALPHA, |x| f(x) * kernel.at(Order::Value, x));
         assert!((2.0 * half(&|_| 1.0) - 1.0).abs() < 1.0e-10);
         assert!((2.0 * half(&|x| x * x) / (4.0 * ALPHA * ALPHA) - 1.0).abs() < 1.0e-10);
-        for x in [-0.2, -0.03, 0.0, 0.07] {
-            let below = simpson(20_000, x - 40.0 * ALPHA, x, |y| kernel.at(Order::Value, y));
-            // Integrating over the kink of the third derivative costs a few digits.
-            assert!((below - kernel.integral(x)).abs() < 1.0e-9, "{x}: {below}");
-        }
     }
 
     #[test]
@@ -196,21 +148,5 @@ mod tests {
         assert_eq!(kernel.at(Order::Third, 0.0), 0.0);
         assert!((kernel.at(Order::Value, 0.0) - 0.25 / ALPHA).abs() < 1.0e-13);
         assert!((kernel.at(Order::Second, 0.0) * 4.0 * ALPHA.powi(3) + 1.0).abs() < 1.0e-13);
-    }
-
-    #[test]
-    fn the_periodic_kernel_is_the_sum_over_images() {
-        for period in [0.4, 4.0, 100.0] {
-            let (line, ring) = (Kernel::new(ALPHA), PeriodicKernel::new(ALPHA, period));
-            for order in ORDERS {
-                for share in [0.0, 0.1, 0.5, 0.83] {
-                    let x = share * period;
-                    let sum: f64 = (-60..=60).map(|n| line.at(order, x + f64::from(n) * period)).sum();
-                    let scale = line.at(order, 0.5 * ALPHA).abs();
-                    assert!((ring.at(order, x) - sum).abs() < 1.0e-13 * scale, "{period} {order:?} {x}");
-                    assert!((ring.at(order, x - period) - sum).abs() < 1.0e-12 * scale);
-                }
-            }
-        }
     }
 }

@@ -11,8 +11,7 @@ const FORGETTING: f64 = 1.0 / 50.0;
 const VISIBLE: f64 = 0.1;
 
 /// All measures of a film.
-#[must_use]
-pub fn all(solver: &ThinFilmSolver) -> Vec<Measure> {
+pub(crate) fn all(solver: &ThinFilmSolver) -> Vec<Measure> {
     let mut found = contact_line(solver);
     found.extend(rest(solver));
     found.extend(laws(solver));

@@ -52,7 +52,7 @@ pub struct Work {
 #[derive(Debug, Clone)]
 pub struct Integrator {
     /// Method.
-    pub method: FilmIntegrator,
+    pub(crate) method: FilmIntegrator,
     /// Tolerance.
     pub tolerance: Tolerance,
     /// Time.
@@ -82,7 +82,6 @@ const SMALLEST: f64 = 1.0e-15;
 
 impl Integrator {
     /// A state at time zero with a first step to try.
-    #[must_use]
     pub fn new(method: FilmIntegrator, tolerance: Tolerance, x: Vec<f64>, first: f64) -> Self {
         Self { method, tolerance, time: 0.0, x, next: first, work: Work::default(), stages: Vec::new() }
     }
@@ -125,8 +124,7 @@ impl Integrator {
 
     /// About how many steps of the stiff method lead to `end`: they grow as the time does. Those of the explicit method are bound
     /// by stability, so that the length of the last one tells more.
-    #[must_use]
-    pub fn steps_to(&self, end: f64) -> Option<f64> {
+    pub(crate) fn steps_to(&self, end: f64) -> Option<f64> {
         if self.method == FilmIntegrator::Explicit {
             return None;
         }
@@ -136,9 +134,6 @@ impl Integrator {
     }
 
     /// Runs to `until`.
-    ///
-    /// # Errors
-    /// [`StepTooSmall`].
     pub fn run(&mut self, system: &mut impl Implicit, until: f64) -> Result<(), StepTooSmall> {
         while self.time < until {
             self.step(system, until)?;

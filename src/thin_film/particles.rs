@@ -13,7 +13,7 @@ use super::sums::{FastSums, Smoothed, direct_sums};
 use crate::case::film::LatticeEnergy;
 
 /// Widest gap over α at which the lattice energy may be taken off.
-pub const WIDEST_GAP: f64 = 0.5;
+pub(crate) const WIDEST_GAP: f64 = 0.5;
 
 /// What moves a film besides its tension.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -41,7 +41,6 @@ pub struct ParticleMethod {
 
 impl ParticleMethod {
     /// The method for particles of the given weights.
-    #[must_use]
     pub fn new(kernel: Kernel, masses: &PointMasses, pull: Pull, lattice: LatticeEnergy) -> Self {
         let weight = masses.weight.clone();
         let correction = match lattice {
@@ -62,54 +61,48 @@ impl ParticleMethod {
     }
 
     /// Takes the sums of rates over all pairs from now on, to compare with the recursion.
-    pub fn sum_directly(&mut self) {
+    pub(crate) fn sum_directly(&mut self) {
         self.sums_directly = true;
     }
 
     /// Leaves the lattice energy alone from now on.
-    pub fn keep_lattice_energy(&mut self) {
+    pub(crate) fn keep_lattice_energy(&mut self) {
         self.correction.fill(0.0);
     }
 
     /// Whether a lattice energy is taken off.
-    #[must_use]
     pub fn corrects(&self) -> bool {
         self.correction.iter().any(|&c| c != 0.0)
     }
 
     /// The slope of the contact angle that the lattice energy imitates, w/(√12 α²) with the largest weight.
-    #[must_use]
-    pub fn lattice_slope(&self) -> f64 {
+    pub(crate) fn lattice_slope(&self) -> f64 {
         let largest = self.weight.iter().copied().fold(0.0, f64::max);
         largest / (12.0_f64.sqrt() * self.kernel.alpha().powi(2))
     }
 
     /// The weights.
-    #[must_use]
     pub fn weight(&self) -> &[f64] {
         &self.weight
     }
 
     /// Total mass A.
-    #[must_use]
     pub fn area(&self) -> f64 {
         self.area
     }
 
     /// What moves the film besides its tension.
-    #[must_use]
     pub fn pull(&self) -> Pull {
         self.pull
     }
 
     /// The kernel.
-    #[must_use]
     pub fn kernel(&self) -> Kernel {
         self.kernel
     }
 
     /// h̄ and its derivatives at the particles.
-    pub fn smooth(&mut self, x: &[f64]) -> &Smoothed {
+    pub(crate) fn smooth(&mut self, x: &[f64]) -> &Smoothed {
         if self.sums_directly {
             self.smoothed = direct_sums(&self.kernel, x, &self.weight);
         } else {
@@ -119,7 +112,6 @@ impl ParticleMethod {
     }
 
     /// h̄, h̄ₓ, h̄ₓₓ at ascending places.
-    #[must_use]
     pub fn profile(&self, x: &[f64], places: &[f64]) -> Smoothed {
         self.sums.at_places(x, &self.weight, places)
     }
@@ -135,8 +127,7 @@ impl ParticleMethod {
     }
 
     /// Energy E = ½ Σ wᵢ (Bo h̄ᵢ − h̄ₓₓ,ᵢ) + χA²/⟨h,h̄⟩, that of the lattice included.
-    #[must_use]
-    pub fn energy(&mut self, x: &[f64]) -> f64 {
+    pub(crate) fn energy(&mut self, x: &[f64]) -> f64 {
         self.smooth(x);
         let surface: f64 = self.weight.iter().zip(&self.smoothed.curvature).map(|(w, c)| w * c).sum();
         let overlap = self.overlap();
@@ -158,8 +149,7 @@ fn lattice_correction(kernel: &Kernel, weight: &[f64]) -> Vec<f64> {
 }
 
 /// The widest distance of neighbors.
-#[must_use]
-pub fn widest_gap(x: &[f64]) -> f64 {
+pub(crate) fn widest_gap(x: &[f64]) -> f64 {
     x.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
 }
 

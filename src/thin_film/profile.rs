@@ -32,7 +32,6 @@ impl Profile {
     ///
     /// The paper's text names the maximum of h̄, where the tangent is flat; the steepest place is meant. The position is
     /// stationary in y*, so that a parabola through three slopes finds it to the fourth power of their distance.
-    #[must_use]
     pub fn foot(&self, from: f64) -> Option<Foot> {
         let right = (1..self.x.len().saturating_sub(1)).filter(|&i| self.x[i] > from);
         let i = right.min_by(|&i, &j| self.slope[i].total_cmp(&self.slope[j]))?;
@@ -48,8 +47,7 @@ impl Profile {
     }
 
     /// Number of droplets: maxima above a twentieth of the highest.
-    #[must_use]
-    pub fn peaks(&self) -> usize {
+    pub(crate) fn peaks(&self) -> usize {
         let least = PEAK * self.height.iter().copied().fold(0.0, f64::max);
         let h = &self.height;
         // A film about an axis has its maximum at its first place.
@@ -59,7 +57,6 @@ impl Profile {
     }
 
     /// ∫ |h̄ − f| dx by the trapezoidal rule.
-    #[must_use]
     pub fn distance_to(&self, f: impl Fn(f64) -> f64) -> f64 {
         let off: Vec<f64> = self.x.iter().zip(&self.height).map(|(&x, h)| (h - f(x)).abs()).collect();
         self.x.windows(2).zip(off.windows(2)).map(|(x, off)| 0.5 * (x[1] - x[0]) * (off[0] + off[1])).sum()
@@ -67,7 +64,6 @@ impl Profile {
 }
 
 /// The exponent of a power law y ~ t^n by least squares in log t and log y; none with fewer than two points.
-#[must_use]
 pub fn exponent(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
     let logs: Vec<(f64, f64)> =
         points.into_iter().filter(|(t, y)| *t > 0.0 && *y > 0.0).map(|(t, y)| (t.ln(), y.ln())).collect();

@@ -49,9 +49,6 @@ pub struct Ring {
 impl Ring {
     /// Droplets on a ring with their smoothed heights; `weights` says whether nodes hold the mean of their cell or the value
     /// at the node.
-    ///
-    /// # Errors
-    /// [`TooLarge`].
     pub fn new(line: Line, droplets: &[Droplet], weights: FilmWeights) -> Result<(Self, Vec<f64>), TooLarge> {
         let Line { from, count, spacing, alpha, .. } = line;
         let mut sharp = vec![0.0; count];

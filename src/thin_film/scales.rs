@@ -9,31 +9,29 @@ use crate::case::film::{FilmDroplet, ThinFilm};
 
 /// One unit of each scaled quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scales {
+pub(crate) struct Scales {
     /// Along the wall, L in m.
-    pub length: f64,
+    pub(crate) length: f64,
     /// Across it, h₀ in m.
-    pub height: f64,
+    pub(crate) height: f64,
     /// τ in s.
-    pub time: f64,
+    pub(crate) time: f64,
     /// Surface tension γ in N/m.
-    pub tension: f64,
+    pub(crate) tension: f64,
     /// Bond number ρgL²/γ.
-    pub bond: f64,
+    pub(crate) bond: f64,
 }
 
 impl Scales {
     /// The scales of a case.
-    #[must_use]
-    pub fn of(film: &ThinFilm) -> Self {
+    pub(crate) fn of(film: &ThinFilm) -> Self {
         let [length, height, time] = film.scales();
         let bond = film.density * film.gravity * length * length / film.tension;
         Self { length, height, time, tension: film.tension, bond }
     }
 
     /// The scaled initial droplets.
-    #[must_use]
-    pub fn droplets(&self, film: &ThinFilm) -> Vec<Droplet> {
+    pub(crate) fn droplets(&self, film: &ThinFilm) -> Vec<Droplet> {
         let scaled = |droplet: &FilmDroplet| Droplet {
             area: droplet.cross_section() / self.area(),
             half_width: droplet.half_width / self.length,
@@ -43,32 +41,27 @@ impl Scales {
     }
 
     /// Slope h₀/L.
-    #[must_use]
-    pub fn slope(&self) -> f64 {
+    pub(crate) fn slope(&self) -> f64 {
         self.height / self.length
     }
 
     /// Cross-section in m².
-    #[must_use]
-    pub fn area(&self) -> f64 {
+    pub(crate) fn area(&self) -> f64 {
         self.height * self.length
     }
 
     /// Velocity in m/s.
-    #[must_use]
-    pub fn velocity(&self) -> f64 {
+    pub(crate) fn velocity(&self) -> f64 {
         self.length / self.time
     }
 
     /// Curvature of a flat profile in 1/m.
-    #[must_use]
-    pub fn curvature(&self) -> f64 {
+    pub(crate) fn curvature(&self) -> f64 {
         self.slope() / self.length
     }
 
     /// Energy per depth, γh₀²/L, in J/m.
-    #[must_use]
-    pub fn energy(&self) -> f64 {
+    pub(crate) fn energy(&self) -> f64 {
         self.tension * self.slope() * self.height
     }
 }

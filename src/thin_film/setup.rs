@@ -46,8 +46,7 @@ pub enum SetupError {
 
 impl SetupError {
     /// The key of the case that a user would change.
-    #[must_use]
-    pub fn key(&self) -> String {
+    pub(crate) fn key(&self) -> String {
         match self {
             Self::TooSmooth { .. } => "thin-film.equation.geometric.smoothing-length".to_owned(),
             Self::TooLarge(_) => "thin-film.spacing".to_owned(),
@@ -56,10 +55,7 @@ impl SetupError {
 }
 
 /// The solver of a case at time zero.
-///
-/// # Errors
-/// [`SetupError`].
-pub fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError> {
+pub(crate) fn build(case: &Case, film: &ThinFilm) -> Result<ThinFilmSolver, SetupError> {
     let scales = Scales::of(film);
     let droplets = scales.droplets(film);
     let wall = [case.geometry.min[0], case.geometry.max[0]];

@@ -10,9 +10,9 @@ use super::profile::Profile;
 use crate::case::film::FilmIntegrator;
 
 /// Exponent of time in x, and its negative in h̄.
-pub const EXPONENT: f64 = 1.0 / 7.0;
+pub(crate) const EXPONENT: f64 = 1.0 / 7.0;
 /// The fit covers this share of the droplet: beyond, the regularized contact line has its own shape.
-pub const COVERED: f64 = 0.7;
+pub(crate) const COVERED: f64 = 0.7;
 /// Largest error of f over f(0) in the integration.
 const TOLERANCE: f64 = 1.0e-10;
 /// The bracket of f''(0) about its first guess.
@@ -22,13 +22,13 @@ const SEARCH_STEPS: u32 = 50;
 
 /// A fitted shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fit {
+pub(crate) struct Fit {
     /// f(0).
-    pub height: f64,
+    pub(crate) height: f64,
     /// f''(0).
-    pub curvature: f64,
+    pub(crate) curvature: f64,
     /// Largest difference of shape and droplet over f(0).
-    pub error: f64,
+    pub(crate) error: f64,
 }
 
 /// (η, f, f', f'') along η.
@@ -63,8 +63,7 @@ impl Implicit for Shooting {
 }
 
 /// f at the ascending places `eta` for f(0) and f''(0); the list ends where the integration cannot go on near the wall.
-#[must_use]
-pub fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
+pub(crate) fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
     let tolerance = Tolerance { absolute: TOLERANCE * height, relative: TOLERANCE };
     let start = vec![0.0, height, 0.0, curvature];
     let mut state = Integrator::new(FilmIntegrator::Explicit, tolerance, start, 1.0e-3);
@@ -79,8 +78,7 @@ pub fn shoot(height: f64, curvature: f64, eta: &[f64]) -> Vec<f64> {
 }
 
 /// The shape nearest to a droplet at the time `t` with its contact line at `foot`, by least squares over its middle part.
-#[must_use]
-pub fn fit(profile: &Profile, t: f64, foot: f64) -> Option<Fit> {
+pub(crate) fn fit(profile: &Profile, t: f64, foot: f64) -> Option<Fit> {
     let stretch = t.powf(EXPONENT);
     let middle = (0..profile.x.len()).filter(|&i| (0.0..COVERED * foot).contains(&profile.x[i]));
     let (eta, f): (Vec<f64>, Vec<f64>) = middle.map(|i| (profile.x[i] / stretch, profile.height[i] * stretch)).unzip();

@@ -33,35 +33,35 @@ const LONG: f64 = 100.0;
 
 /// What stands still around the film.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Surroundings {
+pub(crate) struct Surroundings {
     /// Scales.
-    pub scales: Scales,
+    pub(crate) scales: Scales,
     /// Left and right end of the wall in m.
-    pub wall: [f64; 2],
+    pub(crate) wall: [f64; 2],
     /// Scaled length that the film varies over at its contact line: the filter length, or the grid's spacing.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
     /// Scaled middle of the droplet on the right.
-    pub right: f64,
+    pub(crate) right: f64,
     /// Whether the film is the same all around the axis x = 0.
-    pub about_axis: bool,
+    pub(crate) about_axis: bool,
     /// Scaled slope at rest, in partial wetting.
-    pub rest: Option<f64>,
+    pub(crate) rest: Option<f64>,
     /// For a partially wetting droplet that rests as a parabola: directions that its curvature is the sum of, 1 in the plane
     /// and 2 about an axis.
-    pub cap_sides: Option<f64>,
+    pub(crate) cap_sides: Option<f64>,
     /// Whether the case takes the energy of the particle lattice off.
-    pub takes_lattice_off: bool,
+    pub(crate) takes_lattice_off: bool,
     /// Droplets at the start of a film that can only join them: a geometric one that does not hang.
-    pub most_droplets: Option<usize>,
+    pub(crate) most_droplets: Option<usize>,
     /// Whether the droplet comes to a self-similar shape by surface tension.
-    pub is_self_similar: bool,
+    pub(crate) is_self_similar: bool,
     /// The droplet at rest, where its form is known.
-    pub equilibrium: Option<Equilibrium>,
+    pub(crate) equilibrium: Option<Equilibrium>,
 }
 
 /// A film with all that is needed to observe it.
 #[derive(Debug, Clone)]
-pub struct ThinFilmSolver {
+pub(crate) struct ThinFilmSolver {
     film: Film,
     surroundings: Surroundings,
     history: History,
@@ -87,8 +87,7 @@ struct Saved {
 
 impl ThinFilmSolver {
     /// A solver at time zero.
-    #[must_use]
-    pub fn new(film: Film, surroundings: Surroundings) -> Self {
+    pub(crate) fn new(film: Film, surroundings: Surroundings) -> Self {
         Self {
             film,
             surroundings,
@@ -102,26 +101,22 @@ impl ThinFilmSolver {
     }
 
     /// The film, scaled.
-    #[must_use]
-    pub fn film(&self) -> &Film {
+    pub(crate) fn film(&self) -> &Film {
         &self.film
     }
 
     /// What stands around it.
-    #[must_use]
-    pub fn surroundings(&self) -> &Surroundings {
+    pub(crate) fn surroundings(&self) -> &Surroundings {
         &self.surroundings
     }
 
     /// The way of the contact line.
-    #[must_use]
-    pub fn history(&self) -> &History {
+    pub(crate) fn history(&self) -> &History {
         &self.history
     }
 
     /// The scaled profile over the wall.
-    #[must_use]
-    pub fn profile(&self) -> Profile {
+    pub(crate) fn profile(&self) -> Profile {
         let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
         let wanted = POINTS_PER_FILTER * (right - left) / self.surroundings.resolution;
         let count = wanted.ceil().clamp(2.0, MOST_POINTS);
@@ -131,15 +126,13 @@ impl ThinFilmSolver {
 
     /// The scaled contact line on the right; none where its tangent meets the wall outside of the domain, as that of a film that
     /// covers the whole of it does.
-    #[must_use]
-    pub fn foot(&self) -> Option<Foot> {
+    pub(crate) fn foot(&self) -> Option<Foot> {
         let end = self.surroundings.wall[1] / self.surroundings.scales.length;
         self.profile().foot(self.surroundings.right).filter(|foot| foot.position <= end)
     }
 
     /// The scaled places of the heights in frames: equal steps along the wall.
-    #[must_use]
-    pub fn frame_places(&self) -> Vec<f64> {
+    pub(crate) fn frame_places(&self) -> Vec<f64> {
         let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
         (0..=FRAME_PLACES).map(|i| left + (right - left) * f64::from(i) / f64::from(FRAME_PLACES)).collect()
     }

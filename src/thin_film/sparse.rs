@@ -24,7 +24,7 @@ pub struct TooLarge(pub usize);
 
 /// Where the entries of a matrix stand, and in which order it is eliminated.
 #[derive(Clone)]
-pub struct Pattern(Arc<Places>);
+pub(crate) struct Pattern(Arc<Places>);
 
 struct Places {
     matrix: SymbolicSparseColMat<Count>,
@@ -49,10 +49,7 @@ struct RankOne {
 
 impl Pattern {
     /// The pattern of a square matrix whose entries are told in the order of `places`, as row and column.
-    ///
-    /// # Errors
-    /// [`TooLarge`].
-    pub fn new(size: usize, places: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, TooLarge> {
+    pub(crate) fn new(size: usize, places: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, TooLarge> {
         factor_in_one_thread();
         let pair = |(row, column): (usize, usize)| Pair { row: row as Count, col: column as Count };
         let pairs: Vec<Pair<Count, Count>> = places.into_iter().map(pair).collect();
@@ -66,8 +63,7 @@ impl Pattern {
     }
 
     /// Factors of the matrix with these values in the order of the pattern; none where it is singular or not finite.
-    #[must_use]
-    pub fn factor(&self, values: &[f64]) -> Option<Factors> {
+    pub(crate) fn factor(&self, values: &[f64]) -> Option<Factors> {
         let Places { matrix, order, elimination } = self.0.as_ref();
         if !values.iter().all(|value| value.is_finite()) {
             return None;
@@ -86,8 +82,7 @@ impl fmt::Debug for Pattern {
 
 impl Factors {
     /// The factors with the matrix `column` `row`ᵀ added; none where the sum is singular.
-    #[must_use]
-    pub fn with_rank_one(mut self, mut column: Vec<f64>, row: Vec<f64>) -> Option<Self> {
+    pub(crate) fn with_rank_one(mut self, mut column: Vec<f64>, row: Vec<f64>) -> Option<Self> {
         self.solve(&mut column);
         let denominator = 1.0 + dot(&row, &column);
         let regular = denominator.is_finite() && denominator.abs() > f64::EPSILON;
@@ -96,7 +91,7 @@ impl Factors {
     }
 
     /// Replaces `b` by the solution of the factored system.
-    pub fn solve(&self, b: &mut [f64]) {
+    pub(crate) fn solve(&self, b: &mut [f64]) {
         self.sparse.solve_in_place(ColMut::from_slice_mut(b).as_mat_mut());
         if let Some(RankOne { row, solved, denominator }) = &self.rank_one {
             let share = dot(row, b) / denominator;

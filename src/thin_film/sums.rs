@@ -21,7 +21,6 @@ pub struct Smoothed {
 
 impl Smoothed {
     /// Room for `count` values.
-    #[must_use]
     pub fn new(count: usize) -> Self {
         let zeros = || vec![0.0; count];
         Self { height: zeros(), slope: zeros(), curvature: zeros(), third: zeros() }
@@ -31,20 +30,20 @@ impl Smoothed {
 /// Σ w e^(−d/α) and Σ w d e^(−d/α) over the particles on one side of a place, d their distance.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct OneSided {
-    pub plain: f64,
-    pub weighted: f64,
+    pub(crate) plain: f64,
+    pub(crate) weighted: f64,
 }
 
 impl OneSided {
     /// The sums at a place farther away by `gap`, with `decay` = e^(−gap/α).
     #[inline]
-    pub fn moved(self, gap: f64, decay: f64) -> Self {
+    pub(crate) fn moved(self, gap: f64, decay: f64) -> Self {
         Self { plain: decay * self.plain, weighted: decay * (self.weighted + gap * self.plain) }
     }
 
     /// The sums with one more particle at the present place.
     #[inline]
-    pub fn with(self, weight: f64) -> Self {
+    pub(crate) fn with(self, weight: f64) -> Self {
         Self { plain: self.plain + weight, ..self }
     }
 }
@@ -74,7 +73,6 @@ pub struct FastSums {
 
 impl FastSums {
     /// Sums with the given kernel.
-    #[must_use]
     pub fn new(kernel: Kernel) -> Self {
         Self { kernel, decay: Vec::new() }
     }
@@ -111,8 +109,7 @@ impl FastSums {
     }
 
     /// h̄, h̄ₓ and h̄ₓₓ at other places, ascending; the third derivative, which jumps at particles, is left at zero.
-    #[must_use]
-    pub fn at_places(&self, x: &[f64], weight: &[f64], places: &[f64]) -> Smoothed {
+    pub(crate) fn at_places(&self, x: &[f64], weight: &[f64], places: &[f64]) -> Smoothed {
         let rate = -1.0 / self.kernel.alpha();
         let factors = Factors::new(&self.kernel);
         let moved = |sums: OneSided, gap: f64| sums.moved(gap, (rate * gap).exp());
@@ -147,7 +144,6 @@ impl FastSums {
 }
 
 /// The sums term by term, in any order of particles: slow, and without a recursion that could go wrong.
-#[must_use]
 pub fn direct_sums(kernel: &Kernel, x: &[f64], weight: &[f64]) -> Smoothed {
     let sum = |order: Order| -> Vec<f64> {
         x.iter().map(|&xi| x.iter().zip(weight).map(|(&xj, &wj)| wj * kernel.at(order, xi - xj)).sum()).collect()

@@ -10,8 +10,7 @@ const AT_REST: f64 = 20.0;
 const OFF: f64 = 0.02;
 
 /// All warnings of a film.
-#[must_use]
-pub fn all(solver: &ThinFilmSolver) -> Vec<String> {
+pub(crate) fn all(solver: &ThinFilmSolver) -> Vec<String> {
     [covered(solver), apart(solver), lattice(solver), off(solver)].into_iter().flatten().collect()
 }
 

@@ -10,9 +10,9 @@ use crate::network::cycles::FluidPhase as Phase;
 use crate::network::displacement::EventKind;
 
 /// Density in kg/m³ where the network gives none: at rest no pressure depends on it.
-pub const DENSITY: f64 = 1000.0;
+pub(crate) const DENSITY: f64 = 1000.0;
 /// Viscosity over √(density · tension · width) where the network gives none: menisci come to rest without a long swing.
-pub const OHNESORGE: f64 = 0.1;
+pub(crate) const OHNESORGE: f64 = 0.1;
 /// Reynolds number ρQ/μ of the flow that conductances are measured by.
 const REYNOLDS: f64 = 0.01;
 /// Latest end of a run with a meniscus, in times √(density · length³/tension) and density · length²/viscosity, the longer one of both.
@@ -49,8 +49,7 @@ pub struct Fluids {
 
 impl Fluids {
     /// The wetting and the non-wetting phase for a throat of a width (m).
-    #[must_use]
-    pub fn of(&self, width: f64) -> [Fluid; 2] {
+    pub(crate) fn of(&self, width: f64) -> [Fluid; 2] {
         let other = self.given[0].or(self.given[1]);
         let default = Fluid { density: DENSITY, viscosity: OHNESORGE * (DENSITY * self.tension * width).sqrt() };
         self.given.map(|given| given.or(other).unwrap_or(default))
@@ -67,13 +66,13 @@ impl Fluids {
 
 /// A throat for its titles.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Named<'a> {
+pub(crate) struct Named<'a> {
     /// Its number in `throats.csv`.
-    pub number: usize,
+    pub(crate) number: usize,
     /// The case of its network.
-    pub network: &'a str,
+    pub(crate) network: &'a str,
     /// Spacings across.
-    pub across: u32,
+    pub(crate) across: u32,
 }
 
 fn head(named: &Named, cut_out: &CutOut, what: &str, title: &str) -> String {
@@ -129,8 +128,7 @@ fn phase(name: &str, fluid: Fluid) -> String {
 }
 
 /// The case of the entry pressure: a closed box that the invading phase fills up to the meniscus of largest curvature.
-#[must_use]
-pub fn entry(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
+pub(crate) fn entry(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
     let (width, tension) = (cut_out.width, fluids.tension);
     let [wetting, other] = fluids.of(width);
     // The thicker phase takes most of a swing away.
@@ -165,8 +163,7 @@ pub fn entry(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
 }
 
 /// The case of the conductance: one phase passes the box, which is joined along the throat, at a given rate.
-#[must_use]
-pub fn flow(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
+pub(crate) fn flow(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
     let width = cut_out.width;
     let fluid = fluids.of(width)[0];
     let height = cut_out.geometry.max[1] - cut_out.geometry.min[1];
@@ -187,29 +184,27 @@ pub fn flow(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
 }
 
 /// The flow rate in m²/s of the conductance.
-#[must_use]
-pub fn flow_rate(fluid: Fluid) -> f64 {
+pub(crate) fn flow_rate(fluid: Fluid) -> f64 {
     REYNOLDS * fluid.viscosity / fluid.density
 }
 
 /// The pressures of a whole pore at its inlet, which rise in steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Steps {
+pub(crate) struct Steps {
     /// Curvature in 1/m of the menisci at the first one.
-    pub first: f64,
+    pub(crate) first: f64,
     /// Rise in 1/m.
-    pub rise: f64,
+    pub(crate) rise: f64,
     /// How many there are.
-    pub count: f64,
+    pub(crate) count: f64,
     /// Time of each in capillary or viscous times.
-    pub times: f64,
+    pub(crate) times: f64,
 }
 
 impl Steps {
     /// Steps at a spacing (m) from below an event to above it, which lies in the middle between two of them; none where the branch before the event is shorter
     /// than one.
-    #[must_use]
-    pub fn of(cut_out: &WholePore, spacing: f64) -> Option<Self> {
+    pub(crate) fn of(cut_out: &WholePore, spacing: f64) -> Option<Self> {
         let scale = 1.0 / cut_out.width;
         let (rise, steps, times) = match cut_out.kind {
             EventKind::Touch => (TOUCH_RISE * scale, TOUCH_STEPS, TOUCH_TIMES),
@@ -223,8 +218,7 @@ impl Steps {
 
 /// The case of a touch or an overlap: the pressure of the invading phase rises in steps until the menisci leave. None where no menisci stand
 /// below the event.
-#[must_use]
-pub fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Option<String> {
+pub(crate) fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Option<String> {
     let (width, tension, frame) = (cut_out.width, fluids.tension, &cut_out.frame);
     let spacing = cut_out.narrowest / f64::from(named.across);
     let steps = Steps::of(cut_out, spacing)?;

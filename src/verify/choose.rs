@@ -86,9 +86,6 @@ pub enum ChoiceError {
 }
 
 /// The throats of all choices, each once, in the order of the choices.
-///
-/// # Errors
-/// [`ChoiceError`].
 pub fn choose(subject: &Subject, choices: &[Choice], seed: u64) -> Result<Vec<Chosen>, ChoiceError> {
     if subject.kept().is_empty() {
         return Err(ChoiceError::NoThroats);
@@ -227,8 +224,7 @@ pub(super) fn drawn(mut left: Vec<usize>, count: usize, seed: u64) -> Vec<usize>
 }
 
 /// How the events of a meniscus before its burst are told: what touches first, and at which curvature in 1/m.
-#[must_use]
-pub fn touches_first(passage: &Passage, ahead: &[Curve]) -> Option<f64> {
+pub(crate) fn touches_first(passage: &Passage, ahead: &[Curve]) -> Option<f64> {
     let burst = passage.burst()?.curvature;
     passage.touch(ahead, burst).filter(|k| *k < burst)
 }

@@ -92,10 +92,7 @@ pub struct CutOut {
 
 impl CutOut {
     /// The cut-out of a passage; `obstacles` are the other walls ahead.
-    ///
-    /// # Errors
-    /// [`Impossible`].
-    pub fn new(passage: &Passage, obstacles: &[Curve]) -> Result<Self, Impossible> {
+    pub(crate) fn new(passage: &Passage, obstacles: &[Curve]) -> Result<Self, Impossible> {
         let meniscus = passage.burst().ok_or(Impossible::NoMeniscus)?;
         let angle = one_angle(passage)?;
         let ends = [chord_end(passage.left(), Hand::Left), chord_end(passage.right(), Hand::Right)];
@@ -113,9 +110,6 @@ impl CutOut {
     }
 
     /// The cut-out as its solver sees it: closed, or joined along the throat.
-    ///
-    /// # Errors
-    /// [`Impossible::Shapes`].
     pub fn solids(&self, is_joined: bool) -> Result<Geometry, Impossible> {
         let geometry = Geometry::new(&self.geometry).map_err(|_| Impossible::Shapes)?;
         Ok(geometry.with_sides([is_joined, false], [!is_joined, !is_joined, true, true]))

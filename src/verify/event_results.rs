@@ -20,35 +20,33 @@ const COARSE: f64 = 0.05;
 
 /// An event with both of its answers.
 #[derive(Debug)]
-pub struct EventRow<'a> {
+pub(crate) struct EventRow<'a> {
     /// The event.
-    pub planned: &'a PlannedEvent,
+    pub(crate) planned: &'a PlannedEvent,
     /// Pressure of the event by the formula in Pa, invading less defending phase.
-    pub formula: f64,
+    pub(crate) formula: f64,
     /// The same by direct simulation.
-    pub direct: Option<Direct>,
+    pub(crate) direct: Option<Direct>,
     /// Tension over the width of the throat in Pa.
-    pub scale: f64,
+    pub(crate) scale: f64,
     /// How it went.
-    pub status: Status,
+    pub(crate) status: Status,
     /// Particles of the finest run.
-    pub particles: Option<f64>,
+    pub(crate) particles: Option<f64>,
     /// Wall time of all runs in s.
-    pub wall_time: f64,
+    pub(crate) wall_time: f64,
     /// Names of the complete runs, for their pictures.
-    pub runs: Vec<String>,
+    pub(crate) runs: Vec<String>,
 }
 
 impl EventRow<'_> {
     /// Difference of the direct value from the formula in Pa.
-    #[must_use]
-    pub fn difference(&self) -> Option<f64> {
+    pub(crate) fn difference(&self) -> Option<f64> {
         Some(self.direct?.value - self.formula)
     }
 
     /// The same over tension/width.
-    #[must_use]
-    pub fn relative_difference(&self) -> Option<f64> {
+    pub(crate) fn relative_difference(&self) -> Option<f64> {
         Some(self.difference()? / self.scale)
     }
 }
@@ -76,8 +74,7 @@ enum Left {
 }
 
 /// The row of an event; `spacings` in their order.
-#[must_use]
-pub fn event_row<'a>(
+pub(crate) fn event_row<'a>(
     planned: &'a PlannedEvent,
     fluids: &Fluids,
     spacings: &[u32],

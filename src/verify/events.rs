@@ -80,9 +80,6 @@ pub struct PlannedEvent {
 }
 
 /// The events of all choices, each once, in the order of the choices.
-///
-/// # Errors
-/// [`EventError`].
 pub fn choose_events(subject: &Subject, choices: &[EventChoice], seed: u64) -> Result<Vec<PlannedEvent>, EventError> {
     let last = subject.events.len();
     if last == 0 && !choices.is_empty() {

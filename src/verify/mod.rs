@@ -8,12 +8,12 @@
 pub mod case_text;
 pub mod choose;
 pub mod cut_out;
-pub mod event_results;
+pub(crate) mod event_results;
 pub mod events;
 mod page;
 pub mod plan;
-pub mod report;
-pub mod results;
+pub(crate) mod report;
+pub(crate) mod results;
 pub mod subject;
 mod wall_path;
 pub mod whole_pore;

@@ -15,8 +15,7 @@ th,td{border:1px solid #ccc;padding:.3em .6em;text-align:left;vertical-align:top
 figure{margin:0}figure img{width:100%;border:1px solid #ddd}figcaption{font-size:.85em;color:#444}";
 
 /// The page of throats and events, each with their table, as HTML.
-#[must_use]
-pub fn page(title: &str, (table, rows): (&Table, &[Row]), events: Option<(&Table, &[EventRow])>) -> String {
+pub(crate) fn page(title: &str, (table, rows): (&Table, &[Row]), events: Option<(&Table, &[EventRow])>) -> String {
     let title = escaped(title);
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\

@@ -18,9 +18,9 @@ use crate::network::extract;
 use crate::network::permeability::{Drive, Paths, permeability};
 
 /// The study file of a folder.
-pub const STUDY: &str = "verify.toml";
+pub(crate) const STUDY: &str = "verify.toml";
 /// The folder of the study.
-pub const RUNS: &str = "study";
+pub(crate) const RUNS: &str = "study";
 /// The folder of the cases.
 const CASES: &str = "cases";
 /// Tells which cases a user changed.
@@ -41,7 +41,6 @@ pub struct Planned {
 
 impl Planned {
     /// The cut-out of a throat.
-    #[must_use]
     pub fn new(subject: &Subject, chosen: Chosen) -> Self {
         let Some((passage, ahead)) = subject.passage(chosen.throat, chosen.to) else {
             return Self { chosen, cut_out: Err(Impossible::NoMeniscus), touches: None, conductance: None };
@@ -64,7 +63,7 @@ fn conductance(cut_out: &CutOut) -> Option<f64> {
 
 /// What a case of a cut-out gives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// The entry pressure.
     Entry,
     /// The conductance.
@@ -74,8 +73,7 @@ pub enum Kind {
 }
 
 /// The name of a case of a throat or an event without its ending.
-#[must_use]
-pub fn case_name(number: usize, kind: Kind, across: u32) -> String {
+pub(crate) fn case_name(number: usize, kind: Kind, across: u32) -> String {
     match kind {
         Kind::Entry => format!("throat-{number}-entry-{across}"),
         Kind::Flow => format!("throat-{number}-flow-{across}"),
@@ -152,9 +150,6 @@ impl Plan<'_> {
 }
 
 /// Writes the cases and the study.
-///
-/// # Errors
-/// [`PlanError`].
 pub fn write(folder: &Path, plan: &Plan) -> Result<Written, PlanError> {
     let cases = folder.join(CASES);
     atomic::make_folder(&cases)?;

@@ -13,7 +13,7 @@ use crate::study::table::Table;
 
 /// What was written.
 #[derive(Debug)]
-pub struct Written {
+pub(crate) struct Written {
     /// The table for people.
     pub table: Table,
     /// That of the events; none where none was chosen.
@@ -27,10 +27,7 @@ pub struct Written {
 }
 
 /// Writes `verify.csv`, `verify.html`, `entry_pressures.csv` and `measured.json`, and of events `verify_events.csv`.
-///
-/// # Errors
-/// [`FileError`].
-pub fn write(
+pub(crate) fn write(
     folder: &Path,
     subject: &Subject,
     rows: &[Row],
@@ -307,8 +304,7 @@ fn short(subject: &Subject, rows: &[Row]) -> Table {
 }
 
 /// One line for each throat that is not as it should be.
-#[must_use]
-pub fn notes(rows: &[Row], tension: f64, invading: FluidPhase) -> Vec<String> {
+pub(crate) fn notes(rows: &[Row], tension: f64, invading: FluidPhase) -> Vec<String> {
     let touch = |row: &Row| {
         let curvature = row.planned.touches?;
         let number = row.planned.chosen.number;

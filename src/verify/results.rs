@@ -14,7 +14,7 @@ const LEAKED: f64 = 0.01;
 
 /// How the verification of a throat went.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Status {
+pub(crate) enum Status {
     /// All is as it should be.
     Ok,
     /// The meniscus still moves.
@@ -44,52 +44,49 @@ impl std::fmt::Display for Status {
 
 /// A value of a direct run with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Direct {
+pub(crate) struct Direct {
     /// Value at the finest spacing.
-    pub value: f64,
+    pub(crate) value: f64,
     /// Difference from the next spacing, and the bar of the run; none with one spacing only.
-    pub error: Option<f64>,
+    pub(crate) error: Option<f64>,
 }
 
 /// A throat with both of its answers.
 #[derive(Debug)]
-pub struct Row<'a> {
+pub(crate) struct Row<'a> {
     /// The throat.
-    pub planned: &'a Planned,
+    pub(crate) planned: &'a Planned,
     /// Entry pressure by the formula in Pa, invading less defending phase.
-    pub pressure_formula: f64,
+    pub(crate) pressure_formula: f64,
     /// The same by direct simulation.
-    pub pressure: Option<Direct>,
+    pub(crate) pressure: Option<Direct>,
     /// Conductance of the cut-out by direct simulation in m².
-    pub conductance: Option<Direct>,
+    pub(crate) conductance: Option<Direct>,
     /// How it went.
-    pub status: Status,
+    pub(crate) status: Status,
     /// How the flow went.
-    pub flow_status: Status,
+    pub(crate) flow_status: Status,
     /// Particles of the finest run.
-    pub particles: Option<f64>,
+    pub(crate) particles: Option<f64>,
     /// Wall time of all runs in s.
-    pub wall_time: f64,
+    pub(crate) wall_time: f64,
     /// Names of the complete runs, for their pictures.
-    pub runs: Vec<String>,
+    pub(crate) runs: Vec<String>,
 }
 
 impl Row<'_> {
     /// Relative difference of the direct entry pressure from the formula.
-    #[must_use]
-    pub fn pressure_difference(&self) -> Option<f64> {
+    pub(crate) fn pressure_difference(&self) -> Option<f64> {
         Some(self.pressure?.value / self.pressure_formula - 1.0)
     }
 
     /// Relative difference of the direct conductance from the formula.
-    #[must_use]
-    pub fn conductance_difference(&self) -> Option<f64> {
+    pub(crate) fn conductance_difference(&self) -> Option<f64> {
         Some(self.conductance?.value / self.planned.conductance? - 1.0)
     }
 
     /// Whether the direct value takes the place of the formula: it differs by more than its own error.
-    #[must_use]
-    pub fn is_replaced(&self) -> bool {
+    pub(crate) fn is_replaced(&self) -> bool {
         let Some(Direct { value, error: Some(error) }) = self.pressure else { return false };
         self.status == Status::Ok && (value - self.pressure_formula).abs() > error
     }
@@ -132,8 +129,7 @@ pub(super) fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: 
 }
 
 /// The row of a throat; `spacings` in their order.
-#[must_use]
-pub fn row<'a>(
+pub(crate) fn row<'a>(
     planned: &'a Planned,
     tension: f64,
     fluids: &Fluids,

@@ -49,9 +49,6 @@ pub struct Subject {
 
 impl Subject {
     /// The network of a case, displaced once.
-    ///
-    /// # Errors
-    /// [`SubjectError`].
     pub fn new(case: &Case) -> Result<Self, SubjectError> {
         let Model::Network(wanted) = &case.model else { return Err(SubjectError::NoNetwork) };
         let Some(interface) = &wanted.interface else { return Err(SubjectError::NoInterface) };
@@ -80,45 +77,38 @@ impl Subject {
     }
 
     /// The throats of the tables, as indices into those of the network.
-    #[must_use]
     pub fn kept(&self) -> &[usize] {
         &self.solver.setting().pores.throats
     }
 
     /// A throat by its index in the network.
-    #[must_use]
     pub fn throat(&self, throat: usize) -> &Throat {
         &self.solver.setting().network.throats[throat]
     }
 
     /// The passage through a throat into its region `to`, and the other walls ahead.
-    #[must_use]
     pub fn passage(&self, throat: usize, to: usize) -> Option<(Passage, Vec<crate::geometry::curve::Curve>)> {
         self.fresh.passage_through(throat, to)
     }
 
     /// The region into which a throat is entered at the larger pressure, and the curvature in 1/m there: that of `throats.csv`.
-    #[must_use]
     pub fn entry(&self, throat: usize) -> Option<(usize, f64)> {
         let burst = |to| Some((to, self.passage(throat, to)?.0.burst()?.curvature));
         [1, 0].into_iter().filter_map(burst).reduce(|best, next| if next.1 > best.1 { next } else { best })
     }
 
     /// The menisci of an event of the first half cycle.
-    #[must_use]
-    pub fn scene(&self, event: &Event) -> Scene {
+    pub(crate) fn scene(&self, event: &Event) -> Scene {
         self.fresh.scene(event)
     }
 
     /// Area in m² of the elements that an event fills.
-    #[must_use]
-    pub fn filled_area(&self, event: &Event) -> f64 {
+    pub(crate) fn filled_area(&self, event: &Event) -> f64 {
         event.elements.iter().map(|&element| self.fresh.elements()[element].area).sum()
     }
 
     /// Tells the geometry, as in `network.json`.
-    #[must_use]
-    pub fn geometry_hash(&self) -> &str {
+    pub(crate) fn geometry_hash(&self) -> &str {
         &self.solver.setting().geometry_hash
     }
 }

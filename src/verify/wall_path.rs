@@ -26,21 +26,18 @@ pub struct Frame {
 
 impl Frame {
     /// A curve of the network in the frame.
-    #[must_use]
-    pub fn curve(&self, curve: &Curve) -> Curve {
+    pub(crate) fn curve(&self, curve: &Curve) -> Curve {
         curve.placed(-self.angle, -(Rotation2::new(-self.angle) * self.middle))
     }
 
     /// A point of the network in the frame.
-    #[must_use]
     pub fn point(&self, x: Vec2) -> Vec2 {
         Rotation2::new(-self.angle) * (x - self.middle)
     }
 }
 
 /// A curve with x or y of the other sign.
-#[must_use]
-pub fn mirrored(curve: &Curve, axis: usize) -> Curve {
+pub(crate) fn mirrored(curve: &Curve, axis: usize) -> Curve {
     let flip = |mut v: Vec2| {
         v[axis] = -v[axis];
         v
@@ -57,15 +54,14 @@ pub fn mirrored(curve: &Curve, axis: usize) -> Curve {
 /// A wall of a throat, seen as the upper one: its curves on both sides of the chord, each side in the order away from it and with x above 0
 /// on the way.
 #[derive(Debug, Clone, PartialEq)]
-pub struct UpperWall {
+pub(crate) struct UpperWall {
     /// Behind the chord, mirrored, and ahead of it.
-    pub sides: [Vec<Curve>; 2],
+    pub(crate) sides: [Vec<Curve>; 2],
 }
 
 impl UpperWall {
     /// The wall of a passage on one hand.
-    #[must_use]
-    pub fn of(wall: &Wall, hand: Hand, frame: &Frame) -> Self {
+    pub(crate) fn of(wall: &Wall, hand: Hand, frame: &Frame) -> Self {
         let upper = |curve: &Curve| match hand {
             Hand::Left => frame.curve(curve),
             // The other wall runs against the advance.
@@ -78,8 +74,7 @@ impl UpperWall {
     }
 
     /// Height in m of each side at its farthest point along the way: as far as the wall is seen by who passes.
-    #[must_use]
-    pub fn widest(&self) -> [f64; 2] {
+    pub(crate) fn widest(&self) -> [f64; 2] {
         [0, 1].map(|side| {
             let farthest = points(&self.sides[side]).max_by(|a, b| a.x.total_cmp(&b.x));
             farthest.map_or(0.0, |point| point.y)
@@ -87,14 +82,12 @@ impl UpperWall {
     }
 
     /// Largest height in m of each side.
-    #[must_use]
-    pub fn highest(&self) -> [f64; 2] {
+    pub(crate) fn highest(&self) -> [f64; 2] {
         [0, 1].map(|side| points(&self.sides[side]).fold(0.0, |high: f64, point| high.max(point.y)))
     }
 
     /// Largest height in m from the chord to a contact, which is in the frame of the wall; none where the contact is not on it.
-    #[must_use]
-    pub fn height_to(&self, contact: Vec2, tolerance: f64) -> Option<f64> {
+    pub(crate) fn height_to(&self, contact: Vec2, tolerance: f64) -> Option<f64> {
         [Vec2::new(-contact.x, contact.y), contact].into_iter().zip(&self.sides).find_map(|(contact, side)| {
             let on = side.iter().position(|curve| (curve.project(contact).point - contact).norm() <= tolerance)?;
             let foot = side[on].project(contact).u;
@@ -116,32 +109,29 @@ fn points(curves: &[Curve]) -> impl Iterator<Item = Vec2> {
 
 /// One side of a wall as far as the cut-out needs it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Followed {
+pub(crate) struct Followed {
     /// Its curves from the chord on.
-    pub curves: Vec<Curve>,
+    pub(crate) curves: Vec<Curve>,
     /// Where it ends.
-    pub end: Vec2,
+    pub(crate) end: Vec2,
     /// Whether it has risen to the level.
-    pub is_risen: bool,
+    pub(crate) is_risen: bool,
 }
 
 impl Followed {
     /// How far it reaches along the way in m.
-    #[must_use]
-    pub fn farthest(&self) -> f64 {
+    pub(crate) fn farthest(&self) -> f64 {
         points(&self.curves).map(|point| point.x).fold(self.end.x, f64::max)
     }
 
     /// Whether a point lies on it.
-    #[must_use]
-    pub fn holds(&self, x: Vec2, tolerance: f64) -> bool {
+    pub(crate) fn holds(&self, x: Vec2, tolerance: f64) -> bool {
         self.curves.iter().any(|curve| (curve.project(x).point - x).norm() <= tolerance)
     }
 }
 
 /// Follows one side of a wall from `start`, the end of the chord, until it rises to `level` or is as far as `reach`, in m.
-#[must_use]
-pub fn follow(side: &[Curve], start: Vec2, level: f64, reach: f64) -> Followed {
+pub(crate) fn follow(side: &[Curve], start: Vec2, level: f64, reach: f64) -> Followed {
     let mut curves: Vec<Curve> = Vec::new();
     let is_out = |point: Vec2| point.y >= level || point.x >= reach;
     for curve in side {

@@ -72,10 +72,7 @@ struct Bodies {
 
 impl WholePore {
     /// The cut-out for an event at a curvature (1/m) that fills elements of an area (m²); `angles` are those of all walls in rad.
-    ///
-    /// # Errors
-    /// [`Impossible`].
-    pub fn new(
+    pub(crate) fn new(
         kind: EventKind,
         scene: &Scene,
         curvature: f64,
@@ -115,7 +112,6 @@ impl WholePore {
 
     /// What the invading phase fills at a curvature (1/m) of its menisci before the event; it reaches out of the box. None where no menisci
     /// stand at this curvature.
-    #[must_use]
     pub fn behind(&self, curvature: f64) -> Option<CurvedPolygon> {
         let arcs = arcs(&self.passages, &self.frame, curvature)?;
         let Bodies { upper, lower, .. } = &self.bodies;

@@ -29,22 +29,20 @@ pub struct LineState {
 
 impl LineState {
     /// Ca = μ U/σ.
-    #[must_use]
-    pub fn capillary_number(&self) -> f64 {
+    pub(crate) fn capillary_number(&self) -> f64 {
         self.viscosity * self.speed / self.tension
     }
 
     /// The angle in rad with (cos θ_e − cos θ_d)/(cos θ_e + 1) = `change` on a line that advances from the `static_angle` θ_e, and minus that
     /// on one that recedes.
-    #[must_use]
-    pub fn angle_by_change_of_cosine(&self, static_angle: f64, change: f64) -> f64 {
+    pub(crate) fn angle_by_change_of_cosine(&self, static_angle: f64, change: f64) -> f64 {
         let cos_e = static_angle.cos();
         (cos_e - ((cos_e + 1.0) * change).copysign(self.speed)).clamp(-1.0, 1.0).acos()
     }
 }
 
 /// A wetting law. Angles are in rad, through the wetting phase.
-pub trait Law: Parameters {
+pub(crate) trait Law: Parameters {
     /// The angle at which the interface is to meet the wall.
     fn angle(&self, line: &LineState) -> f64;
 
@@ -74,7 +72,7 @@ pub trait Law: Parameters {
 
 /// A value in SI units and radians whose key has another unit.
 #[derive(Debug, Clone, Copy)]
-pub struct InSi {
+pub(crate) struct InSi {
     /// Its name.
     pub name: &'static str,
     /// The value, from that of the key.
@@ -83,20 +81,20 @@ pub struct InSi {
 
 /// A parameter of a law.
 #[derive(Debug, Clone, Copy)]
-pub struct Parameter {
+pub(crate) struct Parameter {
     /// What its key may hold.
-    pub key: Key,
+    pub(crate) key: Key,
     /// In SI units and radians, where its key has another unit.
     pub si: Option<InSi>,
 }
 
 impl Parameter {
     /// A static contact angle.
-    pub const CONTACT_ANGLE: Self = Self::angle("contact_angle", "contact-angle-deg = 40.0");
+    pub(crate) const CONTACT_ANGLE: Self = Self::angle("contact_angle", "contact-angle-deg = 40.0");
     /// An advancing contact angle.
-    pub const ADVANCING_ANGLE: Self = Self::angle("advancing", "advancing-angle-deg = 60.0");
+    pub(crate) const ADVANCING_ANGLE: Self = Self::angle("advancing", "advancing-angle-deg = 60.0");
     /// A receding contact angle.
-    pub const RECEDING_ANGLE: Self = Self::angle("receding", "receding-angle-deg = 40.0");
+    pub(crate) const RECEDING_ANGLE: Self = Self::angle("receding", "receding-angle-deg = 40.0");
 
     /// An angle in degrees, 0 to 180; `name` is that of the angle in rad.
     const fn angle(name: &'static str, example: &'static str) -> Self {
@@ -105,18 +103,18 @@ impl Parameter {
     }
 
     /// A number above zero.
-    pub const fn positive(what: &'static str, example: &'static str) -> Self {
+    pub(crate) const fn positive(what: &'static str, example: &'static str) -> Self {
         Self { key: Key::positive(what).example(example), si: None }
     }
 
     /// Name and value in SI units and radians of what is the `value` of `field`.
-    pub fn in_si(&self, field: &'static str, value: f64) -> (&'static str, f64) {
+    pub(crate) fn in_si(&self, field: &'static str, value: f64) -> (&'static str, f64) {
         self.si.map_or((field, value), |si| (si.name, (si.of)(value)))
     }
 }
 
 /// The parameters of a law as `law!` declares them.
-pub trait Parameters: Sized {
+pub(crate) trait Parameters: Sized {
     /// Its table in a case file.
     type Raw;
     /// What the law says and, in parentheses, who found it.
@@ -192,12 +190,12 @@ macro_rules! law {
         }
 
         /// The table of the law in a case file.
-        pub mod raw {
+        pub(super) mod raw {
             use super::*;
 
             $crate::input::tables::tables! {
                 $(#[doc = $about])+
-                pub struct $law { $($(#[doc = $doc])+ pub $field: f64 => $parameter.key,)+ }
+                pub(crate) struct $law { $($(#[doc = $doc])+ pub $field: f64 => $parameter.key,)+ }
             }
         }
 

@@ -10,7 +10,7 @@ mod cox_voinov;
 mod hysteresis;
 mod jiang;
 mod kistler;
-pub mod law;
+pub(crate) mod law;
 mod line_friction;
 mod molecular_kinetic;
 mod tadmor;
@@ -21,15 +21,15 @@ mod young;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use bracke::Bracke;
-pub use cox::Cox;
-pub use cox_voinov::CoxVoinov;
-pub use hysteresis::Hysteresis;
-pub use jiang::Jiang;
-pub use kistler::Kistler;
-pub use line_friction::LineFriction;
-pub use molecular_kinetic::MolecularKinetic;
-pub use tadmor::Tadmor;
+pub(crate) use bracke::Bracke;
+pub(crate) use cox::Cox;
+pub(crate) use cox_voinov::CoxVoinov;
+pub(crate) use hysteresis::Hysteresis;
+pub(crate) use jiang::Jiang;
+pub(crate) use kistler::Kistler;
+pub(crate) use line_friction::LineFriction;
+pub(crate) use molecular_kinetic::MolecularKinetic;
+pub(crate) use tadmor::Tadmor;
 pub use young::Young;
 
 use crate::input::Checker;
@@ -57,7 +57,7 @@ macro_rules! laws {
         #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
         #[schemars(rename = "RawWetting")]
-        pub struct $tables<Patch: Default> {
+        pub(crate) struct $tables<Patch: Default> {
             $(
                 #[doc = concat!("See [`", stringify!($law), "`].")]
                 #[serde(skip_serializing_if = "Option::is_none")]
@@ -70,50 +70,42 @@ macro_rules! laws {
 
         impl Wetting {
             /// The angle in rad, through the wetting phase, at which the interface is to meet the wall.
-            #[must_use]
             pub fn angle(&self, line: &LineState) -> f64 {
                 match self { $(Self::$law(law) => law.angle(line),)+ }
             }
 
             /// The static contact angle in rad; with hysteresis the one of equilibrium between both \[Tadmor2004\].
-            #[must_use]
             pub fn static_angle(&self) -> f64 {
                 match self { $(Self::$law(law) => law.static_angle(),)+ }
             }
 
             /// The angles in rad between which a line at rest can stand: receding and advancing, equal but for a hysteresis range.
-            #[must_use]
             pub fn hysteresis_range(&self) -> [f64; 2] {
                 match self { $(Self::$law(law) => law.hysteresis_range(),)+ }
             }
 
             /// Whether the line stays where it stands while its angle is within the range.
-            #[must_use]
             pub fn holds(&self) -> bool {
                 match self { $(Self::$law(law) => law.holds(),)+ }
             }
 
             /// Whether the angle depends on the speed of the line.
-            #[must_use]
             pub fn is_dynamic(&self) -> bool {
                 match self { $(Self::$law(law) => law.is_dynamic(),)+ }
             }
 
             /// The name of its table, its parameters and its source.
-            #[must_use]
             pub fn table(&self) -> LawTable {
                 match self { $(Self::$law(_) => LawTable::of::<$law>(stringify!($table), stringify!($law)),)+ }
             }
 
             /// The parameter of a key, in the unit of that key; none where the model has no such key.
-            #[must_use]
             pub fn parameter(&self, key: &str) -> Option<f64> {
                 match self { $(Self::$law(law) => parameter(law, key),)+ }
             }
 
             /// The same model with other angles, by key, which stand in the table at the key path `at`; none where these are missing
             /// or wrong.
-            #[must_use]
             pub fn with_angles(&self, checker: &mut Checker, at: &str, angles: &[(&str, Option<f64>)]) -> Option<Self> {
                 match self { $(Self::$law(law) => with_angles(law, checker, at, angles).map(Self::$law),)+ }
             }
@@ -129,15 +121,13 @@ macro_rules! laws {
 
         impl<Patch: Default> $tables<Patch> {
             /// The keys of the tables that are there, those of patches aside.
-            #[must_use]
-            pub fn given(&self) -> Vec<String> {
+            pub(crate) fn given(&self) -> Vec<String> {
                 let all = [$((stringify!($table), self.$table.is_some()),)+];
                 all.iter().filter(|(_, given)| *given).map(|(table, _)| name(table)).collect()
             }
 
             /// The model of the first table that is there; `at` is the key path of the tables. None where it is wrong.
-            #[must_use]
-            pub fn checked(&self, checker: &mut Checker, at: &str) -> Option<Wetting> {
+            pub(crate) fn checked(&self, checker: &mut Checker, at: &str) -> Option<Wetting> {
                 $(if let Some(raw) = &self.$table {
                     return checked(raw, checker, &format!("{at}.{}", name(stringify!($table)))).map(Wetting::$law);
                 })+
@@ -145,8 +135,7 @@ macro_rules! laws {
             }
 
             /// The table of a model.
-            #[must_use]
-            pub fn of(model: &Wetting, patches: Option<Vec<Patch>>) -> Self {
+            pub(crate) fn of(model: &Wetting, patches: Option<Vec<Patch>>) -> Self {
                 let mut all = Self { $($table: None,)+ patches };
                 match model { $(Wetting::$law(law) => all.$table = Some(law.raw()),)+ }
                 all
@@ -154,7 +143,6 @@ macro_rules! laws {
         }
 
         /// The tables of all laws.
-        #[must_use]
         pub fn laws() -> Vec<LawTable> {
             vec![$(LawTable::of::<$law>(stringify!($table), stringify!($law)),)+]
         }
@@ -181,8 +169,7 @@ laws! {
 
 impl Wetting {
     /// Whether the angle depends on where the line stands only, not on its motion or its past.
-    #[must_use]
-    pub fn is_static(&self) -> bool {
+    pub(crate) fn is_static(&self) -> bool {
         !self.is_dynamic() && !self.holds()
     }
 }
@@ -207,13 +194,11 @@ impl LawTable {
     }
 
     /// The keys of its angles.
-    #[must_use]
-    pub fn angles(&self) -> Vec<&str> {
+    pub(crate) fn angles(&self) -> Vec<&str> {
         self.keys.iter().map(|(key, _)| key.as_str()).filter(|key| is_angle(key)).collect()
     }
 
     /// What the law says, and its source.
-    #[must_use]
     pub fn what_and_source(&self) -> (&'static str, &'static str) {
         let (what, source) = self.about.rsplit_once(" (").unwrap_or((self.about, ""));
         (what, source.trim_end_matches(['.', ')']))

@@ -44,7 +44,7 @@ impl Keys<'_> {
 
     /// The keys of a table in the order of their declaration.
     fn keys<'v>(&self, name: &str, table: &'v Value) -> Vec<(&'v str, &'v Value)> {
-        let declaration = self.source.split_once(&format!("pub struct {name} ")).map_or("", |(_, rest)| rest);
+        let declaration = self.source.split_once(&format!("struct {name} ")).map_or("", |(_, rest)| rest);
         let place = |key: &str| {
             let field = if key == "where" { "only".to_owned() } else { key.replace('-', "_") };
             declaration.find(&format!("pub {field}:")).unwrap_or_else(|| panic!("{name} has no field for {key}"))

@@ -29,7 +29,7 @@ checked_tables! {
 
 impl FilmDroplet {
     /// Area in m².
-    pub fn cross_section(&self) -> f64 {
+    pub(crate) fn cross_section(&self) -> f64 {
         4.0 / 3.0 * self.half_width * self.height
     }
 }

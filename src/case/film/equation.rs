@@ -6,7 +6,7 @@ use crate::input::tables::{Empty, Key, checked_tables, tables};
 
 tables! {
     /// Thin-film equations.
-    pub struct RawFilmEquation {
+    pub(crate) struct RawFilmEquation {
         /// Geometric thin-film equation with a smoothed film (Pang and Ó Náraigh 2022).
         pub geometric: RawGeometric,
         /// Navier slip on the wall; complete wetting only.
@@ -16,7 +16,7 @@ tables! {
     }
 
     /// Wetting models of thin films.
-    pub struct RawFilmWetting {
+    pub(crate) struct RawFilmWetting {
         /// The film spreads without end.
         pub complete: Empty,
         /// The film comes to rest at a contact angle.
@@ -24,7 +24,7 @@ tables! {
     }
 
     /// Partial wetting of a thin film.
-    pub struct RawPartialWetting {
+    pub(crate) struct RawPartialWetting {
         /// Static contact angle in degrees; the droplet at rest must fit the domain.
         pub contact_angle_deg: f64 => Key::within("an angle in degrees", ANGLES.0, ANGLES.1).example("contact-angle-deg = 10.0"),
     }

@@ -5,8 +5,8 @@
 //! highest place. Measured at rest over 0.3 ≤ s/tan θ ≤ 5 and 2 to 10 spacings per filter length: κ = 0.270 to 0.288.
 
 use super::equation::{FilmEquation, Geometric};
-use super::film::ThinFilm;
 use super::method::{FilmMethod, FilmParticles, LatticeEnergy};
+use super::model::ThinFilm;
 
 /// κ.
 const SHARE_AT_REST: f64 = 2.0 / 7.0;
@@ -17,8 +17,7 @@ const WIDEST_GAP: f64 = 0.5;
 
 impl ThinFilm {
     /// Slope of the contact angle that the lattice of particles imitates at the start; none on a grid, or where it is taken off.
-    #[must_use]
-    pub fn lattice_slope(&self) -> Option<f64> {
+    pub(crate) fn lattice_slope(&self) -> Option<f64> {
         let FilmEquation::Geometric(Geometric { smoothing_length }) = self.equation else { return None };
         let FilmMethod::Particles(FilmParticles { lattice_energy, .. }) = self.method else { return None };
         let highest = self.droplets.iter().map(|droplet| droplet.height).fold(0.0, f64::max);
@@ -27,7 +26,6 @@ impl ThinFilm {
     }
 
     /// Slope at which particles rest, where their lattice makes it steeper than asked for.
-    #[must_use]
     pub fn slope_at_rest_on_lattice(&self) -> Option<f64> {
         let slope = self.contact_angle?.tan();
         let lattice = self.lattice_slope()?;

@@ -5,7 +5,7 @@ use crate::input::tables::{Key, checked_tables, tables, words};
 
 tables! {
     /// Methods for thin films.
-    pub struct RawFilmMethod {
+    pub(crate) struct RawFilmMethod {
         /// Particles on an infinite line, for the geometric equation in the plane.
         pub particles: RawFilmParticles,
         /// Implicit finite differences, for every equation.

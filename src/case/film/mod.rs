@@ -3,15 +3,15 @@
 mod bounds;
 mod droplets;
 mod equation;
-mod film;
 mod lattice;
 mod method;
+mod model;
 mod resolution;
 mod thin_film;
 mod thinness;
 
 pub use droplets::{FilmDroplet, FilmSymmetry};
-pub use equation::{FilmEquation, Geometric, Precursor, Slip};
-pub use film::{FilmWeights, ThinFilm};
+pub(crate) use equation::{FilmEquation, Geometric, Precursor, Slip};
 pub use method::{FilmGrid, FilmIntegrator, FilmMethod, FilmParticles, FilmSums, LatticeEnergy};
+pub use model::{FilmWeights, ThinFilm};
 pub(super) use thin_film::{RawThinFilm, raw, thin_film};

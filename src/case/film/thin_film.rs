@@ -5,8 +5,8 @@ use super::equation::{
     EQUATION, FilmEquation, Geometric, RawFilmEquation, RawFilmWetting, equation, partial_wetting, raw_equation,
     raw_wetting, wetting,
 };
-use super::film::{FilmWeights, SCALED, ThinFilm};
 use super::method::{DefaultMethod, FilmMethod, FilmParticles, LatticeEnergy, RawFilmMethod, method, raw_method};
+use super::model::{FilmWeights, SCALED, ThinFilm};
 use super::resolution::{count, particles, resolution, rounding};
 use super::thinness;
 use crate::case::fluid::RawFluid;
@@ -16,7 +16,7 @@ use crate::input::tables::{Key, tables};
 
 tables! {
     /// Droplets that spread on the wall y = 0, by a thin-film equation (Pang and O Naraigh 2022).
-    pub struct RawThinFilm {
+    pub(crate) struct RawThinFilm {
         /// The liquid; its density is needed with gravity only.
         pub fluid: RawFluid,
         /// Surface tension in N/m (default: that of the preset).

@@ -7,7 +7,7 @@
 use super::bounds::{exceeds, falls_short, is_outside};
 use super::droplets::{FilmDroplet, FilmSymmetry};
 use super::equation::FilmEquation;
-use super::film::ThinFilm;
+use super::model::ThinFilm;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::Checker;
 
@@ -90,8 +90,7 @@ pub(super) fn room(checker: &mut Checker, film: &ThinFilm, geometry: &GeometrySp
 
 impl ThinFilm {
     /// What a user should know of a run of the film to `end` (s), one sentence each.
-    #[must_use]
-    pub fn notes(&self, end: f64) -> Vec<String> {
+    pub(crate) fn notes(&self, end: f64) -> Vec<String> {
         let mut notes = Vec::new();
         let slope = self.contact_angle.map_or(0.0, f64::tan);
         if exceeds(slope, THIN) && !self.is_scaled() {

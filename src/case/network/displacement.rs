@@ -14,7 +14,7 @@ pub struct NetworkDisplacement {
     /// Whether a defending region without a way to the outlet is trapped.
     pub trapping: bool,
     /// Which events move menisci.
-    pub events: Events,
+    pub(crate) events: Events,
     /// Where it ends early.
     pub stop: Stop,
     /// The state that it begins with; absent: the pore space is full of the defending phase.
@@ -38,8 +38,7 @@ pub enum Process {
 
 impl Process {
     /// Number of half cycles.
-    #[must_use]
-    pub fn half_cycles(self) -> u32 {
+    pub(crate) fn half_cycles(self) -> u32 {
         match self {
             Self::Drainage | Self::Imbibition => 1,
             Self::Cycle(cycles) => 2 * cycles,

@@ -2,13 +2,14 @@
 
 mod displacement;
 mod dynamic;
-pub mod measured;
+pub(crate) mod measured;
 mod pore_network;
 pub mod state;
 mod table;
 
-pub use displacement::{NetworkDisplacement, Process, Stop};
+pub(crate) use displacement::{NetworkDisplacement, Process, Stop};
 pub use dynamic::{DEFAULT_LARGEST_STEP, Drive, DynamicDrive};
-pub use pore_network::{DEFAULT_PERSISTENCE, NetworkInterface, PoreNetwork};
+pub(crate) use pore_network::{NetworkInterface, PoreNetwork};
 pub(super) use pore_network::{network, raw};
-pub use table::{Events, RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess, RawStop};
+pub use table::Events;
+pub(crate) use table::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};

@@ -36,8 +36,7 @@ pub struct PoreNetwork {
 
 impl PoreNetwork {
     /// Whether it is displaced in time, so that its clock is the time in s.
-    #[must_use]
-    pub fn is_dynamic(&self) -> bool {
+    pub(crate) fn is_dynamic(&self) -> bool {
         self.displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_some())
     }
 }
@@ -54,7 +53,7 @@ pub struct NetworkInterface {
 }
 
 /// Persistence ratio where the case says nothing.
-pub const DEFAULT_PERSISTENCE: f64 = 0.95;
+pub(crate) const DEFAULT_PERSISTENCE: f64 = 0.95;
 
 /// Checks `[network]`; `geometry` is missing where it was wrong.
 pub(in crate::case) fn network(

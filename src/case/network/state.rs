@@ -14,7 +14,7 @@ use crate::geometry::spec::GeometrySpec;
 use crate::math::Vec2;
 
 /// The format of state files that this program reads and writes.
-pub const FORMAT: u32 = 1;
+pub(crate) const FORMAT: u32 = 1;
 
 /// A distance below this share of the longer side of the domain is rounding, of numbers that were written and read.
 const SAME_PLACE: f64 = 1e-7;
@@ -111,7 +111,7 @@ pub struct Start {
 impl NetworkState {
     /// A state without elements in a domain without size, to be filled in by tests.
     #[cfg(test)]
-    pub fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         Self {
             format: FORMAT,
             version: String::new(),
@@ -141,7 +141,7 @@ impl NetworkState {
     }
 
     /// What leads from a place in the domain to its nearest images in m, the place itself first.
-    pub fn images(&self) -> Vec<Vec2> {
+    pub(crate) fn images(&self) -> Vec<Vec2> {
         let size = Vec2::from(self.domain_m[1]) - Vec2::from(self.domain_m[0]);
         let shifts = self.periodic().map(|is_joined| if is_joined { &[0.0, -1.0, 1.0][..] } else { &[0.0][..] });
         let rows = shifts[1];
@@ -175,7 +175,7 @@ impl NetworkState {
     }
 
     /// What makes it a state of another geometry than this one; nothing where it is of this one.
-    pub fn misfit(&self, spec: &GeometrySpec) -> Option<String> {
+    pub(crate) fn misfit(&self, spec: &GeometrySpec) -> Option<String> {
         if [spec.min, spec.max] != self.domain_m {
             let ([a, b], [c, d]) = (self.domain_m, [spec.min, spec.max]);
             return Some(format!("its domain reaches from {a:?} to {b:?} m, that of this case from {c:?} to {d:?} m"));
@@ -210,7 +210,7 @@ impl NetworkState {
     }
 
     /// What of these sides does not go with those of the state: the first such side and why.
-    pub fn misfit_of_sides(&self, sides: &Sides) -> Option<(&'static str, String)> {
+    pub(crate) fn misfit_of_sides(&self, sides: &Sides) -> Option<(&'static str, String)> {
         const NAMES: [&str; 4] = ["left", "right", "bottom", "top"];
         let given = [sides.left, sides.right, sides.bottom, sides.top];
         let fits = |state: Side, side: Side| match state {

@@ -9,7 +9,7 @@ use crate::input::tables::{Key, tables, words};
 
 tables! {
     /// A pore network: pores and throats of the geometry, and a displacement through them.
-    pub struct RawNetwork {
+    pub(crate) struct RawNetwork {
         /// Side where the invading phase enters; without it nothing is displaced.
         pub inlet: SideName,
         /// Opposite side where the defending phase leaves; without it none leaves and none is trapped.
@@ -47,7 +47,7 @@ tables! {
     }
 
     /// The sides that are neither inlet nor outlet.
-    pub struct RawNetworkSides {
+    pub(crate) struct RawNetworkSides {
         /// Kind of the side (default `wall`).
         pub left: RawNetworkSide,
         /// Kind of the side (default `wall`).
@@ -59,7 +59,7 @@ tables! {
     }
 
     /// What drives a displacement in time: a rate or a pressure drop.
-    pub struct RawDynamic {
+    pub(crate) struct RawDynamic {
         /// Injected area of the invading phase per time in m²/s (required without `pressure-drop`).
         pub rate: f64 => Key::positive("a rate in m2/s"),
         /// Pressure at the inlet minus that at the outlet in Pa (required without `rate`).
@@ -69,7 +69,7 @@ tables! {
     }
 
     /// Measured entry pressures.
-    pub struct RawMeasured {
+    pub(crate) struct RawMeasured {
         /// Hash of the geometry, as in `network.json`.
         pub geometry_hash: String => Key::required("geometry-hash = \"...\" as in network.json"),
         /// The measured throats.
@@ -77,7 +77,7 @@ tables! {
     }
 
     /// A throat whose entry pressure was measured.
-    pub struct RawMeasuredThroat {
+    pub(crate) struct RawMeasuredThroat {
         /// Index of the throat before the merge.
         pub index: usize => Key::required("index = 12"),
         /// Entry curvature in 1/m that the formula gives; the measured value replaces no other.
@@ -87,7 +87,7 @@ tables! {
     }
 
     /// Where a displacement ends early; whatever comes first.
-    pub struct RawStop {
+    pub(crate) struct RawStop {
         /// Ends when the invading phase reaches the outlet (default false).
         pub breakthrough: bool,
         /// Final saturation of the wetting phase.
@@ -101,7 +101,7 @@ tables! {
 
 words! {
     /// What stands at a side of a network.
-    pub enum RawNetworkSide {
+    pub(crate) enum RawNetworkSide {
         /// A solid wall with the contact angle of all walls.
         Wall,
         /// Joined to the opposite side.
@@ -109,7 +109,7 @@ words! {
     }
 
     /// Which phase invades.
-    pub enum RawProcess {
+    pub(crate) enum RawProcess {
         /// The non-wetting phase, into a pore space full of the wetting one.
         Drainage,
         /// The wetting phase, into a pore space full of the non-wetting one.

@@ -19,31 +19,31 @@ const PER_PIECE: usize = 2;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pair {
     /// Indices of the pieces.
-    pub walls: [usize; 2],
+    pub(crate) walls: [usize; 2],
     /// Image of the second, that of the first being the base piece.
-    pub shift: Shift,
+    pub(crate) shift: Shift,
     /// A place between them in m.
-    pub between: Vec2,
+    pub(crate) between: Vec2,
 }
 
 /// A place that may be near a maximum, with three pieces around it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Triple {
     /// The pieces and their images.
-    pub walls: [(usize, Shift); 3],
+    pub(crate) walls: [(usize, Shift); 3],
     /// Where to begin, in m.
-    pub start: Vec2,
+    pub(crate) start: Vec2,
 }
 
 /// Samples of all pieces, and how densely they stand.
 pub(crate) struct Samples {
     /// Parameters on each base piece.
-    pub along: Vec<Vec<f64>>,
+    pub(crate) along: Vec<Vec<f64>>,
 }
 
 impl Samples {
     /// Samples of all walls; `density` multiplies the number on each piece.
-    pub fn new(walls: &Walls, density: &[f64]) -> Self {
+    pub(crate) fn new(walls: &Walls, density: &[f64]) -> Self {
         let along = (0..walls.walls.len()).map(|k| sampled(walls, k, density[k])).collect();
         Self { along }
     }

@@ -47,7 +47,7 @@ pub(crate) struct Classifier {
 
 impl Classifier {
     /// What the middle of two opposite points is: nothing, one thing, or two for a closed level passage.
-    pub fn classify(&mut self, walls: &Walls, at: &Opposite) -> Vec<Kind> {
+    pub(crate) fn classify(&mut self, walls: &Walls, at: &Opposite) -> Vec<Kind> {
         let t = perpendicular(at.across());
         let slopes = [slope(walls, at, t), slope(walls, at, -t)];
         if slopes.iter().any(|slope| matches!(slope, Slope::Level(along) if self.is_known(walls, at, along))) {

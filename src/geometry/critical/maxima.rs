@@ -13,11 +13,11 @@ use crate::math::Vec2;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Maximum {
     /// Its place in m, within the domain.
-    pub center: Vec2,
+    pub(crate) center: Vec2,
     /// The wall distance there in m.
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// The nearest wall points.
-    pub contacts: Vec<Contact>,
+    pub(crate) contacts: Vec<Contact>,
 }
 
 /// Three wall points that leave less than this angle (rad) to a half circle are two opposite ones: the center is within [`TIE`] of their middle. Straight

@@ -26,14 +26,14 @@ const SAME_PLACE: f64 = 4.0 * TIE;
 /// The critical points within the domain.
 pub(crate) struct CriticalPoints {
     /// Saddles: the throats.
-    pub saddles: Vec<Opposite>,
+    pub(crate) saddles: Vec<Opposite>,
     /// Maxima: the pores.
-    pub maxima: Vec<Maximum>,
+    pub(crate) maxima: Vec<Maximum>,
 }
 
 impl CriticalPoints {
     /// The critical points of the distance from `walls`; `density` multiplies the samples on each piece.
-    pub fn find(walls: &Walls, density: &[f64]) -> Self {
+    pub(crate) fn find(walls: &Walls, density: &[f64]) -> Self {
         let samples = Samples::new(walls, density);
         let (pairs, triples) = candidates(walls, &samples);
         let (saddles, mut maxima) = between_two(walls, &pairs);

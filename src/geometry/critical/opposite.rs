@@ -23,34 +23,34 @@ pub(crate) const TIE: f64 = 1e-6;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Opposite {
     /// The points.
-    pub contacts: [Contact; 2],
+    pub(crate) contacts: [Contact; 2],
     /// Their middle in m.
-    pub center: Vec2,
+    pub(crate) center: Vec2,
     /// Half their distance in m.
-    pub half: f64,
+    pub(crate) half: f64,
 }
 
 impl Opposite {
     /// Two wall points and their middle.
-    pub fn between(contacts: [Contact; 2]) -> Self {
+    pub(crate) fn between(contacts: [Contact; 2]) -> Self {
         let [p, q] = contacts.map(|contact| contact.point);
         Self { contacts, center: 0.5 * (p + q), half: 0.5 * (q - p).norm() }
     }
 
     /// The unit vector from the first point to the second.
-    pub fn across(&self) -> Vec2 {
+    pub(crate) fn across(&self) -> Vec2 {
         (self.contacts[1].point - self.contacts[0].point) / (2.0 * self.half)
     }
 
     /// Whether a unit vector from the middle leads to neither of the two points nor to a neighbor of one.
-    pub fn leads_elsewhere(&self, v: Vec2) -> bool {
+    pub(crate) fn leads_elsewhere(&self, v: Vec2) -> bool {
         // A wall point within this angle in rad of one of the two is a neighbor of that; it follows from the slack of distances.
         let beside = (10.0 * SAME_DISTANCE).sqrt();
         v.dot(&self.across()).abs() < 1.0 - 0.5 * beside * beside
     }
 
     /// Whether no wall is nearer to the middle than the two points, up to rounding.
-    pub fn is_empty(&self, walls: &Walls) -> bool {
+    pub(crate) fn is_empty(&self, walls: &Walls) -> bool {
         walls.distance(self.center) >= self.half - slack(walls, self.half)
     }
 

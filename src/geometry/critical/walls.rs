@@ -30,37 +30,37 @@ pub(crate) fn minus(a: Shift, b: Shift) -> Shift {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Link {
     /// Index of the piece.
-    pub wall: usize,
+    pub(crate) wall: usize,
     /// The image of it that joins the base piece.
-    pub shift: Shift,
+    pub(crate) shift: Shift,
 }
 
 /// A piece of wall with its neighbors along the wall.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wall {
     /// Where it runs, solid on the left.
-    pub curve: Curve,
+    pub(crate) curve: Curve,
     /// Index of the written shape.
-    pub shape: u32,
+    pub(crate) shape: u32,
     /// The piece that begins where this one ends.
-    pub next: Option<Link>,
+    pub(crate) next: Option<Link>,
     /// The piece that ends where this one begins.
-    pub before: Option<Link>,
+    pub(crate) before: Option<Link>,
     /// The angle in rad by which the wall turns where this piece begins, above 0 where the solid is convex; half a circle in a cusp.
-    pub turn: f64,
+    pub(crate) turn: f64,
 }
 
 /// A point of a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Contact {
     /// Index of the piece; a vertex is the start of the piece that leaves it.
-    pub wall: usize,
+    pub(crate) wall: usize,
     /// Image of the piece.
-    pub shift: Shift,
+    pub(crate) shift: Shift,
     /// Parameter on the piece.
-    pub u: f64,
+    pub(crate) u: f64,
     /// Position in m.
-    pub point: Vec2,
+    pub(crate) point: Vec2,
 }
 
 /// What becomes of walls that reach out of the domain.
@@ -75,15 +75,15 @@ pub(crate) enum Sides {
 /// The walls of a geometry.
 pub(crate) struct Walls {
     /// The domain.
-    pub domain: Bounds,
+    pub(crate) domain: Bounds,
     /// Whether it is joined along x and y.
-    pub periodic: [bool; 2],
+    pub(crate) periodic: [bool; 2],
     /// What was done at sides that are neither walls nor periodic.
-    pub sides: Sides,
+    pub(crate) sides: Sides,
     /// Lengths in m below this count as zero.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
     /// The base pieces.
-    pub walls: Vec<Wall>,
+    pub(crate) walls: Vec<Wall>,
     /// Base piece and shift of each piece of `index`.
     images: Vec<(usize, Shift)>,
     index: Boundary,
@@ -91,7 +91,7 @@ pub(crate) struct Walls {
 
 impl Walls {
     /// The walls of `geometry`.
-    pub fn new(geometry: &Geometry, sides: Sides) -> Self {
+    pub(crate) fn new(geometry: &Geometry, sides: Sides) -> Self {
         let (domain, periodic, tolerance) = (geometry.bounds(), geometry.periodic(), geometry.tolerance());
         let reach = if sides == Sides::Cut { 0.0 } else { domain.size().norm() };
         let mut frame = domain.grown(reach);
@@ -142,7 +142,7 @@ impl Walls {
     }
 
     /// The images of walls that reach into the domain grown by `margin` (m) along periodic axes.
-    pub fn images_within(&self, margin: Vec2) -> Vec<(usize, Shift)> {
+    pub(crate) fn images_within(&self, margin: Vec2) -> Vec<(usize, Shift)> {
         let size = self.domain.size();
         let mut images = Vec::new();
         for (k, wall) in self.walls.iter().enumerate() {
@@ -163,25 +163,25 @@ impl Walls {
     }
 
     /// A shift in m.
-    pub fn offset(&self, shift: Shift) -> Vec2 {
+    pub(crate) fn offset(&self, shift: Shift) -> Vec2 {
         self.domain.size().component_mul(&Vec2::new(f64::from(shift[0]), f64::from(shift[1])))
     }
 
     /// An image of a piece.
-    pub fn curve(&self, wall: usize, shift: Shift) -> Curve {
+    pub(crate) fn curve(&self, wall: usize, shift: Shift) -> Curve {
         let curve = self.walls[wall].curve;
         if shift == [0, 0] { curve } else { curve.shifted(self.offset(shift)) }
     }
 
     /// `x` brought into the half-open cell, and the shift that leads back.
-    pub fn wrapped(&self, x: Vec2) -> (Vec2, Shift) {
+    pub(crate) fn wrapped(&self, x: Vec2) -> (Vec2, Shift) {
         let at = (x - self.domain.min).component_div(&self.domain.size());
         let shift = [0, 1].map(|i| if self.periodic[i] { floor_near(at[i]) } else { 0 });
         (x - self.offset(shift), shift)
     }
 
     /// `x` in the cell; along periodic axes what is next to the far side stands next to the near one, so that images of one place are neighbors.
-    pub fn folded(&self, x: Vec2) -> Vec2 {
+    pub(crate) fn folded(&self, x: Vec2) -> Vec2 {
         // Share of a period: more than what places differ by that are one.
         const NEXT: f64 = 1e-5;
         let (mut y, size) = (self.wrapped(x).0, self.domain.size());
@@ -194,12 +194,12 @@ impl Walls {
     }
 
     /// Whether `x` lies in the domain, its sides included.
-    pub fn is_within(&self, x: Vec2) -> bool {
+    pub(crate) fn is_within(&self, x: Vec2) -> bool {
         self.domain.grown(self.tolerance).contains(self.wrapped(x).0)
     }
 
     /// The wall point nearest to `x` and its distance in m.
-    pub fn nearest(&self, x: Vec2) -> Option<(f64, Contact)> {
+    pub(crate) fn nearest(&self, x: Vec2) -> Option<(f64, Contact)> {
         let (y, shift) = self.wrapped(x);
         let found = self.index.nearest(y)?;
         let contact = self.contact(found.piece, found.closest.u, found.closest.point, shift);
@@ -207,13 +207,13 @@ impl Walls {
     }
 
     /// The distance of the nearest wall from `x` in m; infinite where there is none.
-    pub fn distance(&self, x: Vec2) -> f64 {
+    pub(crate) fn distance(&self, x: Vec2) -> f64 {
         let y = self.wrapped(x).0;
         self.index.nearest(y).map_or(f64::INFINITY, |found| (found.closest.point - y).norm())
     }
 
     /// The nearest points of all pieces within `reach` (m) of `x`, in the order of their pieces; each vertex once.
-    pub fn contacts(&self, x: Vec2, reach: f64) -> Vec<Contact> {
+    pub(crate) fn contacts(&self, x: Vec2, reach: f64) -> Vec<Contact> {
         let (y, shift) = self.wrapped(x);
         let within = self.index.within(y, reach);
         let mut found: Vec<Contact> =
@@ -224,7 +224,7 @@ impl Walls {
     }
 
     /// The pieces within `reach` (m) of `x` and their images.
-    pub fn within(&self, x: Vec2, reach: f64) -> Vec<(usize, Shift)> {
+    pub(crate) fn within(&self, x: Vec2, reach: f64) -> Vec<(usize, Shift)> {
         let (y, shift) = self.wrapped(x);
         let mut found: Vec<(usize, Shift)> = self
             .index
@@ -237,7 +237,7 @@ impl Walls {
     }
 
     /// Whether a piece within `reach` (m) of `x` counts, told by its image and the point of it nearest to `x`.
-    pub fn any_within(&self, x: Vec2, reach: f64, counts: impl Fn((usize, Shift), Vec2) -> bool) -> bool {
+    pub(crate) fn any_within(&self, x: Vec2, reach: f64, counts: impl Fn((usize, Shift), Vec2) -> bool) -> bool {
         let (y, shift) = self.wrapped(x);
         let back = self.offset(shift);
         self.index.within(y, reach).any(|near| {
@@ -247,7 +247,7 @@ impl Walls {
     }
 
     /// A bound in m of the wall distance within a periodic domain, at most half a period.
-    pub fn largest_distance(&self) -> f64 {
+    pub(crate) fn largest_distance(&self) -> f64 {
         let size = self.domain.size();
         if self.periodic == [false; 2] {
             return 0.0;
@@ -267,7 +267,7 @@ impl Walls {
     }
 
     /// The parameter of an end where a parameter is that up to rounding.
-    pub fn snapped(&self, curve: &Curve, u: f64) -> f64 {
+    pub(crate) fn snapped(&self, curve: &Curve, u: f64) -> f64 {
         // Positions are rounded to about this share of the tolerance.
         const ROUNDING: f64 = 1e-3;
         let near = ROUNDING * self.tolerance / curve.length();
@@ -286,7 +286,7 @@ impl Walls {
     }
 
     /// The same point, named by the piece that leaves it where it is a vertex.
-    pub fn at_vertex(&self, contact: Contact) -> Contact {
+    pub(crate) fn at_vertex(&self, contact: Contact) -> Contact {
         match self.walls[contact.wall].next {
             Some(next) if contact.u == 1.0 => {
                 Contact { wall: next.wall, shift: plus(contact.shift, next.shift), u: 0.0, ..contact }
@@ -296,7 +296,7 @@ impl Walls {
     }
 
     /// The pieces that end and begin at a contact: the same one within a piece, none where a wall is cut.
-    pub fn around(&self, contact: &Contact) -> [Option<Link>; 2] {
+    pub(crate) fn around(&self, contact: &Contact) -> [Option<Link>; 2] {
         let here = Link { wall: contact.wall, shift: contact.shift };
         let along = |link: Link| Link { wall: link.wall, shift: plus(contact.shift, link.shift) };
         let wall = &self.walls[contact.wall];
@@ -310,7 +310,7 @@ impl Walls {
     }
 
     /// The tangents with which the wall arrives at a vertex and leaves it; none within a piece. Beyond a cut the wall goes straight on.
-    pub fn tangents(&self, contact: &Contact) -> Option<[Vec2; 2]> {
+    pub(crate) fn tangents(&self, contact: &Contact) -> Option<[Vec2; 2]> {
         let [before, after] = self.around(contact);
         let arriving = before.map(|link| self.curve(link.wall, link.shift).tangent(1.0));
         let leaving = after.map(|link| self.curve(link.wall, link.shift).tangent(0.0));
@@ -325,7 +325,7 @@ impl Walls {
     }
 
     /// Whether a place that is seen from a wall point along `v` lies on its pore side: along the normal, or within the cone of a vertex.
-    pub fn is_seen(&self, contact: &Contact, v: Vec2) -> bool {
+    pub(crate) fn is_seen(&self, contact: &Contact, v: Vec2) -> bool {
         // As much may a direction leave the cone by rounding.
         let slack = 1e-6 * v.norm();
         match self.tangents(contact) {
@@ -347,7 +347,7 @@ impl Walls {
     }
 
     /// The inward normal of the side of the domain that is nearest to `x`, among those that are not periodic.
-    pub fn inward(&self, x: Vec2) -> Vec2 {
+    pub(crate) fn inward(&self, x: Vec2) -> Vec2 {
         let mut nearest = (f64::INFINITY, Vec2::zeros());
         for i in (0..2).filter(|&i| !self.periodic[i]) {
             for (gap, sign) in [((x[i] - self.domain.min[i]).abs(), 1.0), ((self.domain.max[i] - x[i]).abs(), -1.0)] {

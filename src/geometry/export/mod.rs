@@ -15,7 +15,7 @@ use std::path::Path;
 
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 
-pub use sheet::Sheet;
+pub(crate) use sheet::Sheet;
 
 /// A file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,9 +51,6 @@ const ENDINGS: [(&str, Format); 9] = [
 
 impl Format {
     /// The format of a file name.
-    ///
-    /// # Errors
-    /// [`ExportError::Ending`].
     pub fn of(path: &Path) -> Result<Self, ExportError> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         let found = ENDINGS.iter().find(|(known, _)| *known == ending);
@@ -101,9 +98,6 @@ pub enum ExportError {
 const MASK_PIXELS: f64 = 2048.0;
 
 /// The bytes of a drawing of a specification without problems. `pixel` is the side of a pixel of a mask in m.
-///
-/// # Errors
-/// [`ExportError`].
 pub fn write(spec: &GeometrySpec, format: Format, pixel: Option<f64>) -> Result<Vec<u8>, ExportError> {
     let spec = &plain(spec)?;
     Ok(match format {

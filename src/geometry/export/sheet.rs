@@ -10,11 +10,11 @@ use crate::math::{Bounds, Vec2};
 
 /// Outlines of the solid in m; those of different shapes may overlap.
 #[derive(Debug, Clone)]
-pub struct Sheet {
+pub(crate) struct Sheet {
     /// The outlines in the order of the shapes.
-    pub outlines: Vec<Outline>,
+    pub(crate) outlines: Vec<Outline>,
     /// The domain.
-    pub frame: Bounds,
+    pub(crate) frame: Bounds,
 }
 
 /// Ends of curves closer than this share of the domain's larger side are one.

@@ -4,36 +4,36 @@ use crate::math::{Mat2, Vec2};
 
 /// x ↦ linear · x + shift.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Affine {
+pub(crate) struct Affine {
     /// The linear part.
-    pub linear: Mat2,
+    pub(crate) linear: Mat2,
     /// The image of the origin.
-    pub shift: Vec2,
+    pub(crate) shift: Vec2,
 }
 
 impl Affine {
     /// The map that moves nothing.
-    pub fn identity() -> Self {
+    pub(crate) fn identity() -> Self {
         Self { linear: Mat2::identity(), shift: Vec2::zeros() }
     }
 
     /// The map with the given columns of the linear part.
-    pub fn from_columns(x: Vec2, y: Vec2, shift: Vec2) -> Self {
+    pub(crate) fn from_columns(x: Vec2, y: Vec2, shift: Vec2) -> Self {
         Self { linear: Mat2::from_columns(&[x, y]), shift }
     }
 
     /// The shift by `by`.
-    pub fn translation(by: Vec2) -> Self {
+    pub(crate) fn translation(by: Vec2) -> Self {
         Self { linear: Mat2::identity(), shift: by }
     }
 
     /// The map that multiplies x by `x` and y by `y`.
-    pub fn scaling(x: f64, y: f64) -> Self {
+    pub(crate) fn scaling(x: f64, y: f64) -> Self {
         Self { linear: Mat2::new(x, 0.0, 0.0, y), shift: Vec2::zeros() }
     }
 
     /// The counter-clockwise turn about the origin by `degrees`, exact for quarter turns.
-    pub fn rotation_deg(degrees: f64) -> Self {
+    pub(crate) fn rotation_deg(degrees: f64) -> Self {
         let (sin, cos) = match degrees.rem_euclid(360.0) {
             0.0 => (0.0, 1.0),
             90.0 => (1.0, 0.0),
@@ -45,18 +45,17 @@ impl Affine {
     }
 
     /// The map that does `first`, then this one.
-    #[must_use]
-    pub fn after(&self, first: &Self) -> Self {
+    pub(crate) fn after(&self, first: &Self) -> Self {
         Self { linear: self.linear * first.linear, shift: self.apply(first.shift) }
     }
 
     /// The image of a point.
-    pub fn apply(&self, x: Vec2) -> Vec2 {
+    pub(crate) fn apply(&self, x: Vec2) -> Vec2 {
         self.linear * x + self.shift
     }
 
     /// The image of a vector.
-    pub fn turn(&self, v: Vec2) -> Vec2 {
+    pub(crate) fn turn(&self, v: Vec2) -> Vec2 {
         self.linear * v
     }
 }

@@ -8,7 +8,7 @@ use crate::geometry::curve::cross;
 use crate::math::Vec2;
 
 /// Distance of a chain from its curve, as a share of the size of the curve.
-pub const TOLERANCE: f64 = 1e-5;
+pub(crate) const TOLERANCE: f64 = 1e-5;
 /// Halvings of a piece; the third power makes of that many far less than the rounding of its coordinates, but at a cusp.
 const DEEPEST: u32 = 16;
 /// Share of its coordinates below which a distance is rounding.
@@ -21,7 +21,7 @@ const STRAIGHT: f64 = 1e-9;
 const SAMPLES: usize = 7;
 
 /// A curve with a tangent at each parameter.
-pub trait SmoothCurve {
+pub(crate) trait SmoothCurve {
     /// The point at `t`.
     fn point(&self, t: f64) -> Vec2;
     /// The unit tangent at `t` of the piece after it (`side` 1) or before it (`side` -1); zero where there is none.
@@ -30,7 +30,7 @@ pub trait SmoothCurve {
 
 /// Appends the chain for `curve` from `from` to `to` to `vertices`, as x, y and bulge: the start of each arc, the end of none.
 /// `size` is that of the whole curve.
-pub fn append(curve: &impl SmoothCurve, from: f64, to: f64, size: f64, vertices: &mut Vec<[f64; 3]>) {
+pub(crate) fn append(curve: &impl SmoothCurve, from: f64, to: f64, size: f64, vertices: &mut Vec<[f64; 3]>) {
     let (a, b) = (curve.point(from), curve.point(to));
     let tolerance = (TOLERANCE * size).max(ROUNDING * (a.amax() + b.amax()));
     halve(curve, [from, to], [a, b], (tolerance, DEEPEST), vertices);

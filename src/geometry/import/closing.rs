@@ -19,7 +19,7 @@ const NO_AREA: f64 = 1e-12;
 
 /// What a closed contour is.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Closed {
+pub(crate) enum Closed {
     /// An exact circle.
     Circle {
         /// Center.
@@ -37,7 +37,7 @@ pub enum Closed {
 
 /// The closed shape of pieces that follow each other; a last one that ends farther than `gap` from where the first begins is joined to it
 /// by a line.
-pub fn close(pieces: &[Piece], gap: f64) -> Closed {
+pub(crate) fn close(pieces: &[Piece], gap: f64) -> Closed {
     if let [Piece::Ellipse(arc)] = pieces
         && arc.sweep.abs() >= TAU
         && arc.is_circular()

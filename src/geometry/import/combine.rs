@@ -16,30 +16,30 @@ pub(crate) struct Solid(Body);
 
 impl Solid {
     /// The solid of a region whose rings are sound.
-    pub fn of((outer, holes): &Region) -> Option<Self> {
+    pub(crate) fn of((outer, holes): &Region) -> Option<Self> {
         // The box matters to shapes without end only.
         let bounds = outer.bounds();
         Body::of(&shape_of(outer.clone(), holes.clone()), 0, bounds).into_iter().next().map(Self)
     }
 
     /// The box around it.
-    pub fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         self.0.bounds
     }
 
     /// What is left without the others; none where it cannot be told.
-    pub fn without(&self, others: &[Self], tolerance: f64) -> Option<Vec<Region>> {
+    pub(crate) fn without(&self, others: &[Self], tolerance: f64) -> Option<Vec<Region>> {
         let others: Vec<&Body> = others.iter().map(|other| &other.0).collect();
         closed(&difference(&self.0, &others, tolerance), tolerance)
     }
 
     /// What both cover; none where it cannot be told.
-    pub fn within(&self, other: &Self, tolerance: f64) -> Option<Vec<Region>> {
+    pub(crate) fn within(&self, other: &Self, tolerance: f64) -> Option<Vec<Region>> {
         closed(&intersection(&self.0, &other.0, tolerance), tolerance)
     }
 
     /// What all together cover; none where it cannot be told.
-    pub fn united(all: &[Self], tolerance: f64) -> Option<Vec<Region>> {
+    pub(crate) fn united(all: &[Self], tolerance: f64) -> Option<Vec<Region>> {
         let bodies: Vec<&Body> = all.iter().map(|one| &one.0).collect();
         let curves: Vec<Curve> = union(&bodies, tolerance).into_iter().map(|piece| piece.curve).collect();
         closed(&curves, tolerance)

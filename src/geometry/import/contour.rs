@@ -18,7 +18,7 @@ const CIRCULAR: f64 = 1e-9;
 
 /// A smooth part of a contour, from one point to another.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Piece {
+pub(crate) enum Piece {
     /// A straight line between two points.
     Line([Vec2; 2]),
     /// A piece of an ellipse.
@@ -31,22 +31,22 @@ pub enum Piece {
 
 /// The points center + radii\[0\] cos t + radii\[1\] sin t from `start` over the signed angle `sweep`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EllipticArc {
+pub(crate) struct EllipticArc {
     /// First and last point, as exact as the file has them.
-    pub ends: [Vec2; 2],
+    pub(crate) ends: [Vec2; 2],
     /// Center.
-    pub center: Vec2,
+    pub(crate) center: Vec2,
     /// Two conjugate radii.
-    pub radii: [Vec2; 2],
+    pub(crate) radii: [Vec2; 2],
     /// Angle t of the first point in rad.
-    pub start: f64,
+    pub(crate) start: f64,
     /// Angle t from the first point to the last in rad, at most 2π in size.
-    pub sweep: f64,
+    pub(crate) sweep: f64,
 }
 
 impl EllipticArc {
     /// The arc by center, radii and angles.
-    pub fn new(center: Vec2, radii: [Vec2; 2], start: f64, sweep: f64) -> Self {
+    pub(crate) fn new(center: Vec2, radii: [Vec2; 2], start: f64, sweep: f64) -> Self {
         let at = |t: f64| center + radii[0] * t.cos() + radii[1] * t.sin();
         let first = at(start);
         let last = if sweep.abs() >= TAU { first } else { at(start + sweep) };
@@ -54,12 +54,12 @@ impl EllipticArc {
     }
 
     /// A full circle.
-    pub fn circle(center: Vec2, radius: f64) -> Self {
+    pub(crate) fn circle(center: Vec2, radius: f64) -> Self {
         Self::new(center, [Vec2::new(radius, 0.0), Vec2::new(0.0, radius)], 0.0, TAU)
     }
 
     /// The circular arc between two points with a bulge; none where it is straight.
-    pub fn from_bulge([a, b]: [Vec2; 2], bulge: f64) -> Option<Self> {
+    pub(crate) fn from_bulge([a, b]: [Vec2; 2], bulge: f64) -> Option<Self> {
         let (center, radius) = circle_of_bulge([a, b], bulge)?;
         let from = a - center;
         let radii = [Vec2::new(radius, 0.0), Vec2::new(0.0, radius)];
@@ -135,17 +135,17 @@ impl SmoothCurve for [Vec2; 4] {
 
 impl Piece {
     /// The Bezier curve of second degree by its control points.
-    pub fn quadratic([a, b, c]: [Vec2; 3]) -> Self {
+    pub(crate) fn quadratic([a, b, c]: [Vec2; 3]) -> Self {
         Self::Cubic([a, a + (b - a) * (2.0 / 3.0), c + (b - c) * (2.0 / 3.0), c])
     }
 
     /// An edge with a bulge.
-    pub fn from_bulge(ends: [Vec2; 2], bulge: f64) -> Self {
+    pub(crate) fn from_bulge(ends: [Vec2; 2], bulge: f64) -> Self {
         EllipticArc::from_bulge(ends, bulge).map_or(Self::Line(ends), Self::Ellipse)
     }
 
     /// First and last point.
-    pub fn ends(&self) -> [Vec2; 2] {
+    pub(crate) fn ends(&self) -> [Vec2; 2] {
         match self {
             Self::Line(ends) => *ends,
             Self::Ellipse(arc) => arc.ends,
@@ -158,7 +158,7 @@ impl Piece {
     }
 
     /// A point inside, to tell pieces with the same ends apart.
-    pub fn middle(&self) -> Vec2 {
+    pub(crate) fn middle(&self) -> Vec2 {
         match self {
             Self::Line([a, b]) => 0.5 * (a + b),
             Self::Ellipse(arc) => arc.point(arc.start + 0.5 * arc.sweep),
@@ -171,7 +171,7 @@ impl Piece {
     }
 
     /// The image under a map.
-    pub fn mapped(&self, map: &Affine) -> Self {
+    pub(crate) fn mapped(&self, map: &Affine) -> Self {
         match self {
             Self::Line(ends) => Self::Line(ends.map(|end| map.apply(end))),
             Self::Ellipse(arc) => Self::Ellipse(EllipticArc {
@@ -186,7 +186,7 @@ impl Piece {
     }
 
     /// The same points run through backwards.
-    pub fn reversed(&self) -> Self {
+    pub(crate) fn reversed(&self) -> Self {
         match self {
             Self::Line([a, b]) => Self::Line([*b, *a]),
             Self::Ellipse(arc) => Self::Ellipse(EllipticArc {
@@ -201,7 +201,7 @@ impl Piece {
     }
 
     /// Whether all numbers of it can be computed with.
-    pub fn is_in_range(&self) -> bool {
+    pub(crate) fn is_in_range(&self) -> bool {
         let is_in_range = super::limits::is_in_range;
         match self {
             Self::Line(ends) => ends.iter().all(|&end| is_in_range(end)),

@@ -14,7 +14,7 @@ use crate::math::{Bounds, Vec2};
 
 /// What becomes of shapes beyond a side of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Beyond {
+pub(crate) enum Beyond {
     /// They stay as they are: a wall hides them, or nothing is beyond.
     #[default]
     Whole,
@@ -50,7 +50,7 @@ pub(crate) fn crossings(curve: &Curve, axis: usize, at: f64) -> Vec<f64> {
 }
 
 /// Cuts the shapes at the sides of the domain: left, right, bottom, top. Returns how many were cut, and how many could not be.
-pub fn cut_at_sides(spec: &mut GeometrySpec, beyond: [Beyond; 4]) -> (usize, usize) {
+pub(crate) fn cut_at_sides(spec: &mut GeometrySpec, beyond: [Beyond; 4]) -> (usize, usize) {
     let domain = Bounds { min: Vec2::from(spec.min), max: Vec2::from(spec.max) };
     let (mut shapes, mut done, mut failed) = (Vec::with_capacity(spec.shapes.len()), 0, 0);
     for shape in spec.shapes.drain(..) {

@@ -107,7 +107,7 @@ pub struct Refusal {
 
 impl Refusal {
     /// A refusal of its three parts.
-    pub fn new(place: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+    pub(crate) fn new(place: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Self { place: place.into(), found: found.into(), expected: expected.into() }
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// A format of shape files of other programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub(crate) enum Format {
     /// Our own shape files, which the case reader reads.
     Toml,
     /// Lists of discs.
@@ -43,15 +43,13 @@ const ENDINGS: [(&str, Format); 14] = [
 
 impl Format {
     /// The format that the ending of a file's name says.
-    #[must_use]
-    pub fn of(path: &Path) -> Option<Self> {
+    pub(crate) fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         ENDINGS.iter().find(|known| known.0 == ending).map(|known| known.1)
     }
 
     /// How messages call a file of this format.
-    #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Toml => "a TOML shape file",
             Self::List => "a list of discs",
@@ -65,44 +63,37 @@ impl Format {
     }
 
     /// Whether lengths are in m where nobody says otherwise.
-    #[must_use]
-    pub fn is_in_meters(self) -> bool {
+    pub(crate) fn is_in_meters(self) -> bool {
         matches!(self, Self::Toml | Self::List | Self::Wkt)
     }
 
     /// Whether rings within rings are holes though each is an entity of its own: a format without fills.
-    #[must_use]
-    pub fn nests_entities(self) -> bool {
+    pub(crate) fn nests_entities(self) -> bool {
         self == Self::Dxf
     }
 
     /// Whether the rings of a shape are outer ones or holes by what contains what, so that they must not cross.
-    #[must_use]
-    pub fn nests_rings(self) -> bool {
+    pub(crate) fn nests_rings(self) -> bool {
         self == Self::Shapefile
     }
 
     /// Whether the first ring of a polygon is its outer one, and all others are its holes.
-    #[must_use]
-    pub fn begins_with_outer_ring(self) -> bool {
+    pub(crate) fn begins_with_outer_ring(self) -> bool {
         matches!(self, Self::Wkt | Self::GeoJson)
     }
 
     /// Whether outlines may cross, so that a fill rule says what they cover; elsewhere such rings are mistakes.
-    #[must_use]
-    pub fn has_fill_rules(self) -> bool {
+    pub(crate) fn has_fill_rules(self) -> bool {
         self == Self::Svg
     }
 
     /// Whether curves come as many short straight edges.
-    #[must_use]
-    pub fn samples_curves(self) -> bool {
+    pub(crate) fn samples_curves(self) -> bool {
         matches!(self, Self::Wkt | Self::GeoJson | Self::Shapefile | Self::Svg | Self::Dxf)
     }
 
     /// Whether shapes outside of the page are left out: a page is what is seen, a domain is what was meant.
-    #[must_use]
-    pub fn has_page(self) -> bool {
+    pub(crate) fn has_page(self) -> bool {
         self == Self::Svg
     }
 }

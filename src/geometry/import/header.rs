@@ -31,11 +31,11 @@ const DIAMETER: usize = 3;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Header {
     /// The columns of x, y and the size, from 0.
-    pub columns: [usize; 3],
+    pub(crate) columns: [usize; 3],
     /// The unit of all three, where they have one.
-    pub unit: Option<Unit>,
+    pub(crate) unit: Option<Unit>,
     /// Whether the size is named as a diameter.
-    pub is_diameter: bool,
+    pub(crate) is_diameter: bool,
 }
 
 /// A column by its name: the index of its quantity in `NAMES`, and what stands for its unit.
@@ -49,7 +49,7 @@ impl Header {
     ///
     /// # Errors
     /// What was expected instead.
-    pub fn of(cells: &[&str], options: &Options) -> Result<Self, String> {
+    pub(crate) fn of(cells: &[&str], options: &Options) -> Result<Self, String> {
         let all: Vec<Column> = cells.iter().map(|cell| Column::of(cell)).collect();
         let columns = match options.columns {
             Some(columns) => columns,
@@ -67,7 +67,7 @@ impl Header {
     }
 
     /// The header that a comment is: one that begins with the names of x, y and a size in any order; a unit may follow.
-    pub fn of_comment(comment: &str, options: &Options) -> Option<Result<Self, String>> {
+    pub(crate) fn of_comment(comment: &str, options: &Options) -> Option<Result<Self, String>> {
         let text = comment.trim_start_matches('#').trim();
         let cells = cells(text, options.separator);
         let named = cells.iter().take_while(|cell| Column::of(cell).quantity.is_some()).count();

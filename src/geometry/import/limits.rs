@@ -10,20 +10,20 @@ const FREE_ITEMS: usize = 500_000;
 
 /// How many more items, shapes and vertices alike, a file may unfold into.
 #[derive(Debug)]
-pub struct Budget {
+pub(crate) struct Budget {
     left: usize,
     total: usize,
 }
 
 impl Budget {
     /// The budget of a file of `bytes` bytes: 500,000 items and one more for each byte.
-    pub fn of_file(bytes: usize) -> Self {
+    pub(crate) fn of_file(bytes: usize) -> Self {
         let total = FREE_ITEMS.saturating_add(bytes);
         Self { left: total, total }
     }
 
     /// Takes `items` away; false once there are not that many.
-    pub fn spend(&mut self, items: usize) -> bool {
+    pub(crate) fn spend(&mut self, items: usize) -> bool {
         match self.left.checked_sub(items) {
             Some(left) => {
                 self.left = left;
@@ -34,13 +34,13 @@ impl Budget {
     }
 
     /// All items that the file could unfold into.
-    pub fn total(&self) -> usize {
+    pub(crate) fn total(&self) -> usize {
         self.total
     }
 }
 
 /// Whether a point can be computed with.
-pub fn is_in_range(x: Vec2) -> bool {
+pub(crate) fn is_in_range(x: Vec2) -> bool {
     x.x.abs() <= LARGEST_COORDINATE && x.y.abs() <= LARGEST_COORDINATE
 }
 

@@ -19,9 +19,9 @@ const ACROSS: f64 = 0.4871;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Nested {
     /// The outer ring.
-    pub outer: usize,
+    pub(crate) outer: usize,
     /// The holes, by index.
-    pub holes: Vec<usize>,
+    pub(crate) holes: Vec<usize>,
 }
 
 /// Groups rings that do not cross; rings within a filled area are left out under [`FillRule::NonZero`]. Ordered by outer ring.

@@ -8,19 +8,19 @@ use crate::math::Vec2;
 pub(crate) struct Nodes {
     gap: f64,
     /// The points.
-    pub points: Vec<Vec2>,
+    pub(crate) points: Vec<Vec2>,
     cells: BTreeMap<[i64; 2], Vec<usize>>,
 }
 
 impl Nodes {
     /// No points yet.
-    pub fn new(gap: f64) -> Self {
+    pub(crate) fn new(gap: f64) -> Self {
         // Any positive width keeps equal points together where all lie in one.
         Self { gap: gap.max(f64::MIN_POSITIVE), points: Vec::new(), cells: BTreeMap::new() }
     }
 
     /// The number of a point.
-    pub fn number(&mut self, x: Vec2) -> usize {
+    pub(crate) fn number(&mut self, x: Vec2) -> usize {
         // Cells of twice the gap: a point within it lies in the same cell or in one beside it. The cast saturates.
         let cell = |v: f64| (v / (2.0 * self.gap)).floor() as i64;
         let [i, j] = [cell(x.x), cell(x.y)];

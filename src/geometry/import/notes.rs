@@ -15,28 +15,28 @@ pub(crate) struct Counts {
     curved: usize,
     holes: usize,
     /// Rings recognized as circles.
-    pub recognized: usize,
+    pub(crate) recognized: usize,
     smoothed: usize,
     /// Areas of the smoothed rings before and after.
     areas: [f64; 2],
     /// Doubled vertices taken out.
-    pub doubled: usize,
+    pub(crate) doubled: usize,
     /// Rings that enclose nothing.
-    pub without_area: usize,
+    pub(crate) without_area: usize,
     /// Shapes outside of the window.
-    pub outside: usize,
+    pub(crate) outside: usize,
 }
 
 impl Counts {
     /// Counts a smoothed ring by its areas before and after.
-    pub fn smooth(&mut self, before: f64, after: f64) {
+    pub(crate) fn smooth(&mut self, before: f64, after: f64) {
         self.smoothed += 1;
         self.areas[0] += before.abs();
         self.areas[1] += after.abs();
     }
 
     /// Counts the shapes that are left in the end.
-    pub fn shapes<'s>(&mut self, shapes: impl Iterator<Item = &'s ShapeSpec>) {
+    pub(crate) fn shapes<'s>(&mut self, shapes: impl Iterator<Item = &'s ShapeSpec>) {
         for shape in shapes {
             match shape {
                 ShapeSpec::Disc(_) => self.discs += 1,
@@ -58,7 +58,7 @@ impl Counts {
 #[derive(Debug)]
 pub(crate) struct Notes {
     /// What happened to its shapes.
-    pub counts: Counts,
+    pub(crate) counts: Counts,
     first: Vec<String>,
     unused: Vec<String>,
     of_reader: Vec<String>,
@@ -67,7 +67,7 @@ pub(crate) struct Notes {
 
 impl Notes {
     /// Begins with the unit and what the reader says.
-    pub fn new(unit: String, drawing: &Drawing) -> Self {
+    pub(crate) fn new(unit: String, drawing: &Drawing) -> Self {
         let count = |(kind, number): (&String, &usize)| format!("{kind} ({number})");
         let mut first = vec![unit];
         if !drawing.layers.is_empty() {
@@ -78,7 +78,7 @@ impl Notes {
     }
 
     /// What was read and is not used.
-    pub fn unused(&self) -> String {
+    pub(crate) fn unused(&self) -> String {
         let mut unused = self.unused.clone();
         if self.counts.without_area > 0 {
             unused.push(format!("rings without area ({})", self.counts.without_area));
@@ -87,18 +87,18 @@ impl Notes {
     }
 
     /// Adds a sentence behind those of the reader.
-    pub fn add(&mut self, sentence: String) {
+    pub(crate) fn add(&mut self, sentence: String) {
         self.of_reader.push(sentence);
     }
 
     /// Tells the domain, and where it comes from.
-    pub fn domain(&mut self, domain: Bounds, from: &str) {
+    pub(crate) fn domain(&mut self, domain: Bounds, from: &str) {
         let size = domain.size();
         self.domain = format!("domain {:.4e} x {:.4e} m, {from}", size.x, size.y);
     }
 
     /// All notes, one sentence each.
-    pub fn lines(self, options: &Options) -> Vec<String> {
+    pub(crate) fn lines(self, options: &Options) -> Vec<String> {
         let counts = &self.counts;
         let mut read: Vec<String> =
             [("disc", counts.discs), ("polygon", counts.polygons), ("curved polygon", counts.curved)]

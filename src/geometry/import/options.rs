@@ -7,19 +7,19 @@ use crate::input::problem::Problem;
 use crate::input::tables::Key;
 
 /// Vertices that turn by less than this many degrees belong to a smooth curve.
-pub const SMOOTH_BELOW_DEG: f64 = 20.0;
+pub(crate) const SMOOTH_BELOW_DEG: f64 = 20.0;
 
 /// Length of the drawing unit.
-pub const SCALE: Key = Key::positive("a length in m");
+pub(crate) const SCALE: Key = Key::positive("a length in m");
 /// Distance of ends that meet.
-pub const JOIN_WITHIN: Key = Key::positive("a length in units of the drawing")
+pub(crate) const JOIN_WITHIN: Key = Key::positive("a length in units of the drawing")
     .help("leave it out to join ends that meet within 1e-6 of the drawing");
 /// Gray value between solid and pore.
-pub const THRESHOLD: Key = Key::number("a gray value", Range::Between(0.0, 1.0)).help("0.5 is the middle");
+pub(crate) const THRESHOLD: Key = Key::number("a gray value", Range::Between(0.0, 1.0)).help("0.5 is the middle");
 /// Side of a pixel.
-pub const PIXEL_SIZE: Key = SCALE;
+pub(crate) const PIXEL_SIZE: Key = SCALE;
 /// Turn of a smooth vertex.
-pub const SMOOTH_BELOW: Key = Key::within("an angle in degrees", 0.0, 90.0).help("0: none");
+pub(crate) const SMOOTH_BELOW: Key = Key::within("an angle in degrees", 0.0, 90.0).help("0: none");
 
 /// Keys of `[geometry]` beside `file`, and options of the command line.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -54,26 +54,22 @@ pub struct Options {
 
 impl Options {
     /// Whether what is drawn is the pore.
-    #[must_use]
-    pub fn is_inverted(&self) -> bool {
+    pub(crate) fn is_inverted(&self) -> bool {
         self.invert.unwrap_or(false)
     }
 
     /// Whether polygons whose vertices lie on a circle become discs.
-    #[must_use]
-    pub fn recognizes_circles(&self) -> bool {
+    pub(crate) fn recognizes_circles(&self) -> bool {
         self.recognize_circles.unwrap_or(true)
     }
 
     /// The largest turn of a smooth vertex in rad.
-    #[must_use]
-    pub fn smooth_below(&self) -> f64 {
+    pub(crate) fn smooth_below(&self) -> f64 {
         self.smooth_below_deg.unwrap_or(SMOOTH_BELOW_DEG).to_radians()
     }
 
     /// All that is wrong with the options for a file of this format; the paths are keys, such as `unit`.
-    #[must_use]
-    pub fn problems(&self, format: Format) -> Vec<Problem> {
+    pub(crate) fn problems(&self, format: Format) -> Vec<Problem> {
         let mut found = self.problems_of_values();
         let mut misplaced = |key: &str, is_given: bool, belongs: &[Format], of: &str| {
             if is_given && !belongs.contains(&format) {

@@ -16,11 +16,11 @@ const TOLERANCE: f64 = 1e-9;
 /// What one shape of the file fills.
 pub(crate) struct Painted {
     /// Its regions.
-    pub regions: Vec<Region>,
+    pub(crate) regions: Vec<Region>,
     /// With what.
-    pub paint: Paint,
+    pub(crate) paint: Paint,
     /// Where it stands.
-    pub place: String,
+    pub(crate) place: String,
 }
 
 /// What remains solid, each region with the place of its shape.

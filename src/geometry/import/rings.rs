@@ -15,9 +15,9 @@ pub(crate) const DOUBLED: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NoRing {
     /// What was found.
-    pub found: String,
+    pub(crate) found: String,
     /// What was expected.
-    pub expected: String,
+    pub(crate) expected: String,
 }
 
 /// The ring of a line whose last point repeats its first one, as WKT, GeoJSON and shapefiles write it.

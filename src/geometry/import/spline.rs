@@ -7,11 +7,11 @@ use super::biarc::SmoothCurve;
 use crate::math::Vec2;
 
 /// The highest degree; programs write 3 and rarely 5.
-pub const HIGHEST_DEGREE: usize = 11;
+pub(crate) const HIGHEST_DEGREE: usize = 11;
 
 /// A rational B-spline curve.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BSpline {
+pub(crate) struct BSpline {
     degree: usize,
     knots: Vec<f64>,
     points: Vec<Vec2>,
@@ -20,7 +20,7 @@ pub struct BSpline {
 
 impl BSpline {
     /// A checked curve: the number of knots that the points ask for, not falling, weights above 0. No weights: all are 1.
-    pub fn new(degree: usize, knots: Vec<f64>, points: Vec<Vec2>, weights: Vec<f64>) -> Result<Self, String> {
+    pub(crate) fn new(degree: usize, knots: Vec<f64>, points: Vec<Vec2>, weights: Vec<f64>) -> Result<Self, String> {
         if degree == 0 || degree > HIGHEST_DEGREE {
             return Err(format!("degree {degree}"));
         }
@@ -47,18 +47,18 @@ impl BSpline {
     }
 
     /// The intervals of the parameter on which the curve is smooth.
-    pub fn spans(&self) -> Vec<[f64; 2]> {
+    pub(crate) fn spans(&self) -> Vec<[f64; 2]> {
         let inner = &self.knots[self.degree..=self.points.len()];
         inner.windows(2).filter(|pair| pair[0] < pair[1]).map(|pair| [pair[0], pair[1]]).collect()
     }
 
     /// The image under a map; a rational curve is that of the images of its control points.
-    pub fn mapped(&self, map: &Affine) -> Self {
+    pub(crate) fn mapped(&self, map: &Affine) -> Self {
         Self { points: self.points.iter().map(|&point| map.apply(point)).collect(), ..self.clone() }
     }
 
     /// The same points run through backwards.
-    pub fn reversed(&self) -> Self {
+    pub(crate) fn reversed(&self) -> Self {
         Self {
             degree: self.degree,
             knots: self.knots.iter().rev().map(|knot| -knot).collect(),
@@ -68,14 +68,14 @@ impl BSpline {
     }
 
     /// Width and height of the box around the control points.
-    pub fn extent(&self) -> f64 {
+    pub(crate) fn extent(&self) -> f64 {
         let first = self.points[0];
         let (low, high) = self.points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
         (high - low).norm()
     }
 
     /// The control points.
-    pub fn points(&self) -> &[Vec2] {
+    pub(crate) fn points(&self) -> &[Vec2] {
         &self.points
     }
 
@@ -128,7 +128,7 @@ impl SmoothCurve for BSpline {
 
 /// The cubic spline through `points` in order as Bezier pieces, twice differentiable, with the parameter growing as the chords.
 /// Ends have the given directions, or no curvature where none is given; a closed one ends as it begins.
-pub fn through_points(points: &[Vec2], is_closed: bool, directions: [Option<Vec2>; 2]) -> Vec<[Vec2; 4]> {
+pub(crate) fn through_points(points: &[Vec2], is_closed: bool, directions: [Option<Vec2>; 2]) -> Vec<[Vec2; 4]> {
     let mut points = points.to_vec();
     points.dedup();
     if is_closed && points.len() > 2 && points.first() != points.last() {

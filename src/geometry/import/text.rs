@@ -9,14 +9,14 @@ use crate::math::{Bounds, Vec2};
 #[derive(Debug, Default)]
 pub(crate) struct Lines {
     /// The box of a `# domain` comment.
-    pub domain: Option<Bounds>,
+    pub(crate) domain: Option<Bounds>,
     /// Lines that cannot be read.
-    pub bad: Vec<Refusal>,
+    pub(crate) bad: Vec<Refusal>,
 }
 
 impl Lines {
     /// Takes in a comment, which may set the domain; false where the line is none.
-    pub fn take_comment(&mut self, line: usize, text: &str) -> bool {
+    pub(crate) fn take_comment(&mut self, line: usize, text: &str) -> bool {
         let Some(comment) = text.strip_prefix('#') else { return false };
         let mut words = words(comment.trim_start_matches('#'));
         if words.next().is_some_and(|word| word.trim_end_matches(':').eq_ignore_ascii_case("domain")) {
@@ -32,7 +32,7 @@ impl Lines {
     }
 
     /// Notes a line that cannot be read.
-    pub fn refuse(&mut self, line: usize, text: &str, expected: String) {
+    pub(crate) fn refuse(&mut self, line: usize, text: &str, expected: String) {
         self.bad.push(Refusal { place: place(line), found: quoted(text), expected });
     }
 }

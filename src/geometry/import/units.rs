@@ -28,15 +28,13 @@ const UNITS: [(&str, f64); 17] = [
 ];
 
 /// The unit of this name.
-#[must_use]
-pub fn by_name(name: &str) -> Option<Unit> {
+pub(crate) fn by_name(name: &str) -> Option<Unit> {
     let name = name.trim();
     UNITS.iter().find(|unit| unit.0 == name).map(|&(name, meters)| Unit { name: name.into(), meters })
 }
 
 /// What to write in place of an unknown name.
-#[must_use]
-pub fn way_out() -> String {
+pub(crate) fn way_out() -> String {
     "use m, cm, mm, um, nm, in, mil, ft, pt or px, or `scale`, the length of the drawing unit in m".into()
 }
 

@@ -47,7 +47,7 @@ fn enters(curve: &Curve, window: Bounds, tolerance: f64) -> bool {
 ///
 /// # Errors
 /// Problems with the keys `window` and `invert`.
-pub fn windowed(mut spec: GeometrySpec, options: &Options) -> Result<Imported, Vec<Problem>> {
+pub(crate) fn windowed(mut spec: GeometrySpec, options: &Options) -> Result<Imported, Vec<Problem>> {
     let mut notes = Vec::new();
     if options.is_inverted() {
         spec.solid = if spec.solid == SolidSide::Inside { SolidSide::Outside } else { SolidSide::Inside };

@@ -12,7 +12,7 @@ pub(super) struct Cells {
 
 impl Cells {
     /// Empty cells for neighbors up to `reach` away.
-    pub fn new(region: [[f64; 2]; 2], periodic: [bool; 2], reach: f64) -> Self {
+    pub(crate) fn new(region: [[f64; 2]; 2], periodic: [bool; 2], reach: f64) -> Self {
         // More cells than this would cost memory and save nothing.
         const MOST: f64 = 2000.0;
         let size = [region[1][0] - region[0][0], region[1][1] - region[0][1]];
@@ -28,13 +28,13 @@ impl Cells {
     }
 
     /// Adds a point, which must lie in the rectangle.
-    pub fn add(&mut self, point: usize, x: [f64; 2]) {
+    pub(crate) fn add(&mut self, point: usize, x: [f64; 2]) {
         let [i, j] = self.index(x);
         self.members[j * self.counts[0] + i].push(point as u32);
     }
 
     /// Sorts all points anew.
-    pub fn fill(&mut self, points: impl Iterator<Item = [f64; 2]>) {
+    pub(crate) fn fill(&mut self, points: impl Iterator<Item = [f64; 2]>) {
         self.members.iter_mut().for_each(Vec::clear);
         for (k, x) in points.enumerate() {
             self.add(k, x);
@@ -42,7 +42,7 @@ impl Cells {
     }
 
     /// All points that may lie within the reach of `x`, in a fixed order.
-    pub fn near(&self, x: [f64; 2], mut take: impl FnMut(usize)) {
+    pub(crate) fn near(&self, x: [f64; 2], mut take: impl FnMut(usize)) {
         let at = self.index(x);
         let around = |k: usize| -> ([usize; 3], usize) {
             let (count, i) = (self.counts[k], at[k]);
@@ -64,7 +64,7 @@ impl Cells {
     }
 
     /// From `a` to `b`, the shorter way around periodic sides.
-    pub fn between(&self, a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn between(&self, a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| {
             let d = b[k] - a[k];
             if !self.periodic[k] {
@@ -80,7 +80,7 @@ impl Cells {
     }
 
     /// The distance of two points.
-    pub fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
+    pub(crate) fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
         let [x, y] = self.between(a, b);
         (x * x + y * y).sqrt()
     }

@@ -53,7 +53,6 @@ fn size_of(region: [[f64; 2]; 2]) -> Result<[f64; 2], PackError> {
 }
 
 /// The smallest gap between any two discs in m, also across periodic sides; infinite where there are not two.
-#[must_use]
 pub fn smallest_gap(discs: &[Disc], region: [[f64; 2]; 2], periodic: [bool; 2]) -> f64 {
     let largest = discs.iter().map(|disc| disc.radius).fold(0.0, f64::max);
     let size = [region[1][0] - region[0][0], region[1][1] - region[0][1]];

@@ -15,16 +15,16 @@ use crate::math::Vec2;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Circle {
     /// Center times curvature; the unit normal of a line.
-    pub x: Vec2,
+    pub(crate) x: Vec2,
     /// k |C|² − 1/k.
-    pub y: f64,
+    pub(crate) y: f64,
     /// Signed curvature.
-    pub k: f64,
+    pub(crate) k: f64,
 }
 
 impl Circle {
     /// The circle through `p` whose center lies from there along the unit vector `v` where k > 0.
-    pub fn through(p: Vec2, v: Vec2, k: f64) -> Self {
+    pub(crate) fn through(p: Vec2, v: Vec2, k: f64) -> Self {
         Self { x: p * k + v, y: k * p.norm_squared() + 2.0 * p.dot(&v), k }
     }
 }

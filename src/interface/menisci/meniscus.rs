@@ -24,14 +24,12 @@ pub struct Meniscus {
 
 impl Meniscus {
     /// Distance of both contacts in m.
-    #[must_use]
-    pub fn chord(&self) -> f64 {
+    pub(crate) fn chord(&self) -> f64 {
         (self.right.point - self.left.point).norm()
     }
 
     /// Center of its circle in m; nothing where it is straight.
-    #[must_use]
-    pub fn center(&self) -> Option<Vec2> {
+    pub(crate) fn center(&self) -> Option<Vec2> {
         let d = self.right.point - self.left.point;
         let tan = self.bend.tan();
         (tan != 0.0)
@@ -40,16 +38,14 @@ impl Meniscus {
     }
 
     /// The arc from the left contact to the right one, the defending phase on its left.
-    #[must_use]
-    pub fn curve(&self) -> Curve {
+    pub(crate) fn curve(&self) -> Curve {
         let d = self.right.point - self.left.point;
         let tangent = nalgebra::Rotation2::new(self.bend) * d.normalize();
         Curve::arc_from_tangent(self.left.point, tangent, self.right.point)
     }
 
     /// The point at a share of the way from the left contact to the right one.
-    #[must_use]
-    pub fn point(&self, share: f64) -> Vec2 {
+    pub(crate) fn point(&self, share: f64) -> Vec2 {
         let d = self.right.point - self.left.point;
         // The chord of a share of the arc; of a flat one it is that share.
         let ratio = if self.bend.abs() < 1e-8 { share } else { (share * self.bend).sin() / self.bend.sin() };
@@ -57,15 +53,13 @@ impl Meniscus {
     }
 
     /// `count` points from the left contact to the right one, both included.
-    #[must_use]
-    pub fn points(&self, count: usize) -> Vec<Vec2> {
+    pub(crate) fn points(&self, count: usize) -> Vec<Vec2> {
         let last = count.saturating_sub(1).max(1) as f64;
         (0..count).map(|i| self.point(i as f64 / last)).collect()
     }
 
     /// Area between the arc and its chord in m², above 0 where it bulges into the defending phase.
-    #[must_use]
-    pub fn area_from_chord(&self) -> f64 {
+    pub(crate) fn area_from_chord(&self) -> f64 {
         let b = self.bend;
         // (b − sin b cos b)/sin² b; its series below the size where the difference loses digits.
         let shape = if b.abs() < 1e-3 {
@@ -74,18 +68,6 @@ impl Meniscus {
             (b - b.sin() * b.cos()) / b.sin().powi(2)
         };
         0.25 * self.chord().powi(2) * shape
-    }
-
-    /// Whether the arcs have a point in common.
-    #[must_use]
-    pub fn crosses(&self, other: &Self) -> bool {
-        self.meetings(other).iter().any(Option::is_some)
-    }
-
-    /// Whether the arc has a point in common with a curve.
-    #[must_use]
-    pub fn touches(&self, curve: &Curve) -> bool {
-        meetings(&self.curve(), curve).iter().any(Option::is_some)
     }
 
     /// The same, but for a point where the meniscus itself stands behind its throat.

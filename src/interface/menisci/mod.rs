@@ -4,7 +4,7 @@
 //! the defending phase; times the tension they are capillary pressures (invading less defending).
 //!
 //! - [`Passage`]: both walls of a throat; [`Passage::burst`], [`Passage::at`], [`Passage::touch`];
-//! - [`overlap`]: two menisci on one wall;
+//! - `overlap`: two menisci on one wall;
 //! - [`Meniscus`]: an arc with its contacts.
 //!
 //! The three events are those of Cieplak and Robbins (1988, 1990).
@@ -18,8 +18,8 @@ mod passage;
 mod path;
 mod wall;
 
-pub use meniscus::Meniscus;
-pub use overlap::overlap;
+pub(crate) use meniscus::Meniscus;
+pub(crate) use overlap::overlap;
 pub use passage::Passage;
 pub use wall::{Contact, Hand, Wall, WallPart};
 

@@ -17,7 +17,7 @@ pub(super) struct Obstacle {
 const SLACK: f64 = 1e-9;
 
 impl Obstacle {
-    pub fn new(curves: &[Curve], origin: Vec2, scale: f64) -> Self {
+    pub(crate) fn new(curves: &[Curve], origin: Vec2, scale: f64) -> Self {
         let local = |curve: &Curve| match *curve {
             Curve::Segment { a, b } => Curve::Segment { a: (a - origin) / scale, b: (b - origin) / scale },
             Curve::Arc { center, radius, start, sweep } => {
@@ -28,7 +28,7 @@ impl Obstacle {
     }
 
     /// The curvature at the first touch along a leg.
-    pub fn first_touch(&self, walls: &Walls, leg: &Leg) -> Option<f64> {
+    pub(crate) fn first_touch(&self, walls: &Walls, leg: &Leg) -> Option<f64> {
         let boxed = swept_box(walls, leg);
         let mut first: Option<(f64, f64)> = None;
         for (curve, bounds) in &self.curves {

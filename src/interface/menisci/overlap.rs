@@ -9,8 +9,7 @@ use crate::interface::menisci::passage::Passage;
 /// The smallest curvature, at most `up_to` (1/m), at which two menisci meet that advance along a shared wall: the left wall of `a`, beyond
 /// its chord, is the right wall of `b` run through the other way. `shared` is the length of that wall between both chords in m. Both
 /// passages are told in one frame.
-#[must_use]
-pub fn overlap(a: &Passage, b: &Passage, shared: f64, up_to: f64) -> Option<f64> {
+pub(crate) fn overlap(a: &Passage, b: &Passage, shared: f64, up_to: f64) -> Option<f64> {
     let (from_a, from_b) = (a.lowest()?.curvature, b.lowest()?.curvature);
     let low = from_a.max(from_b);
     let high = up_to.min(a.burst()?.curvature).min(b.burst()?.curvature);

@@ -7,14 +7,12 @@
 //! Left out: a meniscus that touches its own two walls ahead of its contacts before these get there (in deep notches below 90 degrees);
 //! films; gravity.
 
-use std::f64::consts::PI;
-
 use crate::geometry::curve::{Curve, cross};
 use crate::interface::menisci::circle::{Circle, circles, has_curvature};
 use crate::interface::menisci::meniscus::Meniscus;
 use crate::interface::menisci::obstacle::Obstacle;
 use crate::interface::menisci::path::{Leg, Place, Station, Walls, held, meets};
-use crate::interface::menisci::wall::{Contact, Hand, Piece, Wall, WallPart, pieces};
+use crate::interface::menisci::wall::{Contact, Hand, Piece, Wall, pieces};
 use crate::math::Vec2;
 
 /// The two walls of a throat and all menisci between them, ready for questions.
@@ -34,7 +32,6 @@ pub struct Passage {
 impl Passage {
     /// The passage between two walls, seen in the direction of advance: on the left wall curves run with the advance, on the right wall
     /// against it. Cost grows with the number of parts.
-    #[must_use]
     pub fn new(mut left: Wall, mut right: Wall) -> Self {
         for wall in [&mut left, &mut right] {
             wall.behind = wall.behind.min(wall.parts.len());
@@ -51,44 +48,28 @@ impl Passage {
     }
 
     /// The left wall.
-    #[must_use]
-    pub fn left(&self) -> &Wall {
+    pub(crate) fn left(&self) -> &Wall {
         &self.left
     }
 
     /// The right wall.
-    #[must_use]
-    pub fn right(&self) -> &Wall {
+    pub(crate) fn right(&self) -> &Wall {
         &self.right
     }
 
-    /// The same throat passed the other way with the phases changed: its burst is the smallest curvature of this passage, times −1.
-    #[must_use]
-    pub fn reversed(&self) -> Self {
-        let turned = |wall: &Wall| {
-            let part = |part: &WallPart| WallPart { angle: PI - part.angle, ..*part };
-            let parts: Vec<_> = wall.parts.iter().rev().map(part).collect();
-            Wall { behind: parts.len() - wall.behind.min(parts.len()), parts }
-        };
-        Self::new(turned(&self.right), turned(&self.left))
-    }
-
     /// The meniscus of the largest curvature on the way through: beyond it the throat is passed. It may stand at the end of a wall.
-    #[must_use]
     pub fn burst(&self) -> Option<Meniscus> {
         self.highest.map(|station| self.meniscus(&station))
     }
 
     /// The meniscus of the smallest curvature before the burst: below it the meniscus draws back out of the throat.
-    #[must_use]
-    pub fn lowest(&self) -> Option<Meniscus> {
+    pub(crate) fn lowest(&self) -> Option<Meniscus> {
         self.lowest.map(|station| self.meniscus(&station))
     }
 
     /// Where the advancing meniscus stands at the curvature `k` (1/m): the first place of the path where the curvature reaches it. The
     /// lowest one where all are above, nothing beyond the burst.
-    #[must_use]
-    pub fn at(&self, k: f64) -> Option<Meniscus> {
+    pub(crate) fn at(&self, k: f64) -> Option<Meniscus> {
         let (lowest, highest) = (self.lowest?, self.highest?);
         // The curvature that the burst gives is the burst's, whatever its last digit.
         let slack = 8.0 * f64::EPSILON * highest.curvature.abs();
@@ -101,8 +82,7 @@ impl Passage {
     }
 
     /// The smallest curvature, at most `up_to` (1/m), at which the meniscus touches a third wall. No angle enters: it is the first contact.
-    #[must_use]
-    pub fn touch(&self, obstacle: &[Curve], up_to: f64) -> Option<f64> {
+    pub(crate) fn touch(&self, obstacle: &[Curve], up_to: f64) -> Option<f64> {
         let up_to = up_to * self.scale;
         let lowest = self.lowest.filter(|lowest| lowest.curvature <= up_to)?;
         if obstacle.iter().any(|curve| self.meniscus(&lowest).touches_ahead(curve)) {
@@ -125,15 +105,13 @@ impl Passage {
     }
 
     /// Whether a point lies ahead of the line through the chord of the throat.
-    #[must_use]
-    pub fn is_ahead(&self, x: Vec2) -> bool {
+    pub(crate) fn is_ahead(&self, x: Vec2) -> bool {
         let end = chord_end(&self.right, Hand::Right).unwrap_or_default();
         cross(end - self.origin, x - self.origin) >= 0.0
     }
 
     /// Area in m² that the meniscus has swept since the chord of the throat: between chord, walls and arc.
-    #[must_use]
-    pub fn swept_area(&self, meniscus: &Meniscus) -> f64 {
+    pub(crate) fn swept_area(&self, meniscus: &Meniscus) -> f64 {
         let (p, q) = (self.origin, chord_end(&self.right, Hand::Right).unwrap_or_default());
         let along = |wall: &Wall, contact: &Contact, hand: Hand| {
             let (first, last) = (wall.behind, contact.part);
@@ -264,4 +242,19 @@ fn stable_part(mut path: Vec<Leg>) -> (Option<Station>, Option<Station>, Vec<Leg
     path.truncate(highest.1);
     path.drain(..lowest.1);
     (Some(lowest.0), Some(highest.0), path)
+}
+/// What tests compare with.
+#[cfg(test)]
+impl Passage {
+    /// The same throat passed the other way with the phases changed: its burst is the smallest curvature of this passage, times −1.
+    pub(crate) fn reversed(&self) -> Self {
+        use crate::interface::menisci::wall::WallPart;
+        use std::f64::consts::PI;
+        let turned = |wall: &Wall| {
+            let part = |part: &WallPart| WallPart { angle: PI - part.angle, ..*part };
+            let parts: Vec<_> = wall.parts.iter().rev().map(part).collect();
+            Wall { behind: parts.len() - wall.behind.min(parts.len()), parts }
+        };
+        Self::new(turned(&self.right), turned(&self.left))
+    }
 }

@@ -16,31 +16,31 @@ use crate::math::Vec2;
 /// A contact on each wall: the piece, and the parameter on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    pub left: (usize, f64),
-    pub right: (usize, f64),
+    pub(crate) left: (usize, f64),
+    pub(crate) right: (usize, f64),
 }
 
 /// A meniscus of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Station {
-    pub place: Place,
+    pub(crate) place: Place,
     /// Angle β between chord and interface, above 0 where the meniscus bulges into the defending phase.
-    pub bend: f64,
-    pub curvature: f64,
+    pub(crate) bend: f64,
+    pub(crate) curvature: f64,
 }
 
 /// A part of the path on one pair of pieces: curvature rises or falls all along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Leg {
-    pub start: Station,
-    pub end: Station,
+    pub(crate) start: Station,
+    pub(crate) end: Station,
 }
 
 /// The pieces of both walls.
 #[derive(Debug, Clone)]
 pub(super) struct Walls {
-    pub left: Vec<Piece>,
-    pub right: Vec<Piece>,
+    pub(crate) left: Vec<Piece>,
+    pub(crate) right: Vec<Piece>,
 }
 
 /// Parameters nearer to an end than this are the end: rounding of the closed forms.
@@ -64,7 +64,7 @@ enum Way {
 }
 
 impl Walls {
-    pub fn station(&self, place: Place) -> Station {
+    pub(crate) fn station(&self, place: Place) -> Station {
         let (l, r) = (&self.left[place.left.0], &self.right[place.right.0]);
         let d = r.point(place.right.1) - l.point(place.left.1);
         let psi = d.y.atan2(d.x);
@@ -75,7 +75,7 @@ impl Walls {
         Station { place, bend, curvature: 2.0 * bend.sin() / d.norm() }
     }
 
-    pub fn circle(&self, station: &Station) -> Circle {
+    pub(crate) fn circle(&self, station: &Station) -> Circle {
         let Place { left: (i, s), right: (j, t) } = station.place;
         let (l, r) = (&self.left[i], &self.right[j]);
         // An edge has its position to the last digit.
@@ -84,7 +84,7 @@ impl Walls {
     }
 
     /// All menisci that can be reached from the chord, in the order of the advance.
-    pub fn path(&self, chord: (usize, usize)) -> Vec<Leg> {
+    pub(crate) fn path(&self, chord: (usize, usize)) -> Vec<Leg> {
         let Some(start) = self.start(chord) else { return Vec::new() };
         let mut path = self.follow(start, Way::Backward);
         path.reverse();
@@ -260,7 +260,7 @@ impl Walls {
     }
 
     /// The contacts of a circle that meets both pieces; not held to them. Nothing for two straight pieces, where k need not tell the place.
-    pub fn contacts(&self, (i, j): (usize, usize), circle: &Circle) -> Option<Place> {
+    pub(crate) fn contacts(&self, (i, j): (usize, usize), circle: &Circle) -> Option<Place> {
         let (l, r) = (&self.left[i], &self.right[j]);
         let (s, t) = match (turned(l, circle), turned(r, circle)) {
             (Some(s), Some(t)) => (s, t),

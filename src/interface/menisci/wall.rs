@@ -30,7 +30,6 @@ pub struct Wall {
 
 impl Wall {
     /// The whole surface of a disc, cut opposite to the chord, which ends at the point nearest to `other`.
-    #[must_use]
     pub fn of_disc(center: Vec2, radius: f64, angle: f64, other: Vec2, hand: Hand) -> Self {
         let toward = other - center;
         let start = toward.y.atan2(toward.x) - PI;
@@ -78,18 +77,18 @@ pub struct Contact {
 /// A piece on which a contact moves while `s` runs from 0 to 1 in the direction of advance.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece {
-    pub shape: Shape,
+    pub(crate) shape: Shape,
     /// Direction of the interface at both ends, continuous along the wall.
-    pub direction: [f64; 2],
+    pub(crate) direction: [f64; 2],
     /// Contact angle; 0 at an edge, where no angle enters.
     pub angle: f64,
     /// Polar angle of the wall's normal less `direction`.
-    pub offset: f64,
+    pub(crate) offset: f64,
     pub part: usize,
     /// Length of wall from the chord to the start.
     pub advance: f64,
-    pub length: f64,
-    pub hand: Hand,
+    pub(crate) length: f64,
+    pub(crate) hand: Hand,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -101,16 +100,16 @@ pub(super) enum Shape {
 }
 
 impl Piece {
-    pub fn direction(&self, s: f64) -> f64 {
+    pub(crate) fn direction(&self, s: f64) -> f64 {
         self.direction[0] + s * (self.direction[1] - self.direction[0])
     }
 
     /// The normal of the wall, out of the solid. At an edge: of the tangent that would meet the interface under the angle 0.
-    pub fn normal(&self, s: f64) -> Vec2 {
+    pub(crate) fn normal(&self, s: f64) -> Vec2 {
         unit(self.direction(s) + self.offset)
     }
 
-    pub fn point(&self, s: f64) -> Vec2 {
+    pub(crate) fn point(&self, s: f64) -> Vec2 {
         match self.shape {
             Shape::Straight { a, along } => a + along * s,
             Shape::Turn { center, .. } if self.is_edge() => center,
@@ -119,18 +118,18 @@ impl Piece {
     }
 
     /// From the contact towards the center of a circle of positive curvature.
-    pub fn inward(&self, s: f64) -> Vec2 {
+    pub(crate) fn inward(&self, s: f64) -> Vec2 {
         // The interface leaves along `direction`; its center lies behind it.
         unit(self.direction(s) - self.hand.sign() * FRAC_PI_2)
     }
 
     /// Length of wall from the chord to the contact.
-    pub fn advance_at(&self, s: f64) -> f64 {
+    pub(crate) fn advance_at(&self, s: f64) -> f64 {
         self.advance + s * self.length
     }
 
     /// The change of the contact point and of the direction with `s`.
-    pub fn rates(&self, s: f64) -> (Vec2, f64) {
+    pub(crate) fn rates(&self, s: f64) -> (Vec2, f64) {
         let turn = self.direction[1] - self.direction[0];
         match self.shape {
             Shape::Straight { along, .. } => (along, turn),
@@ -138,12 +137,12 @@ impl Piece {
         }
     }
 
-    pub fn is_edge(&self) -> bool {
+    pub(crate) fn is_edge(&self) -> bool {
         self.length == 0.0
     }
 
     /// The parameter of the polar angle `direction`, in the turn nearest to the piece; not held to 0..1.
-    pub fn parameter(&self, direction: f64) -> f64 {
+    pub(crate) fn parameter(&self, direction: f64) -> f64 {
         let [from, to] = self.direction;
         let middle = 0.5 * (from + to);
         0.5 + wrapped(direction - middle) / (to - from)
@@ -151,7 +150,7 @@ impl Piece {
 
     /// The contact on this piece of a circle that meets the other wall in `p`, leaving it in the polar angle `direction`; not held to
     /// 0..1. The chord makes the same angle with the interface at both of its ends.
-    pub fn answer(&self, p: Vec2, direction: f64) -> Option<f64> {
+    pub(crate) fn answer(&self, p: Vec2, direction: f64) -> Option<f64> {
         match self.shape {
             Shape::Straight { a, along } => {
                 let chord = unit(0.5 * (direction + self.direction[0] - PI));

@@ -30,10 +30,10 @@ pub enum PictureError {
 }
 
 /// A color as red, green, blue.
-pub type Rgb = [u8; 3];
+pub(crate) type Rgb = [u8; 3];
 
 /// What is drawn on. Lengths in pixels, y downwards.
-pub struct Canvas {
+pub(crate) struct Canvas {
     pixels: Pixmap,
     font: FontRef<'static>,
 }
@@ -47,7 +47,7 @@ fn paint(color: Rgb) -> Paint<'static> {
 
 impl Canvas {
     /// A white canvas.
-    pub fn new(width: u32, height: u32) -> Result<Self, PictureError> {
+    pub(crate) fn new(width: u32, height: u32) -> Result<Self, PictureError> {
         let mut pixels = Pixmap::new(width, height).ok_or(PictureError::Size { width, height })?;
         pixels.fill(Color::WHITE);
         let font = FontRef::try_from_slice(dejavu::sans::regular()).map_err(|_| PictureError::Font)?;
@@ -55,14 +55,14 @@ impl Canvas {
     }
 
     /// A filled rectangle from the upper left corner.
-    pub fn rectangle(&mut self, corner: [f32; 2], size: [f32; 2], color: Rgb) {
+    pub(crate) fn rectangle(&mut self, corner: [f32; 2], size: [f32; 2], color: Rgb) {
         if let Some(rect) = Rect::from_xywh(corner[0], corner[1], size[0], size[1]) {
             self.pixels.fill_rect(rect, &paint(color), Transform::identity(), None);
         }
     }
 
     /// Filled circles of one color and radius.
-    pub fn circles(&mut self, centers: impl Iterator<Item = [f32; 2]>, radius: f32, color: Rgb) {
+    pub(crate) fn circles(&mut self, centers: impl Iterator<Item = [f32; 2]>, radius: f32, color: Rgb) {
         for [x, y] in centers {
             if let Some(circle) = PathBuilder::from_circle(x, y, radius) {
                 self.pixels.fill_path(&circle, &paint(color), FillRule::Winding, Transform::identity(), None);
@@ -71,7 +71,7 @@ impl Canvas {
     }
 
     /// A filled polygon.
-    pub fn polygon(&mut self, vertices: impl Iterator<Item = [f32; 2]>, color: Rgb) {
+    pub(crate) fn polygon(&mut self, vertices: impl Iterator<Item = [f32; 2]>, color: Rgb) {
         let mut builder = PathBuilder::new();
         for [x, y] in vertices {
             if builder.is_empty() { builder.move_to(x, y) } else { builder.line_to(x, y) }
@@ -83,7 +83,7 @@ impl Canvas {
     }
 
     /// Makes all white that is outside of a rectangle with the given upper left corner.
-    pub fn wipe_outside(&mut self, [x, y]: [f32; 2], [width, tall]: [f32; 2]) {
+    pub(crate) fn wipe_outside(&mut self, [x, y]: [f32; 2], [width, tall]: [f32; 2]) {
         const WHITE: Rgb = [255, 255, 255];
         let (all, height) = (self.pixels.width() as f32, self.pixels.height() as f32);
         self.rectangle([0.0, 0.0], [all, y], WHITE);
@@ -93,7 +93,7 @@ impl Canvas {
     }
 
     /// A polyline with round joins.
-    pub fn polyline(&mut self, vertices: impl Iterator<Item = [f32; 2]>, width: f32, color: Rgb) {
+    pub(crate) fn polyline(&mut self, vertices: impl Iterator<Item = [f32; 2]>, width: f32, color: Rgb) {
         let mut builder = PathBuilder::new();
         for [x, y] in vertices {
             if builder.is_empty() { builder.move_to(x, y) } else { builder.line_to(x, y) }
@@ -105,13 +105,13 @@ impl Canvas {
     }
 
     /// The width of a text of the given height in pixels.
-    pub fn text_width(&self, text: &str, size: f32) -> f32 {
+    pub(crate) fn text_width(&self, text: &str, size: f32) -> f32 {
         let font = self.font.as_scaled(PxScale::from(size));
         text.chars().map(|c| font.h_advance(font.glyph_id(c))).sum()
     }
 
     /// A line of text from the left end of its base line.
-    pub fn text(&mut self, text: &str, anchor: [f32; 2], size: f32) {
+    pub(crate) fn text(&mut self, text: &str, anchor: [f32; 2], size: f32) {
         let mut x = anchor[0];
         let scale = PxScale::from(size);
         for character in text.chars() {
@@ -123,7 +123,7 @@ impl Canvas {
     }
 
     /// The longest beginning of `text` that fits into `width` pixels, with an ellipsis where it was cut.
-    pub fn fitted(&self, text: &str, size: f32, width: f32) -> String {
+    pub(crate) fn fitted(&self, text: &str, size: f32, width: f32) -> String {
         /// No picture holds more letters; a title can have any number.
         const MOST_LETTERS: usize = 500;
         let mut shorter: String = text.chars().take(MOST_LETTERS).collect();
@@ -158,7 +158,7 @@ impl Canvas {
     }
 
     /// The canvas as a PNG file.
-    pub fn png(&self) -> Result<Vec<u8>, PictureError> {
+    pub(crate) fn png(&self) -> Result<Vec<u8>, PictureError> {
         // Opaque all over, so that three channels say it all.
         let colors = self.pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
         let (width, height) = (self.pixels.width(), self.pixels.height());

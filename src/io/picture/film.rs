@@ -22,9 +22,6 @@ pub(super) fn is_film(snapshot: &Snapshot<'_>) -> bool {
 }
 
 /// Draws the profile of a film, the line of its snapshot.
-///
-/// # Errors
-/// [`PictureError`].
 pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
     let profile: &[Vec2] = snapshot.interface.as_ref().map_or(&[], |lines| &lines.points);
     let (Some(first), Some(last)) = (profile.first(), profile.last()) else { return Err(PictureError::Empty) };

@@ -6,18 +6,15 @@ mod mosaic;
 mod particles;
 mod style;
 
-pub use canvas::PictureError;
-pub use mosaic::mosaic_picture;
-pub use style::PORE;
+pub(crate) use canvas::PictureError;
+pub(crate) use mosaic::mosaic_picture;
+pub(crate) use style::PORE;
 
 use self::film::{film_picture, is_film};
 use self::particles::particle_picture;
 use crate::snapshot::{Lines, Snapshot};
 
 /// Draws a snapshot and the outline of its solids as a PNG file.
-///
-/// # Errors
-/// [`PictureError`].
-pub fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
+pub(crate) fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
     if is_film(snapshot) { film_picture(snapshot, title) } else { particle_picture(snapshot, outline, title) }
 }

@@ -63,10 +63,7 @@ impl View {
 }
 
 /// Draws a map as a PNG file.
-///
-/// # Errors
-/// [`PictureError`].
-pub fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, PictureError> {
+pub(crate) fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, PictureError> {
     let view = View::new(mosaic.bounds);
     if !(view.scale.is_finite() && view.scale > 0.0) || mosaic.areas.is_empty() {
         return Err(PictureError::Empty);

@@ -44,9 +44,6 @@ impl View {
 }
 
 /// Draws a snapshot and the outline of its solids as a PNG file.
-///
-/// # Errors
-/// [`PictureError`].
 pub(super) fn particle_picture(
     snapshot: &Snapshot<'_>,
     outline: &Lines<'_>,

@@ -29,7 +29,7 @@ pub(super) struct Phase {
 }
 
 /// Number of the phase of a pore without a fluid, in the picture of a geometry.
-pub const PORE: i64 = 3;
+pub(crate) const PORE: i64 = 3;
 
 /// What fills the pore; blue and yellow keep apart for color-blind eyes and in print.
 pub(super) const FLUIDS: [Phase; 3] = [

@@ -17,7 +17,7 @@ const BLOCK: usize = 32768;
 
 /// How arrays are compressed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Compression {
+pub(crate) enum Compression {
     /// Not at all.
     None,
     /// By zlib at its fastest level.

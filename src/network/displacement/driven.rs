@@ -9,37 +9,36 @@ use crate::math::Vec2;
 use crate::network::graph::WallPiece;
 
 /// A gate and the end at which a meniscus enters.
-pub type FrontId = (usize, usize);
+pub(crate) type FrontId = (usize, usize);
 
 /// What will let a meniscus, or two that meet, go on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Advance {
+pub(crate) struct Advance {
     /// What happens.
-    pub kind: EventKind,
+    pub(crate) kind: EventKind,
     /// Curvature in 1/m at which it does.
-    pub curvature: f64,
+    pub(crate) curvature: f64,
     /// The meniscus, and the one that it meets.
-    pub fronts: (FrontId, Option<FrontId>),
+    pub(crate) fronts: (FrontId, Option<FrontId>),
     /// The elements that are filled then: from that ahead of the first meniscus to that ahead of the second.
-    pub fills: Vec<usize>,
+    pub(crate) fills: Vec<usize>,
     candidate: Candidate,
 }
 
 /// A gate as a place that fluids flow through.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GateFacts {
+pub(crate) struct GateFacts {
     /// The elements on both sides.
-    pub elements: [usize; 2],
+    pub(crate) elements: [usize; 2],
     /// The throat of the network, where it is one; its regions are those of both sides.
-    pub throat: Option<usize>,
+    pub(crate) throat: Option<usize>,
     /// Length of its chord in m.
-    pub width: f64,
+    pub(crate) width: f64,
 }
 
 impl Displacement {
     /// All gates.
-    #[must_use]
-    pub fn gates(&self) -> Vec<GateFacts> {
+    pub(crate) fn gates(&self) -> Vec<GateFacts> {
         let mesh = &self.mesh;
         let facts = |(index, gate): (usize, &super::mesh::Gate)| {
             let (part, slot) = gate.places[0];
@@ -54,8 +53,7 @@ impl Displacement {
     }
 
     /// The openings of open sides with their elements.
-    #[must_use]
-    pub fn openings(&self) -> Vec<(usize, usize)> {
+    pub(crate) fn openings(&self) -> Vec<(usize, usize)> {
         let mesh = &self.mesh;
         let of_loop = |(part, element): (&super::loops::Loop, &usize)| {
             let crossings = part.crossings.iter().chain(&part.apart);
@@ -69,51 +67,46 @@ impl Displacement {
     }
 
     /// The walls around an element.
-    pub fn walls(&self, element: usize) -> impl Iterator<Item = &WallPiece> {
+    pub(crate) fn walls(&self, element: usize) -> impl Iterator<Item = &WallPiece> {
         let loops = self.mesh.elements[element].loops.iter();
         loops.flat_map(|&part| self.mesh.loops[part].walls.iter().flatten())
     }
 
     /// The menisci that wait, in order.
-    pub fn waiting(&self) -> impl Iterator<Item = FrontId> + '_ {
+    pub(crate) fn waiting(&self) -> impl Iterator<Item = FrontId> + '_ {
         let gates = self.fronts.iter().enumerate();
         gates.flat_map(|(gate, ends)| (0..2).filter(|&end| ends[end].is_some()).map(move |end| (gate, end)))
     }
 
     /// Where a waiting meniscus can stand, and the curvature in 1/m of its own event.
-    #[must_use]
-    pub fn front(&self, (gate, end): FrontId) -> Option<(&Passage, f64)> {
+    pub(crate) fn front(&self, (gate, end): FrontId) -> Option<(&Passage, f64)> {
         self.fronts[gate][end].as_ref().map(|front| (&front.passage, front.own))
     }
 
     /// Where a meniscus could stand that entered an element through a gate, and the curvature in 1/m of its own event.
-    #[must_use]
-    pub fn front_to_come(&self, (gate, end): FrontId) -> (Passage, f64) {
+    pub(crate) fn front_to_come(&self, (gate, end): FrontId) -> (Passage, f64) {
         let (passage, obstacles) = self.passage_at(&self.conditions.angle, &self.mesh, (gate, end), Vec2::zeros());
         let own = self.own_event(&passage, &obstacles).1;
         (passage, own)
     }
 
     /// The gates of an element with the end that lies in it.
-    #[must_use]
-    pub fn gates_of(&self, element: usize) -> &[FrontId] {
+    pub(crate) fn gates_of(&self, element: usize) -> &[FrontId] {
         &self.mesh.elements[element].gates
     }
 
     /// The region of an element.
-    #[must_use]
-    pub fn region(&self, element: usize) -> usize {
+    pub(crate) fn region(&self, element: usize) -> usize {
         self.mesh.region_of[element]
     }
 
     /// Contact angles in rad by wall.
-    #[must_use]
-    pub fn angles(&self) -> &[f64] {
+    pub(crate) fn angles(&self) -> &[f64] {
         &self.conditions.angle
     }
 
     /// What the menisci that are new since the last call wait for.
-    pub fn new_advances(&mut self) -> Vec<Advance> {
+    pub(crate) fn new_advances(&mut self) -> Vec<Advance> {
         let mut candidates: Vec<Candidate> = std::mem::take(&mut self.queue).into_vec();
         candidates.sort_by(|a, b| b.cmp(a));
         candidates.into_iter().filter_map(|candidate| self.advance(candidate)).collect()
@@ -133,8 +126,7 @@ impl Displacement {
     }
 
     /// Whether the menisci of an advance still wait, and still meet.
-    #[must_use]
-    pub fn still_waits(&self, advance: &Advance) -> bool {
+    pub(crate) fn still_waits(&self, advance: &Advance) -> bool {
         let ((gate, to), partner) = advance.fronts;
         let waits = |(gate, end): FrontId| self.fronts[gate][end].is_some();
         if !waits((gate, to)) {
@@ -146,7 +138,7 @@ impl Displacement {
     }
 
     /// An element is full of the invading phase: menisci into it end, and new ones wait in its gates.
-    pub fn complete(&mut self, element: usize) {
+    pub(crate) fn complete(&mut self, element: usize) {
         let mesh = self.mesh.clone();
         self.fill(&mesh, &[element]);
         self.settle(&mesh);

@@ -16,8 +16,7 @@ pub enum EventKind {
 
 impl EventKind {
     /// Its name in tables.
-    #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Burst => "burst",
             Self::Touch => "touch",

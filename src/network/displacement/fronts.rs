@@ -13,26 +13,26 @@ use crate::network::graph::WallPiece;
 #[derive(Debug, Clone)]
 pub(super) struct Front {
     /// Where it can stand.
-    pub passage: Passage,
+    pub(crate) passage: Passage,
     /// Curvature of its own event in 1/m.
-    pub own: f64,
+    pub(crate) own: f64,
 }
 
 /// An event that will come unless another comes before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Candidate {
     /// Curvature of the meniscus in 1/m.
-    pub curvature: f64,
+    pub(crate) curvature: f64,
     /// What will happen.
-    pub kind: EventKind,
+    pub(crate) kind: EventKind,
     /// The gate.
-    pub gate: usize,
+    pub(crate) gate: usize,
     /// The end of the gate at which the meniscus enters.
-    pub to: usize,
+    pub(crate) to: usize,
     /// The meniscus to meet, and on which hand.
-    pub partner: Option<((usize, usize), Hand)>,
+    pub(crate) partner: Option<((usize, usize), Hand)>,
     /// Whether both have met and wait as one.
-    pub is_joined: bool,
+    pub(crate) is_joined: bool,
 }
 
 /// What is added to a wall beside a crossing of a loop so that it meets it.
@@ -41,13 +41,13 @@ type SeamOf = fn(&Loop, usize) -> Vec2;
 /// The next meniscus along a wall.
 pub(super) struct Neighbor {
     /// Its gate and the end at which it enters.
-    pub front: (usize, usize),
+    pub(crate) front: (usize, usize),
     /// Length of wall between both gates in m.
     shared: f64,
     /// What is added to a position in its frame to get that in the frame of the meniscus it is the neighbor of, in m.
-    pub offset: Vec2,
+    pub(crate) offset: Vec2,
     /// The elements in between.
-    pub passed: Vec<usize>,
+    pub(crate) passed: Vec<usize>,
 }
 
 impl Eq for Candidate {}

@@ -26,20 +26,20 @@ struct Met {
 
 /// Where a meniscus can stand, and the other walls ahead of it.
 #[derive(Debug, Clone)]
-pub struct Place {
+pub(crate) struct Place {
     /// Both walls.
-    pub passage: Passage,
+    pub(crate) passage: Passage,
     /// The walls ahead.
-    pub ahead: Vec<Curve>,
+    pub(crate) ahead: Vec<Curve>,
 }
 
 /// The menisci of an event with their walls, in one frame.
 #[derive(Debug, Clone)]
-pub struct Scene {
+pub(crate) struct Scene {
     /// From left to right, seen in the direction of advance: one, or the two of an overlap, which share the wall between them.
-    pub places: Vec<Place>,
+    pub(crate) places: Vec<Place>,
     /// Whether two menisci met at a lower pressure than that of the event, and waited as one.
-    pub has_waited: bool,
+    pub(crate) has_waited: bool,
 }
 
 impl Involved {
@@ -56,8 +56,7 @@ impl Involved {
 
 impl Displacement {
     /// The menisci of an event of this displacement.
-    #[must_use]
-    pub fn scene(&self, event: &Event) -> Scene {
+    pub(crate) fn scene(&self, event: &Event) -> Scene {
         let place = |front: FrontId, offset: Vec2| {
             let (passage, ahead) = self.passage_at(&self.conditions.angle, &self.mesh, front, offset);
             Place { passage, ahead }

@@ -18,11 +18,11 @@ const SAME_LENGTH: f64 = 1e-9;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Crossing {
     /// The gate.
-    pub gate: GateId,
+    pub(crate) gate: GateId,
     /// Where its chord begins in m: the stretch of wall before it ends there.
-    pub from: Vec2,
+    pub(crate) from: Vec2,
     /// Where its chord ends in m.
-    pub to: Vec2,
+    pub(crate) to: Vec2,
 }
 
 /// A place where fluid passes from one element to another.
@@ -40,21 +40,21 @@ pub(super) enum GateId {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Loop {
     /// Stretches of wall; one is empty where two crossings share a point.
-    pub walls: Vec<Vec<WallPiece>>,
+    pub(crate) walls: Vec<Vec<WallPiece>>,
     /// As many crossings, each after the stretch of the same number.
-    pub crossings: Vec<Crossing>,
+    pub(crate) crossings: Vec<Crossing>,
     /// Openings along whole sides that meet no wall.
-    pub apart: Vec<Crossing>,
+    pub(crate) apart: Vec<Crossing>,
     /// Whether somewhere one curve does not begin at the end of the one before: around a periodic domain.
-    pub has_seam: bool,
+    pub(crate) has_seam: bool,
 }
 
 /// A point of a stretch of wall.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WallPoint {
-    pub piece: usize,
-    pub u: f64,
-    pub point: Vec2,
+    pub(crate) piece: usize,
+    pub(crate) u: f64,
+    pub(crate) point: Vec2,
 }
 
 impl WallPoint {
@@ -66,13 +66,13 @@ impl WallPoint {
 impl Loop {
     /// What is added to the wall before crossing `k` so that it ends there: a whole period at the seam of a loop that goes around a periodic
     /// domain, else zero.
-    pub fn wall_before(&self, k: usize) -> Vec2 {
+    pub(crate) fn wall_before(&self, k: usize) -> Vec2 {
         let end = self.walls[k].last().map(|piece| piece.curve.point(1.0));
         self.seam(end, self.crossings[k].from)
     }
 
     /// The same of the wall after crossing `k`.
-    pub fn wall_after(&self, k: usize) -> Vec2 {
+    pub(crate) fn wall_after(&self, k: usize) -> Vec2 {
         let start = self.walls[(k + 1) % self.walls.len()].first().map(|piece| piece.curve.point(0.0));
         self.seam(start, self.crossings[k].to)
     }
@@ -89,12 +89,12 @@ impl Loop {
 
     /// All curves of the loop in order, chords included, and straight connections where one does not begin at the end of the one before:
     /// along the seam of a region that goes around a periodic domain.
-    pub fn curves(&self) -> Vec<Curve> {
+    pub(crate) fn curves(&self) -> Vec<Curve> {
         self.connected().0
     }
 
     /// The curves of the loop, and whether it has a seam.
-    pub fn connected(&self) -> (Vec<Curve>, bool) {
+    pub(crate) fn connected(&self) -> (Vec<Curve>, bool) {
         const ROUNDING: f64 = 1e-9;
         let mut curves: Vec<Curve> = Vec::new();
         let mut has_seam = false;
@@ -130,7 +130,7 @@ impl Loop {
     }
 
     /// Area in m², closed form (Green).
-    pub fn area(&self) -> f64 {
+    pub(crate) fn area(&self) -> f64 {
         let curves = self.curves();
         let Some(origin) = curves.first().map(|curve| curve.point(0.0)) else { return 0.0 };
         -curves.iter().map(|curve| curve.area_about(origin)).sum::<f64>()

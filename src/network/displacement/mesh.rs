@@ -13,44 +13,44 @@ use crate::network::graph::{Edge, Network, Pores, Region};
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Element {
     /// Its loops.
-    pub loops: Vec<usize>,
+    pub(crate) loops: Vec<usize>,
     /// Sides of the domain at which it is open: left, right, bottom, top.
-    pub open: [bool; 4],
+    pub(crate) open: [bool; 4],
     /// Its gates with the end that lies in it, in order.
-    pub gates: Vec<(usize, usize)>,
+    pub(crate) gates: Vec<(usize, usize)>,
 }
 
 /// A gate between two elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gate {
     /// On each side the loop and the number of the crossing in it.
-    pub places: [(usize, usize); 2],
+    pub(crate) places: [(usize, usize); 2],
     /// What is added to a position in the frame of the first loop to get that in the frame of the second, in m.
-    pub shift: Vec2,
+    pub(crate) shift: Vec2,
     /// The throat, where it is one.
-    pub throat: Option<usize>,
+    pub(crate) throat: Option<usize>,
 }
 
 /// All elements and gates.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Mesh {
     /// The loops.
-    pub loops: Vec<Loop>,
+    pub(crate) loops: Vec<Loop>,
     /// The region of each loop.
-    pub region_of: Vec<usize>,
+    pub(crate) region_of: Vec<usize>,
     /// Area of each loop in m².
-    pub area: Vec<f64>,
+    pub(crate) area: Vec<f64>,
     /// The element of each loop.
-    pub element_of: Vec<usize>,
+    pub(crate) element_of: Vec<usize>,
     /// The gate of each crossing of each loop with the end that lies there; none at openings and at dissolved throats.
-    pub gate_at: Vec<Vec<Option<(usize, usize)>>>,
+    pub(crate) gate_at: Vec<Vec<Option<(usize, usize)>>>,
     /// For each crossing of each loop: the loop and the crossing on its other side, and what is added to a position in the frame of this
     /// loop to get that in the frame of the other one, in m; none at openings.
-    pub twins: Vec<Vec<Option<(usize, usize, Vec2)>>>,
+    pub(crate) twins: Vec<Vec<Option<(usize, usize, Vec2)>>>,
     /// The elements.
-    pub elements: Vec<Element>,
+    pub(crate) elements: Vec<Element>,
     /// The gates.
-    pub gates: Vec<Gate>,
+    pub(crate) gates: Vec<Gate>,
 }
 
 /// The loop of a region.
@@ -112,7 +112,7 @@ fn misses_walls(part: &Loop, k: usize) -> bool {
 
 impl Mesh {
     /// Elements between at most three walls, where segments divide the regions so; each dead end is one of its own.
-    pub fn divided(network: &Network) -> Self {
+    pub(crate) fn divided(network: &Network) -> Self {
         let (mut mesh, mut segments) = (Self::default(), 0);
         for (index, region) in network.regions.iter().enumerate() {
             let without = cut_dead_ends(loop_of(region), region.center, &mut segments);
@@ -130,7 +130,7 @@ impl Mesh {
     }
 
     /// The pores of the network as elements.
-    pub fn of_pores(network: &Network, pores: &Pores) -> Self {
+    pub(crate) fn of_pores(network: &Network, pores: &Pores) -> Self {
         let mut mesh = Self { elements: vec![Element::default(); pores.area.len()], ..Self::default() };
         for (index, region) in network.regions.iter().enumerate() {
             let pore = pores.pore_of[index];
@@ -190,12 +190,12 @@ impl Mesh {
     }
 
     /// The element on side `end` of a gate.
-    pub fn element(&self, gate: usize, end: usize) -> usize {
+    pub(crate) fn element(&self, gate: usize, end: usize) -> usize {
         self.element_of[self.gates[gate].places[end].0]
     }
 
     /// The elements beside an element, one for each of its gates that leads to another one.
-    pub fn neighbors(&self, element: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn neighbors(&self, element: usize) -> impl Iterator<Item = usize> + '_ {
         let gates = self.elements[element].gates.iter();
         gates.map(|&(gate, end)| self.element(gate, 1 - end)).filter(move |&other| other != element)
     }

@@ -26,13 +26,13 @@ mod walls;
 use std::collections::{BinaryHeap, VecDeque};
 use std::sync::Arc;
 
-pub use self::driven::{Advance, FrontId, GateFacts};
+pub(crate) use self::driven::{Advance, FrontId, GateFacts};
 pub use self::event::{Event, EventKind};
 use self::fronts::{Candidate, Front};
-pub use self::involved::{Involved, Place, Scene};
+pub(crate) use self::involved::{Involved, Place, Scene};
 use self::mesh::Mesh;
 use self::outflow::Outflow;
-pub use self::standing::{Beginning, Interfaces, Standing};
+pub(crate) use self::standing::{Beginning, Standing};
 use super::graph::{Network, Pores, Region};
 pub use crate::case::network::Events;
 use crate::geometry::curve::Curve;
@@ -73,8 +73,7 @@ pub struct MeasuredBurst {
 
 impl Conditions {
     /// The curvature in 1/m at which a meniscus bursts through a throat where the formula gives `formula`.
-    #[must_use]
-    pub fn burst(&self, throat: Option<usize>, formula: f64) -> f64 {
+    pub(crate) fn burst(&self, throat: Option<usize>, formula: f64) -> f64 {
         /// Relative differences that come from rounding on another machine.
         const ROUNDING: f64 = 1e-9;
         let is_same = |one: &&MeasuredBurst| {
@@ -130,7 +129,6 @@ pub struct Displacement {
 
 impl Displacement {
     /// The pore space full of the defending phase, except the elements that are open at an inlet: openings hold nothing back.
-    #[must_use]
     pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
         let mesh = match conditions.events {
             Events::All => Mesh::divided(network),
@@ -149,7 +147,6 @@ impl Displacement {
 
     /// The other phase invades from the state that is left. What it holds and is not connected to an inlet takes no part until it is
     /// reached, or, without trapping, takes part from the start.
-    #[must_use]
     pub fn reverse(self, conditions: Conditions) -> Self {
         let invaded = self.invaded.iter().map(|invaded| !invaded).collect();
         let conditions = Conditions { events: self.conditions.events, ..conditions };
@@ -261,38 +258,32 @@ impl Displacement {
     }
 
     /// Which events there are.
-    #[must_use]
-    pub fn events(&self) -> Events {
+    pub(crate) fn events(&self) -> Events {
         self.conditions.events
     }
 
     /// The elements; they tile the pore space.
-    #[must_use]
     pub fn elements(&self) -> &[Element] {
         &self.elements
     }
 
     /// The phase that an element holds.
-    #[must_use]
     pub fn phase(&self, element: usize) -> Phase {
         if self.invaded[self.mesh.element_of[element]] { Phase::Invading } else { Phase::Defending }
     }
 
     /// Whether an element holds the defending phase and cannot let it go.
-    #[must_use]
     pub fn is_trapped(&self, element: usize) -> bool {
         self.trapped[self.mesh.element_of[element]]
     }
 
     /// Whether the invading phase, joined to the inlet, has come to an outlet.
-    #[must_use]
     pub fn reached_outlet(&self) -> bool {
         self.has_reached_outlet
     }
 
     /// The menisci at the applied curvature in 1/m, each a polyline in m.
-    #[must_use]
-    pub fn menisci(&self, applied: f64) -> Vec<Vec<Vec2>> {
+    pub(crate) fn menisci(&self, applied: f64) -> Vec<Vec<Vec2>> {
         const POINTS: usize = 17;
         let fronts = self.fronts.iter().flatten().flatten();
         fronts.filter_map(|front| front.passage.at(applied.min(front.own))).map(|m| m.points(POINTS)).collect()
@@ -300,7 +291,6 @@ impl Displacement {
 
     /// The passage of a meniscus through a throat into its region `to`, 0 or 1, and the walls ahead that it may touch, in the frame of that
     /// region; none where the throat is no gate.
-    #[must_use]
     pub fn passage_through(&self, throat: usize, to: usize) -> Option<(Passage, Vec<Curve>)> {
         let gate = self.mesh.gates.iter().position(|gate| gate.throat == Some(throat))?;
         Some(self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()))
@@ -308,7 +298,6 @@ impl Displacement {
 
     /// Curvature in 1/m at which menisci burst through each throat, the larger one of both directions, under other conditions; NaN for throats that
     /// are no gates.
-    #[must_use]
     pub fn entry_curvatures(&self, conditions: &Conditions, throats: usize) -> Vec<f64> {
         let mut found = vec![f64::NAN; throats];
         for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
@@ -324,7 +313,6 @@ impl Displacement {
 }
 
 /// The boundary of a region as a polygon in m, arcs as chords, for pictures.
-#[must_use]
-pub fn outline(region: &Region) -> Vec<Vec2> {
+pub(crate) fn outline(region: &Region) -> Vec<Vec2> {
     outline::outline(&mesh::loop_of(region))
 }

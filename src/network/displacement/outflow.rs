@@ -17,7 +17,7 @@ pub(super) struct Outflow {
 
 impl Outflow {
     /// Ways to the elements marked as outlets, whatever they hold, through the elements marked as defending.
-    pub fn new(mesh: &Mesh, defends: &[bool], is_outlet: &[bool]) -> Self {
+    pub(crate) fn new(mesh: &Mesh, defends: &[bool], is_outlet: &[bool]) -> Self {
         let mut next = vec![None; defends.len()];
         let mut queue: Vec<usize> = (0..defends.len()).filter(|&e| is_outlet[e]).collect();
         queue.iter().for_each(|&e| next[e] = Some(e));
@@ -35,12 +35,12 @@ impl Outflow {
     }
 
     /// Whether the element has a way out.
-    pub fn is_open(&self, element: usize) -> bool {
+    pub(crate) fn is_open(&self, element: usize) -> bool {
         self.next[element].is_some()
     }
 
     /// Takes an element out, and returns those that have lost their way for good.
-    pub fn remove(&mut self, mesh: &Mesh, element: usize) -> Vec<usize> {
+    pub(crate) fn remove(&mut self, mesh: &Mesh, element: usize) -> Vec<usize> {
         if self.next[element] == Some(element) {
             return Vec::new();
         }

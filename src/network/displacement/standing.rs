@@ -20,34 +20,34 @@ use crate::network::graph::{Network, Pores};
 
 /// An interface between two elements.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Standing {
+pub(crate) struct Standing {
     /// Elements of the invading and of the defending phase.
-    pub between: [usize; 2],
+    pub(crate) between: [usize; 2],
     /// From the left wall to the right one in m, the defending phase on its left.
-    pub curve: Curve,
+    pub(crate) curve: Curve,
     /// Curvature in 1/m, above 0 where it bulges into the defending phase; none where the chord of the gate stands for the meniscus.
-    pub curvature: Option<f64>,
+    pub(crate) curvature: Option<f64>,
     /// Signed angle between the chord of both contacts and the interface in rad.
-    pub bend: f64,
+    pub(crate) bend: f64,
     /// Area in m² between the chord of the gate and the interface; none where two menisci have become one.
-    pub swept: Option<f64>,
+    pub(crate) swept: Option<f64>,
     /// Length of wall from the gate to the left and the right contact in m, where each has a gate of its own.
-    pub advances: [f64; 2],
+    pub(crate) advances: [f64; 2],
     /// Its gate, or both where two menisci have become one, with the ends at which they enter.
     gates: Vec<(usize, usize)>,
 }
 
 /// All interfaces, and what the invading phase is bounded by.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Interfaces {
+pub(crate) struct Interfaces {
     /// The interfaces.
-    pub menisci: Vec<Standing>,
+    pub(crate) menisci: Vec<Standing>,
     /// The boundary of the invading phase in m, the phase on its left: along walls, then along menisci.
-    pub outline: Vec<Curve>,
+    pub(crate) outline: Vec<Curve>,
     /// For each element the curvature in 1/m of the menisci around what is trapped there; NaN where nothing is.
-    pub trapped: Vec<f64>,
+    pub(crate) trapped: Vec<f64>,
     /// Area of the invading phase in m²; none in a periodic domain where menisci have joined.
-    pub area: Option<f64>,
+    pub(crate) area: Option<f64>,
 }
 
 /// Two menisci that have met and wait as one.
@@ -60,19 +60,18 @@ struct Pair {
 
 /// The phases with which a displacement begins.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Beginning {
+pub(crate) struct Beginning {
     /// Whether the invading phase holds an element.
-    pub invaded: Vec<bool>,
+    pub(crate) invaded: Vec<bool>,
     /// The applied curvature in 1/m so far; below all where this half cycle begins with it.
-    pub applied: f64,
+    pub(crate) applied: f64,
     /// Curvature in 1/m at which an element was trapped; NaN where it was not.
-    pub held: Vec<f64>,
+    pub(crate) held: Vec<f64>,
 }
 
 impl Displacement {
     /// A displacement that begins with phases that are known; as [`new`](Self::new), it fills what is open at an inlet.
-    #[must_use]
-    pub fn beginning(network: &Network, pores: &Pores, conditions: Conditions, beginning: &Beginning) -> Self {
+    pub(crate) fn beginning(network: &Network, pores: &Pores, conditions: Conditions, beginning: &Beginning) -> Self {
         let fresh = Self::new(network, pores, Conditions { inlet: [false; 4], ..conditions.clone() });
         let mut invaded = vec![false; fresh.mesh.elements.len()];
         let mut held = vec![f64::NAN; fresh.mesh.elements.len()];
@@ -116,8 +115,7 @@ impl Displacement {
     }
 
     /// The curvature in 1/m at which all menisci that wait can rest: `applied`, or that of the next event where it is lower.
-    #[must_use]
-    pub fn resting_curvature(&self, applied: f64) -> f64 {
+    pub(crate) fn resting_curvature(&self, applied: f64) -> f64 {
         let is_open = |it: &&Candidate| {
             let front = (it.gate, it.to);
             let meets = |(other, hand)| {
@@ -129,8 +127,7 @@ impl Displacement {
     }
 
     /// All interfaces at a resting curvature (1/m), in a domain that is joined along x and y where `periodic`.
-    #[must_use]
-    pub fn interfaces(&self, applied: f64, bounds: Bounds, periodic: [bool; 2]) -> Interfaces {
+    pub(crate) fn interfaces(&self, applied: f64, bounds: Bounds, periodic: [bool; 2]) -> Interfaces {
         let mesh = &self.mesh;
         let trapped = self.trapped_curvatures();
         let mut menisci = self.standing(applied, &trapped);
@@ -269,8 +266,7 @@ impl Displacement {
     }
 
     /// The exact boundary of an element in m, pore on the right.
-    #[must_use]
-    pub fn boundary(&self, element: usize) -> Vec<Curve> {
+    pub(crate) fn boundary(&self, element: usize) -> Vec<Curve> {
         let part = &self.mesh.loops[element];
         let apart = part.apart.iter().map(|crossing| Curve::Segment { a: crossing.from, b: crossing.to });
         part.curves().into_iter().chain(apart).filter(|curve| curve.length() > 0.0).collect()

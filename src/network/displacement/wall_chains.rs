@@ -15,17 +15,17 @@ const ON_WALL: f64 = 1e-8;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Side {
     /// The piece.
-    pub piece: usize,
+    pub(crate) piece: usize,
     /// Parameter at which it begins.
-    pub from: f64,
+    pub(crate) from: f64,
     /// Parameter at which it ends.
-    pub to: f64,
+    pub(crate) to: f64,
 }
 
 /// The walls in chains.
 pub(super) struct WallChains {
     /// The pieces in m, pore on the right, each in the frame of its element.
-    pub curves: Vec<Curve>,
+    pub(crate) curves: Vec<Curve>,
     /// Whether the element of a piece holds the invading phase.
     is_invaded: Vec<bool>,
     /// The chains, and whether the last piece leads back to the first.
@@ -41,9 +41,9 @@ pub(super) struct WallChains {
 /// What the invading phase wets.
 pub(super) struct Traced {
     /// Parts of walls.
-    pub sides: Vec<Side>,
+    pub(crate) sides: Vec<Side>,
     /// Menisci whose ends are in no order, by their index.
-    pub crossed: Vec<usize>,
+    pub(crate) crossed: Vec<usize>,
 }
 
 /// An end of a meniscus on a wall.
@@ -59,7 +59,7 @@ struct Contact {
 
 impl WallChains {
     /// The walls of all elements; `is_invaded` is told for each loop.
-    pub fn new(mesh: &Mesh, is_invaded: &[bool], bounds: Bounds, periodic: [bool; 2]) -> Self {
+    pub(crate) fn new(mesh: &Mesh, is_invaded: &[bool], bounds: Bounds, periodic: [bool; 2]) -> Self {
         let mut first = Vec::new();
         let (mut curves, mut tags) = (Vec::new(), Vec::new());
         for (part, invaded) in mesh.loops.iter().zip(is_invaded) {
@@ -95,7 +95,7 @@ impl WallChains {
     }
 
     /// Cuts the walls at the left and right ends of menisci, each with its length of wall from its gate.
-    pub fn traced(&self, ends: &[[(Vec2, f64); 2]]) -> Traced {
+    pub(crate) fn traced(&self, ends: &[[(Vec2, f64); 2]]) -> Traced {
         let mut crossed = Vec::new();
         let mut contacts: Vec<Vec<Contact>> = vec![Vec::new(); self.chains.len()];
         for (meniscus, both) in ends.iter().enumerate() {

@@ -20,20 +20,20 @@ const SMOOTH: f64 = 1e-6;
 #[derive(Debug, Clone, Default)]
 pub(super) struct GateWalls {
     /// Pieces on the left from the chord on, as they follow each other behind it and ahead of it; their curves run with the advance.
-    pub left: Sides,
+    pub(crate) left: Sides,
     /// Pieces on the right; their curves run against the advance.
-    pub right: Sides,
+    pub(crate) right: Sides,
     /// All other walls of the element that is entered.
-    pub ahead: Vec<WallPiece>,
+    pub(crate) ahead: Vec<WallPiece>,
 }
 
 /// One wall on both sides of a chord, each side in the order away from the chord.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sides {
     /// Against the advance.
-    pub behind: Vec<WallPiece>,
+    pub(crate) behind: Vec<WallPiece>,
     /// With the advance.
-    pub ahead: Vec<WallPiece>,
+    pub(crate) ahead: Vec<WallPiece>,
 }
 
 /// Part of a stretch of wall that is followed from one of its ends, in the order of following, and what is left of it.

@@ -10,15 +10,15 @@ use crate::network::displacement::{Advance, EventKind, FrontId, Phase};
 
 /// A meniscus that will wait ahead of an element.
 pub(super) struct ToCome<'a> {
-    pub front: FrontId,
-    pub rise: &'a Rise,
+    pub(crate) front: FrontId,
+    pub(crate) rise: &'a Rise,
     /// Area in m² that is free ahead of it.
     free: f64,
 }
 
 impl ToCome<'_> {
     /// Swept area in m² at a curvature in 1/m.
-    pub fn area(&self, curvature: f64) -> f64 {
+    pub(crate) fn area(&self, curvature: f64) -> f64 {
         self.rise.area(curvature.min(self.rise.end().1)).min(self.free)
     }
 }

@@ -9,17 +9,16 @@ const CUTS: usize = 64;
 
 /// Fingers of the invading phase, counted on lines across the flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fingers {
+pub(crate) struct Fingers {
     /// Mean width in m from the first to the last pore that a finger holds on a line; NaN where there is none.
-    pub width: f64,
+    pub(crate) width: f64,
     /// Mean number per line that the invading phase has reached.
-    pub count: f64,
+    pub(crate) count: f64,
 }
 
 impl Dynamic {
     /// Fingers on lines across the direction from inlet to outlet. A finger ends where the defending phase stands; solids in it count.
-    #[must_use]
-    pub fn fingers(&self, setting: &Setting) -> Fingers {
+    pub(crate) fn fingers(&self, setting: &Setting) -> Fingers {
         let axis = setting.inlet.map_or(0, |inlet| inlet / 2);
         let (low, size) = (setting.bounds.min[axis], setting.bounds.size()[axis]);
         let (mut widths, mut fingers, mut lines) = (0.0, 0, 0);
@@ -62,8 +61,7 @@ impl Dynamic {
     }
 
     /// Length in m of all menisci that wait.
-    #[must_use]
-    pub fn interface_length(&self) -> f64 {
+    pub(crate) fn interface_length(&self) -> f64 {
         self.arcs().map(|arc| arc.curve().length()).sum()
     }
 }

@@ -44,20 +44,20 @@ pub(super) enum Side {
 /// The body of invading phase in an element that is being filled.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
-    pub element: usize,
+    pub(crate) element: usize,
     /// Its curvature over its area: constant until the element is full, then the common one of the menisci that will wait in its gates.
-    pub rise: Arc<Rise>,
+    pub(crate) rise: Arc<Rise>,
     /// Its area in m² now, when the element is full, and when the first of the menisci ahead reaches its event.
-    pub area: f64,
-    pub full: f64,
-    pub first: Option<f64>,
+    pub(crate) area: f64,
+    pub(crate) full: f64,
+    pub(crate) first: Option<f64>,
     /// Whether a step may go on when its element is full.
-    pub passes: bool,
+    pub(crate) passes: bool,
 }
 
 impl Body {
     /// Area in m² just beyond that of the element that is full.
-    pub fn beyond(&self) -> f64 {
+    pub(crate) fn beyond(&self) -> f64 {
         self.full * (1.0 + 1e-9)
     }
 }
@@ -65,9 +65,9 @@ impl Body {
 /// The areas in m² that goals are compared with.
 pub(super) struct Areas<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64> {
     /// Swept by a meniscus that waits.
-    pub front: F,
+    pub(crate) front: F,
     /// Of a body, by its number.
-    pub body: B,
+    pub(crate) body: B,
 }
 
 /// What may be missing until an event, and what may be beyond it, as a share of the way to it. What is beyond is not lost: the invading

@@ -25,22 +25,22 @@ pub(super) enum Way {
 /// A conductor with the elements that it joins; one at an open side has its element twice.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Link {
-    pub way: Way,
-    pub elements: [usize; 2],
+    pub(crate) way: Way,
+    pub(crate) elements: [usize; 2],
     /// Resistances in 1/m² on the side of each element.
-    pub halves: [f64; 2],
+    pub(crate) halves: [f64; 2],
 }
 
 /// All conductors of a state, until an event changes it.
 #[derive(Debug, Clone)]
 pub(super) struct Graph {
-    pub laplacian: Laplacian,
-    pub links: Vec<Link>,
-    pub nodes: usize,
+    pub(crate) laplacian: Laplacian,
+    pub(crate) links: Vec<Link>,
+    pub(crate) nodes: usize,
     /// The node of the inlet, where a rate is given.
-    pub inlet: Option<usize>,
+    pub(crate) inlet: Option<usize>,
     /// By gate: the link of its meniscus.
-    pub link_of: Vec<Option<usize>>,
+    pub(crate) link_of: Vec<Option<usize>>,
 }
 
 /// The node of a body of invading phase.

@@ -10,42 +10,42 @@ use crate::network::displacement::FrontId;
 
 /// What stays as it is while the length of a step is sought.
 pub(super) struct Known {
-    pub goals: Vec<Goal>,
+    pub(crate) goals: Vec<Goal>,
     /// Whether an element may be full first.
-    pub fills: bool,
-    pub bodies: Vec<Body>,
+    pub(crate) fills: bool,
+    pub(crate) bodies: Vec<Body>,
     /// What resists by its curvature.
-    pub laws: Vec<Law>,
+    pub(crate) laws: Vec<Law>,
     /// By link: its law.
-    pub law_of: Vec<Option<usize>>,
+    pub(crate) law_of: Vec<Option<usize>>,
     /// By body: its law.
-    pub law_of_body: Vec<usize>,
+    pub(crate) law_of_body: Vec<usize>,
     /// By link: resistance in Pa s/m², and the pressure drop in Pa without flow, but for a law.
-    pub drops: Vec<(f64, f64)>,
+    pub(crate) drops: Vec<(f64, f64)>,
     /// Of each node in m²/s.
-    pub sources: Vec<f64>,
+    pub(crate) sources: Vec<f64>,
 }
 
 /// A link that resists by a curvature: a meniscus that waits, or the body in an element.
 pub(super) struct Law {
-    pub link: usize,
-    pub rise: Arc<Rise>,
+    pub(crate) link: usize,
+    pub(crate) rise: Arc<Rise>,
     /// Area in m² before the step.
-    pub area: f64,
+    pub(crate) area: f64,
     /// Area in m² to begin with.
-    pub start: f64,
+    pub(crate) start: f64,
     /// Curvature in 1/m that errors are compared with.
-    pub scale: f64,
+    pub(crate) scale: f64,
     /// Of a body: area in m² at which its element is full, and whether the step may go on then.
-    pub full: Option<f64>,
-    pub passes: bool,
+    pub(crate) full: Option<f64>,
+    pub(crate) passes: bool,
     /// Laws of the menisci that wait to enter the element of a body: what they sweep is in it too.
-    pub entering: Vec<usize>,
+    pub(crate) entering: Vec<usize>,
 }
 
 impl Known {
     /// What menisci that wait to enter the element of a body have swept in the step, in m², with areas by law.
-    pub fn swept(&self, law: usize, area: &impl Fn(usize) -> f64) -> f64 {
+    pub(crate) fn swept(&self, law: usize, area: &impl Fn(usize) -> f64) -> f64 {
         let swept = |&entering: &usize| area(entering).max(0.0) - self.laws[entering].area.max(0.0);
         self.laws[law].entering.iter().map(swept).sum()
     }

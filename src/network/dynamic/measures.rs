@@ -13,7 +13,7 @@ fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Mea
 }
 
 /// All measures.
-pub fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
+pub(crate) fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
     let mut found = of_network_with_flow(&solver.still);
     let dynamic = &solver.dynamic;
     let terms = dynamic.terms();
@@ -115,7 +115,7 @@ pub fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
 }
 
 /// `events.csv`.
-pub fn events(solver: &DynamicSolver) -> Table {
+pub(crate) fn events(solver: &DynamicSolver) -> Table {
     let tension = solver.invading.towards_wetting(solver.dynamic.terms().tension);
     let number_of = numbers_of_throats(solver.still.setting());
     let history = solver.dynamic.history();
@@ -135,7 +135,7 @@ pub fn events(solver: &DynamicSolver) -> Table {
 }
 
 /// Pressure difference and saturation over what was injected.
-pub fn diagrams(solver: &DynamicSolver) -> Vec<Diagram> {
+pub(crate) fn diagrams(solver: &DynamicSolver) -> Vec<Diagram> {
     let history = solver.dynamic.history();
     let points =
         history.iter().filter(|event| event.pressure.is_finite()).map(|event| [event.saturation, event.pressure]);

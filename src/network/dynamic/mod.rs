@@ -27,7 +27,7 @@ mod known;
 mod measures;
 mod path;
 mod rise;
-pub mod solver;
+pub(crate) mod solver;
 mod step;
 
 pub use step::StepEnd;
@@ -165,7 +165,6 @@ pub struct Dynamic {
 impl Dynamic {
     /// The pore space full of the defending phase, except the elements that are open at an inlet, with flat menisci in their gates. The
     /// displacement must be at its beginning, without trapping.
-    #[must_use]
     pub fn new(network: Arc<Network>, displacement: Displacement, terms: Terms) -> Self {
         let elements = displacement.elements().len();
         let gates = displacement.gates();
@@ -250,43 +249,36 @@ impl Dynamic {
     }
 
     /// Elements, gates, and the phases of the elements that are full.
-    #[must_use]
     pub fn displacement(&self) -> &Displacement {
         &self.displacement
     }
 
     /// Fluids and drive.
-    #[must_use]
-    pub fn terms(&self) -> &Terms {
+    pub(crate) fn terms(&self) -> &Terms {
         &self.terms
     }
 
     /// The time in s.
-    #[must_use]
     pub fn time(&self) -> f64 {
         self.state.time
     }
 
     /// All events so far.
-    #[must_use]
     pub fn history(&self) -> &[Occurrence] {
         &self.state.history
     }
 
     /// When the elements began to be filled; `applied` is the curvature of the meniscus that let the invading phase in.
-    #[must_use]
     pub fn invasions(&self) -> &[Option<Invasion>] {
         &self.state.invasions
     }
 
     /// When the invading phase reached the outlet.
-    #[must_use]
     pub fn breakthrough(&self) -> Option<Breakthrough> {
         self.state.breakthrough
     }
 
     /// Area of all pores in m².
-    #[must_use]
     pub fn pore_area(&self) -> f64 {
         self.pore_area
     }
@@ -308,8 +300,7 @@ impl Dynamic {
     }
 
     /// Share of an element that the invading phase holds: 1 where it is full, above 0 where it is being filled or a meniscus bulges into it.
-    #[must_use]
-    pub fn share(&self, element: usize) -> f64 {
+    pub(crate) fn share(&self, element: usize) -> f64 {
         if self.is_invaded(element) {
             return 1.0;
         }
@@ -320,7 +311,6 @@ impl Dynamic {
     }
 
     /// Area in m² that the invading phase holds.
-    #[must_use]
     pub fn invading_area(&self) -> f64 {
         let elements = self.displacement.elements().iter().enumerate();
         let full: f64 = elements.filter(|(index, _)| self.is_invaded(*index)).map(|(_, element)| element.area).sum();
@@ -330,7 +320,6 @@ impl Dynamic {
     }
 
     /// What the invading phase gained less what flowed in and out, over what it holds: an error of the program.
-    #[must_use]
     pub fn balance_error(&self) -> f64 {
         let [inflow, outflow, _] = self.state.passed;
         let area = self.invading_area();
@@ -338,8 +327,7 @@ impl Dynamic {
     }
 
     /// The menisci, each a polyline in m.
-    #[must_use]
-    pub fn menisci(&self) -> Vec<Vec<crate::math::Vec2>> {
+    pub(crate) fn menisci(&self) -> Vec<Vec<crate::math::Vec2>> {
         const POINTS: usize = 17;
         self.arcs().map(|arc| arc.points(POINTS)).collect()
     }
@@ -355,7 +343,6 @@ impl Dynamic {
     }
 
     /// For each element whether it holds the defending phase and no other element that does leads on to an outlet.
-    #[must_use]
     pub fn trapped(&self) -> Vec<bool> {
         self.trapped_once_full(None)
     }

@@ -13,7 +13,7 @@ const LEAST: f64 = 1e-9;
 
 /// A rising, piecewise linear function.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rise {
+pub(crate) struct Rise {
     /// Swept area in m² since the chord of the gate, rising.
     area: Vec<f64>,
     /// Curvature in 1/m, rising.
@@ -25,8 +25,7 @@ pub struct Rise {
 impl Rise {
     /// The stable menisci of a passage up to its event at the curvature `event` (1/m), between walls `width` (m) apart at the chord; none
     /// where no meniscus ever passes.
-    #[must_use]
-    pub fn new(passage: &Passage, event: f64, width: f64) -> Option<Self> {
+    pub(crate) fn new(passage: &Passage, event: f64, width: f64) -> Option<Self> {
         if !event.is_finite() || !(width > 0.0) {
             return None;
         }
@@ -51,8 +50,7 @@ impl Rise {
     }
 
     /// Curvature in 1/m at a swept area in m², and its change with the area in 1/m³.
-    #[must_use]
-    pub fn curvature(&self, area: f64) -> (f64, f64) {
+    pub(crate) fn curvature(&self, area: f64) -> (f64, f64) {
         if self.area.len() < 2 || area < self.area[0] {
             return (self.curvature[0] + self.closed * (area - self.area[0]), self.closed);
         }
@@ -62,8 +60,7 @@ impl Rise {
     }
 
     /// The swept area v in m² at which c (v − `from`) + k(v) = `drive`, with c in 1/m³ and the drive in 1/m.
-    #[must_use]
-    pub fn standing(&self, from: f64, c: f64, drive: f64) -> f64 {
+    pub(crate) fn standing(&self, from: f64, c: f64, drive: f64) -> f64 {
         let need = |point: usize| c * (self.area[point] - from) + self.curvature[point];
         let (mut low, mut high) = (0, self.area.len());
         while low < high {
@@ -87,8 +84,7 @@ impl Rise {
     }
 
     /// Swept area in m² at a curvature in 1/m, at most that at the event.
-    #[must_use]
-    pub fn area(&self, curvature: f64) -> f64 {
+    pub(crate) fn area(&self, curvature: f64) -> f64 {
         let end = self.curvature.partition_point(|&k| k < curvature);
         if end == self.curvature.len() {
             self.end().0
@@ -100,22 +96,19 @@ impl Rise {
     }
 
     /// Swept area in m² and curvature in 1/m at the event.
-    #[must_use]
-    pub fn end(&self) -> (f64, f64) {
+    pub(crate) fn end(&self) -> (f64, f64) {
         let last = self.area.len() - 1;
         (self.area[last], self.curvature[last])
     }
 
     /// Swept area in m² and curvature in 1/m of the meniscus that is drawn back as far as it can be.
-    #[must_use]
-    pub fn start(&self) -> (f64, f64) {
+    pub(crate) fn start(&self) -> (f64, f64) {
         (self.area[0], self.curvature[0])
     }
 
     /// That of a body in an element, from places of rising area in m² and curvature in 1/m; the curvature of the first is that of the body
     /// before, and the last one is passed with a change of curvature of `last` in 1/m³.
-    #[must_use]
-    pub fn of_body(places: &[(f64, f64)], last: f64) -> Self {
+    pub(crate) fn of_body(places: &[(f64, f64)], last: f64) -> Self {
         let (mut area, mut curvature): (Vec<f64>, Vec<f64>) = places.iter().copied().unzip();
         if let (Some(&a), Some(&k)) = (area.last(), curvature.last()) {
             area.push(a + 1.0 / last);
@@ -125,14 +118,12 @@ impl Rise {
     }
 
     /// That of a body of a constant curvature in 1/m.
-    #[must_use]
-    pub fn constant(curvature: f64) -> Self {
+    pub(crate) fn constant(curvature: f64) -> Self {
         Self { area: vec![0.0], curvature: vec![curvature], closed: 0.0 }
     }
 
     /// The area in m² that errors of areas are compared with.
-    #[must_use]
-    pub fn scale(&self) -> f64 {
+    pub(crate) fn scale(&self) -> f64 {
         let range = self.end().0 - self.area[0];
         range.max(self.end().1.abs().max(f64::MIN_POSITIVE) / self.closed)
     }

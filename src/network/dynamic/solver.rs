@@ -19,7 +19,7 @@ use crate::solver::{
 
 /// Where a displacement in time ends before its last record.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct End {
+pub(crate) struct End {
     /// When the invading phase reaches the outlet.
     pub at_breakthrough: bool,
     /// When the invading phase fills this share of the pore space.
@@ -29,13 +29,13 @@ pub struct End {
 }
 
 /// A network with a displacement in time.
-pub struct DynamicSolver {
+pub(crate) struct DynamicSolver {
     /// The network, with nothing displaced.
-    pub still: NetworkSolver,
+    pub(crate) still: NetworkSolver,
     /// The displacement.
-    pub dynamic: Dynamic,
+    pub(crate) dynamic: Dynamic,
     /// The phase that comes in.
-    pub invading: FluidPhase,
+    pub(crate) invading: FluidPhase,
     end: End,
     is_closed: bool,
     steps_before: u64,
@@ -44,34 +44,29 @@ pub struct DynamicSolver {
 
 impl DynamicSolver {
     /// The displacement at its beginning.
-    #[must_use]
-    pub fn new(still: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
+    pub(crate) fn new(still: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
         Self { still, dynamic, invading, end, is_closed: false, steps_before: 0, seconds: 0.0 }
     }
 
     /// Pore volumes of the invading phase that have passed the inlet.
-    #[must_use]
-    pub fn injected(&self) -> f64 {
+    pub(crate) fn injected(&self) -> f64 {
         self.dynamic.state.passed[0] / self.dynamic.pore_area
     }
 
     /// Share of the pore space that the invading phase holds.
-    #[must_use]
-    pub fn saturation(&self) -> f64 {
+    pub(crate) fn saturation(&self) -> f64 {
         self.dynamic.invading_area() / self.dynamic.pore_area
     }
 
     /// μ U/σ with the viscosity of the invading phase and the flow into the inlet over the length of its side.
-    #[must_use]
-    pub fn capillary_number(&self) -> f64 {
+    pub(crate) fn capillary_number(&self) -> f64 {
         let (_, inflow) = self.dynamic.drive_now();
         let terms = self.dynamic.terms();
         terms.viscosity[0] * inflow / (self.side() * terms.tension)
     }
 
     /// Length of the side of the inlet in m.
-    #[must_use]
-    pub fn side(&self) -> f64 {
+    pub(crate) fn side(&self) -> f64 {
         let setting = self.still.setting();
         setting.inlet.map_or(f64::NAN, |inlet| setting.bounds.size()[1 - inlet / 2])
     }

@@ -10,10 +10,10 @@ use crate::network::laplacian::{Flow, FlowError};
 /// The end of a step of the length `dt` in s.
 #[derive(Debug, Clone)]
 pub(super) struct Trial {
-    pub dt: f64,
-    pub flow: Flow,
+    pub(crate) dt: f64,
+    pub(crate) flow: Flow,
     /// What is missing until each goal, as a share of the whole way.
-    pub gaps: Vec<f64>,
+    pub(crate) gaps: Vec<f64>,
 }
 
 impl Trial {
@@ -54,9 +54,6 @@ pub enum StepEnd {
 
 impl Dynamic {
     /// Goes on to the next event, at most to the time `until` in s; does the event.
-    ///
-    /// # Errors
-    /// [`FlowError`].
     pub fn advance(&mut self, until: f64) -> Result<StepEnd, FlowError> {
         self.fire();
         let graph = self.current_graph()?;
@@ -78,7 +75,6 @@ impl Dynamic {
     }
 
     /// The pressure at the inlet less that at the outlet in Pa, and the flow into the inlet in m²/s, in the last step.
-    #[must_use]
     pub fn drive_now(&self) -> (f64, f64) {
         (self.state.pressure, self.state.inflow)
     }

@@ -24,9 +24,9 @@ pub(super) enum Step {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Loop {
     /// Its steps in order.
-    pub steps: Vec<Step>,
+    pub(crate) steps: Vec<Step>,
     /// The shift between its end and its start; zero but for loops around a periodic domain.
-    pub winding: Shift,
+    pub(crate) winding: Shift,
 }
 
 /// A chord end on a wall.
@@ -42,7 +42,7 @@ struct ChordEnd {
 /// All loops, and which of them runs where.
 pub(super) struct Loops {
     /// The loops.
-    pub loops: Vec<Loop>,
+    pub(crate) loops: Vec<Loop>,
     ends: Vec<Vec<ChordEnd>>,
     /// For each chord end of a wall: the loop that arrives there and the shift of the wall then.
     arriving: Vec<Vec<(usize, Shift)>>,
@@ -54,7 +54,7 @@ const NONE: usize = usize::MAX;
 
 impl Loops {
     /// The loops of all regions. Chords are those of `saddles`.
-    pub fn trace(walls: &Walls, saddles: &[Opposite], perimeter: &Perimeter) -> Self {
+    pub(crate) fn trace(walls: &Walls, saddles: &[Opposite], perimeter: &Perimeter) -> Self {
         let mut ends: Vec<Vec<ChordEnd>> = vec![Vec::new(); walls.walls.len()];
         for (throat, saddle) in saddles.iter().enumerate() {
             for end in 0..2 {
@@ -192,7 +192,7 @@ impl Loops {
 
     /// The loop that runs through a wall point which is seen from a place along `direction`, what is added to the shift of the point in the
     /// frame of the loop, and how far (m) chord ends are.
-    pub fn at(&self, walls: &Walls, contact: &Contact, direction: Vec2) -> Option<(usize, Shift, f64)> {
+    pub(crate) fn at(&self, walls: &Walls, contact: &Contact, direction: Vec2) -> Option<(usize, Shift, f64)> {
         let angle = fan_angle(walls, contact, -direction);
         let list = &self.ends[contact.wall];
         let k = list.partition_point(|end| (end.contact.u, end.angle) < (contact.u, angle));

@@ -9,28 +9,28 @@ pub(super) struct Moments {
     origin: Vec2,
     last: Option<[Vec2; 2]>,
     /// Area in m2.
-    pub area: f64,
+    pub(crate) area: f64,
     /// First moment in m3.
-    pub first: Vec2,
+    pub(crate) first: Vec2,
     /// Length of the curves in m.
-    pub length: f64,
+    pub(crate) length: f64,
 }
 
 impl Moments {
     /// Of nothing, about a point (m) near the line, which keeps rounding small.
-    pub fn about(origin: Vec2) -> Self {
+    pub(crate) fn about(origin: Vec2) -> Self {
         Self { origin, last: None, area: 0.0, first: Vec2::zeros(), length: 0.0 }
     }
 
     /// Goes on along a straight line to `b`, from where it was or from `a`.
-    pub fn straight(&mut self, a: Vec2, b: Vec2) {
+    pub(crate) fn straight(&mut self, a: Vec2, b: Vec2) {
         self.jump(a);
         self.triangle(a, b);
         self.last = self.last.map(|[start, _]| [start, b]).or(Some([a, b]));
     }
 
     /// Goes on along a curve.
-    pub fn curve(&mut self, curve: &Curve) {
+    pub(crate) fn curve(&mut self, curve: &Curve) {
         let (a, b) = (curve.point(0.0), curve.point(1.0));
         self.straight(a, b);
         self.length += curve.length();
@@ -44,7 +44,7 @@ impl Moments {
     }
 
     /// Closes the line.
-    pub fn closed(mut self) -> Self {
+    pub(crate) fn closed(mut self) -> Self {
         if let Some([start, _]) = self.last {
             self.jump(start);
         }
@@ -66,7 +66,7 @@ impl Moments {
     }
 
     /// The centroid in m.
-    pub fn centroid(&self) -> Vec2 {
+    pub(crate) fn centroid(&self) -> Vec2 {
         self.origin + self.first / self.area
     }
 }

@@ -9,36 +9,36 @@ use crate::math::Vec2;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct SidePart {
     /// Left, right, bottom, top: 0 to 3.
-    pub side: usize,
+    pub(crate) side: usize,
     /// Where it begins in m.
-    pub from: Vec2,
+    pub(crate) from: Vec2,
     /// Where it ends in m.
-    pub to: Vec2,
+    pub(crate) to: Vec2,
 }
 
 /// From the end of a wall along sides to the start of the next one.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Way {
     /// Straight parts, none of them empty.
-    pub parts: Vec<SidePart>,
+    pub(crate) parts: Vec<SidePart>,
     /// The wall that begins there.
-    pub wall: usize,
+    pub(crate) wall: usize,
     /// Its image.
-    pub shift: Shift,
+    pub(crate) shift: Shift,
 }
 
 /// A wall end that does not lie on a side, or no wall begins where one should.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Broken {
     /// Where, in m.
-    pub at: Vec2,
+    pub(crate) at: Vec2,
 }
 
 /// All ways along the sides.
 pub(super) struct Perimeter {
     ways: Vec<Option<Way>>,
     /// Closed runs along sides that no wall meets.
-    pub uncut: Vec<Vec<SidePart>>,
+    pub(crate) uncut: Vec<Vec<SidePart>>,
 }
 
 /// Sides in clockwise order with their number: left up, top, right down, bottom back.
@@ -54,7 +54,7 @@ struct Cut {
 
 impl Perimeter {
     /// The ways of all walls that end at sides.
-    pub fn new(walls: &Walls) -> Result<Self, Vec<Broken>> {
+    pub(crate) fn new(walls: &Walls) -> Result<Self, Vec<Broken>> {
         let mut all = Self { ways: vec![None; walls.walls.len()], uncut: Vec::new() };
         let mut broken = Vec::new();
         let mut seen = vec![[false; 2]; walls.walls.len()];
@@ -93,7 +93,7 @@ impl Perimeter {
     }
 
     /// The way from the end of a wall.
-    pub fn way(&self, wall: usize) -> Option<&Way> {
+    pub(crate) fn way(&self, wall: usize) -> Option<&Way> {
         self.ways[wall].as_ref()
     }
 }

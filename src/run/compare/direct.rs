@@ -23,10 +23,10 @@ const NON_WETTING: i64 = 1;
 /// Number of wall particles.
 const SOLID: i64 = 2;
 /// Folder of the run in that of the comparison.
-pub const RUN: &str = "direct";
+pub(crate) const RUN: &str = "direct";
 
 /// Runs the direct simulation of a task to its end, or goes on with it.
-pub fn track(
+pub(crate) fn track(
     task: &Task<'_>,
     (state, grid): (&NetworkState, &Grid),
     interrupt: &AtomicBool,

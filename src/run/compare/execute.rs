@@ -15,7 +15,7 @@ use crate::solver::{Clock, Series};
 
 /// A comparison that has no report.
 #[derive(Debug, thiserror::Error)]
-pub enum ExecuteError {
+pub(crate) enum ExecuteError {
     /// Its folder, or a file in it.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -28,7 +28,7 @@ pub enum ExecuteError {
 ///
 /// # Errors
 /// [`ExecuteError`]. A solver that fails and an interrupt are no errors here: the report says so.
-pub fn execute(
+pub(crate) fn execute(
     task: &Task<'_>,
     resolved: &str,
     interrupt: &AtomicBool,

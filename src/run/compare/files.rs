@@ -6,17 +6,14 @@ use super::{Comparison, page};
 use crate::io::{FileError, atomic};
 
 /// The page.
-pub const PAGE: &str = "compare.html";
+pub(crate) const PAGE: &str = "compare.html";
 /// Capillary pressure over saturation of both.
-pub const CURVES: &str = "compare.svg";
+pub(crate) const CURVES: &str = "compare.svg";
 /// All numbers.
 const NUMBERS: &str = "compare.json";
 
 /// Writes them; the page comes last.
-///
-/// # Errors
-/// [`FileError`].
-pub fn write(found: &Comparison, folder: &Path) -> Result<(), FileError> {
+pub(crate) fn write(found: &Comparison, folder: &Path) -> Result<(), FileError> {
     let numbers = folder.join(NUMBERS);
     let text = serde_json::to_string_pretty(found)
         .map_err(|error| FileError::Format { path: numbers.clone(), what: error.to_string() })?;

@@ -4,7 +4,7 @@ use super::{Comparison, Side};
 use crate::solver::Measure;
 
 /// Those of both together, then each of the network and of the direct simulation.
-pub fn measures(found: &Comparison) -> Vec<Measure> {
+pub(crate) fn measures(found: &Comparison) -> Vec<Measure> {
     let Comparison { network, direct, .. } = found;
     let threshold = "largest capillary pressure until an element at the outlet was filled";
     let largest = |side: &Side| side.breakthrough_pressure_pa;

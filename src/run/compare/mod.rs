@@ -19,9 +19,9 @@ use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
-pub use self::direct::RUN as DIRECT_RUN;
-pub use self::execute::{ExecuteError, execute};
-pub use self::files::{CURVES, PAGE, write};
+pub(crate) use self::direct::RUN as DIRECT_RUN;
+pub(crate) use self::execute::{ExecuteError, execute};
+pub(crate) use self::files::{CURVES, PAGE, write};
 pub(super) use self::network::outlet_elements;
 use crate::case::network::state::NetworkState;
 use crate::case::{Case, Model};
@@ -41,7 +41,7 @@ const CELLS: f64 = 240.0;
 
 /// A network and a direct simulation that are compared.
 #[derive(Debug, Clone, Copy)]
-pub struct Pair<'a> {
+pub(crate) struct Pair<'a> {
     /// The case of the network.
     pub network: &'a Case,
     /// The case of the direct simulation.
@@ -52,20 +52,20 @@ pub struct Pair<'a> {
 
 /// A comparison in a folder.
 #[derive(Debug, Clone, Copy)]
-pub struct Task<'a> {
+pub(crate) struct Task<'a> {
     /// Both cases.
-    pub pair: Pair<'a>,
+    pub(crate) pair: Pair<'a>,
     /// The case file of the direct simulation with all that was filled in.
-    pub resolved: &'a str,
+    pub(crate) resolved: &'a str,
     /// The folder, which exists.
-    pub folder: &'a Path,
+    pub(crate) folder: &'a Path,
     /// Whether the direct simulation is begun or taken up.
-    pub mode: Mode,
+    pub(crate) mode: Mode,
 }
 
 /// One of both cases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Of {
+pub(crate) enum Of {
     /// That of the network.
     Network,
     /// That of the direct simulation.
@@ -74,7 +74,7 @@ pub enum Of {
 
 /// Two cases that cannot be compared, or a run that failed.
 #[derive(Debug, thiserror::Error)]
-pub enum CompareError {
+pub(crate) enum CompareError {
     /// The first case is no network with a displacement.
     #[error("expected a network with a displacement; give the case [network] with an inlet")]
     NoNetwork,
@@ -113,8 +113,7 @@ pub enum CompareError {
 
 impl CompareError {
     /// What is wrong with which of both cases, at the keys that a user would change; none where a run failed or was stopped.
-    #[must_use]
-    pub fn problems(&self) -> Option<(Of, Vec<Problem>)> {
+    pub(crate) fn problems(&self) -> Option<(Of, Vec<Problem>)> {
         let direct = |key: &str| Some((Of::Direct, vec![Problem::of_text(key, &self.to_string())]));
         match self {
             Self::NoNetwork => Some((Of::Network, vec![Problem::of_text("network", &self.to_string())])),
@@ -184,7 +183,7 @@ impl Grid {
 
 /// What came out of one of both.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Side {
+pub(crate) struct Side {
     /// Saturations of the wetting phase.
     pub saturation: Vec<f64>,
     /// Capillary pressures p_n - p_w in Pa at them; none where there is no pressure.
@@ -209,49 +208,47 @@ pub struct Side {
 
 /// Both at one saturation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct AtSaturation {
+pub(crate) struct AtSaturation {
     /// Saturations of the network and of the direct simulation.
-    pub saturation: [f64; 2],
+    pub(crate) saturation: [f64; 2],
     /// Area that both have invaded over the area that either has.
-    pub overlap: f64,
+    pub(crate) overlap: f64,
     /// The picture as SVG.
     #[serde(skip)]
-    pub picture: String,
+    pub(crate) picture: String,
 }
 
 /// The comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Comparison {
+pub(crate) struct Comparison {
     /// Titles of both cases.
-    pub titles: [String; 2],
+    pub(crate) titles: [String; 2],
     /// The network.
-    pub network: Side,
+    pub(crate) network: Side,
     /// The direct simulation.
-    pub direct: Side,
+    pub(crate) direct: Side,
     /// Spearman's rank correlation of the order in which elements were filled that both filled after the beginning; none for fewer than three.
-    pub rank_correlation: Option<f64>,
+    pub(crate) rank_correlation: Option<f64>,
     /// Number of these elements.
-    pub elements_in_both: usize,
+    pub(crate) elements_in_both: usize,
     /// Mean of the overlaps at all records of the direct simulation.
-    pub mean_overlap: Option<f64>,
+    pub(crate) mean_overlap: Option<f64>,
     /// Both at equal saturations.
-    pub at_equal_saturation: Vec<AtSaturation>,
+    pub(crate) at_equal_saturation: Vec<AtSaturation>,
 }
 
 /// Whether two cases can be compared.
-///
-/// # Errors
-/// [`CompareError`].
-pub fn check(pair: &Pair<'_>) -> Result<(), CompareError> {
+pub(crate) fn check(pair: &Pair<'_>) -> Result<(), CompareError> {
     fitting(pair).map(|_| ())
 }
 
 /// Runs both cases and compares them. `interrupt` stops the direct simulation after the present step, which is reported to `watcher`; it can be taken
 /// up. The network is run again: it takes seconds.
-///
-/// # Errors
-/// [`CompareError`].
-pub fn compare(task: &Task<'_>, interrupt: &AtomicBool, watcher: &mut dyn Watcher) -> Result<Comparison, CompareError> {
+pub(crate) fn compare(
+    task: &Task<'_>,
+    interrupt: &AtomicBool,
+    watcher: &mut dyn Watcher,
+) -> Result<Comparison, CompareError> {
     let pair = &task.pair;
     let (mut solver, state) = fitting(pair)?;
     let boundaries = state.elements.iter().map(|element| NetworkState::curves(&element.boundary)).collect();

@@ -11,13 +11,13 @@ use crate::network::state;
 use crate::solver::{Series, Solver};
 
 /// The present state; none where nothing is displaced.
-pub fn state(solver: &NetworkSolver) -> Option<NetworkState> {
+pub(crate) fn state(solver: &NetworkSolver) -> Option<NetworkState> {
     let cycles = solver.cycles()?;
     Some(state::state(solver.setting(), cycles.half_cycles(), &cycles.moment()))
 }
 
 /// Runs the first half cycle.
-pub fn track(solver: &mut NetworkSolver, grid: &Grid) -> Result<Track, CompareError> {
+pub(crate) fn track(solver: &mut NetworkSolver, grid: &Grid) -> Result<Track, CompareError> {
     let mut records = vec![record(solver, grid)];
     let elements = solver.cycles().map_or(0, |cycles| cycles.displacement().elements().len());
     let mut filled = vec![None; elements];
@@ -71,7 +71,7 @@ fn note_filled(solver: &NetworkSolver, record: usize, filled: &mut [Option<usize
 }
 
 /// The elements that are open at the outlet.
-pub fn outlet_elements(state: &NetworkState) -> Vec<usize> {
+pub(crate) fn outlet_elements(state: &NetworkState) -> Vec<usize> {
     let Some(side) = state.sides.iter().position(|&side| side == Side::Outlet) else { return Vec::new() };
     let [min, max] = state.domain_m.map(Vec2::from);
     let (axis, at) = (side / 2, if side.is_multiple_of(2) { min[side / 2] } else { max[side / 2] });

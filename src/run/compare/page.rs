@@ -12,8 +12,7 @@ th,td{border:1px solid #ccc;padding:.3em .6em;text-align:left}th{background:#f2f
 figure{margin:1em 0}figcaption{font-size:.9em;color:#444}";
 
 /// The page as HTML.
-#[must_use]
-pub fn page(comparison: &Comparison) -> String {
+pub(crate) fn page(comparison: &Comparison) -> String {
     let [network, direct] = comparison.titles.each_ref().map(|title| escaped(title));
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
@@ -78,7 +77,7 @@ fn warnings(comparison: &Comparison) -> String {
 }
 
 /// Both curves on one pair of axes as SVG; none where no pressure is known.
-pub fn curves(comparison: &Comparison) -> Result<Option<String>, DiagramError> {
+pub(crate) fn curves(comparison: &Comparison) -> Result<Option<String>, DiagramError> {
     let known = |side: &Side| -> Vec<[f64; 2]> {
         let pairs = side.saturation.iter().zip(&side.capillary_pressure_pa);
         pairs.filter_map(|(saturation, pressure)| Some([*saturation, (*pressure)?])).collect()

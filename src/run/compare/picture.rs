@@ -13,7 +13,7 @@ const DEFENDING: &str = "#5590cc";
 const WIDTH: f64 = 480.0;
 
 /// Both maps; `invaded` tells for each cell of the pore whether it holds the invading phase.
-pub fn svg(grid: &Grid, invaded: [&[bool]; 2]) -> String {
+pub(crate) fn svg(grid: &Grid, invaded: [&[bool]; 2]) -> String {
     let [columns, rows] = grid.counts;
     let gap = columns / 20 + 1;
     let (width, height) = (2 * columns + gap, rows);

@@ -1,7 +1,7 @@
 //! Numbers that tell how alike two displacements are.
 
 /// Spearman's rank correlation of pairs, ties by their mean rank; none for fewer than three pairs and where one side is all the same.
-pub fn correlation(pairs: &[[usize; 2]]) -> Option<f64> {
+pub(crate) fn correlation(pairs: &[[usize; 2]]) -> Option<f64> {
     if pairs.len() < 3 {
         return None;
     }
@@ -23,7 +23,7 @@ fn ranks(values: Vec<usize>) -> Vec<f64> {
 }
 
 /// Number of places that are in both over that of places in either; 1 where there are none.
-pub fn overlap(one: &[bool], other: &[bool]) -> f64 {
+pub(crate) fn overlap(one: &[bool], other: &[bool]) -> f64 {
     let count = |keep: fn(bool, bool) -> bool| one.iter().zip(other).filter(|(a, b)| keep(**a, **b)).count() as f64;
     let either = count(|a, b| a || b);
     if either > 0.0 { count(|a, b| a && b) / either } else { 1.0 }

@@ -26,14 +26,14 @@ struct Line {
 
 /// The states so far, in the file and in memory.
 #[derive(Debug)]
-pub struct States {
+pub(crate) struct States {
     journal: Journal,
     records: Vec<(f64, Record)>,
 }
 
 impl States {
     /// None yet, in the folder of a new comparison.
-    pub fn new(folder: &Path) -> Self {
+    pub(crate) fn new(folder: &Path) -> Self {
         Self { journal: Journal::new(folder.join(STATES)), records: Vec::new() }
     }
 
@@ -41,7 +41,7 @@ impl States {
     ///
     /// # Errors
     /// [`FileError`] where they cannot be read, or are not of this grid.
-    pub fn up_to(time: f64, folder: &Path, grid: &Grid) -> Result<Self, FileError> {
+    pub(crate) fn up_to(time: f64, folder: &Path, grid: &Grid) -> Result<Self, FileError> {
         let path = folder.join(STATES);
         let bytes = std::fs::read(&path).map_err(FileError::read(&path))?;
         let mut records = Vec::new();
@@ -60,10 +60,7 @@ impl States {
     }
 
     /// Adds the state of a time in s; one of the same time is there already.
-    ///
-    /// # Errors
-    /// [`FileError`].
-    pub fn add(&mut self, time: f64, record: Record) -> Result<(), FileError> {
+    pub(crate) fn add(&mut self, time: f64, record: Record) -> Result<(), FileError> {
         if self.records.last().is_some_and(|&(last, _)| time <= last) {
             return Ok(());
         }
@@ -75,7 +72,7 @@ impl States {
     }
 
     /// All of them in order.
-    pub fn records(self) -> Vec<Record> {
+    pub(crate) fn records(self) -> Vec<Record> {
         self.records.into_iter().map(|(_, record)| record).collect()
     }
 }

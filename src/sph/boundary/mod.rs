@@ -1,4 +1,4 @@
 //! What walls do: no slip, and fields carried from the fluid into the wall particles.
 
-pub mod no_slip;
-pub mod shepard;
+pub(crate) mod no_slip;
+pub(crate) mod shepard;

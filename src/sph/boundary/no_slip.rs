@@ -26,11 +26,11 @@ pub struct NoSlip {
 
 /// Where a wall particle stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WallDepth {
+pub(crate) struct WallDepth {
     /// Its depth in the wall in m.
-    pub depth: f64,
+    pub(crate) depth: f64,
     /// Curvature of the wall in 1/m, positive where the solid is convex.
-    pub curvature: f64,
+    pub(crate) curvature: f64,
 }
 
 impl NoSlip {
@@ -38,8 +38,7 @@ impl NoSlip {
     /// the surface between them [Morris1997, Eq. 28]. `distance` d_a of the fluid particle and depth d_b in m.
     ///
     /// Along a wall with the curvature κ (1/m, positive where it is convex) the velocity is y − κy²/2 and not y: c = 1 + κ (d_a + d_b)/2.
-    #[must_use]
-    pub fn stretch(&self, distance: f64, wall: WallDepth) -> f64 {
+    pub(crate) fn stretch(&self, distance: f64, wall: WallDepth) -> f64 {
         self.stretch_to(distance, wall, 0.0)
     }
 
@@ -51,8 +50,7 @@ impl NoSlip {
     }
 
     /// The slip length b in m of a wall at the distance `line_distance` (m) from the nearest contact line, which may be infinite.
-    #[must_use]
-    pub fn slip_length_at(&self, line_distance: f64) -> f64 {
+    pub(crate) fn slip_length_at(&self, line_distance: f64) -> f64 {
         let [near, far] = NEAR_LINE.map(|n| n * self.spacing);
         let share = ((far - line_distance) / (far - near)).clamp(0.0, 1.0);
         self.slip_length + share * (self.line_slip_length - self.slip_length)
@@ -61,16 +59,14 @@ impl NoSlip {
     /// Stretches of the velocity difference along the wall and across it, for the slip length `b` (m).
     ///
     /// Never below zero: along a wall that bends and slips far the first order could push what it is to hold.
-    #[must_use]
-    pub fn stretches(&self, distance: f64, wall: WallDepth, b: f64) -> [f64; 2] {
+    pub(crate) fn stretches(&self, distance: f64, wall: WallDepth, b: f64) -> [f64; 2] {
         let across = self.stretch(distance, wall);
         [if b == 0.0 { across } else { self.stretch_to(distance, wall, b).max(0.0) }, across]
     }
 
     /// The stretched difference of the velocity `v_ab` = v_a − v_wall: with a slip length b (m), the part along the wall is stretched by
     /// min(β_max, 1 + c (d_b − b)/(d_a + b)), so that it vanishes at the depth b. `distance` (m) and `normal` are those of the wall.
-    #[must_use]
-    pub fn difference(&self, v_ab: Vec2, distance: f64, normal: Vec2, wall: WallDepth, b: f64) -> Vec2 {
+    pub(crate) fn difference(&self, v_ab: Vec2, distance: f64, normal: Vec2, wall: WallDepth, b: f64) -> Vec2 {
         let [along, beta] = self.stretches(distance, wall, b);
         if b == 0.0 {
             return beta * v_ab;

@@ -4,7 +4,7 @@ use crate::sph::pairs::Pairs;
 
 /// Fills `field[fluids..]` with Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid; layers without fluid in reach copy the
 /// average of the layers before them. What no layer reaches keeps its value. The field covers particles and images.
-pub fn into_walls(pairs: &Pairs, fluid_volume: &[f64], fluids: usize, field: &mut [f64]) {
+pub(crate) fn into_walls(pairs: &Pairs, fluid_volume: &[f64], fluids: usize, field: &mut [f64]) {
     let average = |field: &[f64], a: usize, weight: &dyn Fn(usize) -> f64| {
         let (sum, norm) = pairs.of(a).fold((0.0, 0.0), |(sum, norm), ab| {
             let w = weight(ab.b) * ab.w;

@@ -11,7 +11,7 @@ use crate::sph::domain::Domain;
 const DOUBTFUL: f64 = 3.0;
 
 /// The initial interface between two phases in a pore.
-pub struct Interface<'a> {
+pub(crate) struct Interface<'a> {
     region: &'a Region,
     pore: &'a Geometry,
     surface: UnfittedSurface<'a>,
@@ -19,8 +19,7 @@ pub struct Interface<'a> {
 
 impl<'a> Interface<'a> {
     /// The interface around a `region` that is filled in a `pore`.
-    #[must_use]
-    pub fn new(region: &'a Region, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
+    pub(crate) fn new(region: &'a Region, pore: &'a Geometry, lattice: &'a Lattice) -> Self {
         let spacing = lattice.volume().sqrt();
         let surface = UnfittedSurface::new(region.surface(), 0.0, |a, b| lattice.fits(a, b))
             .where_it(move |closest, normal| is_interface(closest, normal, pore, spacing));
@@ -28,8 +27,7 @@ impl<'a> Interface<'a> {
     }
 
     /// The parts of the outline of the region that are interface.
-    #[must_use]
-    pub fn surface(&self) -> &UnfittedSurface<'a> {
+    pub(crate) fn surface(&self) -> &UnfittedSurface<'a> {
         &self.surface
     }
 
@@ -37,7 +35,7 @@ impl<'a> Interface<'a> {
     /// As many other fluid particles are left on each side as its area has room for beside its layer, those farthest from the interface.
     ///
     /// Nothing is changed, and there are no layers, where the lattice fits the interface, and where a phase is too small for one.
-    pub fn make_room(&self, lattice: &Lattice, domain: &Domain, places: &mut Places) -> Vec<Vec2> {
+    pub(crate) fn make_room(&self, lattice: &Lattice, domain: &Domain, places: &mut Places) -> Vec<Vec2> {
         if self.surface.is_empty() {
             return Vec::new();
         }

@@ -17,7 +17,6 @@ pub struct Lattice {
 
 impl Lattice {
     /// The lattice nearest to `spacing` (m) that fits `bounds`.
-    #[must_use]
     pub fn fitting(bounds: Bounds, spacing: f64) -> Self {
         let size = bounds.size();
         let counts = [0, 1].map(|i| (size[i] / spacing).round().max(1.0) as usize);
@@ -26,13 +25,11 @@ impl Lattice {
     }
 
     /// V_0 = dx² in m²: the cell of a particle.
-    #[must_use]
     pub fn volume(&self) -> f64 {
         self.step.x * self.step.y
     }
 
     /// The kernel made consistent on this lattice, see [`WendlandC2::divided_by`].
-    #[must_use]
     pub fn consistent(&self, kernel: WendlandC2) -> WendlandC2 {
         let (unity, twice) = self.neighbors(kernel.support()).fold((0.0, 0.0), |(unity, twice), r| {
             let (w, grad_w) = kernel.w_and_grad(r);
@@ -49,8 +46,7 @@ impl Lattice {
     }
 
     /// Whether the straight line from `a` to `b` (m) lies along an axis on a border between cells of the lattice.
-    #[must_use]
-    pub fn fits(&self, a: Vec2, b: Vec2) -> bool {
+    pub(crate) fn fits(&self, a: Vec2, b: Vec2) -> bool {
         const ROUNDING: f64 = 1e-6;
         (0..2).any(|i| {
             let rows = (a[i] - self.bounds.min[i]) / self.step[i];
@@ -71,12 +67,12 @@ impl Lattice {
     }
 
     /// The lattice points of the box.
-    pub fn inside(&self) -> impl Iterator<Item = Vec2> + '_ {
+    pub(crate) fn inside(&self) -> impl Iterator<Item = Vec2> + '_ {
         self.points(0.0, [false; 4])
     }
 
     /// The lattice points to a depth of `margin` (m) beyond the sides for which `open` holds, corners at `walls` included.
-    pub fn beyond(&self, margin: f64, walls: [bool; 4], open: [bool; 4]) -> impl Iterator<Item = Vec2> + '_ {
+    pub(crate) fn beyond(&self, margin: f64, walls: [bool; 4], open: [bool; 4]) -> impl Iterator<Item = Vec2> + '_ {
         let all = [0, 1, 2, 3].map(|side| walls[side] || open[side]);
         let Bounds { min, max } = self.bounds;
         self.points(margin, all).filter(move |x| {

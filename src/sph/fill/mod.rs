@@ -5,10 +5,10 @@ mod lattice;
 mod region;
 mod walls;
 
-pub use interface::Interface;
+pub(crate) use interface::Interface;
 pub use lattice::{Lattice, on_lattice};
-pub use region::Region;
-pub use walls::{Room, along_walls};
+pub(crate) use region::Region;
+pub(crate) use walls::{Room, along_walls};
 
 use crate::math::Vec2;
 use crate::sph::cells::Cells;
@@ -33,8 +33,7 @@ impl Places {
     }
 
     /// The particles at these places; `phase` names the fluid at a point.
-    #[must_use]
-    pub fn particles(&self, phase: impl Fn(Vec2) -> Phase) -> Particles {
+    pub(crate) fn particles(&self, phase: impl Fn(Vec2) -> Phase) -> Particles {
         let mut particles = Particles::default();
         self.fluid.iter().for_each(|&x| particles.push(phase(x), x));
         self.walls.iter().for_each(|&x| particles.push(Phase::Solid, x));
@@ -85,10 +84,9 @@ fn golden(index: usize) -> f64 {
 }
 
 /// The domain must be this many supports long along a periodic direction, or a pair would be met twice.
-pub const PERIODIC_SUPPORTS: f64 = 3.0;
+pub(crate) const PERIODIC_SUPPORTS: f64 = 3.0;
 
 /// Whether the periodic directions of `domain` are long enough for `support` (m).
-#[must_use]
-pub fn fits(domain: &Domain, support: f64) -> bool {
+pub(crate) fn fits(domain: &Domain, support: f64) -> bool {
     domain.periods().iter().flatten().all(|period| *period >= PERIODIC_SUPPORTS * support)
 }

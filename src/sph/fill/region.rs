@@ -4,7 +4,7 @@ use crate::geometry::{Geometry, Wall};
 use crate::math::Vec2;
 
 /// A region within the pore, by the surface that parts it from the other phase.
-pub struct Region {
+pub(crate) struct Region {
     surface: Geometry,
     /// The region with its walls, where the surface alone does not tell which side of it a point lies on.
     whole: Option<Geometry>,
@@ -13,45 +13,38 @@ pub struct Region {
 
 impl Region {
     /// The region of closed shapes, which may reach into the solid.
-    #[must_use]
-    pub fn of_shapes(shapes: Geometry) -> Self {
+    pub(crate) fn of_shapes(shapes: Geometry) -> Self {
         Self { surface: shapes, whole: None, area: None }
     }
 
     /// The region bounded by walls and interfaces, `whole`, and its interfaces alone, which may reach a little into the solid; its area in m²
     /// where it is known.
-    #[must_use]
-    pub fn bounded(whole: Geometry, interfaces: Geometry, area: Option<f64>) -> Self {
+    pub(crate) fn bounded(whole: Geometry, interfaces: Geometry, area: Option<f64>) -> Self {
         Self { surface: interfaces, whole: Some(whole), area }
     }
 
     /// Its area within the pore in m², where it is known exactly.
-    #[must_use]
-    pub fn area(&self) -> Option<f64> {
+    pub(crate) fn area(&self) -> Option<f64> {
         self.area
     }
 
     /// The surface that parts both phases.
-    #[must_use]
-    pub fn surface(&self) -> &Geometry {
+    pub(crate) fn surface(&self) -> &Geometry {
         &self.surface
     }
 
     /// Whether a point of the pore (m) lies in the region.
-    #[must_use]
-    pub fn holds(&self, x: Vec2) -> bool {
+    pub(crate) fn holds(&self, x: Vec2) -> bool {
         self.whole.as_ref().unwrap_or(&self.surface).signed_distance(x) < 0.0
     }
 
     /// Signed distance in m to the surface, below 0 in the region; infinite where the nearest part of it is seen through a wall.
-    #[must_use]
-    pub fn signed_distance(&self, x: Vec2) -> f64 {
+    pub(crate) fn signed_distance(&self, x: Vec2) -> f64 {
         self.seen(self.surface.signed_distance(x), x)
     }
 
     /// Distance and normal of the surface at a point (m), the normal out of the region.
-    #[must_use]
-    pub fn wall(&self, x: Vec2) -> Wall {
+    pub(crate) fn wall(&self, x: Vec2) -> Wall {
         let wall = self.surface.wall(x);
         let distance = self.seen(wall.distance, x);
         if distance.is_finite() { wall } else { Wall { distance, normal: Vec2::zeros(), ..wall } }

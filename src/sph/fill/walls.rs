@@ -10,22 +10,22 @@ use crate::sph::domain::Domain;
 const DOUBTFUL: f64 = 0.5;
 
 /// Where particles are filled in.
-pub struct Room<'a> {
+pub(crate) struct Room<'a> {
     /// The lattice.
-    pub lattice: &'a Lattice,
+    pub(crate) lattice: &'a Lattice,
     /// Box and sides.
-    pub domain: &'a Domain,
+    pub(crate) domain: &'a Domain,
     /// Support of the kernel in m: so deep are the walls.
-    pub support: f64,
+    pub(crate) support: f64,
     /// Whether the left, right, bottom and top side is a wall of particles.
-    pub walls: [bool; 4],
+    pub(crate) walls: [bool; 4],
 }
 
 /// Fills the domain with wall particles in layers at half a spacing, one and a half, .. below the walls that no lattice fits, evenly
 /// along each layer, so that each has the volume of the lattice; all else as [`super::on_lattice`] does.
 ///
 /// As many fluid particles as the pore has room for: `pore_area` in m². They stand on the lattice still, to be packed next.
-pub fn along_walls(
+pub(crate) fn along_walls(
     room: &Room,
     unfitted: &UnfittedSurface,
     signed_distance: impl Fn(Vec2) -> f64 + Sync,

@@ -16,7 +16,6 @@ pub struct WendlandC2 {
 
 impl WendlandC2 {
     /// The kernel with smoothing length `h` in m.
-    #[must_use]
     pub fn new(h: f64) -> Self {
         let norm = 7.0 / (4.0 * PI * h * h);
         Self { h, inverse_h: 1.0 / h, norm, gradient_norm: 5.0 * norm / (h * h) }
@@ -28,33 +27,28 @@ impl WendlandC2 {
     /// Both stand for integrals that are 1; at h = 1.5 dx they are 1.0051 and .9974. Divided by them, the volume of Eq. (17) is dx²
     /// on the lattice, and gradient, divergence and Laplacian of Eqs. (15) to (31) are exact there for linear (quadratic) fields.
     /// Without this, areas, viscosity and pressure carry errors of half a percent that no refinement removes.
-    #[must_use]
-    pub fn divided_by(self, unity: f64, moment: f64) -> Self {
+    pub(crate) fn divided_by(self, unity: f64, moment: f64) -> Self {
         Self { norm: self.norm / unity, gradient_norm: self.gradient_norm / moment, ..self }
     }
 
     /// Radius 2h of the support, in m.
-    #[must_use]
     pub fn support(&self) -> f64 {
         2.0 * self.h
     }
 
     /// W(r) in 1/m² [Huber2013, Eq. 14].
-    #[must_use]
     pub fn w(&self, r: f64) -> f64 {
         self.w_and_slope(r).0
     }
 
     /// ∇_a W(|r_ab|) in 1/m³, where `r_ab` = x_a − x_b in m.
-    #[must_use]
-    pub fn grad_w(&self, r_ab: Vec2) -> Vec2 {
+    pub(crate) fn grad_w(&self, r_ab: Vec2) -> Vec2 {
         self.w_and_grad(r_ab).1
     }
 
     /// W(|r_ab|) in 1/m² and ∇_a W(|r_ab|) in 1/m³ at once.
     #[inline]
-    #[must_use]
-    pub fn w_and_grad(&self, r_ab: Vec2) -> (f64, Vec2) {
+    pub(crate) fn w_and_grad(&self, r_ab: Vec2) -> (f64, Vec2) {
         let (w, slope) = self.w_and_slope(r_ab.norm());
         (w, r_ab * slope)
     }
@@ -63,16 +57,14 @@ impl WendlandC2 {
     ///
     /// dW/dr = −5 q (1 − q/2)³ · 7/(4πh³), so that the gradient is regular at r = 0.
     #[inline]
-    #[must_use]
-    pub fn w_and_slope(&self, r: f64) -> (f64, f64) {
+    pub(crate) fn w_and_slope(&self, r: f64) -> (f64, f64) {
         let q = r * self.inverse_h;
         let t = (1.0 - 0.5 * q).max(0.0);
         (self.norm * wendland_c2(q), -self.gradient_norm * t * t * t)
     }
 
     /// ∫₀²ʰ W(s) ds in 1/m: what a contact line that stands upright on a wall sums to in Eq. (22).
-    #[must_use]
-    pub fn line_integral(&self) -> f64 {
+    pub(crate) fn line_integral(&self) -> f64 {
         // ∫₀² (1 − q/2)⁴ (2q + 1) dq = 2/3.
         self.norm * self.h * 2.0 / 3.0
     }

@@ -8,7 +8,7 @@ use crate::solver::Measure;
 use crate::sph::flow::Flow;
 use crate::sph::warnings::most_small_pieces;
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let fluids = s.flow.state.particles.fluids;
     let [rms, largest] = density_error(&s.flow.fields.volume[..fluids], s.flow.setting.method.volume);
     let mut found = vec![

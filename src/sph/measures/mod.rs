@@ -5,9 +5,9 @@
 //! [`stream`] is the force of the other fluid. The groups are those of `src/benchmarks`, which the solver is given as a list: it knows none of them.
 
 mod every_run;
-pub mod open;
-pub mod permeability;
-pub mod relative;
+pub(crate) mod open;
+pub(crate) mod permeability;
+pub(crate) mod relative;
 pub mod stream;
 mod subject;
 
@@ -18,8 +18,7 @@ use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
 
 /// All measures of a run.
-#[must_use]
-pub fn all(subject: &Subject, groups: &[Group]) -> Vec<Measure> {
+pub(crate) fn all(subject: &Subject, groups: &[Group]) -> Vec<Measure> {
     let mut measures = every_run::measures(subject);
     measures.extend(open::measures(subject));
     measures.extend(permeability::measures(subject));
@@ -29,8 +28,7 @@ pub fn all(subject: &Subject, groups: &[Group]) -> Vec<Measure> {
 }
 
 /// Further columns of the time series: of open sides, of the permeability where it is measured, and of the groups.
-#[must_use]
-pub fn columns(flow: &Flow, seen: &Observation, is_permeability_measured: bool, groups: &[Group]) -> Columns {
+pub(crate) fn columns(flow: &Flow, seen: &Observation, is_permeability_measured: bool, groups: &[Group]) -> Columns {
     let mut columns = open::columns(flow);
     if is_permeability_measured {
         columns.extend(permeability::columns(flow));

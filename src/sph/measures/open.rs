@@ -11,11 +11,11 @@ fn is_open(flow: &Flow) -> bool {
 }
 
 /// Column of the pressure at a side where it rises in steps less that at the opposite side, in Pa.
-pub const PRESSURE_DIFFERENCE: &str = "pressure_difference_Pa";
+pub(crate) const PRESSURE_DIFFERENCE: &str = "pressure_difference_Pa";
 
 /// Column of the area in m² of the phase that comes in that has left through another side: with a pressure that rises in steps, of the phase
 /// at that side through the opposite one.
-pub const PASSED: &str = "passed_m2";
+pub(crate) const PASSED: &str = "passed_m2";
 
 /// The first side whose pressure rises in steps.
 fn rising(flow: &Flow) -> Option<&OpenSide> {
@@ -37,7 +37,7 @@ fn entering(flow: &Flow) -> (usize, usize) {
 }
 
 /// Areas in m² that came in and left since time zero, by phase: particles times their area at rest.
-pub fn columns(flow: &Flow) -> Columns {
+pub(crate) fn columns(flow: &Flow) -> Columns {
     if !is_open(flow) {
         return vec![];
     }
@@ -74,12 +74,12 @@ pub fn columns(flow: &Flow) -> Columns {
 }
 
 /// Areas in m² of the wetting and the non-wetting phase that came in less those that left.
-pub fn net(flow: &Flow) -> [f64; 2] {
+pub(crate) fn net(flow: &Flow) -> [f64; 2] {
     let (came, left) = flow.state.ledger.totals();
     [0, 1].map(|i| (came[i] as f64 - left[i] as f64) * flow.setting.method.volume)
 }
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let flow = s.flow;
     if !is_open(flow) {
         return vec![];

@@ -21,7 +21,7 @@ const AREAS: [&str; 2] = ["wetting_area_m2", "non_wetting_area_m2"];
 const MOMENTA: [&str; 2] = ["momentum_x_kg_per_m_s", "momentum_y_kg_per_m_s"];
 
 /// The velocity averaged over the whole cell, solids at rest, in m/s.
-pub fn columns(flow: &Flow) -> Columns {
+pub(crate) fn columns(flow: &Flow) -> Columns {
     let p = &flow.state.particles;
     let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.volume[a] * p.velocity[a]).sum();
     let mean = flux / flow.setting.domain.bounds.area();
@@ -31,15 +31,15 @@ pub fn columns(flow: &Flow) -> Columns {
 /// What the force along one axis does in its stage.
 pub(super) struct Column {
     /// Number of the stage.
-    pub stage: usize,
+    pub(crate) stage: usize,
     /// Axis of the force: 0 for x, 1 for y.
-    pub axis: usize,
+    pub(crate) axis: usize,
     /// Permeabilities in m²: of the velocities along x and y.
-    pub permeability: Vec2,
+    pub(crate) permeability: Vec2,
     /// Magnitude of the rate of the momentum over the force on the fluid.
-    pub unsteady_share: f64,
+    pub(crate) unsteady_share: f64,
     /// Reynolds number of mean velocity and square root of permeability.
-    pub reynolds: f64,
+    pub(crate) reynolds: f64,
 }
 
 /// The response to each force whose stage has two rows.
@@ -69,7 +69,7 @@ pub(super) fn response(flow: &Flow, stages: &Stages, series: &Series) -> Vec<Col
     stages.axes().iter().enumerate().filter_map(column).collect()
 }
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let Some(stages) = s.stages.filter(|_| !s.is_frozen) else { return Vec::new() };
     let columns = response(s.flow, stages, s.series);
     columns.iter().flat_map(column_measures).collect()
@@ -103,8 +103,7 @@ fn column_measures(column: &Column) -> Vec<Measure> {
 }
 
 /// What a reader must know before trusting the tensor.
-#[must_use]
-pub fn warnings(s: &Subject) -> Vec<String> {
+pub(crate) fn warnings(s: &Subject) -> Vec<String> {
     let Some(stages) = s.stages.filter(|_| !s.is_frozen) else { return Vec::new() };
     let columns = response(s.flow, stages, s.series);
     let named = |column: &Column| format!("the flow under the force along {}", ["x", "y"][column.axis]);

@@ -8,7 +8,7 @@ use crate::solver::Measure;
 /// The flows in the order of their stages.
 const FLOWS: [&str; 3] = ["of the whole pore", "of the wetting phase", "of the non-wetting phase"];
 
-pub fn measures(s: &Subject) -> Vec<Measure> {
+pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let columns = columns(s);
     let [whole, wetting, other] = &columns[..] else { return Vec::new() };
     let along = ["x", "y"][whole.axis];
@@ -34,8 +34,7 @@ pub fn measures(s: &Subject) -> Vec<Measure> {
 }
 
 /// What a reader must know before trusting them.
-#[must_use]
-pub fn warnings(s: &Subject) -> Vec<String> {
+pub(crate) fn warnings(s: &Subject) -> Vec<String> {
     let told = |column: &Column| {
         let named = format!("the flow {}", FLOWS[column.stage]);
         [unsteady(column, &named), inertial(column, &named)]

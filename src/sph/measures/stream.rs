@@ -33,8 +33,7 @@ pub struct StreamForce {
 
 /// The stream that the case gives, relative to a wall that moves with the velocity `wall` (m/s), in its direction: of what passes inlets and periodic
 /// sides; else from high to low given pressures; else of the other walls, and where all move alike, of the fluid that they leave behind.
-#[must_use]
-pub fn given(flow: &Flow, wall: Vec2) -> Vec2 {
+pub(crate) fn given(flow: &Flow, wall: Vec2) -> Vec2 {
     let (open, p) = (&flow.setting.open, &flow.state.particles);
     let sum = |of: &dyn Fn(&OpenSide) -> Vec2| open.sides.iter().chain(&open.through).map(of).sum::<Vec2>();
     let size = flow.setting.domain.bounds.size();
@@ -56,7 +55,6 @@ pub fn given(flow: &Flow, wall: Vec2) -> Vec2 {
 ///
 /// That by the pressure is NaN where the interface ends farther out across `ahead` than it begins (a meniscus
 /// between plates), where no particle of the other fluid is in reach of it, and with the continuum surface force.
-#[must_use]
 pub fn along(flow: &Flow, seen: &Observation, ahead: Vec2) -> StreamForce {
     let is_wetting = |a: usize| a < flow.state.particles.fluids && flow.state.particles.phase[a] == Phase::Wetting;
     let friction = flow.viscous_force(is_wetting) + flow.friction(|a, _| is_wetting(a));

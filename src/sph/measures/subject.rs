@@ -54,14 +54,12 @@ pub struct Group {
 
 impl Group {
     /// A group without columns of its own.
-    #[must_use]
-    pub const fn of(measures: fn(&Subject) -> Vec<Measure>) -> Self {
+    pub(crate) const fn of(measures: fn(&Subject) -> Vec<Measure>) -> Self {
         Self { columns: |_, _| Vec::new(), measures, warnings: |_| Vec::new() }
     }
 }
 
 /// A measure: its value and standard `uncertainty` in `unit`, and in one sentence the `method`.
-#[must_use]
 pub fn measure(name: &str, value: f64, unit: &str, uncertainty: Option<f64>, method: &str) -> Measure {
     Measure { name: name.into(), value, unit: unit.into(), uncertainty, method: method.into(), moves_with: None }
 }

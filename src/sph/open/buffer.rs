@@ -8,19 +8,19 @@ use crate::sph::particles::{Particles, Phase};
 const ROOM: f64 = 0.5;
 
 /// What stands around the buffers at time zero.
-pub struct Around<'a> {
+pub(crate) struct Around<'a> {
     /// The box.
-    pub bounds: Bounds,
+    pub(crate) bounds: Bounds,
     /// Distance of neighboring lattice points in m.
-    pub step: Vec2,
+    pub(crate) step: Vec2,
     /// Depth of wall layers in m.
-    pub support: f64,
+    pub(crate) support: f64,
     /// Sides that are walls: left, right, bottom, top.
-    pub walls: [bool; 4],
+    pub(crate) walls: [bool; 4],
     /// Signed distance in m; beyond open sides that of the place on the side.
-    pub signed_distance: &'a dyn Fn(Vec2) -> f64,
+    pub(crate) signed_distance: &'a dyn Fn(Vec2) -> f64,
     /// Phase of a fluid particle.
-    pub phase: &'a dyn Fn(Vec2) -> Phase,
+    pub(crate) phase: &'a dyn Fn(Vec2) -> Phase,
 }
 
 /// A row of particles along the normal of a side.
@@ -73,7 +73,7 @@ fn rows(side: &OpenSide, around: &Around) -> Vec<Row> {
 }
 
 /// Fills the buffers, and carries the walls on beyond the open sides; `wall_depth` in m gets the depths of the new wall particles.
-pub fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: &[OpenSide], around: &Around) {
+pub(crate) fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: &[OpenSide], around: &Around) {
     let (fluids, before) = (particles.fluids, particles.len());
     let (mut buffer, mut walls) = (Vec::new(), Vec::new());
     for side in sides {
@@ -102,7 +102,7 @@ pub fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: &[OpenS
 }
 
 /// Notes the area that came in through sides with a given velocity, as the particles of their buffers moved from the places `from` (m).
-pub fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSide], ledger: &mut Ledger) {
+pub(crate) fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSide], ledger: &mut Ledger) {
     for b in particles.buffer() {
         let Some(side) = sides.iter().find(|side| side.beyond(from[b]) >= 0.0) else { continue };
         if side.given_pressure().is_none() {
@@ -113,7 +113,7 @@ pub fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSide], led
 }
 
 /// Lets the particles that crossed an open side change from fluid to buffer or back; `spacing` in m.
-pub fn exchange(particles: &mut Particles, sides: &[OpenSide], ledger: &mut Ledger, spacing: f64) {
+pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], ledger: &mut Ledger, spacing: f64) {
     let (mut fluid, mut buffer, mut entered) = (Vec::new(), Vec::new(), Vec::new());
     for a in 0..particles.fluids {
         match sides.iter().find(|side| side.beyond(particles.position[a]) > 0.0) {

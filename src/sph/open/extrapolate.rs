@@ -17,15 +17,14 @@ const LARGEST_SUM: f64 = 2.5;
 
 /// For each buffer particle of a pressure side the fluid particles around its interior point, with weights that sum to one.
 #[derive(Debug, Clone, Default)]
-pub struct InteriorPoints {
+pub(crate) struct InteriorPoints {
     start: Vec<usize>,
     terms: Vec<(u32, f64)>,
 }
 
 impl InteriorPoints {
     /// The interior points of all buffer particles; those of sides with a given velocity have none.
-    #[must_use]
-    pub fn new(particles: &Particles, sides: &[OpenSide], domain: &Domain, kernel: &WendlandC2) -> Self {
+    pub(crate) fn new(particles: &Particles, sides: &[OpenSide], domain: &Domain, kernel: &WendlandC2) -> Self {
         let mut interior = Self { start: vec![0], terms: Vec::new() };
         let reach = (2.0 * INSET + 1.0) * kernel.support();
         let is_near = |x: Vec2| sides.iter().any(|side| side.given_pressure().is_some() && -side.beyond(x) < reach);
@@ -53,21 +52,20 @@ impl InteriorPoints {
     }
 
     /// The value of `field` at the interior point of the `i`-th buffer particle; none without fluid around it.
-    #[must_use]
-    pub fn value(&self, i: usize, field: &[Vec2]) -> Option<Vec2> {
+    pub(crate) fn value(&self, i: usize, field: &[Vec2]) -> Option<Vec2> {
         let terms = &self.terms[self.start[i]..self.start[i + 1]];
         (!terms.is_empty()).then(|| terms.iter().map(|&(a, w)| w * field[a as usize]).sum())
     }
 
     /// Sets the velocities of buffer particles from those of the fluid in `velocity` (m/s): the given one at inlets, at sides with a
     /// given pressure the normal part of that at the interior point, so that it goes on along the normal.
-    pub fn set_buffer_velocity(&self, particles: &Particles, sides: &[OpenSide], velocity: &mut [Vec2]) {
+    pub(crate) fn set_buffer_velocity(&self, particles: &Particles, sides: &[OpenSide], velocity: &mut [Vec2]) {
         self.set_buffers(particles, sides, velocity, OpenSide::given_velocity);
     }
 
     /// Sets the accelerations of buffer particles from those of the fluid in `acceleration` (m/s²), as their velocities follow: none where
     /// the velocity is given.
-    pub fn set_buffer_acceleration(&self, particles: &Particles, sides: &[OpenSide], acceleration: &mut [Vec2]) {
+    pub(crate) fn set_buffer_acceleration(&self, particles: &Particles, sides: &[OpenSide], acceleration: &mut [Vec2]) {
         self.set_buffers(particles, sides, acceleration, |side, x| side.given_velocity(x).map(|_| Vec2::zeros()));
     }
 

@@ -26,15 +26,13 @@ fn index(phase: Phase) -> usize {
 
 impl Ledger {
     /// The ledger at time zero.
-    #[must_use]
-    pub fn new(phases: &[Phase], next_id: u32) -> Self {
+    pub(crate) fn new(phases: &[Phase], next_id: u32) -> Self {
         let mut ledger = Self { next_id, ..Self::default() };
         ledger.at_start = Self::count(phases);
         ledger
     }
 
     /// Particles of each phase.
-    #[must_use]
     pub fn count(phases: &[Phase]) -> [u64; 2] {
         let mut counts = [0; 2];
         phases.iter().for_each(|&phase| counts[index(phase)] += 1);
@@ -42,24 +40,23 @@ impl Ledger {
     }
 
     /// Notes a particle that came in through `side`.
-    pub fn comes(&mut self, side: usize, phase: Phase) {
+    pub(crate) fn comes(&mut self, side: usize, phase: Phase) {
         self.came[side][index(phase)] += 1;
     }
 
     /// Notes a particle that left through `side`.
-    pub fn leaves(&mut self, side: usize, phase: Phase) {
+    pub(crate) fn leaves(&mut self, side: usize, phase: Phase) {
         self.left[side][index(phase)] += 1;
     }
 
     /// Particles of each phase that came in and that left, over all sides.
-    #[must_use]
     pub fn totals(&self) -> ([u64; 2], [u64; 2]) {
         let sum = |counts: &[[u64; 2]; 4]| [0, 1].map(|phase| counts.iter().map(|side| side[phase]).sum());
         (sum(&self.came), sum(&self.left))
     }
 
     /// Names a new particle.
-    pub fn name(&mut self) -> u32 {
+    pub(crate) fn name(&mut self) -> u32 {
         let id = self.next_id;
         self.next_id = self.next_id.wrapping_add(1);
         id

@@ -13,13 +13,13 @@ mod profile;
 mod side;
 mod through;
 
-pub use buffer::{Around, exchange, fill, note_passed};
-pub use extrapolate::InteriorPoints;
+pub(crate) use buffer::{Around, exchange, fill, note_passed};
+pub(crate) use extrapolate::InteriorPoints;
 pub use ledger::Ledger;
-pub use pressure::Prescribed;
-pub use profile::{Opening, Profile, Shape, openings};
-pub use side::{DEPTH, Drive, OpenSide, Staircase};
-pub use through::{GivenFlow, Moved};
+pub(crate) use pressure::Prescribed;
+pub(crate) use profile::{Opening, Profile, Shape, openings};
+pub(crate) use side::{DEPTH, Drive, OpenSide, Staircase};
+pub(crate) use through::{GivenFlow, Moved};
 
 /// The sides of a run that fluid comes in or leaves through.
 #[derive(Debug, Clone, Default)]

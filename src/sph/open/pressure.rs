@@ -14,17 +14,16 @@ const FEWEST: usize = 5;
 
 /// The given pressures of one step.
 #[derive(Debug, Clone, Default)]
-pub struct Prescribed {
+pub(crate) struct Prescribed {
     /// Pressure in Pa of each buffer particle, NaN where none is given.
-    pub value: Vec<f64>,
+    pub(crate) value: Vec<f64>,
     /// What all pressures are solved relative to in Pa: the mean over the sides.
-    pub reference: f64,
+    pub(crate) reference: f64,
 }
 
 impl Prescribed {
     /// The pressures for the step to come. `jump` is σκ in Pa at each buffer particle, NaN away from the interface.
-    #[must_use]
-    pub fn new(particles: &Particles, sides: &[OpenSide], jump: impl Fn(usize) -> f64, h: f64) -> Self {
+    pub(crate) fn new(particles: &Particles, sides: &[OpenSide], jump: impl Fn(usize) -> f64, h: f64) -> Self {
         let mut value = vec![f64::NAN; particles.open];
         let (mut sum, mut count) = (0.0, 0.0);
         for side in sides {
@@ -61,8 +60,7 @@ impl Prescribed {
 
     /// The given pressure in Pa of particle `a`, where there is one; `fluids` fluid particles come before the buffer.
     #[inline]
-    #[must_use]
-    pub fn of(&self, a: usize, fluids: usize) -> Option<f64> {
+    pub(crate) fn of(&self, a: usize, fluids: usize) -> Option<f64> {
         let value = *self.value.get(a.checked_sub(fluids)?)?;
         (!value.is_nan()).then_some(value)
     }

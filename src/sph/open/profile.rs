@@ -11,20 +11,17 @@ pub struct Opening {
 
 impl Opening {
     /// Width in m.
-    #[must_use]
-    pub fn width(&self) -> f64 {
+    pub(crate) fn width(&self) -> f64 {
         self.to - self.from
     }
 
     /// How many rows of about `spacing` (m) it has room for.
-    #[must_use]
     pub fn rows(&self, spacing: f64) -> usize {
         (self.width() / spacing).round() as usize
     }
 
     /// Distance in m of the coordinate `y` (m) from it, 0 within.
-    #[must_use]
-    pub fn distance(&self, y: f64) -> f64 {
+    pub(crate) fn distance(&self, y: f64) -> f64 {
         (self.from - y).max(y - self.to).max(0.0)
     }
 }
@@ -76,14 +73,12 @@ pub struct Profile {
 
 impl Profile {
     /// Velocity inwards in m/s at the coordinate `y` (m) in an `opening`.
-    #[must_use]
-    pub fn at(&self, opening: &Opening, y: f64) -> f64 {
+    pub(crate) fn at(&self, opening: &Opening, y: f64) -> f64 {
         self.mean * self.shape.at((y - opening.from) / opening.width())
     }
 
     /// The mean in m/s over the row around `y` (m), if `rows` equal ones fill the `opening`: all of them bring the flow of the profile.
-    #[must_use]
-    pub fn of_row(&self, opening: &Opening, rows: usize, y: f64) -> f64 {
+    pub(crate) fn of_row(&self, opening: &Opening, rows: usize, y: f64) -> f64 {
         let rows = rows.max(1) as f64;
         let row = (rows * (y - opening.from) / opening.width()).floor().clamp(0.0, rows - 1.0);
         self.mean * rows * (self.shape.below((row + 1.0) / rows) - self.shape.below(row / rows))
@@ -94,8 +89,7 @@ impl Profile {
 const BISECTIONS: usize = 60;
 
 /// The openings between `from` and `to` (m), where `is_open` holds, looked for at steps of `step` (m).
-#[must_use]
-pub fn openings(from: f64, to: f64, step: f64, is_open: impl Fn(f64) -> bool) -> Vec<Opening> {
+pub(crate) fn openings(from: f64, to: f64, step: f64, is_open: impl Fn(f64) -> bool) -> Vec<Opening> {
     let count = ((to - from) / step).ceil().max(1.0) as usize;
     let place = |i: usize| from + (to - from) * (i as f64 + 0.5) / count as f64;
     let edge = |mut closed: f64, mut open: f64| {

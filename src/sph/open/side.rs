@@ -5,7 +5,7 @@ use crate::sph::open::{Opening, Profile};
 use crate::sph::particles::Phase;
 
 /// Depth of a buffer over h: particles within the support of the fluid have their own whole support within the buffer.
-pub const DEPTH: f64 = 4.0;
+pub(crate) const DEPTH: f64 = 4.0;
 
 /// What is given at an open side.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,8 +54,7 @@ pub struct Staircase {
 
 impl Staircase {
     /// The pressure in Pa that begins at `time` (s), or holds then.
-    #[must_use]
-    pub fn at(&self, time: f64) -> f64 {
+    pub(crate) fn at(&self, time: f64) -> f64 {
         /// The end of a step is told in whole multiples of its length, up to rounding.
         const ROUNDING: f64 = 1e-9;
         self.first + self.rise * (time / self.hold + ROUNDING).floor()
@@ -64,74 +63,63 @@ impl Staircase {
 
 impl OpenSide {
     /// Name in case files.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub(crate) fn name(&self) -> &'static str {
         ["left", "right", "bottom", "top"][self.number]
     }
 
     /// 0: normal along x, 1: along y.
-    #[must_use]
-    pub fn axis(&self) -> usize {
+    pub(crate) fn axis(&self) -> usize {
         self.number / 2
     }
 
     /// Sign of the direction inwards along the axis.
-    #[must_use]
-    pub fn inwards(&self) -> f64 {
+    pub(crate) fn inwards(&self) -> f64 {
         if self.number.is_multiple_of(2) { 1.0 } else { -1.0 }
     }
 
     /// How far `x` lies beyond the side in m; below 0 inside.
-    #[must_use]
-    pub fn beyond(&self, x: Vec2) -> f64 {
+    pub(crate) fn beyond(&self, x: Vec2) -> f64 {
         self.inwards() * (self.at - x[self.axis()])
     }
 
     /// `x` moved along the normal to a place `beyond` (m) the side.
-    #[must_use]
-    pub fn placed(&self, x: Vec2, beyond: f64) -> Vec2 {
+    pub(crate) fn placed(&self, x: Vec2, beyond: f64) -> Vec2 {
         let mut y = x;
         y[self.axis()] = self.at - self.inwards() * beyond;
         y
     }
 
     /// The velocity of the speed `inwards` in m/s along the normal.
-    #[must_use]
-    pub fn velocity(&self, inwards: f64) -> Vec2 {
+    pub(crate) fn velocity(&self, inwards: f64) -> Vec2 {
         let mut v = Vec2::zeros();
         v[self.axis()] = self.inwards() * inwards;
         v
     }
 
     /// The opening at the coordinate `y` (m) along the side, or the nearest one.
-    #[must_use]
-    pub fn opening(&self, y: f64) -> Option<&Opening> {
+    pub(crate) fn opening(&self, y: f64) -> Option<&Opening> {
         self.openings.iter().min_by(|a, b| a.distance(y).total_cmp(&b.distance(y)))
     }
 
     /// Distance in m of particles in a row of an opening: equal rows fill it, and each particle has its cell.
-    #[must_use]
-    pub fn step_in(&self, opening: &Opening) -> f64 {
+    pub(crate) fn step_in(&self, opening: &Opening) -> f64 {
         self.cell * opening.rows(self.row_spacing).max(1) as f64 / opening.width()
     }
 
     /// Particles in each row of an opening.
-    #[must_use]
-    pub fn count_in(&self, opening: &Opening) -> usize {
+    pub(crate) fn count_in(&self, opening: &Opening) -> usize {
         /// A whole number up to rounding is whole.
         const ROUNDING: f64 = 1e-9;
         (self.depth / self.step_in(opening) - ROUNDING).ceil() as usize
     }
 
     /// Depth in m of the buffer at `x`: that of whole rows.
-    #[must_use]
-    pub fn depth_at(&self, x: Vec2) -> f64 {
+    pub(crate) fn depth_at(&self, x: Vec2) -> f64 {
         let of = |opening: &Opening| self.count_in(opening) as f64 * self.step_in(opening);
         self.opening(x[1 - self.axis()]).map_or(self.depth, of)
     }
 
     /// The given flow rate inwards in m²/s, 0 where a pressure is given.
-    #[must_use]
     pub fn flow_rate(&self) -> f64 {
         match &self.drive {
             Drive::Velocity(profile) => profile.mean * self.openings.iter().map(Opening::width).sum::<f64>(),
@@ -140,15 +128,14 @@ impl OpenSide {
     }
 
     /// Sets the pressure that holds from `time` (s) on, where it rises in steps.
-    pub fn take_step(&mut self, time: f64) {
+    pub(crate) fn take_step(&mut self, time: f64) {
         if let Some(steps) = self.steps {
             self.drive = Drive::Pressure(steps.at(time));
         }
     }
 
     /// The given velocity in m/s of the row at `x`, none where a pressure is given.
-    #[must_use]
-    pub fn given_velocity(&self, x: Vec2) -> Option<Vec2> {
+    pub(crate) fn given_velocity(&self, x: Vec2) -> Option<Vec2> {
         let Drive::Velocity(profile) = &self.drive else { return None };
         let (y, none) = (x[1 - self.axis()], Some(Vec2::zeros()));
         self.opening(y)
@@ -156,8 +143,7 @@ impl OpenSide {
     }
 
     /// The given pressure in Pa, none where a velocity is given.
-    #[must_use]
-    pub fn given_pressure(&self) -> Option<f64> {
+    pub(crate) fn given_pressure(&self) -> Option<f64> {
         match self.drive {
             Drive::Pressure(pressure) => Some(pressure),
             Drive::Velocity(_) => None,

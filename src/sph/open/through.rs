@@ -23,27 +23,25 @@ pub struct GivenFlow {
 }
 
 /// Particles that move.
-pub struct Moved<'a> {
+pub(crate) struct Moved<'a> {
     /// Where they were, in m.
-    pub from: &'a [Vec2],
+    pub(crate) from: &'a [Vec2],
     /// Where they are, in m.
-    pub to: &'a [Vec2],
+    pub(crate) to: &'a [Vec2],
     /// The area of each in m².
-    pub volume: f64,
+    pub(crate) volume: f64,
     /// How long it took them, in s.
-    pub dt: f64,
+    pub(crate) dt: f64,
 }
 
 impl OpenSide {
     /// The unit vector inwards.
-    #[must_use]
-    pub fn way(&self) -> Vec2 {
+    pub(crate) fn way(&self) -> Vec2 {
         self.velocity(1.0)
     }
 
     /// The velocity in m/s at `x` (m) of the parabola that is given, if one is.
-    #[must_use]
-    pub fn parabola(&self, x: Vec2) -> Option<Vec2> {
+    pub(crate) fn parabola(&self, x: Vec2) -> Option<Vec2> {
         let y = x[1 - self.axis()];
         match &self.drive {
             Drive::Velocity(profile) if profile.shape != Shape::Plug => {
@@ -57,7 +55,14 @@ impl OpenSide {
 
 impl GivenFlow {
     /// Counts what comes in through `side` as particles move, and changes the phase of those that come through it.
-    pub fn pass(&mut self, side: &OpenSide, domain: &Domain, moved: &Moved, phase: &mut [Phase], ledger: &mut Ledger) {
+    pub(crate) fn pass(
+        &mut self,
+        side: &OpenSide,
+        domain: &Domain,
+        moved: &Moved,
+        phase: &mut [Phase],
+        ledger: &mut Ledger,
+    ) {
         let (way, period) = (side.way(), domain.bounds.size()[side.axis()]);
         let mut gone = 0.0;
         for (a, (&from, &to)) in moved.from.iter().zip(moved.to).enumerate() {

@@ -17,7 +17,7 @@ pub(super) struct Band {
 
 impl Band {
     /// All that is no farther than `reach` (m) along each axis from one of the `places` (m), and a little more: up to the end of a cell.
-    pub fn around(places: impl Iterator<Item = Vec2>, reach: f64, domain: &Domain) -> Self {
+    pub(crate) fn around(places: impl Iterator<Item = Vec2>, reach: f64, domain: &Domain) -> Self {
         let size = domain.bounds.size();
         let counts = [0, 1].map(|i| (size[i] * CELLS_PER_REACH / reach).floor().max(1.0) as usize);
         let size = Vec2::new(size.x / counts[0] as f64, size.y / counts[1] as f64);
@@ -31,7 +31,7 @@ impl Band {
     }
 
     /// The band and all that is no farther than `by` (m) along each axis from it.
-    pub fn grown(mut self, by: f64) -> Self {
+    pub(crate) fn grown(mut self, by: f64) -> Self {
         for axis in 0..2 {
             let cells = (by / self.size[axis]).ceil() as isize;
             let count = self.counts[axis] as isize;
@@ -53,7 +53,7 @@ impl Band {
     }
 
     /// Whether `x` (m) lies in the band.
-    pub fn holds(&self, x: Vec2) -> bool {
+    pub(crate) fn holds(&self, x: Vec2) -> bool {
         self.inside[self.cell(x)]
     }
 

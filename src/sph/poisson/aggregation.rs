@@ -5,17 +5,17 @@ use rayon::prelude::*;
 use crate::math::Vec2;
 
 /// Width of an aggregate over the spacing of the points it is made of.
-pub const COARSENING: f64 = 3.0;
+pub(crate) const COARSENING: f64 = 3.0;
 
 /// Which aggregate each point belongs to, numbered in the order of the points.
 #[derive(Debug, Clone)]
-pub struct Aggregates {
+pub(crate) struct Aggregates {
     /// Aggregate of each point.
-    pub of: Vec<u32>,
+    pub(crate) of: Vec<u32>,
     /// Mean position of each aggregate in m.
-    pub position: Vec<Vec2>,
+    pub(crate) position: Vec<Vec2>,
     /// Kind of each aggregate.
-    pub kind: Vec<u8>,
+    pub(crate) kind: Vec<u8>,
 }
 
 impl Aggregates {
@@ -23,8 +23,7 @@ impl Aggregates {
     ///
     /// Points of different kind (light and heavy fluid) are kept apart, since a jump of the coefficient between them
     /// would slow the cycle down.
-    #[must_use]
-    pub fn by_cell(points: &[Vec2], kind: &[u8], width: f64) -> Self {
+    pub(crate) fn by_cell(points: &[Vec2], kind: &[u8], width: f64) -> Self {
         let mut low = Vec2::repeat(f64::INFINITY);
         let mut high = Vec2::repeat(f64::NEG_INFINITY);
         for x in points.iter().filter(|x| x.iter().all(|v| v.is_finite())) {

@@ -49,7 +49,6 @@ pub fn assemble(
 }
 
 /// Numbers the parts of the pore space that share no neighbors that are `joined`; each has a pressure constant of its own.
-#[must_use]
 pub fn parts(pairs: &Pairs, images: &Images, joined: impl Fn(usize, usize) -> bool) -> Vec<u32> {
     let joined = &joined;
     components(pairs.rows(), |a| pairs.of(a).filter(move |ab| joined(a, ab.b)).map(|ab| images.source(ab.b)))

@@ -13,7 +13,7 @@ use crate::sph::poisson::solve::Unknowns;
 
 /// A direct solver that remembers the elimination order of the last pattern it saw.
 #[derive(Default)]
-pub struct SparseCholesky {
+pub(crate) struct SparseCholesky {
     pattern: (Arc<Vec<usize>>, Arc<Vec<u32>>),
     symbolic: Option<SymbolicLlt<usize>>,
 }
@@ -21,14 +21,14 @@ pub struct SparseCholesky {
 /// The factorization failed; the message is the library's.
 #[derive(Debug, thiserror::Error)]
 #[error("sparse Cholesky factorization: {0}")]
-pub struct FactorizationError(String);
+pub(crate) struct FactorizationError(String);
 
 impl SparseCholesky {
     /// Solves M x = b. Each part without a Dirichlet value has its first unknown held at zero.
     ///
     /// # Errors
     /// [`FactorizationError`] where the matrix is not positive definite after that.
-    pub fn solve(
+    pub(crate) fn solve(
         &mut self,
         matrix: &Matrix,
         unknowns: &Unknowns,

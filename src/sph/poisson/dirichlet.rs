@@ -4,7 +4,7 @@ use crate::sph::poisson::Matrix;
 
 /// Takes the unknowns of `given`, with their values, out of M x = b. Their own rows become D x = 0, cut off from all others, so
 /// that the matrix stays symmetric; the caller puts the values in after the solve.
-pub fn impose(matrix: &mut Matrix, b: &mut [f64], given: impl Fn(usize) -> Option<f64>) {
+pub(crate) fn impose(matrix: &mut Matrix, b: &mut [f64], given: impl Fn(usize) -> Option<f64>) {
     let rows: Vec<(usize, f64)> = (0..matrix.rows()).filter_map(|a| given(a).map(|value| (a, value))).collect();
     let mut touched: Vec<usize> = rows.iter().flat_map(|&(a, _)| matrix.row(a).map(|(b, _)| b)).collect();
     touched.sort_unstable();

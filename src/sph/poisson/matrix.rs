@@ -23,7 +23,6 @@ pub struct Matrix {
 
 impl Matrix {
     /// Number of rows.
-    #[must_use]
     pub fn rows(&self) -> usize {
         self.diagonal.len()
     }
@@ -40,14 +39,13 @@ impl Matrix {
 
     /// Σ_b A_ab x_b.
     #[inline]
-    #[must_use]
-    pub fn coupled(&self, a: usize, x: &[f64]) -> f64 {
+    pub(crate) fn coupled(&self, a: usize, x: &[f64]) -> f64 {
         let row = self.start[a]..self.start[a + 1];
         weighted_sum(&self.column[row.clone()], &self.coupling[row], x)
     }
 
     /// y = M x.
-    pub fn apply(&self, x: &[f64], y: &mut [f64]) {
+    pub(crate) fn apply(&self, x: &[f64], y: &mut [f64]) {
         each(y, |a| self.diagonal[a] * x[a] - self.coupled(a, x));
     }
 
@@ -57,14 +55,13 @@ impl Matrix {
     }
 
     /// Lets go of the pattern, so that the pairs that it was shared with can be freed; `coupling` keeps its memory.
-    pub fn release_pattern(&mut self) {
+    pub(crate) fn release_pattern(&mut self) {
         self.start = Arc::default();
         self.column = Arc::default();
     }
 
     /// Bytes held, a pattern that it shares with the pairs included.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.start.len() * 8 + (self.column.len() + self.coupling.len()) * 4 + self.diagonal.len() * 8
     }
 }

@@ -12,7 +12,7 @@ mod solve;
 
 pub use crate::sph::conjugate_gradients::Tolerance;
 pub use assemble::{assemble, parts};
-pub use dirichlet::impose;
+pub(crate) use dirichlet::impose;
 pub use matrix::{Matrix, weighted_sum};
 pub use multigrid::Multigrid;
 pub use solve::{PressureSolve, System, Unknowns};

@@ -49,7 +49,6 @@ pub struct Multigrid {
 impl Multigrid {
     /// Builds the hierarchy for `matrix`, whose unknowns lie at `points` about `spacing` (m) apart; `kind` as in
     /// `Aggregates::by_cell`.
-    #[must_use]
     pub fn new(matrix: &Matrix, points: &[Vec2], kind: &[u8], spacing: f64) -> Self {
         let mut coarse: Vec<Level> = Vec::new();
         let (mut points, mut kind, mut width) = (points.to_vec(), kind.to_vec(), spacing);
@@ -135,8 +134,7 @@ impl Multigrid {
     }
 
     /// Bytes held.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.coarse.iter().map(|level| level.matrix.bytes() + level.aggregate.len() * 4).sum()
     }
 }

@@ -84,8 +84,7 @@ impl PressureSolve {
     }
 
     /// Bytes held between solves and by the hierarchy during them.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.matrix.bytes() + self.hierarchy_bytes
     }
 }

@@ -41,7 +41,6 @@ impl Flow {
     }
 
     /// The largest viscous rate in 1/s, see [`Viscous::rate`].
-    #[must_use]
     pub fn viscous_rate(&self) -> f64 {
         let f = &self.fields;
         let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
@@ -52,7 +51,6 @@ impl Flow {
 
     /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles and to the wall particles that
     /// `is_meant` takes by the index and by the place (m).
-    #[must_use]
     pub fn friction(&self, is_meant: impl Fn(usize, Vec2) -> bool + Sync) -> Vec2 {
         let (particles, fluids, f) = (&self.state.particles, self.state.particles.fluids, &self.fields);
         let moving = particles.moving();
@@ -76,8 +74,7 @@ impl Flow {
     }
 
     /// The viscous force in N per m of depth on the fluid particles that `is_meant` takes, by fluid and walls around them.
-    #[must_use]
-    pub fn viscous_force(&self, is_meant: impl Fn(usize) -> bool) -> Vec2 {
+    pub(crate) fn viscous_force(&self, is_meant: impl Fn(usize) -> bool) -> Vec2 {
         let mut velocity = self.state.particles.velocity.clone();
         self.neighborhood.images.extend_velocity(&mut velocity);
         let acceleration = self.viscous_acceleration(&velocity);

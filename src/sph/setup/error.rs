@@ -60,8 +60,7 @@ pub enum SetupError {
 
 impl SetupError {
     /// The key of the case that a user would change.
-    #[must_use]
-    pub fn key(&self) -> String {
+    pub(crate) fn key(&self) -> String {
         match self {
             Self::Geometry(_) => "geometry".to_owned(),
             Self::PeriodTooShort { .. } | Self::NoFluid(_) => "sph.spacing".to_owned(),

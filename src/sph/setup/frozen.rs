@@ -22,11 +22,11 @@ const BESIDE: f64 = 0.1;
 #[derive(Clone)]
 pub(super) struct Pore {
     /// The solids.
-    pub geometry: Arc<Geometry>,
+    pub(crate) geometry: Arc<Geometry>,
     /// The region of the initial state.
-    pub region: Arc<Region>,
+    pub(crate) region: Arc<Region>,
     /// The case.
-    pub sph: Arc<Sph>,
+    pub(crate) sph: Arc<Sph>,
 }
 
 /// The case with the wetting fluid in both phases and nothing that acts on the interface: a slow flow has the same permeability with any fluid.

@@ -11,8 +11,7 @@ use crate::sph::open::Open;
 use crate::sph::particles::Particles;
 
 /// Shapes of the initial wetting phase as a solid: negative distance inside of them.
-#[must_use]
-pub fn region(case: &Case, shapes: &[ShapeSpec]) -> Geometry {
+pub(crate) fn region(case: &Case, shapes: &[ShapeSpec]) -> Geometry {
     Geometry::unchecked(&GeometrySpec { shapes: shapes.to_vec(), solid: SolidSide::Inside, ..case.geometry.clone() })
 }
 

@@ -14,8 +14,8 @@ mod walls;
 
 use std::sync::Arc;
 
-pub use error::SetupError;
-pub use initial::region;
+pub(crate) use error::SetupError;
+pub(crate) use initial::region;
 
 use self::frozen::Pore;
 use self::method::method;
@@ -40,7 +40,7 @@ use crate::sph::solver::SphSolver;
 ///
 /// # Errors
 /// [`SetupError::Geometry`] with what is wrong with the shapes.
-pub fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
+pub(crate) fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
     let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
     let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
     let walls = sides.map(|side| side == Side::Wall);
@@ -48,10 +48,7 @@ pub fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
 }
 
 /// The solids of a case, after a look at what else can be told without its particles: the length of periods, and the openings of open sides.
-///
-/// # Errors
-/// See [`SetupError`].
-pub fn checked_geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
+pub(crate) fn checked_geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
     let geometry = geometry(case, sph)?;
     let ground = Ground::new(&geometry, sph)?;
     let region = start_region(case, sph);
@@ -107,26 +104,17 @@ fn start_phase(sph: &Sph, region: &Region, x: Vec2) -> Phase {
 }
 
 /// The solver of a case at time zero.
-///
-/// # Errors
-/// See [`SetupError`].
 pub fn build(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
     build_watched(case, sph, &mut |_| {})
 }
 
 /// The solver of a case at time zero; `packed` is told the share of the packing of particles that is done, which takes most of the time.
-///
-/// # Errors
-/// See [`SetupError`].
-pub fn build_watched(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Result<SphSolver, SetupError> {
+pub(crate) fn build_watched(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) -> Result<SphSolver, SetupError> {
     placed(case, sph, Some(packed))
 }
 
 /// The solver of a case that takes up a saved state before anything else: as many particles as at time zero, which are not packed.
-///
-/// # Errors
-/// See [`SetupError`].
-pub fn build_to_resume(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
+pub(crate) fn build_to_resume(case: &Case, sph: &Sph) -> Result<SphSolver, SetupError> {
     placed(case, sph, None)
 }
 

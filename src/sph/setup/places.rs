@@ -13,17 +13,17 @@ use crate::sph::packing::Packing;
 /// What is filled with particles.
 pub(super) struct Filling<'a> {
     /// The pore.
-    pub geometry: &'a Geometry,
+    pub(crate) geometry: &'a Geometry,
     /// Box and sides.
-    pub domain: &'a Domain,
+    pub(crate) domain: &'a Domain,
     /// The lattice.
-    pub lattice: &'a Lattice,
+    pub(crate) lattice: &'a Lattice,
     /// Constants.
-    pub method: &'a Method,
+    pub(crate) method: &'a Method,
     /// The left, right, bottom and top side.
-    pub sides: [Side; 4],
+    pub(crate) sides: [Side; 4],
     /// Whether wall particles follow walls that the lattice does not fit.
-    pub fitted_walls: bool,
+    pub(crate) fitted_walls: bool,
 }
 
 /// Where the particles stand: along walls and, with a `region` that one phase fills, along its interface, where the lattice does not fit these, and packed to

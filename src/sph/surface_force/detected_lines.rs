@@ -20,7 +20,7 @@ const NEAR_WALL: f64 = 2.0;
 const ONE_LINE: f64 = 2.0;
 
 /// A contact line as the interface shows it.
-pub struct InterfaceLine<'a> {
+pub(crate) struct InterfaceLine<'a> {
     pub(super) interface: &'a Interface<'a>,
     /// About where it is, on the wall, in m.
     pub(super) place: Vec2,
@@ -37,8 +37,7 @@ pub struct InterfaceLine<'a> {
 
 impl Interface<'_> {
     /// The contact lines in the order of their first points.
-    #[must_use]
-    pub fn lines(&self) -> Vec<InterfaceLine<'_>> {
+    pub(crate) fn lines(&self) -> Vec<InterfaceLine<'_>> {
         const NONE: usize = usize::MAX;
         let ends: Vec<(usize, ContactPoint)> = (0..self.points.len())
             .filter(|&i| self.points[i].touches && self.points[i].wall_distance < NEAR_WALL * self.spacing)

@@ -9,7 +9,6 @@ use crate::sph::wetting::lines::{DetectedLine, LINE_REACH, nearest};
 
 /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³, with the curvature and the normal
 /// that the jump uses; the forces of the flow itself where they are volume forces.
-#[must_use]
 pub fn volume_forces(flow: &Flow) -> (Vec<Vec2>, Vec<Vec2>) {
     let (f, m, p) = (&flow.fields, &flow.setting.method, &flow.state.particles);
     if f.jump.is_none() {

@@ -36,34 +36,34 @@ const PROJECTIONS: usize = 4;
 const SAME_NORMAL: f64 = 1e-4;
 
 /// The angle in rad at which the interface is to meet the wall at a point of it (m), with ν_ns there.
-pub type AngleAt<'a> = dyn Fn(Vec2, Vec2) -> f64 + Sync + 'a;
+pub(crate) type AngleAt<'a> = dyn Fn(Vec2, Vec2) -> f64 + Sync + 'a;
 
 /// What a fit constrained to the contact angle says of the interface between the wall and a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turning {
+pub(crate) struct Turning {
     /// Mean curvature in 1/m of the way.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Way along the interface from its contact line in m.
-    pub way: f64,
+    pub(crate) way: f64,
     /// Share of the held fit in the curvature.
-    pub share: f64,
+    pub(crate) share: f64,
     /// 1 where ν_ns lies to the left of the wall normal, else -1.
-    pub side: f64,
+    pub(crate) side: f64,
     /// The contact line in m.
-    pub line: Vec2,
+    pub(crate) line: Vec2,
 }
 
 /// Curvature of the interface at a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fitted {
+pub(crate) struct Fitted {
     /// That of the fits in 1/m.
-    pub curvature: f64,
+    pub(crate) curvature: f64,
     /// What the held fit says, where there is one.
-    pub turning: Option<Turning>,
+    pub(crate) turning: Option<Turning>,
 }
 
 /// The fits that give the curvature of an interface.
-pub struct InterfaceFit<'a> {
+pub(crate) struct InterfaceFit<'a> {
     interface: &'a Interface<'a>,
     /// Angle of the wetting law, where there is one.
     angle: Option<&'a AngleAt<'a>>,
@@ -73,32 +73,22 @@ pub struct InterfaceFit<'a> {
 
 impl<'a> InterfaceFit<'a> {
     /// Free fits: the interface meets walls at any angle.
-    #[must_use]
-    pub fn free(interface: &'a Interface<'a>) -> Self {
+    pub(crate) fn free(interface: &'a Interface<'a>) -> Self {
         Self { interface, angle: None, pinned_lines: &[] }
     }
 
     /// The same fits, but the interface is to meet walls at the given angle.
-    #[must_use]
-    pub fn held_to(self, angle: &'a AngleAt<'a>) -> Self {
+    pub(crate) fn held_to(self, angle: &'a AngleAt<'a>) -> Self {
         Self { angle: Some(angle), ..self }
     }
 
     /// The same fits with the contact lines at edges and tight bends.
-    #[must_use]
-    pub fn with_pinned_lines(self, pinned_lines: &'a [PinnedLine]) -> Self {
+    pub(crate) fn with_pinned_lines(self, pinned_lines: &'a [PinnedLine]) -> Self {
         Self { pinned_lines, ..self }
     }
 
-    /// Curvature in 1/m of the interface nearest to `x`, none where there is no interface within the stencil.
-    #[must_use]
-    pub fn curvature(&self, x: Vec2) -> Option<f64> {
-        self.at(x).map(|fitted| fitted.curvature)
-    }
-
     /// The same with what held fits say of the way from the wall.
-    #[must_use]
-    pub fn at(&self, x: Vec2) -> Option<Fitted> {
+    pub(crate) fn at(&self, x: Vec2) -> Option<Fitted> {
         let nearest = self.interface.nearest(x).into_iter();
         let found: Vec<Fitted> = nearest.filter_map(|(p, from_p)| self.fitted_at(p, from_p, x)).collect();
         let curvature = found.iter().map(|fitted| fitted.curvature).sum::<f64>() / found.len() as f64;
@@ -204,6 +194,15 @@ impl<'a> InterfaceFit<'a> {
 fn arc(chord: f64, kappa: f64) -> f64 {
     let half = (0.5 * kappa.abs() * chord).min(1.0);
     if half > 1e-6 { chord * half.asin() / half } else { chord }
+}
+
+/// What tests compare with.
+#[cfg(test)]
+impl<'a> InterfaceFit<'a> {
+    /// Curvature in 1/m of the interface nearest to `x`, none where there is no interface within the stencil.
+    pub(crate) fn curvature(&self, x: Vec2) -> Option<f64> {
+        self.at(x).map(|fitted| fitted.curvature)
+    }
 }
 
 #[cfg(test)]

@@ -43,19 +43,18 @@ pub struct Jump {
 }
 
 /// The curvature of an interface.
-pub struct InterfaceCurvature<F: Fn(Vec2) -> Option<Fitted> + Sync> {
+pub(crate) struct InterfaceCurvature<F: Fn(Vec2) -> Option<Fitted> + Sync> {
     /// That near a place (m), none where there is no interface.
-    pub at: F,
+    pub(crate) at: F,
     /// Its gradient at rest in 1/m².
-    pub gradient: Vec2,
+    pub(crate) gradient: Vec2,
     /// Smoothing length in m.
-    pub h: f64,
+    pub(crate) h: f64,
 }
 
 impl Jump {
     /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls.
-    #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         particles: &Particles,
         neighborhood: &Neighborhood,
         domain: &Domain,
@@ -104,8 +103,7 @@ impl Jump {
 
     /// J_ab in units of the tension: κ̄_ab (c_b − c_a) in 1/m, κ̄ the mean of the curvatures that exist.
     #[inline]
-    #[must_use]
-    pub fn of(&self, a: usize, b: usize) -> f64 {
+    pub(crate) fn of(&self, a: usize, b: usize) -> f64 {
         if !self.is_across[a] {
             return 0.0;
         }

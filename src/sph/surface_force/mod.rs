@@ -9,10 +9,10 @@
 //! curvature; `jump`, which carries that to the pairs. The geometry of the circles is in [`interface`](crate::interface).
 
 mod contact_points;
-pub mod detected_lines;
+pub(crate) mod detected_lines;
 pub mod equivalent;
-pub mod fit;
-pub mod jump;
-pub mod pinned_lines;
-pub mod points;
-pub mod stencils;
+pub(crate) mod fit;
+pub(crate) mod jump;
+pub(crate) mod pinned_lines;
+pub(crate) mod points;
+pub(crate) mod stencils;

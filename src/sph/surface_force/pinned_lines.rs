@@ -27,7 +27,7 @@ const LIFT: f64 = 0.5;
 
 /// A contact line where its wall bends.
 #[derive(Debug, Clone, Copy)]
-pub struct PinnedLine {
+pub(crate) struct PinnedLine {
     /// A place in m on the tangent of the wall that the interface meets.
     pub(super) place: Vec2,
     /// The wall normal of the tangent.
@@ -45,8 +45,7 @@ struct End {
 
 impl InterfaceLine<'_> {
     /// Where the interface meets the wall at the `angle` (rad), if the wall bends there.
-    #[must_use]
-    pub fn pinned(&self, angle: f64) -> Option<PinnedLine> {
+    pub(crate) fn pinned(&self, angle: f64) -> Option<PinnedLine> {
         let (interface, place) = (self.interface, self.place);
         let normal_at = |way: f64| (interface.wall)(place + way * interface.h * self.outward).1;
         if normal_at(NEIGHBORHOOD).dot(&normal_at(-NEIGHBORHOOD)) > BENT {

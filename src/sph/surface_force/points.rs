@@ -18,53 +18,52 @@ const LEVEL: f64 = 0.5;
 
 /// A point of the interface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct InterfacePoint {
+pub(crate) struct InterfacePoint {
     /// Position in m.
-    pub x: Vec2,
+    pub(crate) x: Vec2,
     /// Unit normal into the wetting phase.
-    pub normal: Vec2,
+    pub(crate) normal: Vec2,
     /// Velocity in m/s.
-    pub velocity: Vec2,
+    pub(crate) velocity: Vec2,
     /// Distance to the wall in m, infinite where none is in reach.
-    pub wall_distance: f64,
+    pub(crate) wall_distance: f64,
     /// Wall normal into the fluid, zero where none is in reach.
-    pub wall_normal: Vec2,
+    pub(crate) wall_normal: Vec2,
     /// Whether both phases touch the wall in the neighborhood: a film between interface and wall bears no contact line.
-    pub touches: bool,
+    pub(crate) touches: bool,
     /// Weight in means and fits: it vanishes before the two particles are so far apart that the point does.
-    pub weight: f64,
+    pub(crate) weight: f64,
 }
 
 /// What the search for points needs; slices over particles and images, those of walls over fluid particles.
-pub struct PointFields<'a> {
+pub(crate) struct PointFields<'a> {
     /// Positions of the particles in m.
-    pub position: &'a [Vec2],
+    pub(crate) position: &'a [Vec2],
     /// Smoothed color.
-    pub color: &'a [f64],
+    pub(crate) color: &'a [f64],
     /// Consistent gradient of the smoothed color in 1/m.
-    pub gradient: &'a [Vec2],
+    pub(crate) gradient: &'a [Vec2],
     /// Velocity in m/s.
-    pub velocity: &'a [Vec2],
+    pub(crate) velocity: &'a [Vec2],
     /// Wall distance in m of fluid particles, infinite where no wall is in reach.
-    pub wall_distance: &'a [f64],
+    pub(crate) wall_distance: &'a [f64],
     /// Wall normal at fluid particles.
-    pub wall_normal: &'a [Vec2],
+    pub(crate) wall_normal: &'a [Vec2],
     /// Whether the smoothed color of a particle or of one of its neighbors is neither 0 nor 1.
-    pub near: &'a [bool],
+    pub(crate) near: &'a [bool],
 }
 
 /// Lengths of the discretization.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Resolution {
+pub(crate) struct Resolution {
     /// Spacing of the particles dx in m.
-    pub spacing: f64,
+    pub(crate) spacing: f64,
     /// Smoothing length in m.
-    pub h: f64,
+    pub(crate) h: f64,
 }
 
 /// All interface points between the first `fluids` particles, with images near mirrors.
-#[must_use]
-pub fn interface_points(
+pub(crate) fn interface_points(
     neighborhood: &Neighborhood,
     domain: &Domain,
     fields: &PointFields,

@@ -10,10 +10,10 @@ use crate::sph::domain::Domain;
 use crate::sph::surface_force::points::{InterfacePoint, Resolution};
 
 /// Radius r of the stencil of a fit over h.
-pub const STENCIL_RADIUS: f64 = 3.0;
+pub(crate) const STENCIL_RADIUS: f64 = 3.0;
 
 /// A point at the distance d has the weight (1 − d²/r²) to this power. Two sees waves of two to three spacings upside down.
-pub const SMOOTHNESS: i32 = 6;
+pub(crate) const SMOOTHNESS: i32 = 6;
 
 /// A stencil is moved to the closest point of its particle so many times: by the circle around the nearest point, and by that around the
 /// closest point found.
@@ -29,10 +29,10 @@ const SAME_PIECE: f64 = 0.3;
 const LARGEST_CURVATURE: f64 = 0.75;
 
 /// Signed distance in m and normal of the wall at a point.
-pub type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
+pub(crate) type Wall<'a> = dyn Fn(Vec2) -> (f64, Vec2) + Sync + 'a;
 
 /// The interface as points, with what fits to them need to know.
-pub struct Interface<'a> {
+pub(crate) struct Interface<'a> {
     pub(super) points: &'a [InterfacePoint],
     pub(super) cells: Cells,
     pub(super) h: f64,
@@ -47,8 +47,7 @@ pub struct Interface<'a> {
 
 impl<'a> Interface<'a> {
     /// Sorts the points.
-    #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         points: &'a [InterfacePoint],
         domain: &'a Domain,
         Resolution { spacing, h }: Resolution,
@@ -60,14 +59,12 @@ impl<'a> Interface<'a> {
     }
 
     /// The same interface under gravity, with the gradient (1/m²) of its curvature at rest.
-    #[must_use]
-    pub fn under(self, gradient: Vec2) -> Self {
+    pub(crate) fn under(self, gradient: Vec2) -> Self {
         Self { gradient, ..self }
     }
 
     /// The same interface before a step of the length `step` (s).
-    #[must_use]
-    pub fn before(self, step: f64) -> Self {
+    pub(crate) fn before(self, step: f64) -> Self {
         Self { step, ..self }
     }
 

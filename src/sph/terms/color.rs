@@ -28,7 +28,7 @@ pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], normal
 ///
 /// B_a is the inverse of −Σ_b V_b r_ab ⊗ ∇_a W_ab (Bonet & Lok 1999); where that is near singular the plain gradient is kept.
 /// `r_ab(a, b)` in m. Zero where a particle is not `near` the interface.
-pub fn consistent_gradient(
+pub(crate) fn consistent_gradient(
     pairs: &Pairs,
     fluid_volume: &[f64],
     near: &[bool],

@@ -3,14 +3,14 @@
 //! Fields are slices with one entry per particle and image. Where the paper's sum runs over fluid particles only, the
 //! function takes `fluid_volume`: V_b on fluid, 0 on walls.
 
-pub mod average;
+pub(crate) mod average;
 pub mod color;
 pub mod curvature;
 pub mod density;
 pub mod divergence;
-pub mod poisson;
+pub(crate) mod poisson;
 pub mod pressure_gradient;
-pub mod sharpening;
+pub(crate) mod sharpening;
 pub mod shifting;
 pub mod surface_tension;
 pub mod transposed_stress;

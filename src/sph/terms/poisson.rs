@@ -6,7 +6,6 @@ use crate::sph::pairs::Pair;
 ///
 /// Eq. (30) times −V_a is then Σ_b A_ab (p_a − p_b): a symmetric matrix with non-negative eigenvalues.
 #[inline]
-#[must_use]
-pub fn coefficient(volumes: f64, densities: f64, ab: &Pair) -> f64 {
+pub(crate) fn coefficient(volumes: f64, densities: f64, ab: &Pair) -> f64 {
     -volumes * 4.0 / densities * ab.slope
 }

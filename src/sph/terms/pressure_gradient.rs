@@ -17,7 +17,7 @@ pub fn symmetric(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64
 ///
 /// Keeps momentum and is continuous in ∇p/ρ across the interface; the constant in p orders the particles as in
 /// [`symmetric`], to which it comes down for equal densities and volumes.
-pub fn weighted(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], acceleration: &mut [Vec2]) {
+pub(crate) fn weighted(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], acceleration: &mut [Vec2]) {
     pairs.sum_into(acceleration, |a, ab| {
         let b = ab.b;
         let between = (density[b] * pressure[a] + density[a] * pressure[b]) / (density[a] + density[b]);
@@ -64,8 +64,7 @@ pub fn correct_gradient(moment: &[f64], acceleration: &mut [Vec2]) {
 }
 
 /// −∇φ/ρ of a potential φ without jumps, by [`difference`]: the way in m down the gradient for φ in kg/m.
-#[must_use]
-pub fn down(pairs: &Pairs, volume: &[f64], density: &[f64], potential: &[f64], particles: usize) -> Vec<Vec2> {
+pub(crate) fn down(pairs: &Pairs, volume: &[f64], density: &[f64], potential: &[f64], particles: usize) -> Vec<Vec2> {
     let mut by = vec![Vec2::zeros(); particles];
     difference(pairs, volume, density, potential, |_, _| 0.0, &mut by);
     by
@@ -73,6 +72,6 @@ pub fn down(pairs: &Pairs, volume: &[f64], density: &[f64], potential: &[f64], p
 
 /// −2 (p_0/ρ_0) Σ_b V_b ∇_a W_ab in m/s²: what a background pressure p_0 does in [`symmetric`], as an acceleration
 /// that is the same for light and heavy particles. `pressure_over_density` = p_0/ρ_0 in m²/s².
-pub fn background(pairs: &Pairs, volume: &[f64], pressure_over_density: f64, acceleration: &mut [Vec2]) {
+pub(crate) fn background(pairs: &Pairs, volume: &[f64], pressure_over_density: f64, acceleration: &mut [Vec2]) {
     pairs.sum_into(acceleration, |_, ab| -2.0 * pressure_over_density * volume[ab.b] * ab.grad_w);
 }

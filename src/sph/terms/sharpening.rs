@@ -31,26 +31,26 @@ const SAG: f64 = 2.0;
 const SMALLEST_GRADIENT: f64 = 0.02;
 
 /// What decides which particles are isolated; slices over particles and images, the wall distance over fluid particles.
-pub struct Sharpening<'a> {
+pub(crate) struct Sharpening<'a> {
     /// Side of the interface: 1 in the wetting phase, 0 in the other.
-    pub side: &'a [f64],
+    pub(crate) side: &'a [f64],
     /// Gradient of the smoothed color in 1/m.
-    pub normal: &'a [Vec2],
+    pub(crate) normal: &'a [Vec2],
     /// V_a in m² on fluid, 0 on walls.
-    pub fluid_volume: &'a [f64],
+    pub(crate) fluid_volume: &'a [f64],
     /// Wall distance in m, infinite where no wall is in reach.
-    pub wall_distance: &'a [f64],
+    pub(crate) wall_distance: &'a [f64],
     /// Wall normal at fluid particles, zero where no wall is in reach.
-    pub wall_normal: &'a [Vec2],
+    pub(crate) wall_normal: &'a [Vec2],
     /// Density of the wetting less that of the other phase over their mean, times the body force per mass, in m/s².
-    pub weight: Vec2,
+    pub(crate) weight: Vec2,
     /// Receding and advancing angle in rad of the wall next to each fluid particle, NaN where there is none.
-    pub wall_hysteresis: &'a [[f64; 2]],
+    pub(crate) wall_hysteresis: &'a [[f64; 2]],
 }
 
 impl Sharpening<'_> {
     /// Adds to `shift` (m) the way of isolated particles across the interface. `h` in m, capillary `speed` in m/s, `dt` in s.
-    pub fn displace(&self, pairs: &Pairs, h: f64, speed: f64, dt: f64, shift: &mut [Vec2]) {
+    pub(crate) fn displace(&self, pairs: &Pairs, h: f64, speed: f64, dt: f64, shift: &mut [Vec2]) {
         let mut back = vec![Vec2::zeros(); shift.len()];
         each(&mut back, |a| {
             let n = self.normal[a];

@@ -14,7 +14,7 @@ const INTERFACE: f64 = 0.05;
 const LARGEST_SHIFT: f64 = 0.1;
 
 /// ∇C_a = Σ_b V_b ∇_a W_ab in 1/m: points to where particles crowd.
-pub fn concentration_gradient(pairs: &Pairs, volume: &[f64], gradient: &mut [Vec2]) {
+pub(crate) fn concentration_gradient(pairs: &Pairs, volume: &[f64], gradient: &mut [Vec2]) {
     pairs.sum_into(gradient, |_, ab| volume[ab.b] * ab.grad_w);
 }
 
@@ -49,7 +49,7 @@ pub fn take_out_mean(pairs: &Pairs, images: &Images, fluid_volume: &[f64], push:
 }
 
 /// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `uneven` is ∇C with the anti-clustering force, in 1/m, `diffusion` in m², `h` and the result in m.
-pub fn shift(uneven: &[Vec2], diffusion: f64, h: f64, shift: &mut [Vec2]) {
+pub(crate) fn shift(uneven: &[Vec2], diffusion: f64, h: f64, shift: &mut [Vec2]) {
     each(shift, |a| {
         let by = -diffusion * uneven[a];
         by * (LARGEST_SHIFT * h / by.norm()).min(1.0)

@@ -49,7 +49,6 @@ struct Around {
 
 impl<'a> TransposedStress<'a> {
     /// The stress among the first `moving` particles, none where there is one viscosity.
-    #[must_use]
     pub fn new(
         pairs: &'a Pairs,
         volume: &'a [f64],
@@ -77,8 +76,7 @@ impl<'a> TransposedStress<'a> {
     }
 
     /// How many times as stiff the pair a, b of Morris's form must be, so that the form with it is at least half of both together.
-    #[must_use]
-    pub fn stiffness(&self, a: usize, b: usize) -> f64 {
+    pub(crate) fn stiffness(&self, a: usize, b: usize) -> f64 {
         let moving = self.around.len();
         let is_same_fluid = a < moving && b < moving && self.is_more_viscous(a) && self.is_more_viscous(b);
         if is_same_fluid { 0.5 * (self.around[a].stiffness + self.around[b].stiffness) } else { 1.0 }
@@ -86,7 +84,6 @@ impl<'a> TransposedStress<'a> {
 
     /// V_a Σ_b V_b (S_a + S_b)·∇_a W_ab in N/m, over neighbors of the same fluid: the force on each of the first `count` particles. `velocity`
     /// in m/s is that of all moving ones.
-    #[must_use]
     pub fn force(&self, velocity: &[Vec2], count: usize) -> Vec<Vec2> {
         let moving = self.around.len();
         let mut stress = vec![Mat2::zeros(); moving];

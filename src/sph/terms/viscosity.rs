@@ -41,15 +41,13 @@ impl Viscous<'_> {
     /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: what Morris's form multiplies v_ab with in the force that b
     /// exerts on a. The same for a and b.
     #[inline]
-    #[must_use]
-    pub fn coupling(&self, a: usize, ab: &Pair) -> f64 {
+    pub(crate) fn coupling(&self, a: usize, ab: &Pair) -> f64 {
         -self.volume[a] * self.friction(a, ab)
     }
 
     /// The same of Szewc's form, for the part of v_ab along the line of centers.
     #[inline]
-    #[must_use]
-    pub fn central_coupling(&self, a: usize, ab: &Pair) -> f64 {
+    pub(crate) fn central_coupling(&self, a: usize, ab: &Pair) -> f64 {
         let b = ab.b;
         let (rho_a, rho_b) = (self.density[a], self.density[b]);
         let masses = rho_a * self.volume[a] * rho_b * self.volume[b];
@@ -67,7 +65,7 @@ impl Viscous<'_> {
     ///
     /// Gershgorin: the eigenvalues of the viscous operator lie in [−2 max λ, 0], and explicit Euler needs Δt·2 max λ ≤ 2.
     /// `stretch(a, b)` is |v_ab| over the velocity difference where a wall extrapolates it, else 1.
-    pub fn rate(&self, pairs: &Pairs, stretch: impl Fn(usize, usize) -> f64 + Sync, rate: &mut [f64]) {
+    pub(crate) fn rate(&self, pairs: &Pairs, stretch: impl Fn(usize, usize) -> f64 + Sync, rate: &mut [f64]) {
         each(rate, |a| -pairs.of(a).map(|ab| self.friction(a, &ab) * stretch(a, ab.b)).sum::<f64>() / self.density[a]);
     }
 

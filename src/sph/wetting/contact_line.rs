@@ -91,7 +91,6 @@ impl DetectedLine for MeanLine {
 
 impl LineParticles {
     /// The particles near walls at which the interface stands, sorted into lines.
-    #[must_use]
     pub fn find(neighborhood: &Neighborhood, fields: &LineFields, kernel: &WendlandC2, fluids: usize) -> Self {
         let particles = line_particles(fields, kernel, fluids);
         let line_of = line_of(&particles, neighborhood, fluids);
@@ -105,7 +104,6 @@ impl LineParticles {
     }
 
     /// What is seen of each line, small ones included, in their order.
-    #[must_use]
     pub fn detected_lines(&self, fields: &LineFields, domain: &Domain) -> Vec<MeanLine> {
         self.lines.iter().zip(&self.norm).map(|(line, norm)| mean(line, *norm, fields, domain)).collect()
     }
@@ -133,7 +131,6 @@ impl LineParticles {
     }
 
     /// Number of lines that are long enough to bear their whole force.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.norm.iter().filter(|&&n| n >= SMALLEST_LINE * self.integral).count()
     }

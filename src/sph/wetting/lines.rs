@@ -24,7 +24,7 @@ const SAME_LINE: f64 = 1.5;
 const KEPT: f64 = 5.0;
 
 /// A place at a wall belongs to a contact line within this distance over h: the held fit reaches 3h along the interface.
-pub const LINE_REACH: f64 = 4.0;
+pub(crate) const LINE_REACH: f64 = 4.0;
 
 /// A contact line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -46,8 +46,7 @@ pub struct Line {
 }
 
 /// The unit vector along the wall that the lines have gone at least `way` (m) along, on the mean; none before.
-#[must_use]
-pub fn gone(lines: &[Line], way: f64) -> Option<Vec2> {
+pub(crate) fn gone(lines: &[Line], way: f64) -> Option<Vec2> {
     let along = lines.first()?.outward;
     let ways = lines.iter().map(|line| line.travel * line.outward.dot(&along));
     let mean = ways.sum::<f64>() / lines.len() as f64;
@@ -92,7 +91,6 @@ pub struct Following<'a> {
 
 impl Following<'_> {
     /// The lines now, from those of the step before, `dt` (s) ago, and from what is seen; those seen come first, in the order of detection.
-    #[must_use]
     pub fn follow(&self, before: &[Line], seen: &[impl DetectedLine], dt: f64) -> Vec<Line> {
         let moved: Vec<Line> = before.iter().map(|line| self.carried(line, dt)).collect();
         let known = self.matches(&moved, seen);
@@ -164,8 +162,13 @@ impl Following<'_> {
 }
 
 /// The line that a place (m) at the wall belongs to: the nearest one with the same side within `reach` (m).
-#[must_use]
-pub fn nearest<'l>(lines: &'l [Line], domain: &Domain, place: Vec2, outward: Vec2, reach: f64) -> Option<&'l Line> {
+pub(crate) fn nearest<'l>(
+    lines: &'l [Line],
+    domain: &Domain,
+    place: Vec2,
+    outward: Vec2,
+    reach: f64,
+) -> Option<&'l Line> {
     let distance = |line: &&Line| domain.separation(place, line.position).norm();
     lines
         .iter()

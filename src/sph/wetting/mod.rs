@@ -6,11 +6,10 @@
 
 pub mod contact_line;
 pub mod lines;
-pub mod wall;
+pub(crate) mod wall;
 
 /// Driving force f_wns = σ (cos θ − cos α) in N/m along ν_ns, from the wetting to the other phase [Huber2013, Eq. 7].
-#[must_use]
-pub fn driving_force(tension: f64, angle: f64, cos_alpha: f64) -> f64 {
+pub(crate) fn driving_force(tension: f64, angle: f64, cos_alpha: f64) -> f64 {
     tension * (angle.cos() - cos_alpha)
 }
 

@@ -6,15 +6,15 @@ use crate::wetting::Wetting;
 
 /// A wall at a point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct WallSpot {
+pub(crate) struct WallSpot {
     /// Number of the patch that lies there, if one does.
-    pub patch: Option<usize>,
+    pub(crate) patch: Option<usize>,
     /// Velocity of the wall in m/s.
-    pub velocity: Vec2,
+    pub(crate) velocity: Vec2,
 }
 
 /// What the nearest wall is at a point (m).
-pub type SpotQuery = Box<dyn Fn(Vec2) -> WallSpot + Send + Sync>;
+pub(crate) type SpotQuery = Box<dyn Fn(Vec2) -> WallSpot + Send + Sync>;
 
 /// The walls of a flow; without a query all are alike and at rest.
 #[derive(Default)]
@@ -22,21 +22,18 @@ pub struct WallSpots(Option<SpotQuery>);
 
 impl WallSpots {
     /// Walls that differ or move.
-    #[must_use]
-    pub fn new(query: SpotQuery) -> Self {
+    pub(crate) fn new(query: SpotQuery) -> Self {
         Self(Some(query))
     }
 
     /// The wetting model of the wall nearest to `x` (m); none where the flow has none.
-    #[must_use]
-    pub fn model(&self, method: &Method, x: Vec2) -> Option<Wetting> {
+    pub(crate) fn model(&self, method: &Method, x: Vec2) -> Option<Wetting> {
         let patch = self.0.as_ref().and_then(|query| query(x).patch);
         patch.and_then(|patch| method.patches.get(patch).copied()).or(method.wetting)
     }
 
     /// Velocity in m/s of the wall nearest to `x` (m).
-    #[must_use]
-    pub fn velocity(&self, x: Vec2) -> Vec2 {
+    pub(crate) fn velocity(&self, x: Vec2) -> Vec2 {
         self.0.as_ref().map_or(Vec2::zeros(), |query| query(x).velocity)
     }
 }

@@ -21,7 +21,7 @@ const GROUPS_PER_ITEM: usize = 32;
 const MOST_REFUSALS: usize = 20;
 
 /// The drawing of a file.
-pub fn drawing(
+pub(crate) fn drawing(
     file: &File,
     bytes: usize,
     layers: Option<&[String]>,

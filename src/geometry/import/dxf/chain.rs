@@ -11,21 +11,21 @@ use crate::math::Vec2;
 
 /// What became of the pieces.
 #[derive(Debug, Default)]
-pub struct Chains {
+pub(crate) struct Chains {
     /// Rings, each by its pieces in order, all run through the same way, with the index of its first piece.
-    pub rings: Vec<(usize, Vec<Piece>)>,
+    pub(crate) rings: Vec<(usize, Vec<Piece>)>,
     /// Pieces that belong to no ring.
-    pub open: usize,
+    pub(crate) open: usize,
     /// Ends of these at which no other piece ends, each with the index of its piece.
-    pub free: Vec<(Vec2, usize)>,
+    pub(crate) free: Vec<(Vec2, usize)>,
     /// Pieces that lie on another one.
-    pub doubled: usize,
+    pub(crate) doubled: usize,
     /// Points where more than two pieces meet.
-    pub branches: usize,
+    pub(crate) branches: usize,
 }
 
 /// The chains of pieces; ends within `gap` meet.
-pub fn chains(pieces: &[Piece], gap: f64) -> Chains {
+pub(crate) fn chains(pieces: &[Piece], gap: f64) -> Chains {
     let mut chains = Chains::default();
     let mut nodes = Nodes::new(gap);
     let mut middles = Nodes::new(gap);

@@ -14,7 +14,7 @@ use crate::geometry::import::spline::{BSpline, through_points};
 use crate::math::{Vec2, perpendicular};
 
 /// A polyline whose ends are nearer than this share of its size is closed.
-pub const CLOSING_GAP: f64 = 1e-6;
+pub(crate) const CLOSING_GAP: f64 = 1e-6;
 /// Full turns, to the digits that programs write.
 const FULL_TURN: f64 = 1e-9;
 /// A normal nearer to the z axis than this (sine of the angle) is that axis.
@@ -22,7 +22,7 @@ const UPRIGHT: f64 = 1e-6;
 
 /// What an entity is.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Content {
+pub(crate) enum Content {
     /// Pieces that follow each other.
     Contour {
         /// The pieces.
@@ -40,19 +40,19 @@ pub enum Content {
 
 /// Copies of a block in rows and columns.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Insert {
+pub(crate) struct Insert {
     /// The name of the block, in capitals.
-    pub block: String,
+    pub(crate) block: String,
     /// From the block's coordinates, seen from its base point, to the first copy.
-    pub map: Affine,
+    pub(crate) map: Affine,
     /// Number of columns and rows.
-    pub number: [i64; 2],
+    pub(crate) number: [i64; 2],
     /// From each column, and each row, to the next.
-    pub steps: [Vec2; 2],
+    pub(crate) steps: [Vec2; 2],
 }
 
 /// The first entity of `records` and how many records it takes: a POLYLINE is followed by its vertices.
-pub fn read(records: &[Record]) -> Result<(Content, usize), Refusal> {
+pub(crate) fn read(records: &[Record]) -> Result<(Content, usize), Refusal> {
     let Some(record) = records.first() else { return Ok((Content::Unused(String::new()), 1)) };
     let kind = record.kind();
     let fields = Fields(record);

@@ -9,15 +9,15 @@ const MOST: usize = 100_000;
 
 /// A gap between two free ends, by their numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gap {
+pub(crate) struct Gap {
     /// How wide it is.
-    pub width: f64,
+    pub(crate) width: f64,
     /// The ends.
-    pub ends: [usize; 2],
+    pub(crate) ends: [usize; 2],
 }
 
 /// For each free end of a line the gap to the nearest other one, each once, the widest first.
-pub fn gaps(ends: &[Vec2], size: f64) -> Vec<Gap> {
+pub(crate) fn gaps(ends: &[Vec2], size: f64) -> Vec<Gap> {
     let reach = WIDEST * size;
     let mut order: Vec<usize> = (0..ends.len().min(MOST)).collect();
     order.sort_by(|&i, &j| ends[i].x.total_cmp(&ends[j].x));

@@ -9,18 +9,18 @@ const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
 /// A code and its value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Group<'a> {
+pub(crate) struct Group<'a> {
     /// The code, which tells what the value means.
-    pub code: i32,
+    pub(crate) code: i32,
     /// The value.
-    pub value: Value<'a>,
+    pub(crate) value: Value<'a>,
     /// Line of the value in a text file, byte of the group in a binary one.
-    pub position: usize,
+    pub(crate) position: usize,
 }
 
 /// A value as the file holds it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Value<'a> {
+pub(crate) enum Value<'a> {
     /// A line of a text file, or a string of a binary one.
     Text(&'a [u8]),
     /// A binary real.
@@ -31,7 +31,7 @@ pub enum Value<'a> {
 
 impl<'a> Group<'a> {
     /// The value as text, without blanks around it. Bytes that are no UTF-8 are taken for Latin-1, as old files have them.
-    pub fn text(&self) -> Cow<'a, str> {
+    pub(crate) fn text(&self) -> Cow<'a, str> {
         match self.value {
             Value::Text(bytes) => match std::str::from_utf8(bytes) {
                 Ok(text) => Cow::Borrowed(text.trim()),
@@ -43,12 +43,12 @@ impl<'a> Group<'a> {
     }
 
     /// Whether this begins something: a section, an entity, a table.
-    pub fn begins(&self, name: &str) -> bool {
+    pub(crate) fn begins(&self, name: &str) -> bool {
         self.code == 0 && self.text() == name
     }
 
     /// The value as a finite real.
-    pub fn real(&self) -> Result<f64, Refusal> {
+    pub(crate) fn real(&self) -> Result<f64, Refusal> {
         let number = match self.value {
             Value::Real(number) => Some(number),
             Value::Whole(number) => Some(number as f64),
@@ -58,7 +58,7 @@ impl<'a> Group<'a> {
     }
 
     /// The value as a whole number.
-    pub fn whole(&self) -> Result<i64, Refusal> {
+    pub(crate) fn whole(&self) -> Result<i64, Refusal> {
         match self.value {
             Value::Whole(number) => Ok(number),
             _ => self.text().parse().map_err(|_| self.refusal("a whole number")),
@@ -73,7 +73,7 @@ impl<'a> Group<'a> {
 }
 
 /// All groups of a file but comments.
-pub fn groups(bytes: &[u8]) -> Result<Vec<Group<'_>>, Refusal> {
+pub(crate) fn groups(bytes: &[u8]) -> Result<Vec<Group<'_>>, Refusal> {
     match bytes.strip_prefix(BINARY) {
         Some(rest) => binary(rest),
         None => text(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)),

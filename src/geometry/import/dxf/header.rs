@@ -8,21 +8,21 @@ use crate::math::Vec2;
 
 /// An entity as the file holds it.
 #[derive(Debug, Clone, Copy)]
-pub struct Record<'a> {
+pub(crate) struct Record<'a> {
     /// The groups behind its kind.
-    pub groups: &'a [Group<'a>],
+    pub(crate) groups: &'a [Group<'a>],
     /// The group that names its kind.
-    pub head: &'a Group<'a>,
+    pub(crate) head: &'a Group<'a>,
 }
 
 impl Record<'_> {
     /// What it is: `LINE`, `CIRCLE`.
-    pub fn kind(&self) -> String {
+    pub(crate) fn kind(&self) -> String {
         self.head.text().into_owned()
     }
 
     /// `LWPOLYLINE 2F`, by its handle, else by its line.
-    pub fn place(&self) -> String {
+    pub(crate) fn place(&self) -> String {
         match self.groups.iter().find(|group| group.code == 5) {
             Some(handle) => format!("{} {}", self.kind(), handle.text()),
             None => format!("{} at line {}", self.kind(), self.head.position),
@@ -30,7 +30,7 @@ impl Record<'_> {
     }
 
     /// The layer; `0` where none is named.
-    pub fn layer(&self) -> String {
+    pub(crate) fn layer(&self) -> String {
         self.groups
             .iter()
             .find(|group| group.code == 8)
@@ -40,7 +40,7 @@ impl Record<'_> {
 
 /// A layer: whether what is on it is drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Layer {
+pub(super) struct Layer {
     /// Frozen: nothing within a block on it is drawn either.
     pub is_frozen: bool,
     /// Off.
@@ -49,29 +49,29 @@ pub struct Layer {
 
 /// Entities under a name.
 #[derive(Debug, Default)]
-pub struct Block<'a> {
+pub(crate) struct Block<'a> {
     /// The point that an insertion puts in its place.
-    pub base: Vec2,
+    pub(crate) base: Vec2,
     /// Its entities.
-    pub records: Vec<Record<'a>>,
+    pub(crate) records: Vec<Record<'a>>,
 }
 
 /// A DXF file in parts.
 #[derive(Debug, Default)]
-pub struct File<'a> {
+pub(crate) struct File<'a> {
     /// The unit that the header names.
-    pub unit: Option<Unit>,
+    pub(crate) unit: Option<Unit>,
     /// Layers by name.
-    pub layers: BTreeMap<String, Layer>,
+    pub(crate) layers: BTreeMap<String, Layer>,
     /// Blocks by name, capitals alike.
-    pub blocks: BTreeMap<String, Block<'a>>,
+    pub(crate) blocks: BTreeMap<String, Block<'a>>,
     /// The entities outside of blocks.
-    pub records: Vec<Record<'a>>,
+    pub(crate) records: Vec<Record<'a>>,
 }
 
 impl<'a> File<'a> {
     /// The parts of a file.
-    pub fn of(groups: &'a [Group<'a>]) -> Result<Self, Refusal> {
+    pub(crate) fn of(groups: &'a [Group<'a>]) -> Result<Self, Refusal> {
         let mut file = Self::default();
         let mut rest = groups;
         if !groups.first().is_some_and(|group| group.begins("SECTION")) {

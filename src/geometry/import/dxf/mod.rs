@@ -18,7 +18,7 @@ mod wide;
 use super::drawing::{Drawing, Refusal};
 
 /// Reads a drawing. With `layers`, only entities on these; ends of lines meet within `join_within` in units of the drawing, or nearer.
-pub fn read(bytes: &[u8], layers: Option<&[String]>, join_within: Option<f64>) -> Result<Drawing, Vec<Refusal>> {
+pub(crate) fn read(bytes: &[u8], layers: Option<&[String]>, join_within: Option<f64>) -> Result<Drawing, Vec<Refusal>> {
     let groups = group::groups(bytes).map_err(|refusal| vec![refusal])?;
     let file = header::File::of(&groups).map_err(|refusal| vec![refusal])?;
     block::drawing(&file, bytes.len(), layers, join_within.unwrap_or(0.0))

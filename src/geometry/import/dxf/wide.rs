@@ -20,13 +20,13 @@ const MOST: usize = 5000;
 
 /// A vertex of a polyline: the edge that begins there has this bulge and these widths at its two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Vertex {
+pub(crate) struct Vertex {
     /// Where it is.
-    pub point: Vec2,
+    pub(crate) point: Vec2,
     /// The tangent of a quarter of the angle of the edge.
-    pub bulge: f64,
+    pub(crate) bulge: f64,
     /// Widths at the start and at the end of the edge.
-    pub width: [f64; 2],
+    pub(crate) width: [f64; 2],
 }
 
 /// An edge and its half widths.
@@ -36,7 +36,7 @@ struct Edge {
 }
 
 /// The closed outlines of what a polyline covers; what was found instead, and what was expected.
-pub fn outlines(vertices: &[Vertex], is_closed: bool) -> Result<Vec<Vec<Piece>>, (String, &'static str)> {
+pub(crate) fn outlines(vertices: &[Vertex], is_closed: bool) -> Result<Vec<Vec<Piece>>, (String, &'static str)> {
     if let Some(width) = vertices.iter().flat_map(|v| v.width).find(|width| !(*width >= 0.0)) {
         return Err((format!("a width of {width}"), "widths of 0 or more"));
     }

@@ -10,9 +10,9 @@ const TOLERANCE: f64 = 0.5;
 /// A vertex of a chain of arcs: position, bulge of the arc that begins there, and the tangent there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vertex {
-    pub point: Vec2,
-    pub bulge: f64,
-    pub tangent: Vec2,
+    pub(crate) point: Vec2,
+    pub(crate) bulge: f64,
+    pub(crate) tangent: Vec2,
 }
 
 /// The two arcs between two points with given tangents, as the joint and both bulges; none where they turn by more than a half turn.

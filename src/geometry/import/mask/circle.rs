@@ -6,9 +6,9 @@ use crate::math::Vec2;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Noise {
     /// Largest distance.
-    pub most: f64,
+    pub(crate) most: f64,
     /// Root mean square.
-    pub rms: f64,
+    pub(crate) rms: f64,
 }
 
 /// Black and white pixels: half a pixel step, .23 rms.

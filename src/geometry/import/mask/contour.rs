@@ -13,35 +13,35 @@ const STEPS: [[isize; 2]; 4] = [[0, 1], [-1, 0], [0, -1], [1, 0]];
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Crossing {
     /// Index of the solid pixel, on the left.
-    pub solid: u32,
+    pub(crate) solid: u32,
     /// Direction of travel, an index of `STEPS`.
-    pub heading: u8,
+    pub(crate) heading: u8,
 }
 
 /// A line of crossings.
 pub(super) struct Line {
-    pub crossings: Vec<Crossing>,
-    pub is_closed: bool,
+    pub(crate) crossings: Vec<Crossing>,
+    pub(crate) is_closed: bool,
     /// Left turns minus right turns, by cells.
-    pub turns: i64,
+    pub(crate) turns: i64,
 }
 
 /// The pixels as a grid of nodes.
 pub(super) struct Grid<'a> {
-    pub solid: &'a Solid,
+    pub(crate) solid: &'a Solid,
 }
 
 impl Grid<'_> {
-    pub fn share(&self, node: usize) -> f64 {
+    pub(crate) fn share(&self, node: usize) -> f64 {
         f64::from(self.solid.share[node])
     }
 
-    pub fn is_solid(&self, node: usize) -> bool {
+    pub(crate) fn is_solid(&self, node: usize) -> bool {
         self.solid.share[node] >= 0.5
     }
 
     /// The center of a pixel.
-    pub fn center(&self, node: usize) -> Vec2 {
+    pub(crate) fn center(&self, node: usize) -> Vec2 {
         Vec2::new((node % self.solid.width) as f64 + 0.5, (node / self.solid.width) as f64 + 0.5)
     }
 
@@ -52,24 +52,24 @@ impl Grid<'_> {
     }
 
     /// The pore pixel of a crossing, on the right.
-    pub fn pore(&self, at: Crossing) -> usize {
+    pub(crate) fn pore(&self, at: Crossing) -> usize {
         let [dx, dy] = STEPS[at.heading as usize];
         self.moved(at.solid as usize, [dy, -dx]).unwrap_or(at.solid as usize)
     }
 
     /// The two pixels ahead: beyond the solid one and beyond the pore one; none at the edge of the image.
-    pub fn ahead(&self, at: Crossing) -> Option<[usize; 2]> {
+    pub(crate) fn ahead(&self, at: Crossing) -> Option<[usize; 2]> {
         let step = STEPS[at.heading as usize];
         Some([self.moved(at.solid as usize, step)?, self.moved(self.pore(at), step)?])
     }
 
     /// Where the line passes.
-    pub fn point(&self, at: Crossing) -> Vec2 {
+    pub(crate) fn point(&self, at: Crossing) -> Vec2 {
         self.point_within(at, 0.0)
     }
 
     /// The same, but clear of the pixel centers, where lines may touch.
-    pub fn apart(&self, at: Crossing) -> Vec2 {
+    pub(crate) fn apart(&self, at: Crossing) -> Vec2 {
         const CLEAR: f64 = 0.05;
         self.point_within(at, CLEAR)
     }
@@ -81,7 +81,7 @@ impl Grid<'_> {
     }
 
     /// The middle between the two pixels.
-    pub fn middle(&self, at: Crossing) -> Vec2 {
+    pub(crate) fn middle(&self, at: Crossing) -> Vec2 {
         0.5 * (self.center(at.solid as usize) + self.center(self.pore(at)))
     }
 
@@ -126,7 +126,7 @@ impl Grid<'_> {
     }
 
     /// All lines: the open ones counter-clockwise by their start along the edge of the image, then the closed ones by their first pixel.
-    pub fn lines(&self) -> Vec<Line> {
+    pub(crate) fn lines(&self) -> Vec<Line> {
         let (width, height) = (self.solid.width, self.solid.height);
         let mut seen = vec![0_u64; (width * height).div_ceil(64)];
         let mut lines = Vec::new();

@@ -23,11 +23,11 @@ const ROUNDS: i32 = 6;
 /// What the lines of an image are.
 pub(super) struct Outlines {
     /// The grains.
-    pub entities: Vec<Entity>,
+    pub(crate) entities: Vec<Entity>,
     /// Specks, which are left out.
-    pub specks: usize,
+    pub(crate) specks: usize,
     /// Places where smooth walls would meet, so that the contour is kept there.
-    pub rough: usize,
+    pub(crate) rough: usize,
 }
 
 /// The rings of a grain, outer one first, with the lines that each is made of.

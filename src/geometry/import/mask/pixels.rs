@@ -31,14 +31,14 @@ pub(super) struct Gray {
 
 /// The share of solid in each pixel, rows from below; one half is the threshold.
 pub(super) struct Solid {
-    pub width: usize,
-    pub height: usize,
-    pub share: Vec<f32>,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) share: Vec<f32>,
 }
 
 impl Solid {
     /// The share of solid in the image.
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.share.iter().map(|&s| f64::from(s)).sum::<f64>() / self.share.len() as f64
     }
 }
@@ -261,7 +261,7 @@ impl Gray {
     }
 
     /// The share of solid in each pixel: 0 and 1 at the commonest gray values on both sides of the threshold, one half at the threshold.
-    pub fn solid(self, threshold: f64, invert: bool) -> Result<(Solid, Vec<String>), Refusal> {
+    pub(crate) fn solid(self, threshold: f64, invert: bool) -> Result<(Solid, Vec<String>), Refusal> {
         const BINS: usize = 256;
         let bin = |v: f32| ((v * (BINS - 1) as f32).round() as usize).min(BINS - 1);
         let mut counts = [0_usize; BINS];

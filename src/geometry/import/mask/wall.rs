@@ -33,11 +33,11 @@ pub(super) enum At {
 
 /// A line as arcs with the area that it holds.
 pub(super) struct Wall {
-    pub vertices: Vec<Vertex>,
+    pub(crate) vertices: Vec<Vertex>,
     /// Above 0 around a grain, below 0 around a hole; of closed lines only.
-    pub area: f64,
+    pub(crate) area: f64,
     /// Center of the disc that it is.
-    pub center: Option<Vec2>,
+    pub(crate) center: Option<Vec2>,
 }
 
 /// How often the lines pass each pixel: one that several lines pass is shared among them.
@@ -65,7 +65,7 @@ fn polygon_area(points: &[Vec2]) -> f64 {
 
 impl Wall {
     /// A line as its crossings are marked, all of them smooth without marks; nothing where it is a speck.
-    pub fn of(grid: &Grid<'_>, line: &Line, visits: &[u8], rough: &[At]) -> Option<Self> {
+    pub(crate) fn of(grid: &Grid<'_>, line: &Line, visits: &[u8], rough: &[At]) -> Option<Self> {
         let points: Vec<Vec2> = line.crossings.iter().map(|&at| grid.point(at)).collect();
         let middles: Vec<Vec2> = line.crossings.iter().map(|&at| grid.middle(at)).collect();
         // Partly covered pixels beside the line, and whether there are any.
@@ -104,11 +104,11 @@ impl Wall {
         Some(Self { vertices, area, center: None })
     }
 
-    pub fn ring(&self) -> Ring {
+    pub(crate) fn ring(&self) -> Ring {
         arcs::ring(&self.vertices)
     }
 
-    pub fn radius(&self) -> f64 {
+    pub(crate) fn radius(&self) -> f64 {
         (self.area.abs() / std::f64::consts::PI).sqrt()
     }
 }

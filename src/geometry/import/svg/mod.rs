@@ -19,7 +19,7 @@ use super::drawing::{Drawing, Refusal};
 const LARGEST_ENTITIES: usize = 10;
 
 /// Reads a drawing. With `layers`, only groups of these names, or within one of them.
-pub fn read(text: &str, layers: Option<&[String]>) -> Result<Drawing, Vec<Refusal>> {
+pub(crate) fn read(text: &str, layers: Option<&[String]>) -> Result<Drawing, Vec<Refusal>> {
     check_entities(text).map_err(|refusal| vec![refusal])?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {

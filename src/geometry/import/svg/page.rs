@@ -16,14 +16,14 @@ const PIXEL: f64 = INCH / 96.0;
 
 /// What lengths refer to: the size of the nearest viewport in its user units, where it has one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Viewport {
+pub(crate) struct Viewport {
     /// Width and height.
-    pub size: Option<Vec2>,
+    pub(crate) size: Option<Vec2>,
 }
 
 /// The direction that a percentage refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Along {
+pub(crate) enum Along {
     /// The width of the viewport.
     X,
     /// The height of the viewport.
@@ -47,7 +47,7 @@ fn unit_of(unit: LengthUnit) -> Option<(&'static str, f64)> {
 
 impl Viewport {
     /// The length of an attribute in user units; `None` where it is absent. On a mistake, what was found.
-    pub fn length(&self, node: Node, name: &str, along: Along) -> Result<Option<f64>, String> {
+    pub(crate) fn length(&self, node: Node, name: &str, along: Along) -> Result<Option<f64>, String> {
         let Some(text) = node.attribute(name).filter(|text| !text.trim().is_empty() && text.trim() != "auto") else {
             return Ok(None);
         };
@@ -55,7 +55,7 @@ impl Viewport {
     }
 
     /// A length in user units; none where it is not known.
-    pub fn value(&self, text: &str, along: Along) -> Option<f64> {
+    pub(crate) fn value(&self, text: &str, along: Along) -> Option<f64> {
         let Length { number, unit } = Length::from_str(text).ok()?;
         let value = match (unit, unit_of(unit)) {
             (LengthUnit::None, _) => number,
@@ -75,7 +75,7 @@ impl Viewport {
 }
 
 /// The text of an attribute `transform` as a map.
-pub fn transform(text: &str) -> Result<Affine, String> {
+pub(crate) fn transform(text: &str) -> Result<Affine, String> {
     let found = || shortened(text);
     let Transform { a, b, c, d, e, f } = Transform::from_str(text).map_err(|_| found())?;
     if [a, b, c, d, e, f].iter().any(|number| !number.is_finite()) {
@@ -85,7 +85,7 @@ pub fn transform(text: &str) -> Result<Affine, String> {
 }
 
 /// At most the first 60 characters, for messages.
-pub fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 60;
     match text.char_indices().nth(LONGEST) {
         Some((at, _)) => format!("{} ...", &text[..at]),
@@ -94,7 +94,7 @@ pub fn shortened(text: &str) -> String {
 }
 
 /// The view box of an element; `None` where it has none.
-pub fn view_box(node: Node) -> Result<Option<ViewBox>, String> {
+pub(crate) fn view_box(node: Node) -> Result<Option<ViewBox>, String> {
     let Some(text) = node.attribute("viewBox") else { return Ok(None) };
     let found = || format!("viewBox=\"{}\"", shortened(text));
     let view_box = ViewBox::from_str(text).map_err(|_| found())?;
@@ -107,7 +107,7 @@ pub fn view_box(node: Node) -> Result<Option<ViewBox>, String> {
 }
 
 /// The map from a view box into a viewport of the given size at the origin, as `preserveAspectRatio` says.
-pub fn fit(node: Node, view_box: ViewBox, size: Vec2) -> Result<Affine, String> {
+pub(crate) fn fit(node: Node, view_box: ViewBox, size: Vec2) -> Result<Affine, String> {
     let ratio = match node.attribute("preserveAspectRatio") {
         Some(text) => AspectRatio::from_str(text).map_err(|_| format!("preserveAspectRatio=\"{text}\""))?,
         None => AspectRatio::default(),
@@ -137,20 +137,20 @@ pub fn fit(node: Node, view_box: ViewBox, size: Vec2) -> Result<Affine, String> 
 
 /// The page: how the numbers of the outermost element become coordinates of the drawing.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Page {
+pub(crate) struct Page {
     /// From user units of the outermost element, y down, to the drawing, y up.
-    pub map: Affine,
+    pub(crate) map: Affine,
     /// What lengths in the outermost element refer to.
-    pub viewport: Viewport,
+    pub(crate) viewport: Viewport,
     /// The unit of the drawing.
-    pub unit: Option<Unit>,
+    pub(crate) unit: Option<Unit>,
     /// The page, its lower left corner at the origin.
-    pub frame: Option<Bounds>,
+    pub(crate) frame: Option<Bounds>,
 }
 
 impl Page {
     /// The page of the outermost element.
-    pub fn of(root: Node) -> Result<Self, String> {
+    pub(crate) fn of(root: Node) -> Result<Self, String> {
         let view_box = view_box(root)?;
         let [width, height] = [side(root, "width")?, side(root, "height")?];
         // The unit is that of the width, else of the height.

@@ -13,15 +13,15 @@ const HALF_TURN: f64 = 1e-13;
 
 /// A subpath.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Subpath {
+pub(crate) struct Subpath {
     /// Its pieces, one after the other.
-    pub pieces: Vec<Piece>,
+    pub(crate) pieces: Vec<Piece>,
     /// Whether it ends with the command to close it, or where it begins.
-    pub is_closed: bool,
+    pub(crate) is_closed: bool,
 }
 
 /// The subpaths of path data; on a mistake, what was found.
-pub fn subpaths(data: &str) -> Result<Vec<Subpath>, String> {
+pub(crate) fn subpaths(data: &str) -> Result<Vec<Subpath>, String> {
     let mut pen = Pen::default();
     for (number, segment) in PathParser::from(data).enumerate() {
         let segment = segment.map_err(|error| format!("path data, command {}: {error}", number + 1))?;

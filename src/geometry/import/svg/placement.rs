@@ -19,14 +19,14 @@ use crate::math::Vec2;
 const OF_ALL: usize = 4;
 
 /// What was found and what was expected instead.
-pub type Mistake = (String, &'static str);
+pub(crate) type Mistake = (String, &'static str);
 
 const MAPS: &str =
     "matrix, translate, scale, rotate, skewX or skewY in the plane, with lengths in px or another absolute unit";
 const BOX: &str = "`transform-box: view-box`, or a transform about a point written in numbers";
 
 /// The map from the coordinates of an element to those around it.
-pub fn map(node: Node, sheet: &StyleSheet, viewport: Viewport) -> Result<Affine, Mistake> {
+pub(crate) fn map(node: Node, sheet: &StyleSheet, viewport: Viewport) -> Result<Affine, Mistake> {
     let (mut transform, mut origin, mut own_box) = (None, None, None);
     let mut refused = None;
     let is_shape = SHAPES.contains(&node.tag_name().name());

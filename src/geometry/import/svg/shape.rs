@@ -9,10 +9,10 @@ use crate::geometry::import::contour::{EllipticArc, Piece};
 use crate::math::Vec2;
 
 /// The elements that are shapes.
-pub const SHAPES: [&str; 7] = ["rect", "circle", "ellipse", "polygon", "polyline", "line", "path"];
+pub(crate) const SHAPES: [&str; 7] = ["rect", "circle", "ellipse", "polygon", "polyline", "line", "path"];
 
 /// The contours of a shape in its own coordinates, none where it is not drawn. On a mistake, what was found.
-pub fn contours(node: Node, viewport: Viewport) -> Result<Vec<Subpath>, String> {
+pub(crate) fn contours(node: Node, viewport: Viewport) -> Result<Vec<Subpath>, String> {
     let length = |name: &str, along| Ok::<_, String>(viewport.length(node, name, along)?.unwrap_or(0.0));
     let size = |name: &str, along| match viewport.length(node, name, along)? {
         Some(value) if value < 0.0 => Err(format!("{name}=\"{value}\"")),

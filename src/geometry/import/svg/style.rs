@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 /// Properties that would move or reshape an element where a style sheet sets them.
-pub const REFUSED: [&str; 14] =
+pub(crate) const REFUSED: [&str; 14] =
     ["translate", "rotate", "scale", "offset-path", "cx", "cy", "r", "rx", "ry", "x", "y", "width", "height", "d"];
 
 use roxmltree::{Document, Node};
@@ -35,7 +35,7 @@ const PROPERTIES: [&str; 14] = [
 
 /// Where a property stands: numbers of attributes need no unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Source {
+pub(crate) enum Source {
     /// An attribute of the element.
     Attribute,
     /// Its `style`, or a style sheet.
@@ -43,11 +43,11 @@ pub enum Source {
 }
 
 /// Rules for one class, id or kind of element; each is tried at each of its elements.
-pub const MOST_RULES: usize = 200;
+pub(crate) const MOST_RULES: usize = 200;
 
 /// With what a shape is filled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fill {
+pub(crate) enum Fill {
     /// Nothing.
     None,
     /// White.
@@ -58,19 +58,19 @@ pub enum Fill {
 
 /// The style of an element, what it inherits included.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Style {
+pub(crate) struct Style {
     /// `display="none"` or no opacity: nor are its children drawn.
-    pub is_removed: bool,
+    pub(crate) is_removed: bool,
     /// Whether `visibility` lets it be seen.
-    pub is_visible: bool,
+    pub(crate) is_visible: bool,
     /// With what it is filled.
-    pub fill: Fill,
+    pub(crate) fill: Fill,
     /// By which rule.
-    pub rule: FillRule,
+    pub(crate) rule: FillRule,
     /// Whether its outline is drawn.
-    pub has_stroke: bool,
+    pub(crate) has_stroke: bool,
     /// Whether it has a clip or a mask of its own.
-    pub is_clipped: bool,
+    pub(crate) is_clipped: bool,
     paint: [Fill; 2],
     opacity: [f64; 2],
     stroke_width: f64,
@@ -94,7 +94,7 @@ impl Default for Style {
 
 impl Style {
     /// The style of an element within one of this style.
-    pub fn of_child(&self, node: Node, sheet: &StyleSheet) -> Self {
+    pub(crate) fn of_child(&self, node: Node, sheet: &StyleSheet) -> Self {
         let mut style = Self { is_removed: false, is_clipped: false, ..*self };
         sheet.for_each(node, |_, name, value| style.set(name, value, self));
         style.fill = if style.opacity[0] > 0.0 { style.paint[0] } else { Fill::None };
@@ -139,13 +139,13 @@ fn paint(value: &str) -> Fill {
 
 /// The rules of all `style` elements.
 #[derive(Debug, Default)]
-pub struct StyleSheet {
+pub(crate) struct StyleSheet {
     /// Property and value by the last simple selector's key (`*`, `circle`, `.grain`, `#a`), with specificity and order.
     rules: BTreeMap<String, Vec<Rule>>,
     /// Number of rules.
     number: usize,
     /// Selectors that are not understood.
-    pub left_out: usize,
+    pub(crate) left_out: usize,
 }
 
 #[derive(Debug, Clone)]
@@ -166,7 +166,7 @@ struct Selector {
 
 impl StyleSheet {
     /// The rules of a document.
-    pub fn of(document: &Document) -> Self {
+    pub(crate) fn of(document: &Document) -> Self {
         let mut sheet = Self::default();
         for node in document.descendants().filter(|node| node.tag_name().name() == "style") {
             let text: String = node.children().filter_map(|child| child.text()).collect();
@@ -176,7 +176,7 @@ impl StyleSheet {
     }
 
     /// A selector that has more rules than are tried.
-    pub fn overfull(&self) -> Option<&str> {
+    pub(crate) fn overfull(&self) -> Option<&str> {
         self.rules.iter().find(|(_, rules)| rules.len() > MOST_RULES).map(|(key, _)| key.as_str())
     }
 
@@ -210,7 +210,7 @@ impl StyleSheet {
     }
 
     /// Gives each property of an element to `set`, the strongest last.
-    pub fn for_each(&self, node: Node, mut set: impl FnMut(Source, &str, &str)) {
+    pub(crate) fn for_each(&self, node: Node, mut set: impl FnMut(Source, &str, &str)) {
         for name in PROPERTIES {
             if let Some(value) = node.attribute(name) {
                 set(Source::Attribute, name, value.trim());

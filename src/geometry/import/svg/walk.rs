@@ -42,7 +42,7 @@ const NOT_DRAWN: [&str; 14] = [
 ];
 
 /// The drawing of a document.
-pub fn drawing(
+pub(crate) fn drawing(
     document: &Document,
     lines: &Lines,
     bytes: usize,

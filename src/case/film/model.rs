@@ -47,14 +47,12 @@ pub struct ThinFilm {
 
 impl ThinFilm {
     /// Whether time, length and height are those of the scaled equations.
-    #[must_use]
-    pub fn is_scaled(&self) -> bool {
+    pub(crate) fn is_scaled(&self) -> bool {
         (self.viscosity, self.tension, self.density) == SCALED
     }
 
     /// Whether the droplet rests as a parabola: on a precursor film without gravity. That of the geometric equation is a cosine.
-    #[must_use]
-    pub fn rests_as_cap(&self) -> bool {
+    pub(crate) fn rests_as_cap(&self) -> bool {
         matches!(self.equation, FilmEquation::Precursor(_))
             && self.contact_angle.is_some()
             && self.gravity == 0.0
@@ -62,14 +60,12 @@ impl ThinFilm {
     }
 
     /// Whether the droplet spreads by the similarity solution about x = 0: one in the plane, completely wetting and without gravity.
-    #[must_use]
-    pub fn is_self_similar(&self) -> bool {
+    pub(crate) fn is_self_similar(&self) -> bool {
         let is_alone = matches!(&self.droplets[..], [droplet] if droplet.center == 0.0);
         self.contact_angle.is_none() && self.symmetry == FilmSymmetry::Plane && self.gravity == 0.0 && is_alone
     }
 
     /// One unit of each scaled quantity: length along the wall and height in m, time in s. `src/thin_film/scales.rs` tells what they stand for.
-    #[must_use]
     pub fn scales(&self) -> [f64; 3] {
         let largest = |value: fn(&FilmDroplet) -> f64| self.droplets.iter().map(value).fold(0.0, f64::max);
         let (length, height) = match self.contact_angle {
