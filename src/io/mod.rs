@@ -2,13 +2,14 @@
 //!
 //! [`atomic`] is the way to a whole file, [`journal`] to one that grows. [`vtk`] turns snapshots into VTK files, [`pvd`] joins them to time series, [`frames`]
 //! lists them, [`series`] keeps `series.csv`, [`restart`] the saved state, [`picture`] and [`diagram`]
-//! draw. Nothing here knows a solver or a case.
+//! draw, [`html`] frames pages. Nothing here knows a solver or a case.
 
 pub(crate) mod atomic;
 pub(crate) mod axes;
 pub(crate) mod checksum;
 pub mod diagram;
 pub(crate) mod frames;
+pub(crate) mod html;
 pub(crate) mod journal;
 pub(crate) mod picture;
 pub(crate) mod pvd;

@@ -9,17 +9,8 @@ use super::results::{RunResult, Standing, moving};
 use super::table::{Table, shown_measures};
 use super::values::shown;
 use super::verdict::{Judgment, Verdict, digits};
+use crate::io::html::{self, escaped};
 use crate::run::compare::PAGE;
-
-/// Look of the page.
-const STYLE: &str = "body{font:16px/1.45 system-ui,sans-serif;margin:2em auto;max-width:78em;padding:0 1em;color:#222}\
-table{border-collapse:collapse;margin:1em 0;font-variant-numeric:tabular-nums}\
-th,td{border:1px solid #ccc;padding:.3em .6em;text-align:left;vertical-align:top}th{background:#f2f2f2}\
-.met{color:#00674a}.missed,.failed{color:#b3261e;font-weight:600}.wide{overflow-x:auto}\
-.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(17em,1fr));gap:1em}\
-figure{margin:0}figure img{width:100%;border:1px solid #ddd}figcaption{font-size:.85em;color:#444}\
-.diagrams{display:grid;grid-template-columns:repeat(auto-fill,minmax(30em,1fr));gap:1em}\
-.curves svg,figure svg{max-width:100%;height:auto}";
 
 /// What stands on the page.
 #[derive(Debug)]
@@ -51,9 +42,7 @@ pub(crate) fn page(content: &Content<'_>) -> String {
         some => format!(" {some} of them with measures not at rest, marked in the table and hollow in curves."),
     };
     let mut html = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n\
-         <body>\n<h1>{title}</h1>\n<p>{done} of {} runs done.{moving} The same table with all digits: \
+        "<h1>{title}</h1>\n<p>{done} of {} runs done.{moving} The same table with all digits: \
          <a href=\"table.csv\">table.csv</a>.</p>\n",
         content.results.len()
     );
@@ -74,8 +63,7 @@ pub(crate) fn page(content: &Content<'_>) -> String {
         push_pictures(&mut html, content.results);
         push_diagrams(&mut html, content.results, content.diagrams);
     }
-    html += "</body>\n</html>\n";
-    html
+    html::page(&content.study.title, &html)
 }
 
 fn push_failures(html: &mut String, results: &[RunResult]) {
@@ -198,9 +186,4 @@ fn push_diagrams(html: &mut String, results: &[RunResult], diagrams: &[Vec<Strin
         }
         html.push_str("</div>\n");
     }
-}
-
-/// The text with the signs of HTML written out.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -5,19 +5,13 @@ use std::fmt::Write;
 use super::{Comparison, Side};
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::io::diagram::{self, DiagramError};
-
-const STYLE: &str = "body{font:16px/1.45 system-ui,sans-serif;margin:2em auto;max-width:70em;padding:0 1em;color:#222}\
-table{border-collapse:collapse;margin:1em 0;font-variant-numeric:tabular-nums}\
-th,td{border:1px solid #ccc;padding:.3em .6em;text-align:left}th{background:#f2f2f2}svg{max-width:100%;height:auto}\
-figure{margin:1em 0}figcaption{font-size:.9em;color:#444}";
+use crate::io::html::{self, escaped};
 
 /// The page as HTML.
 pub(crate) fn page(comparison: &Comparison) -> String {
     let [network, direct] = comparison.titles.each_ref().map(|title| escaped(title));
     let mut html = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
-         <title>{direct}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>Network and direct simulation</h1>\n\
-         <p>Network: {network}.<br>Direct simulation: {direct}.</p>\n"
+        "<h1>Network and direct simulation</h1>\n<p>Network: {network}.<br>Direct simulation: {direct}.</p>\n"
     );
     html += &table(comparison);
     html += &warnings(comparison);
@@ -36,7 +30,7 @@ pub(crate) fn page(comparison: &Comparison) -> String {
             at.picture, at.overlap
         );
     }
-    html + "</body>\n</html>\n"
+    html::page(&comparison.titles[1], &html)
 }
 
 fn table(comparison: &Comparison) -> String {
@@ -97,8 +91,4 @@ pub(crate) fn curves(comparison: &Comparison) -> Result<Option<String>, DiagramE
         traces: vec![trace("network", stairs), trace("direct simulation", known(&comparison.direct))],
     };
     diagram::svg(&diagram)
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
