@@ -93,3 +93,12 @@ impl Bounds {
 pub fn factor_in_one_thread() {
     faer::set_global_parallelism(faer::Par::Seq);
 }
+
+/// The root of a node in a forest of disjoint sets, whose paths it halves: `parent` has the parent of each node, a root its own.
+pub(crate) fn root(parent: &mut [usize], mut node: usize) -> usize {
+    while parent[node] != node {
+        parent[node] = parent[parent[node]];
+        node = parent[node];
+    }
+    node
+}

@@ -4,7 +4,7 @@
 //! lattice (1.41), less than the next but one neighbor (2).
 
 use super::cells::Cells;
-use crate::math::Vec2;
+use crate::math::{Vec2, root};
 
 /// Largest distance of joined particles in particle spacings.
 pub(crate) const LINK: f64 = 1.6;
@@ -53,15 +53,6 @@ pub(crate) fn blobs(
     let mut found: Vec<Blob> = of_root.into_iter().flatten().collect();
     found.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.first.cmp(&b.first)));
     found
-}
-
-fn root(parent: &mut [usize], i: usize) -> usize {
-    let mut at = i;
-    while parent[at] != at {
-        parent[at] = parent[parent[at]];
-        at = parent[at];
-    }
-    at
 }
 
 #[cfg(test)]

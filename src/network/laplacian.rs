@@ -12,7 +12,7 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 
-use crate::math::factor_in_one_thread;
+use crate::math::{factor_in_one_thread, root};
 
 /// A network that does not fit into the memory as a matrix, or whose conductances are no numbers above 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -303,13 +303,4 @@ fn parts(nodes: usize, ends: impl Iterator<Item = Ends>) -> Vec<usize> {
         }
     }
     parent
-}
-
-/// The smallest index of the part of a node, where each node leads to a smaller one of its part.
-pub(crate) fn root(parent: &mut [usize], mut node: usize) -> usize {
-    while parent[node] != node {
-        parent[node] = parent[parent[node]];
-        node = parent[node];
-    }
-    node
 }

@@ -3,6 +3,7 @@
 //! Throats are taken from wide to narrow. Where half the width exceeds f times the smaller of both inscribed radii, both pores become one.
 //! Loops stay: two pores may keep two throats, and a pore one to itself.
 
+use crate::math::root;
 use crate::network::graph::{Network, Pores};
 
 impl Pores {
@@ -15,14 +16,14 @@ impl Pores {
         order.sort_by(|&a, &b| network.throats[b].width.total_cmp(&network.throats[a].width).then(a.cmp(&b)));
         let mut is_dissolved = vec![false; network.throats.len()];
         for throat in order {
-            let [a, b] = network.throats[throat].regions.map(|region| find(&mut parent, region));
+            let [a, b] = network.throats[throat].regions.map(|region| root(&mut parent, region));
             let (low, high) = if (regions[a].radius, b) <= (regions[b].radius, a) { (a, b) } else { (b, a) };
             if a != b && 0.5 * network.throats[throat].width > persistence * regions[low].radius {
                 parent[low] = high;
                 is_dissolved[throat] = true;
             }
         }
-        let main_of: Vec<usize> = (0..regions.len()).map(|region| find(&mut parent, region)).collect();
+        let main_of: Vec<usize> = (0..regions.len()).map(|region| root(&mut parent, region)).collect();
         let main_region: Vec<usize> = (0..regions.len()).filter(|&region| main_of[region] == region).collect();
         let mut number = vec![0; regions.len()];
         main_region.iter().enumerate().for_each(|(pore, &region)| number[region] = pore);
@@ -32,12 +33,4 @@ impl Pores {
         let throats = (0..network.throats.len()).filter(|&throat| !is_dissolved[throat]).collect();
         Self { persistence, pore_of, main_region, area, throats }
     }
-}
-
-fn find(parent: &mut [usize], mut region: usize) -> usize {
-    while parent[region] != region {
-        parent[region] = parent[parent[region]];
-        region = parent[region];
-    }
-    region
 }

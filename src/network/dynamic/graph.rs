@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::{Drive, Dynamic};
+use crate::math::root;
 use crate::network::conductance::LEAST_RESISTANCE as LEAST;
 use crate::network::displacement::FrontId;
-use crate::network::laplacian::{Edge, FlowError, Laplacian, root};
+use crate::network::laplacian::{Edge, FlowError, Laplacian};
 
 /// A way for fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,9 +10,8 @@ use crate::io::html::{self, escaped};
 /// The page as HTML.
 pub(crate) fn page(comparison: &Comparison) -> String {
     let [network, direct] = comparison.titles.each_ref().map(|title| escaped(title));
-    let mut html = format!(
-        "<h1>Network and direct simulation</h1>\n<p>Network: {network}.<br>Direct simulation: {direct}.</p>\n"
-    );
+    let mut html =
+        format!("<h1>Network and direct simulation</h1>\n<p>Network: {network}.<br>Direct simulation: {direct}.</p>\n");
     html += &table(comparison);
     html += &warnings(comparison);
     html += "<h2>Capillary pressure over saturation</h2>\n";
