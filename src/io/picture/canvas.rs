@@ -104,6 +104,18 @@ impl Canvas {
         }
     }
 
+    /// Names with a dot of their color each, from right to left; the last one ends at `end`.
+    pub(crate) fn legend(&mut self, entries: &[(&str, Rgb)], end: [f32; 2], size: f32) {
+        let [mut x, y] = end;
+        for (name, color) in entries.iter().rev() {
+            x -= self.text_width(name, size);
+            self.text(name, [x, y], size);
+            x -= 22.0;
+            self.circles([[x, y - 8.0]].into_iter(), 11.0, *color);
+            x -= 40.0;
+        }
+    }
+
     /// The width of a text of the given height in pixels.
     pub(crate) fn text_width(&self, text: &str, size: f32) -> f32 {
         let font = self.font.as_scaled(PxScale::from(size));

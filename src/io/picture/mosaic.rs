@@ -138,14 +138,7 @@ fn legend(canvas: &mut Canvas, mosaic: &Mosaic, y: f32) {
     let classes = mosaic.classes.iter().enumerate().filter(|(class, _)| is_there(*class)).map(|(_, entry)| *entry);
     let lines = Some((mosaic.lines.0, INTERFACE)).filter(|_| !mosaic.lines.1.is_empty());
     let entries: Vec<(&str, Rgb)> = classes.chain([("solid", SOLID)]).chain(lines).collect();
-    let mut x = WIDTH as f32 - RIM;
-    for (name, color) in entries.into_iter().rev() {
-        x -= canvas.text_width(name, TEXT_SIZE);
-        canvas.text(name, [x, y], TEXT_SIZE);
-        x -= 22.0;
-        canvas.circles([[x, y - 8.0]].into_iter(), 11.0, color);
-        x -= 40.0;
-    }
+    canvas.legend(&entries, [WIDTH as f32 - RIM, y], TEXT_SIZE);
 }
 
 #[cfg(test)]

@@ -153,19 +153,12 @@ fn scale_bar(canvas: &mut Canvas, view: &View) {
 /// Names what is in the drawing, from the right.
 fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
     let y = view.corner[1] + view.size[1] + 38.0;
-    let mut x = WIDTH as f32 - RIM;
     let present = |number| (0..snapshot.particles.points.len()).any(|a| phase_of(snapshot, a) == Some(number));
     let interface = snapshot.interface.as_ref().map(|_| ("interface", INTERFACE));
     let thin = unresolved(snapshot).next().map(|_| ("not resolved", UNRESOLVED));
     let fluids = FLUIDS.iter().filter(|phase| present(phase.number)).map(|phase| (phase.name, phase.color));
     let entries: Vec<_> = fluids.chain([("solid", SOLID)]).chain(thin).chain(interface).collect();
-    for (name, color) in entries.into_iter().rev() {
-        x -= canvas.text_width(name, TEXT_SIZE);
-        canvas.text(name, [x, y], TEXT_SIZE);
-        x -= 22.0;
-        canvas.circles([[x, y - 8.0]].into_iter(), 11.0, color);
-        x -= 40.0;
-    }
+    canvas.legend(&entries, [WIDTH as f32 - RIM, y], TEXT_SIZE);
 }
 
 #[cfg(test)]
