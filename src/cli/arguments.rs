@@ -13,6 +13,8 @@ use clap_complete::Shell;
 use super::compare::CompareArguments;
 use super::couple::CoupleArguments;
 use super::import_arguments::ImportArguments;
+use super::run::RunArguments;
+use super::study_arguments::StudyCommand;
 use super::verify_arguments::NetworkCommand;
 
 /// Exit codes, as the help tells them.
@@ -57,26 +59,6 @@ pub(crate) enum Command {
     /// Parameter studies: many runs from one file, with a table, curves and a page
     #[command(subcommand)]
     Study(StudyCommand),
-}
-
-/// `run`.
-#[derive(Debug, Default, Args)]
-pub(crate) struct RunArguments {
-    /// Case file; the built-in case where there is none
-    pub(crate) case: Option<PathBuf>,
-    /// Output folder, new or empty; where there is none: out/NAME, NAME being that of the case file, or where an earlier run
-    /// is in it out/NAME-2, out/NAME-3, ...
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Change a value of the case, as in --set sph.wetting.young.contact-angle-deg=60
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(crate) overrides: Vec<String>,
-    /// Number of threads; all cores where there is none. The results do not depend on it
-    #[arg(long, value_name = "N")]
-    pub(crate) threads: Option<std::num::NonZeroUsize>,
-    /// Go on with the run in the output folder; without --out in the last one of out/NAME, out/NAME-2, ...
-    #[arg(long)]
-    pub(crate) resume: bool,
 }
 
 /// `check`.
@@ -198,92 +180,6 @@ impl PeriodicAxes {
     pub(crate) fn along(self) -> [bool; 2] {
         [self != Self::Y, self != Self::X]
     }
-}
-
-/// `study`.
-#[derive(Debug, Subcommand)]
-pub(crate) enum StudyCommand {
-    /// Tell the runs of a study: what varies, particles, memory, expected duration
-    Plan(StudyPlanArguments),
-    /// Do all runs that are not complete, then write the report
-    Run(Box<StudyRunArguments>),
-    /// Write table, curves and page from the runs that are complete
-    Report(StudyReportArguments),
-}
-
-/// `study plan`.
-#[derive(Debug, Args)]
-pub(crate) struct StudyPlanArguments {
-    /// Study files, one after the other
-    #[arg(required = true, value_name = "STUDY")]
-    pub(crate) studies: Vec<PathBuf>,
-    /// Study folder, out/study-NAME where there is none; nothing is written. Of several studies: the folder that holds theirs
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) cores: CoresArguments,
-}
-
-/// Threads and runs at once.
-#[derive(Debug, Args)]
-pub(crate) struct CoresArguments {
-    /// Threads of each run
-    #[arg(long, value_name = "N", default_value = "1")]
-    pub(crate) threads: std::num::NonZeroUsize,
-    /// Runs at once; as many as the cores allow where there is none
-    #[arg(long, value_name = "N")]
-    pub(crate) jobs: Option<std::num::NonZeroUsize>,
-}
-
-/// `study run`.
-#[derive(Debug, Args)]
-pub(crate) struct StudyRunArguments {
-    /// Study files, one after the other
-    #[arg(required = true, value_name = "STUDY")]
-    pub(crate) studies: Vec<PathBuf>,
-    /// Study folder, new or of this study; out/study-NAME where there is none. Of several studies: the folder that holds theirs
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) cores: CoresArguments,
-    /// Memory for all runs at once in MiB; nine tenths of what is free where there is none
-    #[arg(long, value_name = "MIB")]
-    pub(crate) memory: Option<u64>,
-    /// Where the runs are done
-    #[arg(long, value_enum, default_value = "local")]
-    pub(crate) engine: Engine,
-    /// Further option for the job array, as in --sbatch=--partition=long
-    #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
-    pub(crate) sbatch: Vec<String>,
-    /// Do only the run of this number, in this process
-    #[arg(long, value_name = "I")]
-    pub(crate) index: Option<std::num::NonZeroUsize>,
-    /// Started by another process of the program, which holds the study folder and the standard input
-    #[arg(long, hide = true, requires = "index")]
-    pub(crate) worker: bool,
-    /// The run must be of this case
-    #[arg(long, hide = true, requires = "index")]
-    pub(crate) digest: Option<String>,
-}
-
-/// Where runs are done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Engine {
-    /// On this machine
-    Local,
-    /// As a job array of Slurm
-    Slurm,
-}
-
-/// `study report`.
-#[derive(Debug, Args)]
-pub(crate) struct StudyReportArguments {
-    /// Study files, one after the other
-    #[arg(required = true, value_name = "STUDY")]
-    pub(crate) studies: Vec<PathBuf>,
-    /// Study folder, out/study-NAME where there is none. Of several studies: the folder that holds theirs
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
 }
 
 /// `new`.

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
-use super::arguments::{Arguments, Command, RunArguments};
+use super::arguments::{Arguments, Command};
 use super::exit::{BUG, DONE, Failure, USAGE};
 use super::output::{say, tell};
 use super::{check, compare, couple, geometry, list, network, new, output, run, source, study, threads};
@@ -51,7 +51,7 @@ fn all_printed(code: u8) -> u8 {
 
 fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
     match command {
-        None => run::run(&RunArguments::default()),
+        None => run::run(&run::RunArguments::default()),
         Some(Command::Run(arguments)) => run::run(&arguments),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Geometry(arguments)) => geometry::geometry(&arguments),

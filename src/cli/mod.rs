@@ -24,6 +24,7 @@ mod run;
 mod source;
 mod stages;
 mod study;
+mod study_arguments;
 mod study_run;
 mod summary;
 mod threads;

@@ -1,6 +1,6 @@
 //! `meniscus new`: a commented starter case, or a shape file of generated grains.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::arguments::NewArguments;
 use super::exit::{DONE, Failure, USAGE};
@@ -18,12 +18,7 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<u8, Failure> {
     if let Some(kind) = arguments.pack.pack {
         return new_pack::new_pack(kind, &arguments.pack, &file);
     }
-    write(&file, source::starter_case().as_bytes())?;
+    atomic::write(&file, source::starter_case().as_bytes()).map_err(|error| Failure::new(USAGE, &error))?;
     say(format_args!("wrote {0}; try: meniscus check {0}, then: meniscus run {0}", file.display()));
     Ok(DONE)
-}
-
-/// Writes a file at once or not at all.
-pub(super) fn write(file: &Path, content: &[u8]) -> Result<(), Failure> {
-    atomic::write(file, content).map_err(|error| Failure::new(USAGE, &error))
 }

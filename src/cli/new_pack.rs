@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use super::arguments::{PackArguments, PackKind, PackPeriodic};
-use super::exit::{BAD_INPUT, DONE, Failure};
-use super::new::write;
+use super::exit::{BAD_INPUT, DONE, Failure, USAGE};
 use super::output::{readable, say};
 use crate::geometry::Geometry;
 use crate::geometry::export::{self, Format};
@@ -12,6 +11,7 @@ use crate::geometry::pack::{Micromodel, array, micromodel, random_pack, smallest
 use crate::geometry::spec::{
     Arrangement, Array, Disc, GeometrySpec, PackAxes, RandomPack, ShapeSpec, SolidSide, ThroatCosine,
 };
+use crate::io::atomic;
 
 /// Shares of the pack's size that a micromodel adds, and of a cosine throat's.
 const MANIFOLD: f64 = 0.1;
@@ -32,7 +32,7 @@ pub(crate) fn new_pack(kind: PackKind, arguments: &PackArguments, file: &Path) -
     let comment = format!("# {}\n", std::env::args().skip(1).collect::<Vec<_>>().join(" "));
     let mut text = comment.into_bytes();
     text.extend(export::write(&spec, Format::Toml, None).map_err(|error| bad(&error))?);
-    write(file, &text)?;
+    atomic::write(file, &text).map_err(|error| Failure::new(USAGE, &error))?;
     say(format_args!("wrote {} with {} discs, {} shapes", file.display(), discs.len(), spec.shapes.len()));
     say(format_args!("porosity      {}", readable(geometry.porosity().value)));
     let gap = smallest_gap(&discs, region, periodic);

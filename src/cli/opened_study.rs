@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::arguments::CoresArguments;
 use super::exit::{BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::say;
+use super::study_arguments::CoresArguments;
 use super::threads::{self, within_cores};
 use crate::study::child::Program;
 use crate::study::definition::Study;

@@ -3,7 +3,8 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use super::arguments::RunArguments;
+use clap::Args;
+
 use super::exit::{BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{say, tell};
 use super::progress::ProgressDisplay;
@@ -16,6 +17,26 @@ use crate::run::execute::{Finished, Job, Mode, RunError, execute};
 use crate::run::report::Status;
 use crate::run::{folder, setup};
 use crate::solver::{Series, Solver};
+
+/// `run`.
+#[derive(Debug, Default, Args)]
+pub(crate) struct RunArguments {
+    /// Case file; the built-in case where there is none
+    pub(crate) case: Option<PathBuf>,
+    /// Output folder, new or empty; where there is none: out/NAME, NAME being that of the case file, or where an earlier run
+    /// is in it out/NAME-2, out/NAME-3, ...
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Change a value of the case, as in --set sph.wetting.young.contact-angle-deg=60
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(crate) overrides: Vec<String>,
+    /// Number of threads; all cores where there is none. The results do not depend on it
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// Go on with the run in the output folder; without --out in the last one of out/NAME, out/NAME-2, ...
+    #[arg(long)]
+    pub(crate) resume: bool,
+}
 
 /// Runs a case; the exit code says how it ended.
 pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {

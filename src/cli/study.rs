@@ -2,10 +2,10 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::arguments::{StudyCommand, StudyPlanArguments, StudyReportArguments};
 use super::exit::{DONE, Failure, USAGE};
 use super::opened_study::{Opened, cores, each, finish, open};
 use super::output::{duration, readable, say};
+use super::study_arguments::{StudyCommand, StudyPlanArguments, StudyReportArguments};
 use super::study_run;
 use crate::run::trial::Trial;
 use crate::study::definition::{Study, Target};

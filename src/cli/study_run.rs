@@ -6,12 +6,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use super::arguments::{Engine, StudyRunArguments};
 use super::exit::{BAD_INPUT, DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::interrupt;
 use super::opened_study::{Opened, cores, each, finish, folder, open};
 use super::output::{duration, say, tell};
 use super::progress::ProgressDisplay;
+use super::study_arguments::{Engine, StudyRunArguments};
 use super::threads::pool;
 use crate::study::engine::{End, Event, Work, free_memory, work};
 use crate::study::estimate::estimates;

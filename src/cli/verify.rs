@@ -3,9 +3,9 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use super::arguments::{CoresArguments, Engine, StudyRunArguments};
 use super::exit::{BAD_INPUT, DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{duration, say, tell};
+use super::study_arguments::{CoresArguments, Engine, StudyRunArguments};
 use super::verify_arguments::VerifyArguments;
 use super::{source, study_run};
 use crate::study::folder::StudyFolder;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::arguments::Engine;
+use super::study_arguments::Engine;
 
 /// What is done with a network.
 #[derive(Debug, Subcommand)]

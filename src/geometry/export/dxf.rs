@@ -5,7 +5,7 @@ use dxf::entities::{Circle, Entity, EntityType, LwPolyline};
 use dxf::enums::{AcadVersion, Units};
 use dxf::{Drawing, LwPolylineVertex, Point};
 
-use super::ExportError;
+use super::error::ExportError;
 use super::sheet::{Sheet, rings_of};
 use crate::geometry::import::combine::Solid;
 use crate::geometry::import::drawing::{FillRule, Outline, Ring};

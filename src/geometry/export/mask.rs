@@ -7,7 +7,7 @@ use std::io::Cursor;
 
 use image::{GrayImage, ImageFormat};
 
-use super::ExportError;
+use super::error::ExportError;
 use super::sheet::{Sheet, rings_of, sampled};
 use crate::geometry::import::drawing::Ring;
 use crate::math::{Bounds, Vec2};

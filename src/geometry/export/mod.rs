@@ -6,6 +6,7 @@
 //! domain; endless ones are cut half a domain outside of it. Where the shapes are the pore, the solid within the domain is written.
 
 mod dxf;
+mod error;
 mod mask;
 pub(crate) mod sheet;
 mod svg;
@@ -15,6 +16,7 @@ use std::path::Path;
 
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};
 
+pub use error::ExportError;
 pub(crate) use sheet::Sheet;
 
 /// A file format.
@@ -56,42 +58,6 @@ impl Format {
         let found = ENDINGS.iter().find(|(known, _)| *known == ending);
         found.map(|&(_, format)| format).ok_or(ExportError::Ending { ending })
     }
-}
-
-/// Why a drawing cannot be written.
-#[derive(Debug, thiserror::Error)]
-pub enum ExportError {
-    /// The name's ending is none of ours.
-    #[error(
-        "`.{ending}` names no format that can be written; use .svg, .dxf, .wkt, .geojson, .xyr, .toml, .png or .vtp"
-    )]
-    Ending {
-        /// The ending.
-        ending: String,
-    },
-    /// A list holds discs only.
-    #[error("{others} of {all} shapes are no discs, and a list holds discs only; write .toml, .svg or .dxf")]
-    NoDisc {
-        /// Shapes that are none.
-        others: usize,
-        /// All shapes.
-        all: usize,
-    },
-    /// The mask would be too large, or has no pixel.
-    #[error(
-        "a pixel of {pixel:e} m makes {width:.0} x {height:.0} pixels; a mask has 4 to 8192 a side: choose another --mask-pixel"
-    )]
-    Pixels {
-        /// Side of a pixel in m.
-        pixel: f64,
-        /// Pixels along x.
-        width: f64,
-        /// Pixels along y.
-        height: f64,
-    },
-    /// A library refused the data.
-    #[error("{0}")]
-    Library(String),
 }
 
 /// Pixels along the longer side of a mask whose pixel size is not given.

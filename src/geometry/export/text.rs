@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::json;
 
-use super::ExportError;
+use super::error::ExportError;
 use super::sheet::{Sheet, rings_of, sampled};
 use crate::geometry::import::drawing::{Outline, Ring};
 use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};

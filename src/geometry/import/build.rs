@@ -10,7 +10,7 @@ use crate::geometry::import::notes::{Counts, Notes};
 use crate::geometry::import::options::Options;
 use crate::geometry::import::paint::{Painted, solids};
 use crate::geometry::import::rings::{DOUBLED, bounds_of_points};
-use crate::geometry::import::{frame, overlap, recognize, smooth, units, window};
+use crate::geometry::import::{frame, overlap, recognize, smooth, window};
 use crate::geometry::rings::{RingFault, crossing, faults};
 use crate::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
 use crate::input::problem::Problem;
@@ -51,7 +51,7 @@ struct Placed {
 
 /// The shapes of a drawing in m.
 pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Result<Imported, Refused> {
-    let (scale, unit) = units::scale(options, drawing.unit.as_ref(), format).map_err(|p| Refused::Keys(vec![p]))?;
+    let (scale, unit) = options.length_of_unit(drawing.unit.as_ref(), format).map_err(|p| Refused::Keys(vec![p]))?;
     let mut notes = Notes::new(unit, &drawing);
     let mut refusals = Vec::new();
     let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
@@ -94,6 +94,30 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     } else {
         Err(Refused::Shapes(problems.into_iter().map(|problem| placed(problem, &places)).collect()))
     }
+}
+
+/// A shape file of ours seen through the window of the options, solid and pore in turn where they say so.
+///
+/// # Errors
+/// Problems with the keys `window` and `invert`.
+pub(crate) fn windowed(mut spec: GeometrySpec, options: &Options) -> Result<Imported, Vec<Problem>> {
+    let mut notes = Vec::new();
+    if options.is_inverted() {
+        spec.solid = if spec.solid == SolidSide::Inside { SolidSide::Outside } else { SolidSide::Inside };
+    }
+    if let Some([min, max]) = options.window {
+        (spec.min, spec.max) = (min, max);
+        let window = Bounds { min: min.into(), max: max.into() };
+        let before = spec.shapes.len();
+        spec.shapes.retain(|shape| window::reaches(shape, window));
+        notes.push(format!("outside of the window: shapes ({})", before - spec.shapes.len()));
+    }
+    let key = if options.window.is_some() { "window" } else { "invert" };
+    let problems = if options.window.is_some() || options.is_inverted() { spec.problems() } else { Vec::new() };
+    if problems.is_empty() {
+        return Ok(Imported { spec, notes });
+    }
+    Err(problems.into_iter().map(|problem| Problem { path: key.into(), ..problem }).collect())
 }
 
 /// The problem with the place in the file in front of its path.

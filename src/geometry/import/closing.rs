@@ -4,10 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use super::contour::Piece;
+use super::contour::{Piece, circle_of_bulge};
 use super::drawing::Ring;
 use crate::geometry::curve::cross;
-use crate::math::{Vec2, perpendicular};
+use crate::math::Vec2;
 
 /// Arcs whose centers and radii agree to this share of the radius lie on one circle: the center of a half circle moves by the
 /// square root of the rounding of its ends.
@@ -111,18 +111,6 @@ pub(super) fn area(vertices: &[[f64; 3]]) -> f64 {
         polygon + 0.5 * radius * radius * (angle - angle.sin())
     };
     edges(vertices).map(piece).sum()
-}
-
-/// Center and radius of the arc between two points; none where it is straight.
-pub(super) fn circle_of_bulge([a, b]: [Vec2; 2], bulge: f64) -> Option<(Vec2, f64)> {
-    let chord = b - a;
-    let length = chord.norm();
-    if !(bulge != 0.0 && length > 0.0) {
-        return None;
-    }
-    let radius = 0.25 * length * (bulge + bulge.recip()).abs();
-    let center = 0.5 * (a + b) + perpendicular(chord) * (0.25 * (bulge.recip() - bulge));
-    (radius.is_finite()).then_some((center, radius))
 }
 
 /// The circle on which all edges lie, if it is one and they run around it once.

@@ -8,10 +8,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::affine::Affine;
 use super::biarc::{self, SmoothCurve};
-use super::closing::circle_of_bulge;
 use super::spline::BSpline;
 use crate::geometry::curve::cross;
-use crate::math::Vec2;
+use crate::math::{Vec2, perpendicular};
 
 /// Conjugate radii as equal and as square to each other as this share of them make a circle: rounding of nested transforms.
 const CIRCULAR: f64 = 1e-9;
@@ -232,6 +231,18 @@ impl Piece {
             }
         }
     }
+}
+
+/// Center and radius of the arc between two points; none where it is straight.
+pub(super) fn circle_of_bulge([a, b]: [Vec2; 2], bulge: f64) -> Option<(Vec2, f64)> {
+    let chord = b - a;
+    let length = chord.norm();
+    if !(bulge != 0.0 && length > 0.0) {
+        return None;
+    }
+    let radius = 0.25 * length * (bulge + bulge.recip()).abs();
+    let center = 0.5 * (a + b) + perpendicular(chord) * (0.25 * (bulge.recip() - bulge));
+    (radius.is_finite()).then_some((center, radius))
 }
 
 #[cfg(test)]

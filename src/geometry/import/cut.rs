@@ -8,9 +8,11 @@ use crate::geometry::body::{Body, bulged_ring};
 use crate::geometry::curve::Curve;
 use crate::geometry::import::drawing::{FillRule, Ring, shape_of};
 use crate::geometry::import::nest::regions;
-use crate::geometry::import::window::ON_SIDE;
 use crate::geometry::spec::GeometrySpec;
 use crate::math::{Bounds, Vec2};
+
+/// Vertices nearer to a side than this share of the window's longer side are on it.
+pub(crate) const ON_SIDE: f64 = 1e-9;
 
 /// What becomes of shapes beyond a side of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

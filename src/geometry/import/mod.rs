@@ -1,7 +1,7 @@
 //! Drawings of other programs.
 //!
 //! Each reader turns a file into a [`Drawing`](drawing::Drawing) in the file's own unit; what follows is the same for all: unit
-//! ([`units`]), fills and holes, circles and arcs behind polygons, domain (`build`), what a [`window`] leaves out, and [`cut`]s at its sides.
+//! ([`options`]), fills and holes, circles and arcs behind polygons, domain (`build`), what a [`window`] leaves out, and [`cut`]s at its sides.
 
 pub(crate) mod affine;
 pub(crate) mod biarc;
@@ -39,7 +39,7 @@ pub(crate) mod window;
 pub(crate) mod wkt;
 
 pub use build::Imported;
+pub(crate) use build::windowed;
 pub(crate) use cut::{Beyond, cut_at_sides};
 pub(crate) use format::Format;
 pub use options::Options;
-pub(crate) use window::windowed;

@@ -1,5 +1,6 @@
 //! What a user says of a drawing beside its name: unit, window, layers, how masks and lists are read. All keys are optional.
 
+use crate::geometry::import::drawing::Unit;
 use crate::geometry::import::format::Format;
 use crate::geometry::import::units;
 use crate::input::Range;
@@ -66,6 +67,35 @@ impl Options {
     /// The largest turn of a smooth vertex in rad.
     pub(crate) fn smooth_below(&self) -> f64 {
         self.smooth_below_deg.unwrap_or(SMOOTH_BELOW_DEG).to_radians()
+    }
+
+    /// Length of the drawing unit in m, and a note on where it comes from: the user, else the file, else the key is asked for.
+    ///
+    /// # Errors
+    /// The key that is missing.
+    pub(crate) fn length_of_unit(&self, of_file: Option<&Unit>, format: Format) -> Result<(f64, String), Problem> {
+        if let Some(size) = self.pixel_size.filter(|_| format == Format::Mask) {
+            return Ok((size, format!("1 pixel = {size:e} m (pixel-size)")));
+        }
+        let instead = |meters: f64| match of_file {
+            // Names of one length differ, and lengths by rounding.
+            Some(unit) if (unit.meters / meters - 1.0).abs() > 1e-9 => format!(", not {} as the file says", unit.name),
+            _ => String::new(),
+        };
+        if let Some(scale) = self.scale {
+            return Ok((scale, format!("1 drawing unit = {scale:e} m (scale){}", instead(scale))));
+        }
+        if let Some(unit) = self.unit.as_deref().and_then(units::by_name) {
+            return Ok((unit.meters, format!("drawing unit {} (unit){}", unit.name, instead(unit.meters))));
+        }
+        if let Some(unit) = of_file {
+            return Ok((unit.meters, format!("drawing unit {} ({:e} m), as the file says", unit.name, unit.meters)));
+        }
+        if format.is_in_meters() {
+            return Ok((1.0, "drawing unit m".into()));
+        }
+        let message = format!("the unit of the drawing is not known: {} does not say it", format.name());
+        Err(Problem::new("unit", message, "add `unit = \"mm\"`, say, or `scale`, the length of the drawing unit in m"))
     }
 
     /// All that is wrong with the options for a file of this format; the paths are keys, such as `unit`.

@@ -2,15 +2,9 @@
 
 use crate::geometry::body::Body;
 use crate::geometry::curve::Curve;
-use crate::geometry::import::build::Imported;
-use crate::geometry::import::cut::crossings;
-use crate::geometry::import::options::Options;
-use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
-use crate::input::problem::Problem;
+use crate::geometry::import::cut::{ON_SIDE, crossings};
+use crate::geometry::spec::ShapeSpec;
 use crate::math::Bounds;
-
-/// Vertices nearer to a side than this share of the window's longer side are on it.
-pub(crate) const ON_SIDE: f64 = 1e-9;
 
 /// Whether a shape and the box have more than a point in common.
 pub(crate) fn reaches(shape: &ShapeSpec, window: Bounds) -> bool {
@@ -41,30 +35,6 @@ fn enters(curve: &Curve, window: Bounds, tolerance: f64) -> bool {
     }
     places.sort_by(f64::total_cmp);
     places.windows(2).any(|pair| inner.contains(curve.point(0.5 * (pair[0] + pair[1]))))
-}
-
-/// A shape file of ours seen through the window of the options, solid and pore in turn where they say so.
-///
-/// # Errors
-/// Problems with the keys `window` and `invert`.
-pub(crate) fn windowed(mut spec: GeometrySpec, options: &Options) -> Result<Imported, Vec<Problem>> {
-    let mut notes = Vec::new();
-    if options.is_inverted() {
-        spec.solid = if spec.solid == SolidSide::Inside { SolidSide::Outside } else { SolidSide::Inside };
-    }
-    if let Some([min, max]) = options.window {
-        (spec.min, spec.max) = (min, max);
-        let window = Bounds { min: min.into(), max: max.into() };
-        let before = spec.shapes.len();
-        spec.shapes.retain(|shape| reaches(shape, window));
-        notes.push(format!("outside of the window: shapes ({})", before - spec.shapes.len()));
-    }
-    let key = if options.window.is_some() { "window" } else { "invert" };
-    let problems = if options.window.is_some() || options.is_inverted() { spec.problems() } else { Vec::new() };
-    if problems.is_empty() {
-        return Ok(Imported { spec, notes });
-    }
-    Err(problems.into_iter().map(|problem| Problem { path: key.into(), ..problem }).collect())
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Regular arrays of equal discs: square, or hexagonal with rows along x.
 
-use super::{MOST_DISCS, PackError, size_of};
+use super::error::{MOST_DISCS, PackError, size_of};
 use crate::geometry::spec::{Arrangement, Array, Disc};
 
 /// The discs of an array, as many as fit wholly into the region, centered in it.

@@ -1,6 +1,7 @@
 //! A micromodel: a random pack between an inlet and an outlet manifold, each with a straight channel, and walls around.
 
-use super::{PackError, random_pack};
+use super::error::PackError;
+use super::random::random_pack;
 use crate::geometry::spec::{Disc, GeometrySpec, Polygon, RandomPack, ShapeSpec, SolidSide};
 
 /// Sizes of a micromodel beside those of its pack. The flow is along x.

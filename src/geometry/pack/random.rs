@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::cells::Cells;
-use super::{MOST_DISCS, PackError, size_of};
+use super::error::{MOST_DISCS, PackError, size_of};
 use crate::geometry::spec::{Disc, RandomPack};
 
 /// Radii lie within so many deviations of their mean.

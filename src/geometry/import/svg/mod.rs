@@ -4,6 +4,7 @@
 //! the origin. Circles stay exact under all maps that keep circles. What is left out: text, images, filters, clips and masks (told in
 //! notes) and the width of strokes. White shapes are pore where others are not white.
 
+mod lines;
 mod page;
 mod path;
 mod placement;
@@ -11,8 +12,9 @@ mod shape;
 mod style;
 mod walk;
 
-use roxmltree::{Document, Node, ParsingOptions};
+use roxmltree::{Document, ParsingOptions};
 
+use self::lines::Lines;
 use super::drawing::{Drawing, Refusal};
 
 /// Bytes of entities, as a multiple of the file, that references may unfold into.
@@ -55,20 +57,6 @@ fn check_entities(text: &str) -> Result<(), Refusal> {
         return Err(refusal("entities that stand for more than ten times the text of the file"));
     }
     Ok(())
-}
-
-/// Where the lines of a text begin.
-struct Lines(Vec<usize>);
-
-impl Lines {
-    fn of(text: &str) -> Self {
-        Self(std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect())
-    }
-
-    /// `line 12`.
-    fn place(&self, node: Node) -> String {
-        format!("line {}", self.0.partition_point(|&start| start <= node.range().start))
-    }
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node};
 
-use super::Lines;
+use super::lines::Lines;
 use super::page::{self, Along, Page, Viewport};
 use super::placement;
 use super::shape;
