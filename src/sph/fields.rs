@@ -9,7 +9,7 @@ use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::method::Method;
 use crate::sph::neighborhood::Neighborhood;
-use crate::sph::pairs::{GRAIN, each};
+use crate::sph::parallel::{GRAIN, each};
 use crate::sph::particles::{Particles, Phase};
 use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;

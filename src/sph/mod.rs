@@ -23,6 +23,7 @@ pub mod open;
 mod output;
 pub(crate) mod packing;
 pub mod pairs;
+mod parallel;
 pub mod particles;
 pub mod poisson;
 pub(crate) mod projection;

@@ -3,7 +3,7 @@
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::flow::Flow;
-use crate::sph::pairs::largest;
+use crate::sph::parallel::largest;
 use crate::sph::particles::Phase;
 use crate::sph::projection::{Corrected, Predicted, keep_flow_rates};
 use crate::sph::setting::Setting;

@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use crate::sph::components::components;
 use crate::sph::images::Images;
-use crate::sph::pairs::{Pairs, each, split_rows};
+use crate::sph::pairs::{Pairs, split_rows};
+use crate::sph::parallel::each;
 use crate::sph::poisson::matrix::Matrix;
 use crate::sph::terms::poisson::coefficient;
 

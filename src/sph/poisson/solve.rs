@@ -2,7 +2,7 @@
 
 use crate::math::Vec2;
 use crate::sph::conjugate_gradients::{Convergence, Tolerance, conjugate_gradients};
-use crate::sph::pairs::total;
+use crate::sph::parallel::total;
 use crate::sph::poisson::cholesky::SparseCholesky;
 use crate::sph::poisson::matrix::Matrix;
 use crate::sph::poisson::multigrid::Multigrid;

@@ -10,7 +10,7 @@ use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::flow::Flow;
 use crate::sph::open::OpenSide;
-use crate::sph::pairs::{each, total};
+use crate::sph::parallel::{each, total};
 use crate::sph::poisson::Matrix;
 use crate::sph::setting::Setting;
 use crate::sph::terms::pressure_gradient;

@@ -21,7 +21,7 @@ use crate::solver::{SolverError, StepInfo};
 use crate::sph::flow::Flow;
 use crate::sph::motion::Motion;
 use crate::sph::open::{self, InteriorPoints, Moved};
-use crate::sph::pairs::largest;
+use crate::sph::parallel::largest;
 use crate::sph::setting::Setting;
 use crate::sph::wetting::lines::gone;
 

@@ -8,7 +8,7 @@ use crate::sph::flow::Flow;
 use crate::sph::method::PressureGradient;
 use crate::sph::motion::relative_speed;
 use crate::sph::open::InteriorPoints;
-use crate::sph::pairs::{each, largest};
+use crate::sph::parallel::{each, largest};
 use crate::sph::terms::pressure_gradient;
 use crate::sph::time_step::landing;
 

@@ -11,7 +11,7 @@ use crate::sph::flow::Flow;
 use crate::sph::method::Method;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::open::{OpenSide, Prescribed};
-use crate::sph::pairs::{GRAIN, each};
+use crate::sph::parallel::{GRAIN, each};
 use crate::sph::particles::Particles;
 use crate::sph::poisson::{Matrix, System, Tolerance, Unknowns, assemble, impose};
 use crate::sph::terms::divergence::divergence;
