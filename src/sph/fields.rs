@@ -23,6 +23,9 @@ use crate::sph::wetting::lines::{DetectedLine, Following, LINE_REACH, Line, near
 
 use rayon::prelude::*;
 
+/// Wall particles whose nearest walls face each other by a cosine below this belong to opposite sides of a solid.
+const OPPOSITE: f64 = -0.5;
+
 /// Fields over particles and images; forces over fluid particles only.
 #[derive(Debug, Clone, Default)]
 pub struct Fields {
@@ -300,6 +303,12 @@ impl Fields {
         };
         self.wall_hysteresis = (0..fluids).map(range).collect();
     }
+}
+
+/// Whether the pressures of two particles that are `facing` so are coupled: all but those of wall particles that belong to opposite sides of a thin
+/// solid, through which the pressure of one side would reach the other.
+pub(crate) fn joined(facing: Vec2, other: Vec2) -> bool {
+    facing.dot(&other) > OPPOSITE
 }
 
 /// The contact lines now, from those of the step before and from what is `seen` of them.

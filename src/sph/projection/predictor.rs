@@ -1,12 +1,13 @@
 //! The predictor: all forces but the pressure [Huber2013, Eq. 25].
 
-use super::{Damped, Predicted, implicit_viscosity};
+use super::implicit_viscosity;
+use super::intermediate::{Damped, Predicted};
+use super::motion::relative_speed;
 use crate::case::ViscousStep;
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::flow::Flow;
 use crate::sph::method::PressureGradient;
-use crate::sph::motion::relative_speed;
 use crate::sph::open::InteriorPoints;
 use crate::sph::parallel::{each, largest};
 use crate::sph::terms::pressure_gradient;

@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::Predicted;
 use super::given_flow::{RESPONSE_RESIDUAL, Response};
+use super::intermediate::Predicted;
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::boundary::shepard;
+use crate::sph::fields::joined;
 use crate::sph::flow::Flow;
 use crate::sph::method::Method;
 use crate::sph::neighborhood::Neighborhood;
@@ -19,9 +20,6 @@ use crate::sph::terms::pressure_gradient;
 
 /// Above this density ratio the multigrid keeps light and heavy particles apart.
 const LARGEST_SMOOTH_RATIO: f64 = 5.0;
-
-/// Wall particles whose nearest walls face each other by a cosine below this belong to opposite sides of a solid.
-const OPPOSITE: f64 = -0.5;
 
 /// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
 const DIRICHLET: u8 = 2;
@@ -53,12 +51,6 @@ struct PressureEquation {
     guess: Vec<f64>,
     /// Further right sides, which have zero in place of the prescribed pressures.
     others: Vec<(Vec<f64>, Tolerance)>,
-}
-
-/// Whether the pressures of two particles that are `facing` so are coupled: all but those of wall particles that belong to opposite sides of a thin
-/// solid, through which the pressure of one side would reach the other.
-pub(in crate::sph) fn joined(facing: Vec2, other: Vec2) -> bool {
-    facing.dot(&other) > OPPOSITE
 }
 
 impl Flow {

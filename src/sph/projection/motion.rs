@@ -1,11 +1,12 @@
 //! The end of a step: particles move, keep their order and stay out of walls.
 
+use super::given_flow::keep_flow_rates;
+use super::intermediate::{Corrected, Predicted};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::flow::Flow;
 use crate::sph::parallel::largest;
 use crate::sph::particles::Phase;
-use crate::sph::projection::{Corrected, Predicted, keep_flow_rates};
 use crate::sph::setting::Setting;
 use crate::sph::terms::sharpening::Sharpening;
 use crate::sph::terms::shifting;
