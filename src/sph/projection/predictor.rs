@@ -43,15 +43,8 @@ impl Flow {
         let smallest = self.setting.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
             let place = particles.position.get(place).copied().unwrap_or_default();
-            let (time, step_number) = (self.state.time, self.state.steps);
-            return Err(SolverError::TimeStep {
-                dt: step.dt,
-                smallest,
-                limit: step.limit,
-                time,
-                step: step_number,
-                place,
-            });
+            let (dt, limit, time) = (step.dt, step.limit, self.state.time);
+            return Err(SolverError::TimeStep { dt, smallest, limit, time, step: self.state.steps, place });
         }
         let step = landing(step, self.state.time, until);
         let fastest = relative_speed(&particles.velocity[..fluids]);
@@ -113,12 +106,8 @@ impl Flow {
         if method.pressure_gradient() == PressureGradient::Difference && method.numerics.background_pressure > 0.0 {
             let over_density =
                 method.background_pressure_at(self.state.particles.fluid_speed()) / method.mean_density();
-            pressure_gradient::background(
-                &self.neighborhood.pairs,
-                &self.fields.volume,
-                over_density,
-                &mut acceleration,
-            );
+            let (pairs, volume) = (&self.neighborhood.pairs, &self.fields.volume);
+            pressure_gradient::background(pairs, volume, over_density, &mut acceleration);
         }
         acceleration
     }

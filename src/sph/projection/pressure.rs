@@ -115,12 +115,8 @@ impl Flow {
             .iter()
             .map(|&way| (self.right_side_of_gradient(way, &matrix), self.setting.method.tolerance))
             .collect();
-        let given = Prescribed::new(
-            &self.state.particles,
-            &self.setting.open.sides,
-            |_| f64::NAN,
-            self.setting.method.kernel.h,
-        );
+        let (sides, h) = (&self.setting.open.sides, self.setting.method.kernel.h);
+        let given = Prescribed::new(&self.state.particles, sides, |_| f64::NAN, h);
         let value = given.value.iter().map(|value| 0.0 * value).collect();
         let prescribed = Prescribed { value, reference: 0.0 };
         let guess = vec![0.0; self.state.particles.len()];
@@ -153,25 +149,15 @@ impl Flow {
         }
         impose(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
         self.pressure.matrix = matrix;
-        let part = &self.state.particles.part;
-        let position = &self.state.particles.position;
-        let unknowns = Unknowns {
-            position,
-            kind: &kind,
-            part,
-            has_dirichlet: &has_dirichlet,
-            spacing: self.setting.method.spacing,
-        };
+        let (Particles { position, part, .. }, spacing) = (&self.state.particles, self.setting.method.spacing);
+        let unknowns = Unknowns { position, kind: &kind, part, has_dirichlet: &has_dirichlet, spacing };
         let offset = |a: usize| if has_dirichlet[part[a] as usize] { prescribed.reference } else { 0.0 };
         p.iter_mut().enumerate().for_each(|(a, p)| *p = if given(a).is_some() { 0.0 } else { *p - offset(a) });
         let volume = &self.fields.volume[..p.len()];
         let mut found: Vec<Vec<f64>> = others.iter().map(|(right, _)| vec![0.0; right.len()]).collect();
         let mut systems = vec![System { b: &mut b, x: &mut p, tolerance }];
-        systems.extend(others.iter_mut().zip(&mut found).map(|((b, tolerance), x)| System {
-            b,
-            x,
-            tolerance: *tolerance,
-        }));
+        let others = others.iter_mut().zip(&mut found);
+        systems.extend(others.map(|((b, tolerance), x)| System { b, x, tolerance: *tolerance }));
         let solved = self.pressure.solve(&unknowns, volume, &mut systems);
         let convergence = solved[0];
         p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
@@ -260,14 +246,8 @@ impl Flow {
     /// −∇φ/ρ of the fluid particles.
     fn down(&self, mut potential: Vec<f64>) -> Vec<Vec2> {
         self.neighborhood.images.extend(&mut potential);
-        let f = &self.fields;
-        pressure_gradient::down(
-            &self.neighborhood.pairs,
-            &f.volume,
-            &f.density,
-            &potential,
-            self.state.particles.fluids,
-        )
+        let (pairs, f) = (&self.neighborhood.pairs, &self.fields);
+        pressure_gradient::down(pairs, &f.volume, &f.density, &potential, self.state.particles.fluids)
     }
 }
 
