@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::pairs::GRAIN;
+use crate::sph::parallel::GRAIN;
 
 /// Points sorted into cells at least as wide as the support.
 #[derive(Debug, Clone, Default)]

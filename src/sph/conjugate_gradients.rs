@@ -6,7 +6,7 @@ use std::ops::{Add, AddAssign, Mul, SubAssign};
 use rayon::prelude::*;
 
 use crate::math::Vec2;
-use crate::sph::pairs::{GRAIN, total};
+use crate::sph::parallel::{GRAIN, total};
 
 /// Below this relative residual the recursion's r drifts away from b − M x by rounding: it is computed anew before it is
 /// believed, and after so many iterations.

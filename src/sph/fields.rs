@@ -9,7 +9,7 @@ use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::method::Method;
 use crate::sph::neighborhood::Neighborhood;
-use crate::sph::pairs::{GRAIN, each};
+use crate::sph::parallel::{GRAIN, each};
 use crate::sph::particles::{Particles, Phase};
 use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;
@@ -22,6 +22,9 @@ use crate::sph::wetting::contact_line::{LineFields, LineParticles};
 use crate::sph::wetting::lines::{DetectedLine, Following, LINE_REACH, Line, nearest};
 
 use rayon::prelude::*;
+
+/// Wall particles whose nearest walls face each other by a cosine below this belong to opposite sides of a solid.
+const OPPOSITE: f64 = -0.5;
 
 /// Fields over particles and images; forces over fluid particles only.
 #[derive(Debug, Clone, Default)]
@@ -300,6 +303,12 @@ impl Fields {
         };
         self.wall_hysteresis = (0..fluids).map(range).collect();
     }
+}
+
+/// Whether the pressures of two particles that are `facing` so are coupled: all but those of wall particles that belong to opposite sides of a thin
+/// solid, through which the pressure of one side would reach the other.
+pub(crate) fn joined(facing: Vec2, other: Vec2) -> bool {
+    facing.dot(&other) > OPPOSITE
 }
 
 /// The contact lines now, from those of the step before and from what is `seen` of them.

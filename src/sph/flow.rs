@@ -5,14 +5,13 @@
 use std::time::Instant;
 
 use crate::math::Vec2;
-use crate::solver::PartTime;
+use crate::solver::{PartTime, StateError};
 use crate::sph::cells::Cells;
-use crate::sph::fields::Fields;
+use crate::sph::fields::{Fields, joined};
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::open::{GivenFlow, OpenSide};
 use crate::sph::particles::Particles;
 use crate::sph::poisson::{PressureSolve, parts};
-use crate::sph::projection::joined;
 use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;
 
@@ -80,11 +79,31 @@ impl Flow {
         flow
     }
 
-    /// The flow that goes on from `state`, with all that follows from it.
-    pub(in crate::sph) fn take_up(&mut self, state: FlowState) {
+    /// The state as bytes.
+    pub fn save(&self) -> Vec<u8> {
+        // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
+        postcard::to_stdvec(&self.state).unwrap_or_default()
+    }
+
+    /// Takes up a saved state, with all that follows from it.
+    ///
+    /// # Errors
+    /// [`StateError`] where the bytes are no state of a flow with as many particles.
+    pub fn load(&mut self, bytes: &[u8]) -> Result<(), StateError> {
+        let mut state: FlowState = postcard::from_bytes(bytes).map_err(|e| StateError(format!("{e}")))?;
+        let (saved, own) = (&state.particles, &self.state.particles);
+        let is_open = !self.setting.open.sides.is_empty();
+        let same_fluid = saved.len() == own.len() && saved.fluids == own.fluids;
+        if saved.walls != own.walls || !(is_open || same_fluid) {
+            let (found, expected) = (saved.len(), own.len());
+            return Err(StateError(format!("it has {found} particles, the case has {expected}")));
+        }
+        // A side that the saved run did not have begins anew.
+        state.given_flows.resize(self.state.given_flows.len(), GivenFlow::default());
         self.state = state;
         self.fields.face_walls(&self.setting, &self.state.particles);
         self.prepare();
+        Ok(())
     }
 
     /// All that follows from the state: neighbors, volumes, normals, forces of interface and lines.

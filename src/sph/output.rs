@@ -9,9 +9,9 @@ use crate::analysis::resample::Stencils;
 use crate::interface::polyline::Polyline;
 use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Grid, Lines, Snapshot, Values};
+use crate::sph::equivalent_forces::volume_forces;
 use crate::sph::flow::Flow;
 use crate::sph::observe::{Observation, fluid_samples, nodes};
-use crate::sph::surface_force::equivalent::volume_forces;
 use crate::sph::unresolved::ThinParts;
 
 /// Reach of the circle fit for the curvature along the interface, over h.

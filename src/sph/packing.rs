@@ -16,7 +16,8 @@ use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::kernel::WendlandC2;
-use crate::sph::pairs::{Pairs, each};
+use crate::sph::pairs::Pairs;
+use crate::sph::parallel::each;
 use crate::sph::poisson::{PressureSolve, System, Tolerance, Unknowns, assemble, parts};
 use crate::sph::terms::{density, pressure_gradient};
 

@@ -10,9 +10,7 @@ use crate::math::Vec2;
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
 use crate::sph::kernel::WendlandC2;
-
-/// Particles handled by one task: large against the cost of a task, small against the particle count of a real case.
-pub(crate) const GRAIN: usize = 512;
+use crate::sph::parallel::{GRAIN, each};
 
 /// ζ over h [Huber2013, Eq. 16]: keeps the denominators of the Laplacians above zero.
 const ZETA: f64 = 0.01;
@@ -209,25 +207,6 @@ pub(crate) fn split_rows<'a, T>(
     })
 }
 
-/// `out[a] = value(a)` in parallel, one writer per element, so that any number of threads gives the same bits.
-pub(crate) fn each<T: Send>(out: &mut [T], value: impl Fn(usize) -> T + Sync) {
-    out.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, out)| *out = value(a));
-}
-
-/// Σ_a `value(a)` over 0..n, in parts of fixed length added in order: the same bits for any number of threads.
-pub(crate) fn total(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let parts: Vec<f64> = (0..n.div_ceil(GRAIN))
-        .into_par_iter()
-        .map(|part| (part * GRAIN..((part + 1) * GRAIN).min(n)).map(&value).sum())
-        .collect();
-    parts.iter().sum()
-}
-
-/// The largest `value(a)` over 0..n with its index; the first of equals. None for n = 0.
-pub(crate) fn largest(n: usize, value: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
-    (0..n).map(|a| (a, value(a))).reduce(|best, next| if next.1 > best.1 { next } else { best })
-}
-
 /// What tests compare with.
 #[cfg(test)]
 impl Pairs {
@@ -293,15 +272,5 @@ mod tests {
             let wanted = r_ab.dot(&kernel.grad_w(r_ab)) / (r_ab.norm_squared() + 1e-6);
             assert!(ab.slope <= 0.0 && (ab.slope - wanted).abs() <= ROUNDING * wanted.abs(), "{ab:?}, wanted {wanted}");
         }
-    }
-
-    #[test]
-    fn totals_do_not_depend_on_the_number_of_threads() {
-        let value = |a: usize| (a as f64 * 0.37).sin() / (1.0 + a as f64);
-        let sum_with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| total(10_000, value))
-        };
-        assert_eq!(sum_with(1).to_bits(), sum_with(2).to_bits());
     }
 }

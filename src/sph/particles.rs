@@ -8,7 +8,7 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 
 use crate::math::Vec2;
-use crate::sph::pairs::largest;
+use crate::sph::parallel::largest;
 
 /// What a particle is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -13,10 +13,10 @@ use crate::sph::flow::Flow;
 use crate::sph::frozen::FrozenInterface;
 use crate::sph::measures::{DiscOf, Group, Subject, all, columns, permeability, relative};
 use crate::sph::observe::Observation;
+use crate::sph::output;
 use crate::sph::particles::Particles;
 use crate::sph::stages::Stages;
 use crate::sph::warnings::warnings;
-use crate::sph::{output, state};
 use crate::table::Document;
 
 /// A flow with all that is needed to observe it.
@@ -250,7 +250,7 @@ impl Solver for SphSolver {
         if let Some((_, present)) = &self.frozen {
             bytes.extend(postcard::to_stdvec(present).unwrap_or_default());
         }
-        bytes.extend(state::save(&self.flow));
+        bytes.extend(self.flow.save());
         bytes
     }
 
@@ -262,7 +262,7 @@ impl Solver for SphSolver {
             (*present, flow) = postcard::take_from_bytes(flow).map_err(unreadable)?;
             self.flow = interface.flow(*present, &self.flow);
         }
-        state::load(&mut self.flow, flow)?;
+        self.flow.load(flow)?;
         self.start = start;
         self.turn_force();
         Ok(())

@@ -3,8 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use crate::math::Vec2;
-use crate::solver::StateError;
-use crate::sph::flow::Flow;
 use crate::sph::open::{GivenFlow, Ledger};
 use crate::sph::particles::Particles;
 use crate::sph::wetting::lines::Line;
@@ -48,29 +46,4 @@ impl FlowState {
             particles,
         }
     }
-}
-
-/// The state of the flow as bytes.
-pub fn save(flow: &Flow) -> Vec<u8> {
-    // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
-    postcard::to_stdvec(&flow.state).unwrap_or_default()
-}
-
-/// Takes up a saved state.
-///
-/// # Errors
-/// [`StateError`] where the bytes are no state of a flow with as many particles.
-pub fn load(flow: &mut Flow, bytes: &[u8]) -> Result<(), StateError> {
-    let mut state: FlowState = postcard::from_bytes(bytes).map_err(|e| StateError(format!("{e}")))?;
-    let (saved, own) = (&state.particles, &flow.state.particles);
-    let is_open = !flow.setting.open.sides.is_empty();
-    let same_fluid = saved.len() == own.len() && saved.fluids == own.fluids;
-    if saved.walls != own.walls || !(is_open || same_fluid) {
-        let (found, expected) = (saved.len(), own.len());
-        return Err(StateError(format!("it has {found} particles, the case has {expected}")));
-    }
-    // A side that the saved run did not have begins anew.
-    state.given_flows.resize(flow.state.given_flows.len(), GivenFlow::default());
-    flow.take_up(state);
-    Ok(())
 }

@@ -142,7 +142,7 @@ fn a_resumed_flow_with_open_sides_takes_the_same_steps() {
         run(&mut first, 0.03);
         run(&mut whole, 0.03);
         let mut second = flow(&text);
-        meniscus::sph::state::load(&mut second, &meniscus::sph::state::save(&first)).unwrap();
+        second.load(&first.save()).unwrap();
         for flow in [&mut whole, &mut second] {
             run(flow, 0.06);
         }

@@ -4,8 +4,8 @@ use crate::support::boxes::{SURFACE_FORCES, case, fastest, steps};
 use crate::support::flow::{flow, solver};
 use meniscus::math::Vec2;
 use meniscus::solver::Solver;
+use meniscus::sph::equivalent_forces::volume_forces;
 use meniscus::sph::flow::Flow;
-use meniscus::sph::surface_force::equivalent::volume_forces;
 
 /// Walls at the bottom and at the top, or left and right; the other two sides are joined.
 const WALLS_BELOW_AND_ABOVE: &str = "left = \"periodic\"\nright = \"periodic\"\n";

@@ -1,7 +1,9 @@
 //! Fills both sides of an interface that no lattice fits: a layer of particles on either side of it, and as many in each phase as it has room for.
 
-use super::lattice::each_with;
-use super::{CLOSEST, EQUAL, Lattice, Places, Region, SAMPLING, apart, deepest};
+use super::kept::{CLOSEST, EQUAL, SAMPLING, apart, deepest};
+use super::lattice::{Lattice, each_with};
+use super::places::Places;
+use super::region::Region;
 use crate::geometry::offset_curves::UnfittedSurface;
 use crate::geometry::{Geometry, Wall};
 use crate::math::{Bounds, Vec2};

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::math::{Bounds, Vec2};
-use crate::sph::fill::Places;
+use crate::sph::fill::places::Places;
 use crate::sph::kernel::WendlandC2;
 
 /// A square lattice that fits the box: a whole number of cells along each side, a particle in the middle of each.

@@ -1,7 +1,8 @@
 //! Fills the pore along walls that no lattice fits.
 
-use super::lattice::each_with;
-use super::{CLOSEST, EQUAL, Lattice, Places, SAMPLING, apart, deepest};
+use super::kept::{CLOSEST, EQUAL, SAMPLING, apart, deepest};
+use super::lattice::{Lattice, each_with};
+use super::places::Places;
 use crate::geometry::offset_curves::UnfittedSurface;
 use crate::math::Vec2;
 use crate::sph::domain::Domain;

@@ -1,7 +1,8 @@
 //! The buffers beyond open sides: how they are filled, and how particles pass between them and the fluid.
 
 use crate::math::{Bounds, Vec2};
-use crate::sph::open::{Ledger, OpenSide};
+use crate::sph::open::ledger::Ledger;
+use crate::sph::open::side::OpenSide;
 use crate::sph::particles::{Particles, Phase};
 
 /// A new particle needs so much room, in units of dx: less would crowd a file that came back in after a single move outwards.

@@ -6,7 +6,7 @@ use crate::math::Vec2;
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
 use crate::sph::kernel::WendlandC2;
-use crate::sph::open::OpenSide;
+use crate::sph::open::side::OpenSide;
 use crate::sph::particles::Particles;
 
 /// How far inside of the side the interior points lie, over h: there the stencil of the fit has fluid on both sides.

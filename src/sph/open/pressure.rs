@@ -3,7 +3,7 @@
 //! The given value holds at the side. Beyond it the pressure goes on with the slope that it had inside of the side in the
 //! step before, in each phase on its own: with one value for the whole buffer the slope at the side would be lost.
 
-use crate::sph::open::{Drive, OpenSide};
+use crate::sph::open::side::{Drive, OpenSide};
 use crate::sph::particles::{Particles, Phase};
 
 /// Width of the strip inside of a side from which slopes are taken, over h.

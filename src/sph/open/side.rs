@@ -1,7 +1,7 @@
 //! One open side: where it is, what is given there and what comes in.
 
 use crate::math::Vec2;
-use crate::sph::open::{Opening, Profile};
+use crate::sph::open::profile::{Opening, Profile};
 use crate::sph::particles::Phase;
 
 /// Depth of a buffer over h: particles within the support of the fluid have their own whole support within the buffer.

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::open::{Drive, Ledger, OpenSide, Shape};
+use crate::sph::open::ledger::Ledger;
+use crate::sph::open::profile::Shape;
+use crate::sph::open::side::{Drive, OpenSide};
 use crate::sph::particles::Phase;
 
 /// How the given flow through a periodic side goes on.

@@ -6,8 +6,9 @@ use rayon::prelude::*;
 
 use crate::sph::components::components;
 use crate::sph::images::Images;
-use crate::sph::pairs::{Pairs, each, split_rows};
-use crate::sph::poisson::Matrix;
+use crate::sph::pairs::{Pairs, split_rows};
+use crate::sph::parallel::each;
+use crate::sph::poisson::matrix::Matrix;
 use crate::sph::terms::poisson::coefficient;
 
 /// Fills `matrix` with the coefficients of Eq. (30) times −V_a; images count for their sources [Eq. 34: p' = p].

@@ -8,8 +8,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 
 use crate::math::factor_in_one_thread;
-use crate::sph::poisson::Matrix;
-use crate::sph::poisson::solve::Unknowns;
+use crate::sph::poisson::matrix::Matrix;
 
 /// A direct solver that remembers the elimination order of the last pattern it saw.
 #[derive(Default)]
@@ -24,19 +23,20 @@ pub(crate) struct SparseCholesky {
 pub(crate) struct FactorizationError(String);
 
 impl SparseCholesky {
-    /// Solves M x = b. Each part without a Dirichlet value has its first unknown held at zero.
+    /// Solves M x = b. Each `part` that `has_dirichlet` does not name has its first unknown held at zero, see [`Unknowns`](super::Unknowns).
     ///
     /// # Errors
     /// [`FactorizationError`] where the matrix is not positive definite after that.
     pub(crate) fn solve(
         &mut self,
         matrix: &Matrix,
-        unknowns: &Unknowns,
+        part: &[u32],
+        has_dirichlet: &[bool],
         b: &[f64],
         x: &mut [f64],
     ) -> Result<(), FactorizationError> {
         factor_in_one_thread();
-        let lower = lower_triangle(matrix, unknowns.part, unknowns.has_dirichlet)?;
+        let lower = lower_triangle(matrix, part, has_dirichlet)?;
         let failed = |e: &dyn std::fmt::Debug| FactorizationError(format!("{e:?}"));
         if self.pattern.0 != matrix.start || self.pattern.1 != matrix.column {
             self.symbolic = None;

@@ -1,6 +1,6 @@
 //! Given values in the pressure equation: their rows are cut off, and what they do to others goes to the right side.
 
-use crate::sph::poisson::Matrix;
+use crate::sph::poisson::matrix::Matrix;
 
 /// Takes the unknowns of `given`, with their values, out of M x = b. Their own rows become D x = 0, cut off from all others, so
 /// that the matrix stays symmetric; the caller puts the values in after the solve.

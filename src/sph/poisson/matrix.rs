@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::sph::conjugate_gradients::{SymmetricMatrix, Unknown};
-use crate::sph::pairs::each;
+use crate::sph::parallel::each;
 
 /// Sums side by side in [`weighted_sum`].
 const LANES: usize = 4;

@@ -12,9 +12,9 @@ use rayon::prelude::*;
 
 use crate::math::Vec2;
 use crate::sph::components::components;
-use crate::sph::pairs::total;
-use crate::sph::poisson::Matrix;
+use crate::sph::parallel::total;
 use crate::sph::poisson::aggregation::{Aggregates, COARSENING};
+use crate::sph::poisson::matrix::Matrix;
 
 /// A level of at most this many unknowns is solved by a dense factorization.
 const DIRECT: usize = 150;

@@ -2,9 +2,10 @@
 
 use crate::math::Vec2;
 use crate::sph::conjugate_gradients::{Convergence, Tolerance, conjugate_gradients};
-use crate::sph::pairs::total;
+use crate::sph::parallel::total;
 use crate::sph::poisson::cholesky::SparseCholesky;
-use crate::sph::poisson::{Matrix, Multigrid};
+use crate::sph::poisson::matrix::Matrix;
+use crate::sph::poisson::multigrid::Multigrid;
 
 /// Systems up to this size are solved directly. Above it the factorization costs more than the iteration (benches/poisson.rs).
 const SMALL: usize = 300;
@@ -62,7 +63,7 @@ impl PressureSolve {
 
     fn solve_directly(&mut self, unknowns: &Unknowns, system: &mut System) -> Convergence {
         let (b, x) = (&*system.b, &mut *system.x);
-        if self.cholesky.solve(&self.matrix, unknowns, b, x).is_err() {
+        if self.cholesky.solve(&self.matrix, unknowns.part, unknowns.has_dirichlet, b, x).is_err() {
             return self.iterate(unknowns, std::slice::from_mut(system))[0];
         }
         let mut r = vec![0.0; b.len()];

@@ -1,8 +1,8 @@
 //! The corrector: the velocity at the end of a step [Huber2013, Eq. 26].
 
 use super::given_flow::{add_responses, gradient_changes};
+use super::intermediate::{Corrected, Predicted};
 use super::pressure::Projected;
-use super::{Corrected, Predicted};
 use crate::math::Vec2;
 use crate::sph::flow::Flow;
 use crate::sph::method::PressureGradient;

@@ -10,7 +10,7 @@ use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::flow::Flow;
 use crate::sph::open::OpenSide;
-use crate::sph::pairs::{each, total};
+use crate::sph::parallel::{each, total};
 use crate::sph::poisson::Matrix;
 use crate::sph::setting::Setting;
 use crate::sph::terms::pressure_gradient;
@@ -22,7 +22,7 @@ pub(super) const RESPONSE_RESIDUAL: f64 = 1e-3;
 const NEXT: f64 = 1.5;
 
 /// What a mean pressure gradient of 1 Pa/m does.
-pub(in crate::sph) struct Response {
+pub(super) struct Response {
     /// The periodic part of the pressure in m (Pa per Pa/m).
     pub(super) potential: Vec<f64>,
     /// The acceleration of the fluid particles in m³/kg (m/s² per Pa/m).
@@ -164,13 +164,7 @@ pub(super) fn gradient_changes(setting: &Setting, velocity: &[Vec2], responses: 
 
 /// Sets the places `new` (m) of the fluid particles anew, so that what went through the sides in a step of length `dt` (s) from the `old`
 /// places (m) is what is asked for: shifting and the density-error correction carry some along.
-pub(in crate::sph) fn keep_flow_rates(
-    setting: &Setting,
-    responses: &[Response],
-    dt: f64,
-    old: &[Vec2],
-    new: &mut [Vec2],
-) {
+pub(super) fn keep_flow_rates(setting: &Setting, responses: &[Response], dt: f64, old: &[Vec2], new: &mut [Vec2]) {
     if responses.is_empty() {
         return;
     }

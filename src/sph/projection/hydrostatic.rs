@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
 use crate::sph::flow::Flow;
-use crate::sph::pairs::{GRAIN, Pairs};
+use crate::sph::pairs::Pairs;
+use crate::sph::parallel::GRAIN;
 use crate::sph::poisson::Matrix;
 use crate::sph::surface_force::jump::Jump;
 

@@ -15,7 +15,8 @@ use crate::math::{Mat2, Vec2};
 use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, Tolerance, conjugate_gradients};
 use crate::sph::flow::Flow;
 use crate::sph::images::Images;
-use crate::sph::pairs::{GRAIN, Pair, Pairs, each, largest, split_rows};
+use crate::sph::pairs::{Pair, Pairs, split_rows};
+use crate::sph::parallel::{GRAIN, each, largest};
 use crate::sph::poisson::weighted_sum;
 use crate::sph::terms::viscosity::Viscous;
 

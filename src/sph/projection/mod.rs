@@ -6,22 +6,21 @@ mod corrector;
 mod given_flow;
 mod hydrostatic;
 mod implicit_viscosity;
+mod intermediate;
+mod motion;
 mod predictor;
 mod pressure;
 mod viscous;
 
 use std::time::Instant;
 
-use self::given_flow::Response;
-pub(super) use self::given_flow::keep_flow_rates;
-pub(super) use self::pressure::joined;
+use self::intermediate::{Corrected, Predicted};
+use self::motion::Motion;
 use crate::case::ViscousStep;
-use crate::math::Vec2;
 use crate::solver::{SolverError, StepInfo};
 use crate::sph::flow::Flow;
-use crate::sph::motion::Motion;
-use crate::sph::open::{self, InteriorPoints, Moved};
-use crate::sph::pairs::largest;
+use crate::sph::open::{self, Moved};
+use crate::sph::parallel::largest;
 use crate::sph::setting::Setting;
 use crate::sph::wetting::lines::gone;
 
@@ -31,49 +30,6 @@ const FIRST_SOLVES: usize = 6;
 
 /// A step is shortened so many times at most; one does where forces accelerate particles.
 const MOST_REPEATS: usize = 10;
-
-/// The intermediate state of a step [Huber2013, Eq. 25].
-pub(in crate::sph) struct Predicted {
-    pub(in crate::sph) dt: f64,
-    pub(in crate::sph) limit: &'static str,
-    /// The largest velocity of a particle in m/s, relative to the mean of all.
-    fastest: f64,
-    /// v_int over particles and images in m/s, without the gravity that goes with the pressure.
-    velocity: Vec<Vec2>,
-    /// Where the buffers of open sides take the velocity from.
-    interior: InteriorPoints,
-    /// What comes of the viscous solve.
-    damped: Damped,
-}
-
-/// The end of a step before the particles move [Huber2013, Eq. 26].
-pub(in crate::sph) struct Corrected {
-    /// Velocity of fluid and buffers in m/s.
-    pub(in crate::sph) velocity: Vec<Vec2>,
-    /// Pressure in Pa, without the mean gradients that drive given flows.
-    pressure: Vec<f64>,
-    /// What the pressure that the next step begins with has more, in Pa; empty for nothing.
-    viscous_pressure: Vec<f64>,
-    /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
-    pub(in crate::sph) density_error_shift: Vec<Vec2>,
-    /// By how much the mean gradients that drive given flows change, in Pa/m.
-    gradient_changes: Vec<f64>,
-    /// What unit gradients do.
-    pub(in crate::sph) responses: Vec<Response>,
-}
-
-/// What comes of a viscous solve beside the acceleration; nothing of an explicit step.
-#[derive(Default)]
-pub(in crate::sph) struct Damped {
-    /// Acceleration of the fluid in m/s² by the pressure before the step.
-    by_pressure: Vec<Vec2>,
-    /// The share of the step beyond the longest explicit one.
-    excess: f64,
-    /// θ Δt in s, with the weight θ of the velocity at the end of the step.
-    weight: f64,
-    /// Iterations.
-    iterations: usize,
-}
 
 impl Flow {
     /// Does one step that ends at `until` (s) or before.

@@ -1,14 +1,15 @@
 //! The predictor: all forces but the pressure [Huber2013, Eq. 25].
 
-use super::{Damped, Predicted, implicit_viscosity};
+use super::implicit_viscosity;
+use super::intermediate::{Damped, Predicted};
+use super::motion::relative_speed;
 use crate::case::ViscousStep;
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::flow::Flow;
 use crate::sph::method::PressureGradient;
-use crate::sph::motion::relative_speed;
 use crate::sph::open::InteriorPoints;
-use crate::sph::pairs::{each, largest};
+use crate::sph::parallel::{each, largest};
 use crate::sph::terms::pressure_gradient;
 use crate::sph::time_step::landing;
 
@@ -42,15 +43,8 @@ impl Flow {
         let smallest = self.setting.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
             let place = particles.position.get(place).copied().unwrap_or_default();
-            let (time, step_number) = (self.state.time, self.state.steps);
-            return Err(SolverError::TimeStep {
-                dt: step.dt,
-                smallest,
-                limit: step.limit,
-                time,
-                step: step_number,
-                place,
-            });
+            let (dt, limit, time) = (step.dt, step.limit, self.state.time);
+            return Err(SolverError::TimeStep { dt, smallest, limit, time, step: self.state.steps, place });
         }
         let step = landing(step, self.state.time, until);
         let fastest = relative_speed(&particles.velocity[..fluids]);
@@ -112,12 +106,8 @@ impl Flow {
         if method.pressure_gradient() == PressureGradient::Difference && method.numerics.background_pressure > 0.0 {
             let over_density =
                 method.background_pressure_at(self.state.particles.fluid_speed()) / method.mean_density();
-            pressure_gradient::background(
-                &self.neighborhood.pairs,
-                &self.fields.volume,
-                over_density,
-                &mut acceleration,
-            );
+            let (pairs, volume) = (&self.neighborhood.pairs, &self.fields.volume);
+            pressure_gradient::background(pairs, volume, over_density, &mut acceleration);
         }
         acceleration
     }

@@ -2,16 +2,17 @@
 
 use rayon::prelude::*;
 
-use super::Predicted;
 use super::given_flow::{RESPONSE_RESIDUAL, Response};
+use super::intermediate::Predicted;
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::boundary::shepard;
+use crate::sph::fields::joined;
 use crate::sph::flow::Flow;
 use crate::sph::method::Method;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::open::{OpenSide, Prescribed};
-use crate::sph::pairs::{GRAIN, each};
+use crate::sph::parallel::{GRAIN, each};
 use crate::sph::particles::Particles;
 use crate::sph::poisson::{Matrix, System, Tolerance, Unknowns, assemble, impose};
 use crate::sph::terms::divergence::divergence;
@@ -19,9 +20,6 @@ use crate::sph::terms::pressure_gradient;
 
 /// Above this density ratio the multigrid keeps light and heavy particles apart.
 const LARGEST_SMOOTH_RATIO: f64 = 5.0;
-
-/// Wall particles whose nearest walls face each other by a cosine below this belong to opposite sides of a solid.
-const OPPOSITE: f64 = -0.5;
 
 /// Kind of the particles with a given pressure for the multigrid: apart from light (1) and heavy (0) ones.
 const DIRICHLET: u8 = 2;
@@ -53,12 +51,6 @@ struct PressureEquation {
     guess: Vec<f64>,
     /// Further right sides, which have zero in place of the prescribed pressures.
     others: Vec<(Vec<f64>, Tolerance)>,
-}
-
-/// Whether the pressures of two particles that are `facing` so are coupled: all but those of wall particles that belong to opposite sides of a thin
-/// solid, through which the pressure of one side would reach the other.
-pub(in crate::sph) fn joined(facing: Vec2, other: Vec2) -> bool {
-    facing.dot(&other) > OPPOSITE
 }
 
 impl Flow {
@@ -123,12 +115,8 @@ impl Flow {
             .iter()
             .map(|&way| (self.right_side_of_gradient(way, &matrix), self.setting.method.tolerance))
             .collect();
-        let given = Prescribed::new(
-            &self.state.particles,
-            &self.setting.open.sides,
-            |_| f64::NAN,
-            self.setting.method.kernel.h,
-        );
+        let (sides, h) = (&self.setting.open.sides, self.setting.method.kernel.h);
+        let given = Prescribed::new(&self.state.particles, sides, |_| f64::NAN, h);
         let value = given.value.iter().map(|value| 0.0 * value).collect();
         let prescribed = Prescribed { value, reference: 0.0 };
         let guess = vec![0.0; self.state.particles.len()];
@@ -161,25 +149,15 @@ impl Flow {
         }
         impose(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
         self.pressure.matrix = matrix;
-        let part = &self.state.particles.part;
-        let position = &self.state.particles.position;
-        let unknowns = Unknowns {
-            position,
-            kind: &kind,
-            part,
-            has_dirichlet: &has_dirichlet,
-            spacing: self.setting.method.spacing,
-        };
+        let (Particles { position, part, .. }, spacing) = (&self.state.particles, self.setting.method.spacing);
+        let unknowns = Unknowns { position, kind: &kind, part, has_dirichlet: &has_dirichlet, spacing };
         let offset = |a: usize| if has_dirichlet[part[a] as usize] { prescribed.reference } else { 0.0 };
         p.iter_mut().enumerate().for_each(|(a, p)| *p = if given(a).is_some() { 0.0 } else { *p - offset(a) });
         let volume = &self.fields.volume[..p.len()];
         let mut found: Vec<Vec<f64>> = others.iter().map(|(right, _)| vec![0.0; right.len()]).collect();
         let mut systems = vec![System { b: &mut b, x: &mut p, tolerance }];
-        systems.extend(others.iter_mut().zip(&mut found).map(|((b, tolerance), x)| System {
-            b,
-            x,
-            tolerance: *tolerance,
-        }));
+        let others = others.iter_mut().zip(&mut found);
+        systems.extend(others.map(|((b, tolerance), x)| System { b, x, tolerance: *tolerance }));
         let solved = self.pressure.solve(&unknowns, volume, &mut systems);
         let convergence = solved[0];
         p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
@@ -268,14 +246,8 @@ impl Flow {
     /// −∇φ/ρ of the fluid particles.
     fn down(&self, mut potential: Vec<f64>) -> Vec<Vec2> {
         self.neighborhood.images.extend(&mut potential);
-        let f = &self.fields;
-        pressure_gradient::down(
-            &self.neighborhood.pairs,
-            &f.volume,
-            &f.density,
-            &potential,
-            self.state.particles.fluids,
-        )
+        let (pairs, f) = (&self.neighborhood.pairs, &self.fields);
+        pressure_gradient::down(pairs, &f.volume, &f.density, &potential, self.state.particles.fluids)
     }
 }
 

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use super::error::SetupError;
+use super::ground::{Ground, start_phase};
 use super::viscous_time::viscous_time;
-use super::{Ground, SetupError, start_phase};
 use crate::case::Sph;
 use crate::geometry::Geometry;
 use crate::math::Vec2;

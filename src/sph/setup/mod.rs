@@ -2,6 +2,7 @@
 
 mod error;
 mod frozen;
+mod ground;
 mod handed_back;
 mod handed_over;
 mod initial;
@@ -18,21 +19,20 @@ pub(crate) use error::SetupError;
 pub(crate) use initial::region;
 
 use self::frozen::Pore;
-use self::method::method;
+use self::ground::{Ground, start_phase};
 use self::open_sides::{inside_of_open_sides, open_sides};
 use self::places::{Filling, places};
 use self::surroundings::surroundings;
 use self::viscous_time::viscous_time;
-use self::walls::{mirrors, wall_spots};
+use self::walls::wall_spots;
 use crate::case::{Case, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
-use crate::sph::domain::{Domain, WallQuery};
-use crate::sph::fill::{self, Lattice, Region};
+use crate::sph::domain::WallQuery;
+use crate::sph::fill::Region;
 use crate::sph::flow::Flow;
-use crate::sph::method::Method;
 use crate::sph::open::{self, Around};
-use crate::sph::particles::{Particles, Phase};
+use crate::sph::particles::Particles;
 use crate::sph::setting::Setting;
 use crate::sph::solver::SphSolver;
 
@@ -56,34 +56,6 @@ pub(crate) fn checked_geometry(case: &Case, sph: &Sph) -> Result<Geometry, Setup
     Ok(geometry)
 }
 
-/// Lattice, method and domain of a case.
-struct Ground {
-    lattice: Lattice,
-    method: Method,
-    domain: Domain,
-}
-
-impl Ground {
-    fn new(geometry: &Geometry, sph: &Sph) -> Result<Self, SetupError> {
-        let ground = Self::of(geometry, sph);
-        let support = ground.method.kernel.support();
-        if !fill::fits(&ground.domain, support) {
-            let (size, needed) = (geometry.bounds().size(), fill::PERIODIC_SUPPORTS * support);
-            return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
-        }
-        Ok(ground)
-    }
-
-    /// The same where the periods are known to be long enough.
-    fn of(geometry: &Geometry, sph: &Sph) -> Self {
-        let bounds = geometry.bounds();
-        let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
-        let lattice = Lattice::fitting(bounds, sph.spacing);
-        let method = method(sph, &lattice);
-        Self { lattice, method, domain: Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides)) }
-    }
-}
-
 /// The region of the shapes, or of the state of a network, that a case begins with.
 fn start_region(case: &Case, sph: &Sph) -> Region {
     match &sph.initial.network {
@@ -95,12 +67,6 @@ fn start_region(case: &Case, sph: &Sph) -> Region {
         }
         None => Region::of_shapes(region(case, &sph.initial.wetting)),
     }
-}
-
-/// The phase at `x` at time zero.
-fn start_phase(sph: &Sph, region: &Region, x: Vec2) -> Phase {
-    let wetting = region.holds(x) != sph.initial.wetting_is_background;
-    if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
 }
 
 /// The solver of a case at time zero.

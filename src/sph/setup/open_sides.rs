@@ -1,6 +1,6 @@
 //! Open sides, and periodic ones with a given flow: their openings, what drives them and what comes in.
 
-use super::SetupError;
+use super::error::SetupError;
 use crate::case::{self, SIDES, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;

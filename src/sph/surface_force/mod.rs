@@ -10,7 +10,6 @@
 
 mod contact_points;
 pub(crate) mod detected_lines;
-pub mod equivalent;
 pub(crate) mod fit;
 pub(crate) mod jump;
 pub(crate) mod pinned_lines;

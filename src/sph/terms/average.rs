@@ -2,7 +2,8 @@
 
 use std::ops::{Add, Div, Mul};
 
-use crate::sph::pairs::{Pairs, each};
+use crate::sph::pairs::Pairs;
+use crate::sph::parallel::each;
 
 /// ⟨f⟩_a = Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid, the particle itself included (Shepard); f_a where no fluid is near.
 ///

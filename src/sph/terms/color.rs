@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use crate::math::{Mat2, Vec2};
-use crate::sph::pairs::{GRAIN, Pairs, each};
+use crate::sph::pairs::Pairs;
+use crate::sph::parallel::{GRAIN, each};
 use crate::sph::terms::average;
 
 /// The moment matrix is 1 inside the fluid and about 1/4 in a right corner; below this its inverse is not to be trusted.

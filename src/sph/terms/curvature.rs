@@ -1,7 +1,8 @@
 //! Curvature of the interface [Huber2013, Eq. 19], normalized over valid normals as in Morris 2000.
 
 use crate::math::Vec2;
-use crate::sph::pairs::{Pairs, each};
+use crate::sph::pairs::Pairs;
+use crate::sph::parallel::each;
 
 /// Below this |n| in units of 1/h a normal is noise [Morris2000, section 3.3].
 const SMALLEST_NORMAL: f64 = 0.01;

@@ -1,6 +1,7 @@
 //! Density and volume of a particle [Huber2013, Eq. 17], after Hu & Adams 2006.
 
-use crate::sph::pairs::{Pairs, each};
+use crate::sph::pairs::Pairs;
+use crate::sph::parallel::each;
 
 /// V_a = 1/Σ_b W_ab in m², the particle itself included, so that ρ_a = m_a Σ_b W_ab [Huber2013, Eq. 17].
 pub fn volume(pairs: &Pairs, volume: &mut [f64]) {

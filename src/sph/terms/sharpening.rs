@@ -11,7 +11,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::math::Vec2;
-use crate::sph::pairs::{Pairs, each};
+use crate::sph::pairs::Pairs;
+use crate::sph::parallel::each;
 
 /// A particle with a smaller share of its own kind among its neighbors is isolated. The first layer of a flat interface
 /// has one half, a particle that stands out of it by dx about a quarter.

@@ -4,7 +4,8 @@
 
 use crate::math::Vec2;
 use crate::sph::images::Images;
-use crate::sph::pairs::{Pairs, each};
+use crate::sph::pairs::Pairs;
+use crate::sph::parallel::each;
 use crate::sph::terms::average;
 
 /// Where the color gradient exceeds this, in units of 1/h, particles go down the concentration along the interface only.

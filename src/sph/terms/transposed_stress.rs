@@ -12,7 +12,8 @@
 //! stress ends, at the other fluid, it bears the step of 2μ D·n there; at walls, along which it has no part, it ends without a force.
 
 use crate::math::{Mat2, Vec2};
-use crate::sph::pairs::{Pair, Pairs, each};
+use crate::sph::pairs::{Pair, Pairs};
+use crate::sph::parallel::each;
 
 /// A gradient along which the neighbors have a smaller moment than this counts less and less; moments whose principal values differ by less have
 /// less and less of a direction.

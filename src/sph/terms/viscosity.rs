@@ -1,7 +1,8 @@
 //! Viscous acceleration: the paper's form (Szewc et al. 2012) and that of Morris et al. 1997.
 
 use crate::math::Vec2;
-use crate::sph::pairs::{Pair, Pairs, each};
+use crate::sph::pairs::{Pair, Pairs};
+use crate::sph::parallel::each;
 
 /// What the viscous sums need of the particles; slices over particles and images.
 pub struct Viscous<'a> {

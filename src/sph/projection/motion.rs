@@ -1,11 +1,13 @@
 //! The end of a step: particles move, keep their order and stay out of walls.
 
+use super::given_flow::keep_flow_rates;
+use super::intermediate::{Corrected, Predicted};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::flow::Flow;
-use crate::sph::pairs::largest;
+use crate::sph::neighborhood::Neighborhood;
+use crate::sph::parallel::largest;
 use crate::sph::particles::Phase;
-use crate::sph::projection::{Corrected, Predicted, keep_flow_rates};
 use crate::sph::setting::Setting;
 use crate::sph::terms::sharpening::Sharpening;
 use crate::sph::terms::shifting;
@@ -114,14 +116,9 @@ impl Flow {
         }
         if m.numerics.anti_clustering > 0.0 {
             let mut push = vec![Vec2::zeros(); self.state.particles.fluids];
-            shifting::anti_clustering(
-                &self.neighborhood.pairs,
-                &f.volume,
-                m.numerics.anti_clustering,
-                m.kernel.w(m.spacing),
-                &mut push,
-            );
-            shifting::take_out_mean(&self.neighborhood.pairs, &self.neighborhood.images, &f.fluid_volume, &mut push);
+            let (Neighborhood { pairs, images }, w) = (&self.neighborhood, m.kernel.w(m.spacing));
+            shifting::anti_clustering(pairs, &f.volume, m.numerics.anti_clustering, w, &mut push);
+            shifting::take_out_mean(pairs, images, &f.fluid_volume, &mut push);
             uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
         }
         uneven

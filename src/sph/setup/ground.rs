@@ -1,0 +1,46 @@
+//! What every flow of a case stands on: lattice, method and domain, and the phase at each point at time zero.
+
+use super::error::SetupError;
+use super::method::method;
+use super::walls::mirrors;
+use crate::case::Sph;
+use crate::geometry::Geometry;
+use crate::math::Vec2;
+use crate::sph::domain::Domain;
+use crate::sph::fill::{self, Lattice, Region};
+use crate::sph::method::Method;
+use crate::sph::particles::Phase;
+
+/// Lattice, method and domain of a case.
+pub(super) struct Ground {
+    pub(super) lattice: Lattice,
+    pub(super) method: Method,
+    pub(super) domain: Domain,
+}
+
+impl Ground {
+    pub(super) fn new(geometry: &Geometry, sph: &Sph) -> Result<Self, SetupError> {
+        let ground = Self::of(geometry, sph);
+        let support = ground.method.kernel.support();
+        if !fill::fits(&ground.domain, support) {
+            let (size, needed) = (geometry.bounds().size(), fill::PERIODIC_SUPPORTS * support);
+            return Err(SetupError::PeriodTooShort { needed, width: size.x, height: size.y });
+        }
+        Ok(ground)
+    }
+
+    /// The same where the periods are known to be long enough.
+    pub(super) fn of(geometry: &Geometry, sph: &Sph) -> Self {
+        let bounds = geometry.bounds();
+        let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+        let lattice = Lattice::fitting(bounds, sph.spacing);
+        let method = method(sph, &lattice);
+        Self { lattice, method, domain: Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides)) }
+    }
+}
+
+/// The phase at `x` at time zero.
+pub(super) fn start_phase(sph: &Sph, region: &Region, x: Vec2) -> Phase {
+    let wetting = region.holds(x) != sph.initial.wetting_is_background;
+    if wetting || sph.non_wetting.is_none() { Phase::Wetting } else { Phase::NonWetting }
+}
