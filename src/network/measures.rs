@@ -8,7 +8,7 @@ use super::tables::kept;
 use super::warnings::notes_on_permeability;
 use crate::solver::Measure;
 
-fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
+pub(super) fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
     Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
 }
 

@@ -24,7 +24,8 @@ pub struct NetworkSolver {
     pub(super) model: Model,
     clock: f64,
     steps_before: u64,
-    seconds: [f64; 2],
+    /// The times that extraction and displacement took, in s.
+    pub(super) seconds: [f64; 2],
 }
 
 /// All that the future depends on: events are done anew, the same ones in the same order.
@@ -47,11 +48,6 @@ impl NetworkSolver {
     pub(crate) fn timed(mut self, extraction: f64) -> Self {
         self.seconds[0] = extraction;
         self
-    }
-
-    /// The time that its extraction took, in s.
-    pub(crate) fn extraction_time(&self) -> f64 {
-        self.seconds[0]
     }
 
     /// What stands still.

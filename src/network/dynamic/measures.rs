@@ -3,14 +3,10 @@
 use super::model::DynamicModel;
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::network::cycles::FluidPhase;
-use crate::network::measures::of_network_with_flow;
+use crate::network::measures::{measure, of_network_with_flow};
 use crate::network::tables::{counts, numbers, numbers_of_throats, places, words};
 use crate::solver::{Measure, Series};
 use crate::table::Table;
-
-fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
-    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
-}
 
 /// All measures.
 pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {

@@ -30,13 +30,9 @@ impl DynamicModel {
     pub(crate) fn capillary_number(&self) -> f64 {
         let (_, inflow) = self.dynamic.drive_now();
         let terms = self.dynamic.terms();
-        terms.viscosity[0] * inflow / (self.side() * terms.tension)
-    }
-
-    /// Length of the side of the inlet in m.
-    pub(crate) fn side(&self) -> f64 {
         let setting = &self.still.setting;
-        setting.inlet.map_or(f64::NAN, |inlet| setting.bounds.size()[1 - inlet / 2])
+        let side = setting.inlet.map_or(f64::NAN, |inlet| setting.bounds.size()[1 - inlet / 2]);
+        terms.viscosity[0] * inflow / (side * terms.tension)
     }
 
     /// The present state.

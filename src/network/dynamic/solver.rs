@@ -41,9 +41,8 @@ pub(crate) struct DynamicSolver {
 impl DynamicSolver {
     /// The displacement at its beginning.
     pub(crate) fn new(still: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
-        let seconds = [still.extraction_time(), 0.0];
-        let model = DynamicModel { still: still.model, dynamic, invading };
-        Self { model, end, is_closed: false, steps_before: 0, seconds }
+        let NetworkSolver { model: still, seconds, .. } = still;
+        Self { model: DynamicModel { still, dynamic, invading }, end, is_closed: false, steps_before: 0, seconds }
     }
 
     fn count(&self, kind: EventKind) -> f64 {
