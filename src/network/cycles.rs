@@ -263,6 +263,17 @@ impl Cycles {
         Some(event.kind.name())
     }
 
+    /// The present moment.
+    pub fn moment(&self) -> Moment {
+        Moment {
+            displacement: self.displacement.clone(),
+            half_cycle: self.half_cycle,
+            events: self.outcomes()[self.half_cycle].events,
+            applied: self.applied(),
+            saturation: self.saturation(),
+        }
+    }
+
     /// The moment after the event by which an invading phase first reached its outlet.
     pub fn breakthrough(&self) -> Option<&Moment> {
         self.breakthrough.as_deref()

@@ -5,8 +5,8 @@
 use super::cycles::{Cycles, FluidPhase};
 use super::displacement::Phase;
 use super::laplacian::FlowError;
+use super::model::{Model, Setting};
 use super::permeability::{Drive, Paths, permeability};
-use super::solver::{NetworkSolver, Setting};
 use super::tables::numbers;
 use crate::table::Table;
 
@@ -27,23 +27,23 @@ pub(crate) fn drive(setting: &Setting, axis: usize) -> Option<Drive> {
 }
 
 /// Permeability in m2 for a phase that holds the regions of which `holds` is true.
-fn of_phase(solver: &NetworkSolver, drive: Drive, holds: &[bool]) -> Result<f64, FlowError> {
-    let setting = solver.setting();
+fn of_phase(model: &Model, drive: Drive, holds: &[bool]) -> Result<f64, FlowError> {
+    let setting = &model.setting;
     let is_open = |regions: [usize; 2]| regions.iter().all(|&region| holds[region]);
     let conductance: Vec<f64> = setting
         .network
         .throats
         .iter()
-        .zip(solver.conductances())
+        .zip(model.conductances())
         .map(|(throat, &conductance)| if is_open(throat.regions) { conductance } else { 0.0 })
         .collect();
     permeability(&setting.network, Paths { conductance: &conductance, holds }, setting.bounds, drive)
 }
 
 /// Permeability of the whole pore space along an axis in m2; NaN where its sides are closed or the flow cannot be solved.
-pub(crate) fn along(solver: &NetworkSolver, axis: usize) -> f64 {
-    let everywhere = vec![true; solver.setting().network.regions.len()];
-    drive(solver.setting(), axis).and_then(|drive| of_phase(solver, drive, &everywhere).ok()).unwrap_or(f64::NAN)
+pub(crate) fn along(model: &Model, axis: usize) -> f64 {
+    let everywhere = vec![true; model.setting.network.regions.len()];
+    drive(&model.setting, axis).and_then(|drive| of_phase(model, drive, &everywhere).ok()).unwrap_or(f64::NAN)
 }
 
 /// For each region whether the wetting phase held most of it when a share of the pore space was displaced in the last half cycle.
@@ -66,11 +66,11 @@ fn wetting_regions(setting: &Setting, cycles: &Cycles, displaced: f64) -> (Vec<b
 }
 
 /// Relative permeabilities from inlet to outlet along the last half cycle: rows of wetting saturation, wetting and non-wetting phase.
-pub(crate) fn relative(solver: &NetworkSolver, states: &[f64]) -> Vec<[f64; 3]> {
-    let setting = solver.setting();
+pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
+    let setting = &model.setting;
     let drive = setting.inlet.and_then(|inlet| drive(setting, inlet / 2));
-    let (Some(cycles), Some(drive)) = (solver.cycles(), drive) else { return Vec::new() };
-    let whole = along(solver, setting.inlet.unwrap_or_default() / 2);
+    let (Some(cycles), Some(drive)) = (model.cycles.as_ref(), drive) else { return Vec::new() };
+    let whole = along(model, setting.inlet.unwrap_or_default() / 2);
     if !(whole > 0.0) {
         return Vec::new();
     }
@@ -82,7 +82,7 @@ pub(crate) fn relative(solver: &NetworkSolver, states: &[f64]) -> Vec<[f64; 3]> 
         let other: Vec<bool> = wetting.iter().map(|wetting| !wetting).collect();
         // What a phase carries that is not joined from side to side is rounding.
         const ROUNDING: f64 = 1.0e-12;
-        let ratio = |holds: Vec<bool>| of_phase(solver, drive, &holds).unwrap_or(f64::NAN) / whole;
+        let ratio = |holds: Vec<bool>| of_phase(model, drive, &holds).unwrap_or(f64::NAN) / whole;
         let [wetting, other] = [wetting, other].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
         [saturation, wetting, other]
     };
@@ -90,9 +90,9 @@ pub(crate) fn relative(solver: &NetworkSolver, states: &[f64]) -> Vec<[f64; 3]> 
 }
 
 /// `relative_permeability.csv`; none where nothing flows from side to side.
-pub(crate) fn table(solver: &NetworkSolver) -> Option<Table> {
+pub(crate) fn table(model: &Model) -> Option<Table> {
     let states: Vec<f64> = (0..STATES).map(|state| f64::from(state) / f64::from(STATES - 1)).collect();
-    let rows = relative(solver, &states);
+    let rows = relative(model, &states);
     let column = |side: usize| rows.iter().map(move |row| row[side]);
     (!rows.is_empty()).then(|| Table {
         name: "relative_permeability",

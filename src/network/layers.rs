@@ -1,8 +1,8 @@
 //! The network as VTK sees it: pores as points, throats as lines, regions as polygons, menisci as lines.
 
 use super::cycles::{FluidPhase, Invasion};
+use super::model::{Model, Setting};
 use super::occupation::Occupation;
-use super::solver::{NetworkSolver, Setting};
 use super::summary::PoreStates;
 use super::tables::{arms, center, kept, length, middle, pores_of, radius};
 use crate::math::Vec2;
@@ -77,8 +77,8 @@ fn plain_regions(setting: &Setting) -> Layer<'static> {
 }
 
 /// `pores.vtp` and `throats.vtp`.
-pub(crate) fn pores_and_throats(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Vec<Layer<'static>> {
-    let setting = solver.setting();
+pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) -> Vec<Layer<'static>> {
+    let setting = &model.setting;
     let count = setting.pores.main_region.len();
     let centers: Vec<Vec2> = (0..count).map(|pore| center(setting, pore)).collect();
     let mut fields = vec![
@@ -99,12 +99,12 @@ pub(crate) fn pores_and_throats(solver: &NetworkSolver, occupation: Option<&Occu
     }
     let cells = (0..count as u32).map(|pore| vec![pore]).collect();
     let pores = Layer { name: "pores", kind: CellKind::Points, points: centers.into(), cells, fields };
-    vec![pores, throats(solver)]
+    vec![pores, throats(model)]
 }
 
 /// Lines from pore center to pore center by way of the middle of the throat.
-fn throats(solver: &NetworkSolver) -> Layer<'static> {
-    let setting = solver.setting();
+fn throats(model: &Model) -> Layer<'static> {
+    let setting = &model.setting;
     let (points, cells) = joined(kept(setting).map(|throat| {
         let [to_first, to_second] = arms(setting, throat);
         vec![middle(throat) + to_first, middle(throat), middle(throat) + to_second]
@@ -116,7 +116,7 @@ fn throats(solver: &NetworkSolver) -> Layer<'static> {
         scalar("width", "m", kept(setting).map(|throat| throat.width)),
         scalar("length", "m", kept(setting).map(|throat| length(setting, throat))),
     ];
-    if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
+    if let (Some(curvatures), Some(tension)) = (model.entry_curvatures(), setting.tension) {
         let pressures = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]);
         fields.push(scalar("entry-pressure", "Pa", pressures));
     }

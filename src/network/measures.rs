@@ -2,32 +2,32 @@
 
 use super::cycles::{Cycles, FluidPhase};
 use super::flow::{along, drive, relative};
+use super::model::{Model, Setting};
 use super::permeability::Drive;
-use super::solver::{NetworkSolver, Setting};
 use super::tables::kept;
 use super::warnings::notes_on_permeability;
 use crate::solver::Measure;
 
-fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
+pub(super) fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
     Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
 }
 
 /// All measures.
-pub(crate) fn all(solver: &NetworkSolver) -> Vec<Measure> {
-    let setting = solver.setting();
-    let mut found = of_network_with_flow(solver);
-    found.extend(replaced(solver));
-    if let Some(cycles) = solver.cycles() {
+pub(crate) fn all(model: &Model) -> Vec<Measure> {
+    let setting = &model.setting;
+    let mut found = of_network_with_flow(model);
+    found.extend(replaced(model));
+    if let Some(cycles) = &model.cycles {
         found.extend(of_displacement(setting, cycles));
     }
     found
 }
 
 /// The measures that know no displacement.
-pub(crate) fn of_network_with_flow(solver: &NetworkSolver) -> Vec<Measure> {
-    let mut found = of_network(solver.setting());
-    found.extend(permeabilities(solver));
-    found.extend(entry_pressures(solver));
+pub(crate) fn of_network_with_flow(model: &Model) -> Vec<Measure> {
+    let mut found = of_network(&model.setting);
+    found.extend(permeabilities(model));
+    found.extend(entry_pressures(model));
     found
 }
 
@@ -57,8 +57,8 @@ fn of_network(setting: &Setting) -> Vec<Measure> {
     ]
 }
 
-fn permeabilities(solver: &NetworkSolver) -> Vec<Measure> {
-    let setting = solver.setting();
+fn permeabilities(model: &Model) -> Vec<Measure> {
+    let setting = &model.setting;
     let of_axis = |axis: usize, name| {
         let method = match drive(setting, axis) {
             Some(Drive::Periodic(_)) => "flow through all throats under a mean gradient, periodic sides joined",
@@ -66,10 +66,10 @@ fn permeabilities(solver: &NetworkSolver) -> Vec<Measure> {
             None => "both sides along this axis would have to be open or periodic",
         };
         let notes: String = notes_on_permeability(setting, axis).iter().map(|note| format!("; {note}")).collect();
-        measure(name, along(solver, axis), "m2", format!("{method}{notes}"))
+        measure(name, along(model, axis), "m2", format!("{method}{notes}"))
     };
     let mut found = vec![of_axis(0, "permeability-x-m2"), of_axis(1, "permeability-y-m2")];
-    if let [[_, wetting, other]] = relative(solver, &[1.0])[..] {
+    if let [[_, wetting, other]] = relative(model, &[1.0])[..] {
         let method = "permeability of the throats between regions that the phase holds, over that of all, at the end of the last half cycle";
         found.push(measure("relative-permeability-wetting", wetting, "", method));
         found.push(measure("relative-permeability-non-wetting", other, "", method));
@@ -77,9 +77,9 @@ fn permeabilities(solver: &NetworkSolver) -> Vec<Measure> {
     found
 }
 
-fn entry_pressures(solver: &NetworkSolver) -> Vec<Measure> {
-    let setting = solver.setting();
-    let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) else { return Vec::new() };
+fn entry_pressures(model: &Model) -> Vec<Measure> {
+    let setting = &model.setting;
+    let (Some(curvatures), Some(tension)) = (model.entry_curvatures(), setting.tension) else { return Vec::new() };
     let mut pressures: Vec<f64> = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]).collect();
     pressures.sort_by(f64::total_cmp);
     let at = |index: Option<usize>| index.and_then(|index| pressures.get(index)).copied().unwrap_or(f64::NAN);
@@ -93,14 +93,14 @@ fn entry_pressures(solver: &NetworkSolver) -> Vec<Measure> {
 }
 
 /// How many entry pressures were measured, where any are given.
-fn replaced(solver: &NetworkSolver) -> Option<Measure> {
-    let first = solver.cycles().map(|cycles| &cycles.half_cycles()[0].conditions);
-    let conditions = first.or(solver.setting().entry.as_ref()).filter(|conditions| !conditions.measured.is_empty())?;
+fn replaced(model: &Model) -> Option<Measure> {
+    let first = model.cycles.as_ref().map(|cycles| &cycles.half_cycles()[0].conditions);
+    let conditions = first.or(model.setting.entry.as_ref()).filter(|conditions| !conditions.measured.is_empty())?;
     let given = conditions.measured.len();
     let method = format!(
         "throats whose entry pressure is the measured one in the first half cycle, of {given} that are given; the others are of another angle or have none"
     );
-    Some(measure("measured-entry-pressures", solver.measured_throats(conditions) as f64, "", method))
+    Some(measure("measured-entry-pressures", model.measured_throats(conditions) as f64, "", method))
 }
 
 fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {

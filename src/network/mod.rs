@@ -16,6 +16,7 @@ mod flow;
 mod layers;
 mod measures;
 mod merge;
+mod model;
 pub(crate) mod moment;
 mod occupation;
 mod openpnm;

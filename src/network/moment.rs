@@ -1,6 +1,5 @@
 //! A displacement at one moment, kept while the displacement goes on.
 
-use super::cycles::Cycles;
 use super::displacement::Displacement;
 
 /// A displacement at one moment.
@@ -16,17 +15,4 @@ pub struct Moment {
     pub applied: Option<f64>,
     /// Saturation of the wetting phase.
     pub saturation: f64,
-}
-
-impl Cycles {
-    /// The present moment.
-    pub fn moment(&self) -> Moment {
-        Moment {
-            displacement: self.displacement().clone(),
-            half_cycle: self.half_cycle_index(),
-            events: self.outcomes()[self.half_cycle_index()].events,
-            applied: self.applied(),
-            saturation: self.saturation(),
-        }
-    }
 }

@@ -6,9 +6,9 @@
 
 use super::conductance::opening_conductances;
 use super::graph::{Opening, Throat};
-use super::setup::SIDES;
-use super::solver::{NetworkSolver, Setting};
+use super::model::{Model, Setting};
 use super::tables::{center, finite, flags, kept, length, numbers, openings, pores_of, radius, wall_lengths};
+use crate::case::SIDES;
 use crate::math::Vec2;
 use crate::table::{Cells, Column, Table};
 
@@ -64,10 +64,10 @@ fn place(opening: &Opening) -> Vec2 {
 }
 
 /// The table.
-pub(crate) fn table(solver: &NetworkSolver) -> Table {
-    let setting = solver.setting();
+pub(crate) fn table(model: &Model) -> Table {
+    let setting = &model.setting;
     let mut columns = pore_columns(setting);
-    columns.extend(throat_columns(solver));
+    columns.extend(throat_columns(model));
     Table { name: "openpnm", columns }
 }
 
@@ -106,8 +106,8 @@ fn pore_columns(setting: &Setting) -> Vec<Column> {
     columns
 }
 
-fn throat_columns(solver: &NetworkSolver) -> Vec<Column> {
-    let setting = solver.setting();
+fn throat_columns(model: &Model) -> Vec<Column> {
+    let setting = &model.setting;
     let all = connections(setting);
     let column = |name, value: &dyn Fn(&Connection<'_>) -> f64| numbers(name, all.iter().map(value));
     let end = |name, side: usize| Column { name, cells: Cells::Counts(all.iter().map(|it| it.ends[side]).collect()) };
@@ -129,13 +129,13 @@ fn throat_columns(solver: &NetworkSolver) -> Vec<Column> {
         column("throat.wall_1", &|it| it.of_throat(|throat| f64::from(throat.shapes[0]), f64::NAN)),
         column("throat.wall_2", &|it| it.of_throat(|throat| f64::from(throat.shapes[1]), f64::NAN)),
     ];
-    let (conductances, of_openings) = (solver.conductances(), opening_conductances(&setting.network));
+    let (conductances, of_openings) = (model.conductances(), opening_conductances(&setting.network));
     let viscosity = setting.viscosities[0].unwrap_or(1.0);
     columns.push(column("throat.hydraulic_conductance", &|it| match it.link {
         Link::Throat { index, .. } => conductances[index] / viscosity,
         Link::Opening { index, .. } => of_openings[index] / viscosity,
     }));
-    if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
+    if let (Some(curvatures), Some(tension)) = (model.entry_curvatures(), setting.tension) {
         // The meniscus at an opening is that of a reservoir: it has no entry pressure.
         columns.push(column("throat.entry_pressure", &|it| match it.link {
             Link::Throat { index, .. } => tension * curvatures[index],

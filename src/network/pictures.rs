@@ -1,8 +1,8 @@
 //! The capillary pressure curve and the maps of a network, as data.
 
 use super::cycles::{Cycles, FluidPhase};
+use super::model::{Model, Setting};
 use super::occupation::Occupation;
-use super::solver::{NetworkSolver, Setting};
 use super::tables::{kept, radius};
 use crate::diagram::{Area, Axis, Color, Diagram, Mosaic, Stroke, Tone, Trace};
 use crate::math::Vec2;
@@ -18,8 +18,8 @@ const INVADED_BEFORE: Color = [248, 232, 176];
 const TRAPPED: Color = [204, 121, 167];
 
 /// The diagrams of a displacement.
-pub(crate) fn diagrams(solver: &NetworkSolver) -> Vec<Diagram> {
-    solver.cycles().and_then(|cycles| capillary_pressure(solver.setting(), cycles)).into_iter().collect()
+pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
+    model.cycles.as_ref().and_then(|cycles| capillary_pressure(&model.setting, cycles)).into_iter().collect()
 }
 
 /// Capillary pressure over the saturation of the wetting phase, a line for each half cycle: the pressure rises at constant saturation

@@ -10,18 +10,16 @@ use super::displacement::{Beginning, Conditions, Displacement, Element, Events, 
 use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{self, Dynamic, Terms};
 use super::graph::{Network, Pores};
-use super::solver::{NetworkSolver, Setting};
+use super::model::Setting;
+use super::solver::NetworkSolver;
 use super::state;
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
 use crate::case::network::{NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop};
-use crate::case::{Case, PatchedWall, Side};
+use crate::case::{Case, PatchedWall, SIDES, Side};
 use crate::geometry::{Geometry, GeometryError};
 use crate::solver::Solver;
 use crate::wetting::Wetting;
-
-/// Names of the sides in their order.
-pub(super) const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
 
 /// A network that cannot be set up.
 #[derive(Debug, thiserror::Error)]

@@ -2,8 +2,8 @@
 
 use super::cycles::{Cycles, HalfCycle};
 use super::displacement::{Beginning, Element, Phase, Standing};
+use super::model::{Model, Setting};
 use super::moment::Moment;
-use super::solver::{NetworkSolver, Setting};
 use crate::case::FluidPhase;
 use crate::case::network::state::{ElementState, FORMAT, MeniscusState, NetworkState};
 use crate::geometry::curve::Curve;
@@ -13,11 +13,11 @@ const NOTE: &str = "SI units; curvatures above 0 where an interface bulges into 
                     curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
 
 /// The states at the first breakthrough and at the present moment.
-pub(crate) fn documents(solver: &NetworkSolver) -> Vec<Document> {
-    let Some(cycles) = solver.cycles() else { return Vec::new() };
+pub(crate) fn documents(model: &Model) -> Vec<Document> {
+    let Some(cycles) = &model.cycles else { return Vec::new() };
     let breakthrough =
-        cycles.breakthrough().map(|moment| document("at-breakthrough.json", solver.setting(), cycles, moment));
-    let end = document("at-end.json", solver.setting(), cycles, &cycles.moment());
+        cycles.breakthrough().map(|moment| document("at-breakthrough.json", &model.setting, cycles, moment));
+    let end = document("at-end.json", &model.setting, cycles, &cycles.moment());
     breakthrough.into_iter().chain([end]).collect()
 }
 

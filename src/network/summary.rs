@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::cycles::{Cycles, FluidPhase, Invasion};
+use super::model::{Model, Setting};
 use super::occupation::Occupation;
-use super::setup::SIDES;
-use super::solver::{NetworkSolver, Setting};
+use crate::case::SIDES;
 use crate::table::Document;
 
 /// The state of one pore.
@@ -150,8 +150,8 @@ const MERGES: &str = "the network before the merge: regions with their pore, and
                       both radii, and the joined pore keeps the larger one";
 
 /// `network.json`.
-pub(crate) fn network_json(solver: &NetworkSolver) -> Document {
-    let setting = solver.setting();
+pub(crate) fn network_json(model: &Model) -> Document {
+    let setting = &model.setting;
     let (network, pores) = (&setting.network, &setting.pores);
     let description = Description {
         version: env!("CARGO_PKG_VERSION"),
@@ -169,7 +169,7 @@ pub(crate) fn network_json(solver: &NetworkSolver) -> Document {
         porosity: setting.porosity,
         units: "SI; the unit stands at the end of each column of pores.csv and throats.csv",
         definitions: DEFINITIONS,
-        half_cycles: solver.cycles().map_or_else(Vec::new, half_cycles),
+        half_cycles: model.cycles.as_ref().map_or_else(Vec::new, half_cycles),
         merges: Merges {
             note: MERGES,
             region_pore: pores.pore_of.clone(),

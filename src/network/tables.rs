@@ -2,15 +2,15 @@
 
 use super::cycles::{Cycles, Invasion};
 use super::graph::{Opening, Throat};
+use super::model::{Model, Setting};
 use super::occupation::Occupation;
-use super::solver::{NetworkSolver, Setting, nearest};
 use super::summary::{PoreState, PoreStates};
 use crate::math::Vec2;
 use crate::table::{Cells, Column, Table};
 
 /// The tables of pores and throats.
-pub(crate) fn all(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Vec<Table> {
-    vec![pores(solver.setting(), occupation), throats(solver, occupation)]
+pub(crate) fn all(model: &Model, occupation: Option<&Occupation>) -> Vec<Table> {
+    vec![pores(&model.setting, occupation), throats(model, occupation)]
 }
 
 pub(super) fn numbers(name: &'static str, values: impl IntoIterator<Item = f64>) -> Column {
@@ -56,6 +56,15 @@ pub(super) fn middle(throat: &Throat) -> Vec2 {
 /// The throats that were not dissolved.
 pub(super) fn kept(setting: &Setting) -> impl Iterator<Item = &Throat> {
     setting.pores.throats.iter().map(|&throat| &setting.network.throats[throat])
+}
+
+/// The vector `from` to `to`, the shorter way round where the domain is periodic.
+fn nearest(setting: &Setting, from: Vec2, to: Vec2) -> Vec2 {
+    let (mut way, size) = (to - from, setting.bounds.size());
+    for axis in (0..2).filter(|&axis| setting.periodic[axis]) {
+        way[axis] -= size[axis] * (way[axis] / size[axis]).round();
+    }
+    way
 }
 
 /// The way between both pores by way of the middle of their throat: vectors from the middle to both centers.
@@ -132,8 +141,8 @@ fn state_columns(setting: &Setting, states: &[PoreState]) -> [Column; 5] {
     ]
 }
 
-fn throats(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Table {
-    let setting = solver.setting();
+fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
+    let setting = &model.setting;
     let of = |value: fn(&Throat) -> f64| kept(setting).map(value);
     let mut columns = vec![
         counts("throat", 0..setting.pores.throats.len()),
@@ -152,9 +161,9 @@ fn throats(solver: &NetworkSolver, occupation: Option<&Occupation>) -> Table {
         numbers("wall_curvature_1_per_m", of(|throat| finite(throat.curvatures[0]))),
         numbers("wall_curvature_2_per_m", of(|throat| finite(throat.curvatures[1]))),
     ];
-    let conductances = solver.conductances();
+    let conductances = model.conductances();
     columns.push(numbers("conductance_m2", setting.pores.throats.iter().map(|&throat| conductances[throat])));
-    if let (Some(curvatures), Some(tension)) = (solver.entry_curvatures(), setting.tension) {
+    if let (Some(curvatures), Some(tension)) = (model.entry_curvatures(), setting.tension) {
         let pressures = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]);
         columns.push(numbers("entry_pressure_Pa", pressures));
     }

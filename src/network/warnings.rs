@@ -1,9 +1,8 @@
 //! What a reader must know before trusting a network: what its formulas do not cover, and what does not lead through it.
 
 use super::flow::{LEAST_SOLID, drive};
-use super::setup::SIDES;
-use super::solver::Setting;
-use crate::case::Side;
+use super::model::Setting;
+use crate::case::{SIDES, Side};
 
 /// The names of both permeabilities.
 const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];

@@ -99,7 +99,7 @@ impl Subject {
 
     /// The menisci of an event of the first half cycle.
     pub(crate) fn scene(&self, event: &Event) -> Scene {
-        self.fresh.scene(event)
+        self.fresh.scene(event.involved)
     }
 
     /// Area in m² of the elements that an event fills.

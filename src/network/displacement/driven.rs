@@ -1,9 +1,9 @@
 //! A displacement whose events another model times: it asks which menisci there are and what each of them waits for, and tells which
 //! elements are filled.
 
-use super::fronts::Candidate;
+use super::event::{Candidate, EventKind};
 use super::loops::GateId;
-use super::{Displacement, EventKind};
+use super::progress::Displacement;
 use crate::interface::menisci::Passage;
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;

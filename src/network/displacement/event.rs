@@ -1,6 +1,6 @@
-//! The events of a displacement.
+//! What events there are, and which of them comes first.
 
-use super::Involved;
+use crate::interface::menisci::Hand;
 
 /// What let a meniscus go on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -25,19 +25,36 @@ impl EventKind {
     }
 }
 
-/// One event.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Event {
-    /// What happened.
-    pub kind: EventKind,
-    /// The throat through which elements were filled; none for a segment within a region.
-    pub throat: Option<usize>,
-    /// The elements that were filled.
-    pub elements: Vec<usize>,
-    /// Curvature of the meniscus at the event in 1/m.
-    pub curvature: f64,
-    /// The applied curvature in 1/m: the largest so far.
-    pub applied: f64,
-    /// Its menisci.
-    pub involved: Involved,
+/// An event that will come unless another comes before it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Candidate {
+    /// Curvature of the meniscus in 1/m.
+    pub(crate) curvature: f64,
+    /// What will happen.
+    pub(crate) kind: EventKind,
+    /// The gate.
+    pub(crate) gate: usize,
+    /// The end of the gate at which the meniscus enters.
+    pub(crate) to: usize,
+    /// The meniscus to meet, and on which hand.
+    pub(crate) partner: Option<((usize, usize), Hand)>,
+    /// Whether both have met and wait as one.
+    pub(crate) is_joined: bool,
+}
+
+impl Eq for Candidate {}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Candidate {
+    /// The greatest is the one that comes first.
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let number = |it: &Self| (it.gate, it.to, it.partner.map(|(front, hand)| (front, hand == Hand::Right)));
+        let by_number = number(other).cmp(&number(self));
+        other.curvature.total_cmp(&self.curvature).then(by_number)
+    }
 }

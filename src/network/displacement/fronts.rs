@@ -1,39 +1,15 @@
 //! Menisci that wait in gates: their passages, the events that they wait for, and their neighbors along the walls.
 
+use super::event::{Candidate, EventKind};
 use super::loops::Loop;
 use super::mesh::Mesh;
+use super::progress::{Displacement, Front};
 use super::walls::{Sides, gate_walls, is_same};
-use super::{Displacement, EventKind, Events};
+use crate::case::network::Events;
 use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Hand, Passage, Wall, WallPart, overlap};
 use crate::math::Vec2;
 use crate::network::graph::WallPiece;
-
-/// A meniscus that waits in a gate, entering the element on one side of it.
-#[derive(Debug, Clone)]
-pub(super) struct Front {
-    /// Where it can stand.
-    pub(crate) passage: Passage,
-    /// Curvature of its own event in 1/m.
-    pub(crate) own: f64,
-}
-
-/// An event that will come unless another comes before it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Candidate {
-    /// Curvature of the meniscus in 1/m.
-    pub(crate) curvature: f64,
-    /// What will happen.
-    pub(crate) kind: EventKind,
-    /// The gate.
-    pub(crate) gate: usize,
-    /// The end of the gate at which the meniscus enters.
-    pub(crate) to: usize,
-    /// The meniscus to meet, and on which hand.
-    pub(crate) partner: Option<((usize, usize), Hand)>,
-    /// Whether both have met and wait as one.
-    pub(crate) is_joined: bool,
-}
 
 /// What is added to a wall beside a crossing of a loop so that it meets it.
 type SeamOf = fn(&Loop, usize) -> Vec2;
@@ -48,23 +24,6 @@ pub(super) struct Neighbor {
     pub(crate) offset: Vec2,
     /// The elements in between.
     pub(crate) passed: Vec<usize>,
-}
-
-impl Eq for Candidate {}
-
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Candidate {
-    /// The greatest is the one that comes first.
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let number = |it: &Self| (it.gate, it.to, it.partner.map(|(front, hand)| (front, hand == Hand::Right)));
-        let by_number = number(other).cmp(&number(self));
-        other.curvature.total_cmp(&self.curvature).then(by_number)
-    }
 }
 
 impl Displacement {

@@ -2,7 +2,7 @@
 
 use super::driven::FrontId;
 use super::fronts::Neighbor;
-use super::{Displacement, Event};
+use super::progress::Displacement;
 use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Hand, Passage};
 use crate::math::Vec2;
@@ -55,13 +55,13 @@ impl Involved {
 }
 
 impl Displacement {
-    /// The menisci of an event of this displacement.
-    pub(crate) fn scene(&self, event: &Event) -> Scene {
+    /// The menisci of an event of this displacement, with their walls.
+    pub(crate) fn scene(&self, involved: Involved) -> Scene {
         let place = |front: FrontId, offset: Vec2| {
             let (passage, ahead) = self.passage_at(&self.conditions.angle, &self.mesh, front, offset);
             Place { passage, ahead }
         };
-        let Involved { front, met } = event.involved;
+        let Involved { front, met } = involved;
         let one = place(front, Vec2::zeros());
         let Some(met) = met else { return Scene { places: vec![one], has_waited: false } };
         let other = place(met.front, met.offset);

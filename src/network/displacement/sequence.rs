@@ -1,9 +1,26 @@
 //! The order of events: that of the lowest curvature first, events of equal curvature at once.
 
-use super::fronts::Candidate;
+use super::event::{Candidate, EventKind};
 use super::involved::Involved;
 use super::mesh::Mesh;
-use super::{Displacement, Event};
+use super::progress::Displacement;
+
+/// One event.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Event {
+    /// What happened.
+    pub kind: EventKind,
+    /// The throat through which elements were filled; none for a segment within a region.
+    pub throat: Option<usize>,
+    /// The elements that were filled.
+    pub elements: Vec<usize>,
+    /// Curvature of the meniscus at the event in 1/m.
+    pub curvature: f64,
+    /// The applied curvature in 1/m: the largest so far.
+    pub applied: f64,
+    /// Its menisci.
+    pub involved: Involved,
+}
 
 impl Displacement {
     /// The next event that takes place, the elements that it fills and its menisci; none among those of the last curvature where `only_tied`.

@@ -9,10 +9,12 @@
 
 use std::f64::consts::PI;
 
-use super::fronts::{Candidate, Neighbor};
+use super::conditions::Conditions;
+use super::event::{Candidate, EventKind};
+use super::fronts::Neighbor;
 use super::loops::GateId;
+use super::progress::Displacement;
 use super::wall_chains::{Side, WallChains};
-use super::{Conditions, Displacement, EventKind};
 use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Meniscus, Passage};
 use crate::math::{Bounds, Vec2};
@@ -79,8 +81,9 @@ impl Displacement {
             invaded[element] |= beginning.invaded[index];
             held[element] = beginning.held[index];
         }
-        let begun = Self::begun(fresh.mesh, fresh.elements, fresh.centers, conditions, invaded);
-        Self { applied: beginning.applied, held, ..begun }
+        let mut begun = Self::begun(fresh.mesh, fresh.elements, fresh.centers, conditions, invaded);
+        (begun.applied, begun.held) = (beginning.applied, held);
+        begun
     }
 
     /// For each element of the mesh the curvature in 1/m of the menisci around its trapped region: the one at which it was cut off, or the lowest at

@@ -2,7 +2,7 @@
 
 use super::Dynamic;
 use crate::math::Vec2;
-use crate::network::solver::Setting;
+use crate::network::model::Setting;
 
 /// Lines across the flow on which fingers are counted.
 const CUTS: usize = 64;

@@ -1,21 +1,17 @@
 //! The measures, the events and the diagrams of a displacement in time.
 
-use super::solver::DynamicSolver;
+use super::model::DynamicModel;
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::network::cycles::FluidPhase;
-use crate::network::measures::of_network_with_flow;
+use crate::network::measures::{measure, of_network_with_flow};
 use crate::network::tables::{counts, numbers, numbers_of_throats, places, words};
 use crate::solver::{Measure, Series};
 use crate::table::Table;
 
-fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
-    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
-}
-
 /// All measures.
-pub(crate) fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
-    let mut found = of_network_with_flow(&solver.still);
-    let dynamic = &solver.dynamic;
+pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
+    let mut found = of_network_with_flow(&model.still);
+    let dynamic = &model.dynamic;
     let terms = dynamic.terms();
     let breakthrough = dynamic.breakthrough();
     let of = |value: fn(&super::Breakthrough) -> f64| breakthrough.as_ref().map_or(f64::NAN, value);
@@ -26,8 +22,8 @@ pub(crate) fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
     };
     let pressures = dynamic.history().iter().map(|event| event.pressure).filter(|pressure| pressure.is_finite());
     let largest = pressures.fold(f64::NAN, f64::max);
-    let saturation = solver.saturation();
-    let wetting = if solver.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
+    let saturation = model.saturation();
+    let wetting = if model.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
     let trapped: f64 = dynamic
         .trapped()
         .into_iter()
@@ -36,7 +32,7 @@ pub(crate) fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
         .filter(|(_, (trapped, _))| *trapped)
         .map(|(index, (_, element))| element.area * (1.0 - dynamic.share(index)))
         .sum();
-    let fingers = dynamic.fingers(solver.still.setting());
+    let fingers = dynamic.fingers(&model.still.setting);
     let numbers = series.column("capillary_number").filter(|ca| ca.is_finite()).collect::<Vec<_>>();
     let mean = numbers.iter().skip(1).sum::<f64>() / numbers.len().saturating_sub(1) as f64;
     found.extend([
@@ -59,7 +55,7 @@ pub(crate) fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
             "",
             format!("share of the pore space that the invading phase holds, {reached}"),
         ),
-        measure("injected-pore-volumes", solver.injected(), "", "area that passed the inlet over that of the pores"),
+        measure("injected-pore-volumes", model.injected(), "", "area that passed the inlet over that of the pores"),
         measure(
             "final-wetting-saturation",
             wetting,
@@ -115,11 +111,11 @@ pub(crate) fn all(solver: &DynamicSolver, series: &Series) -> Vec<Measure> {
 }
 
 /// `events.csv`.
-pub(crate) fn events(solver: &DynamicSolver) -> Table {
-    let tension = solver.invading.towards_wetting(solver.dynamic.terms().tension);
-    let number_of = numbers_of_throats(solver.still.setting());
-    let history = solver.dynamic.history();
-    let wetting = |invading: f64| if solver.invading == FluidPhase::Wetting { invading } else { 1.0 - invading };
+pub(crate) fn events(model: &DynamicModel) -> Table {
+    let tension = model.invading.towards_wetting(model.dynamic.terms().tension);
+    let number_of = numbers_of_throats(&model.still.setting);
+    let history = model.dynamic.history();
+    let wetting = |invading: f64| if model.invading == FluidPhase::Wetting { invading } else { 1.0 - invading };
     Table {
         name: "events",
         columns: vec![
@@ -135,8 +131,8 @@ pub(crate) fn events(solver: &DynamicSolver) -> Table {
 }
 
 /// Pressure difference and saturation over what was injected.
-pub(crate) fn diagrams(solver: &DynamicSolver) -> Vec<Diagram> {
-    let history = solver.dynamic.history();
+pub(crate) fn diagrams(model: &DynamicModel) -> Vec<Diagram> {
+    let history = model.dynamic.history();
     let points =
         history.iter().filter(|event| event.pressure.is_finite()).map(|event| [event.saturation, event.pressure]);
     let axis = |label| Axis { label, logarithmic: false };

@@ -19,18 +19,18 @@
 //!
 //! Left out: an element that is full stays so (no snap-off, no way back through a throat), films, inertia, the speed's effect on angles.
 
+mod conductors;
 mod events;
 mod fingers;
 mod goals;
 mod graph;
 mod known;
 mod measures;
+mod model;
 mod path;
 mod rise;
 pub(crate) mod solver;
 mod step;
-
-pub use step::StepEnd;
 
 use std::sync::Arc;
 
@@ -133,6 +133,17 @@ struct State {
     /// Lengths in s of the last steps to an event of a meniscus and to an element that is full.
     last_steps: [f64; 2],
     solves: u64,
+}
+
+/// How a step ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepEnd {
+    /// At an event.
+    Event,
+    /// At the time asked for, or at the largest step.
+    Time,
+    /// Nothing can flow: the injected fluid has nowhere to go.
+    Closed,
 }
 
 /// A dynamic displacement.

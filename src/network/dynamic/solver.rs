@@ -3,14 +3,14 @@
 use std::time::Instant;
 
 use super::measures;
+use super::model::DynamicModel;
 use super::{Drive, Dynamic, StepEnd};
 use crate::diagram::Diagram;
 use crate::math::Vec2;
 use crate::network::cycles::FluidPhase;
 use crate::network::displacement::EventKind;
 use crate::network::laplacian::FlowError;
-use crate::network::occupation::Occupation;
-use crate::network::solver::NetworkSolver;
+use crate::network::solver::{NetworkSolver, results_with};
 use crate::network::{layers, summary, warnings};
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
 use crate::solver::{
@@ -30,79 +30,30 @@ pub(crate) struct End {
 
 /// A network with a displacement in time.
 pub(crate) struct DynamicSolver {
-    /// The network, with nothing displaced.
-    pub(crate) still: NetworkSolver,
-    /// The displacement.
-    pub(crate) dynamic: Dynamic,
-    /// The phase that comes in.
-    pub(crate) invading: FluidPhase,
+    model: DynamicModel,
     end: End,
     is_closed: bool,
     steps_before: u64,
-    seconds: f64,
+    /// The times that extraction and displacement took, in s.
+    seconds: [f64; 2],
 }
 
 impl DynamicSolver {
     /// The displacement at its beginning.
     pub(crate) fn new(still: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
-        Self { still, dynamic, invading, end, is_closed: false, steps_before: 0, seconds: 0.0 }
-    }
-
-    /// Pore volumes of the invading phase that have passed the inlet.
-    pub(crate) fn injected(&self) -> f64 {
-        self.dynamic.state.passed[0] / self.dynamic.pore_area
-    }
-
-    /// Share of the pore space that the invading phase holds.
-    pub(crate) fn saturation(&self) -> f64 {
-        self.dynamic.invading_area() / self.dynamic.pore_area
-    }
-
-    /// μ U/σ with the viscosity of the invading phase and the flow into the inlet over the length of its side.
-    pub(crate) fn capillary_number(&self) -> f64 {
-        let (_, inflow) = self.dynamic.drive_now();
-        let terms = self.dynamic.terms();
-        terms.viscosity[0] * inflow / (self.side() * terms.tension)
-    }
-
-    /// Length of the side of the inlet in m.
-    pub(crate) fn side(&self) -> f64 {
-        let setting = self.still.setting();
-        setting.inlet.map_or(f64::NAN, |inlet| setting.bounds.size()[1 - inlet / 2])
-    }
-
-    fn occupation(&self) -> Occupation<'_> {
-        let elements = self.dynamic.displacement().elements();
-        let name = match self.invading {
-            FluidPhase::NonWetting => "drainage",
-            FluidPhase::Wetting => "imbibition",
-        };
-        Occupation {
-            elements,
-            invading: self.invading,
-            share: (0..elements.len()).map(|element| self.dynamic.share(element)).collect(),
-            trapped: self.dynamic.trapped(),
-            invasions: self.dynamic.invasions(),
-            passed: self.dynamic.history().iter().map(|event| event.throat).collect(),
-            menisci: self.dynamic.menisci(),
-            note: format!(
-                "{name} at t = {:.3e} s: {:.3} pore volumes injected, Ca {:.1e}",
-                self.dynamic.time(),
-                self.injected(),
-                self.capillary_number()
-            ),
-        }
+        let NetworkSolver { model: still, seconds, .. } = still;
+        Self { model: DynamicModel { still, dynamic, invading }, end, is_closed: false, steps_before: 0, seconds }
     }
 
     fn count(&self, kind: EventKind) -> f64 {
-        self.dynamic.history().iter().filter(|event| event.kind == kind).count() as f64
+        self.model.dynamic.history().iter().filter(|event| event.kind == kind).count() as f64
     }
 
     fn failed(&self, error: FlowError) -> SolverError {
         SolverError::BlowUp {
             what: error.to_string(),
-            time: self.dynamic.time(),
-            step: self.dynamic.state.steps,
+            time: self.model.dynamic.time(),
+            step: self.model.dynamic.state.steps,
             place: Vec2::zeros(),
         }
     }
@@ -110,31 +61,31 @@ impl DynamicSolver {
 
 impl Solver for DynamicSolver {
     fn time(&self) -> f64 {
-        self.dynamic.time()
+        self.model.dynamic.time()
     }
 
     fn is_done(&self) -> bool {
-        let has_broken_through = self.end.at_breakthrough && self.dynamic.breakthrough().is_some();
+        let has_broken_through = self.end.at_breakthrough && self.model.dynamic.breakthrough().is_some();
         self.is_closed
             || has_broken_through
-            || self.end.at_saturation.is_some_and(|end| self.saturation() >= end)
-            || self.end.at_injected.is_some_and(|end| self.injected() >= end)
+            || self.end.at_saturation.is_some_and(|end| self.model.saturation() >= end)
+            || self.end.at_injected.is_some_and(|end| self.model.injected() >= end)
     }
 
     fn steps(&self) -> u64 {
-        self.dynamic.state.steps
+        self.model.dynamic.state.steps
     }
 
     fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
-        let (clock, before) = (Instant::now(), self.dynamic.time());
+        let (clock, before) = (Instant::now(), self.model.dynamic.time());
         // No further than what is to be injected.
-        let left = self.end.at_injected.map_or(f64::INFINITY, |end| end - self.injected());
-        let until = match self.dynamic.terms().drive {
-            Drive::Rate(rate) if left.is_finite() => until.min(before + left * self.dynamic.pore_area / rate),
+        let left = self.end.at_injected.map_or(f64::INFINITY, |end| end - self.model.injected());
+        let until = match self.model.dynamic.terms().drive {
+            Drive::Rate(rate) if left.is_finite() => until.min(before + left * self.model.dynamic.pore_area / rate),
             _ => until,
         };
-        let ended = self.dynamic.advance(until).map_err(|error| self.failed(error));
-        self.seconds += clock.elapsed().as_secs_f64();
+        let ended = self.model.dynamic.advance(until).map_err(|error| self.failed(error));
+        self.seconds[1] += clock.elapsed().as_secs_f64();
         let ended = ended?;
         self.is_closed = ended == StepEnd::Closed;
         let limit = match ended {
@@ -142,7 +93,7 @@ impl Solver for DynamicSolver {
             StepEnd::Time => "record",
             StepEnd::Closed => "end",
         };
-        Ok(StepInfo { dt: self.dynamic.time() - before, limit })
+        Ok(StepInfo { dt: self.model.dynamic.time() - before, limit })
     }
 
     fn snapshot(&self) -> Snapshot<'_> {
@@ -151,32 +102,32 @@ impl Solver for DynamicSolver {
             step: self.steps(),
             particles: Cloud::default(),
             grid: None,
-            interface: Some(layers::menisci(self.dynamic.menisci())),
+            interface: Some(layers::menisci(self.model.dynamic.menisci())),
         }
     }
 
     fn outline(&self) -> Lines<'_> {
-        self.still.outline()
+        self.model.still.setting.outline.clone()
     }
 
     fn sample(&self) -> Vec<Sample> {
         let sample = |name, value| Sample { name, value };
-        let saturation = self.saturation();
-        let wetting = if self.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
-        let (pressure, inflow) = self.dynamic.drive_now();
-        let fingers = self.dynamic.fingers(self.still.setting());
+        let saturation = self.model.saturation();
+        let wetting = if self.model.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
+        let (pressure, inflow) = self.model.dynamic.drive_now();
+        let fingers = self.model.dynamic.fingers(&self.model.still.setting);
         vec![
             sample("time_s", self.time()),
             sample("step", self.steps() as f64),
-            sample("injected_pore_volumes", self.injected()),
+            sample("injected_pore_volumes", self.model.injected()),
             sample("saturation", wetting),
             sample("pressure_difference_Pa", pressure),
             sample("inflow_m2_per_s", inflow),
-            sample("capillary_number", self.capillary_number()),
-            sample("interface_length_m", self.dynamic.interface_length()),
+            sample("capillary_number", self.model.capillary_number()),
+            sample("interface_length_m", self.model.dynamic.interface_length()),
             sample("finger_width_m", fingers.width),
             sample("fingers", fingers.count),
-            sample("invaded_pores", summary::invaded_pores(self.still.setting(), &self.occupation()) as f64),
+            sample("invaded_pores", summary::invaded_pores(&self.model.still.setting, &self.model.occupation()) as f64),
             sample("bursts", self.count(EventKind::Burst)),
             sample("touches", self.count(EventKind::Touch)),
             sample("overlaps", self.count(EventKind::Overlap)),
@@ -184,11 +135,11 @@ impl Solver for DynamicSolver {
     }
 
     fn measures(&self, series: &Series) -> Vec<Measure> {
-        measures::all(self, series)
+        measures::all(&self.model, series)
     }
 
     fn warnings(&self, _: &Series) -> Vec<String> {
-        let mut found = warnings::warnings(self.still.setting());
+        let mut found = warnings::warnings(&self.model.still.setting);
         if self.is_closed {
             found.push("the injected phase has no way out any more: the displacement ended there".to_owned());
         }
@@ -196,44 +147,42 @@ impl Solver for DynamicSolver {
     }
 
     fn diagrams(&self) -> Vec<Diagram> {
-        measures::diagrams(self)
+        measures::diagrams(&self.model)
     }
 
     fn layers(&self) -> Vec<Layer<'_>> {
-        vec![layers::regions(self.still.setting(), Some(&self.occupation()))]
+        vec![layers::regions(&self.model.still.setting, Some(&self.model.occupation()))]
     }
 
     fn results(&self) -> Results<'_> {
-        let mut results = self.still.results_with(Some(&self.occupation()));
-        results.tables.push(measures::events(self));
+        let mut results = results_with(&self.model.still, Some(&self.model.occupation()));
+        results.tables.push(measures::events(&self.model));
         results
     }
 
     fn state(&self) -> Vec<u8> {
         // Numbers and lists of them can always be encoded.
-        postcard::to_stdvec(&self.dynamic.state).unwrap_or_default()
+        postcard::to_stdvec(&self.model.dynamic.state).unwrap_or_default()
     }
 
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         let state = postcard::from_bytes(state).map_err(|error| StateError(error.to_string()))?;
-        self.dynamic.restore(state).map_err(StateError)?;
-        self.steps_before = self.dynamic.state.steps;
+        self.model.dynamic.restore(state).map_err(StateError)?;
+        self.steps_before = self.model.dynamic.state.steps;
         Ok(())
     }
 
     fn statistics(&self) -> Statistics {
+        let parts = ["network: extraction", "network: displacement"].into_iter().zip(self.seconds);
         Statistics {
-            unknowns: self.still.setting().pores.main_region.len(),
+            unknowns: self.model.still.setting.pores.main_region.len(),
             steps: self.steps() - self.steps_before,
-            parts: vec![
-                PartTime { part: "network: extraction", seconds: self.still.extraction_time() },
-                PartTime { part: "network: displacement", seconds: self.seconds },
-            ],
+            parts: parts.map(|(part, seconds)| PartTime { part, seconds }).collect(),
             counts: vec![
                 ("bursts", self.count(EventKind::Burst)),
                 ("touches", self.count(EventKind::Touch)),
                 ("overlaps", self.count(EventKind::Overlap)),
-                ("network-solves", self.dynamic.state.solves as f64),
+                ("network-solves", self.model.dynamic.state.solves as f64),
             ],
         }
     }

@@ -3,7 +3,7 @@
 use super::goals::{Areas, REACHED};
 use super::graph::{Graph, Link, Way};
 use super::known::{Known, Law};
-use super::{Drive, Dynamic};
+use super::{Drive, Dynamic, StepEnd};
 use crate::network::displacement::FrontId;
 use crate::network::laplacian::{Flow, FlowError};
 
@@ -40,17 +40,6 @@ const ROUNDS: usize = 40;
 const WHOLE: f64 = 1.0 - 1e-6;
 /// Trials of one step.
 const MOST_TRIALS: usize = 60;
-
-/// How a step ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StepEnd {
-    /// At an event.
-    Event,
-    /// At the time asked for, or at the largest step.
-    Time,
-    /// Nothing can flow: the injected fluid has nowhere to go.
-    Closed,
-}
 
 impl Dynamic {
     /// Goes on to the next event, at most to the time `until` in s; does the event.

@@ -17,6 +17,7 @@ mod sides;
 
 pub use error::ExtractError;
 
+use crate::case::SIDES;
 use crate::geometry::Geometry;
 use crate::geometry::critical::CriticalPoints;
 use crate::geometry::critical::walls::{Sides, Walls};
@@ -66,9 +67,6 @@ fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Netwo
         }
     }
 }
-
-/// The names of sides in the order of their numbers.
-const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
 
 #[cfg(test)]
 mod tests {

@@ -1,0 +1,47 @@
+//! What displaces what: angles, open sides, and which events there are.
+
+use crate::case::network::Events;
+
+/// What displaces what.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conditions {
+    /// Contact angle in rad through the defending phase, one for each written shape and then for the walls at the left, right, bottom
+    /// and top side.
+    pub angle: Vec<f64>,
+    /// Sides through which the invading phase comes: left, right, bottom, top.
+    pub inlet: [bool; 4],
+    /// Sides through which the defending phase leaves.
+    pub outlet: [bool; 4],
+    /// Whether a defending element without a way to an outlet stays. Without trapping, films drain it; where no outlet opens, nothing is
+    /// trapped either.
+    pub trapping: bool,
+    /// Which events there are.
+    pub events: Events,
+    /// No event takes place above this curvature in 1/m.
+    pub largest_curvature: f64,
+    /// Bursts that were measured.
+    pub measured: Vec<MeasuredBurst>,
+}
+
+/// A burst that was measured, in place of that of the formula.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredBurst {
+    /// The throat.
+    pub throat: usize,
+    /// Curvature by the formula in 1/m when it was measured: where the formula gives another one, as for another angle, it stays.
+    pub formula: f64,
+    /// Curvature in 1/m as measured.
+    pub curvature: f64,
+}
+
+impl Conditions {
+    /// The curvature in 1/m at which a meniscus bursts through a throat where the formula gives `formula`.
+    pub(crate) fn burst(&self, throat: Option<usize>, formula: f64) -> f64 {
+        /// Relative differences that come from rounding on another machine.
+        const ROUNDING: f64 = 1e-9;
+        let is_same = |one: &&MeasuredBurst| {
+            Some(one.throat) == throat && (one.formula - formula).abs() <= ROUNDING * formula.abs()
+        };
+        self.measured.iter().find(is_same).map_or(formula, |one| one.curvature)
+    }
+}

@@ -1,0 +1,250 @@
+//! A displacement in progress: what each phase holds, where menisci wait, and what follows where an element is filled.
+
+use std::collections::{BinaryHeap, VecDeque};
+use std::sync::Arc;
+
+use super::conditions::Conditions;
+use super::event::Candidate;
+use super::mesh::Mesh;
+use super::outflow::Outflow;
+use super::outline::outline;
+use crate::case::network::Events;
+use crate::geometry::curve::Curve;
+use crate::interface::menisci::Passage;
+use crate::math::Vec2;
+use crate::network::graph::{Network, Pores};
+
+/// The phases of a displacement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// The one that is displaced.
+    Defending,
+    /// The one that comes in.
+    Invading,
+}
+
+/// A part of the pore space between walls and gates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Element {
+    /// The region that it is part of.
+    pub region: usize,
+    /// Area in m².
+    pub area: f64,
+    /// Its boundary in m, arcs as chords, for pictures; the last point is not repeated.
+    pub outline: Vec<Vec2>,
+}
+
+/// A meniscus that waits in a gate, entering the element on one side of it.
+#[derive(Debug, Clone)]
+pub(super) struct Front {
+    /// Where it can stand.
+    pub(crate) passage: Passage,
+    /// Curvature of its own event in 1/m.
+    pub(crate) own: f64,
+}
+
+/// A displacement in progress.
+#[derive(Debug, Clone)]
+pub struct Displacement {
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) elements: Arc<Vec<Element>>,
+    pub(super) centers: Arc<Vec<Vec2>>,
+    pub(super) conditions: Conditions,
+    pub(super) invaded: Vec<bool>,
+    connected: Vec<bool>,
+    outflow: Option<Outflow>,
+    pub(super) trapped: Vec<bool>,
+    /// Applied curvature in 1/m when an element was trapped, or when the half cycle before ended; NaN where there was none.
+    pub(super) held: Vec<f64>,
+    pub(super) fronts: Vec<[Option<Front>; 2]>,
+    pub(super) queue: BinaryHeap<Candidate>,
+    /// Events of the same curvature as the last one that are still to come.
+    pub(super) tied: VecDeque<Candidate>,
+    /// Elements that events of this curvature have filled.
+    filled: Vec<usize>,
+    pub(super) applied: f64,
+    is_outlet: Vec<bool>,
+    has_reached_outlet: bool,
+}
+
+impl Displacement {
+    /// The pore space full of the defending phase, except the elements that are open at an inlet: openings hold nothing back.
+    pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
+        let mesh = match conditions.events {
+            Events::All => Mesh::divided(network),
+            Events::Burst => Mesh::of_pores(network, pores),
+        };
+        let invaded = vec![false; mesh.elements.len()];
+        let centers = Arc::new(network.regions.iter().map(|region| region.center).collect());
+        let element =
+            |k: usize| Element { region: mesh.region_of[k], area: mesh.area[k], outline: outline(&mesh.loops[k]) };
+        let elements = Arc::new((0..mesh.loops.len()).map(element).collect());
+        Self::begun(Arc::new(mesh), elements, centers, conditions, invaded)
+    }
+
+    /// The other phase invades from the state that is left. What it holds and is not connected to an inlet takes no part until it is
+    /// reached, or, without trapping, takes part from the start.
+    pub fn reverse(self, conditions: Conditions) -> Self {
+        let invaded = self.invaded.iter().map(|invaded| !invaded).collect();
+        let conditions = Conditions { events: self.conditions.events, ..conditions };
+        // What bulged into the defending phase is seen from the other side now.
+        let last = if self.applied.is_finite() { -self.applied } else { f64::NAN };
+        let held = self.trapped.iter().zip(&self.held).map(|(&trapped, held)| if trapped { -held } else { last });
+        let held = held.collect();
+        Self { held, ..Self::begun(self.mesh, self.elements, self.centers, conditions, invaded) }
+    }
+
+    pub(super) fn begun(
+        mesh: Arc<Mesh>,
+        elements: Arc<Vec<Element>>,
+        centers: Arc<Vec<Vec2>>,
+        conditions: Conditions,
+        mut invaded: Vec<bool>,
+    ) -> Self {
+        let count = mesh.elements.len();
+        let opens = |sides: [bool; 4]| -> Vec<bool> {
+            mesh.elements.iter().map(|element| (0..4).any(|side| element.open[side] && sides[side])).collect()
+        };
+        let (inlets, outlets) = (opens(conditions.inlet), opens(conditions.outlet));
+        inlets.iter().zip(&mut invaded).for_each(|(&inlet, invaded)| *invaded |= inlet);
+        let defends: Vec<bool> = invaded.iter().map(|invaded| !invaded).collect();
+        let has_outlet = outlets.iter().any(|&outlet| outlet);
+        let outflow = (conditions.trapping && has_outlet).then(|| Outflow::new(&mesh, &defends, &outlets));
+        let trapped = (0..count).map(|e| defends[e] && outflow.as_ref().is_some_and(|o| !o.is_open(e))).collect();
+        let connected: Vec<bool> = if conditions.trapping { vec![false; count] } else { invaded.clone() };
+        let fronts = vec![const { [None, None] }; mesh.gates.len()];
+        let mut begun = Self {
+            mesh: mesh.clone(),
+            elements,
+            centers,
+            conditions,
+            invaded,
+            connected,
+            outflow,
+            trapped,
+            held: vec![f64::NAN; count],
+            fronts,
+            queue: BinaryHeap::new(),
+            tied: VecDeque::new(),
+            filled: Vec::new(),
+            applied: f64::NEG_INFINITY,
+            is_outlet: outlets,
+            has_reached_outlet: false,
+        };
+        if begun.conditions.trapping {
+            (0..count).filter(|&element| inlets[element]).for_each(|element| begun.connect(&mesh, element));
+        } else {
+            let starts: Vec<usize> = (0..count).filter(|&element| begun.invaded[element]).collect();
+            for element in starts {
+                begun.has_reached_outlet |= begun.is_outlet[element];
+                begun.advance_from(&mesh, element);
+            }
+        }
+        begun
+    }
+
+    pub(super) fn fill(&mut self, mesh: &Mesh, elements: &[usize]) {
+        for &element in elements {
+            self.invaded[element] = true;
+            self.stop_fronts_into(mesh, element);
+        }
+        self.filled.extend_from_slice(elements);
+    }
+
+    /// What follows from all that events of one curvature have filled: what is trapped now, and where menisci wait next.
+    pub(super) fn settle(&mut self, mesh: &Mesh) {
+        let elements = std::mem::take(&mut self.filled);
+        for &element in &elements {
+            let lost = self.outflow.as_mut().map(|outflow| outflow.remove(mesh, element)).unwrap_or_default();
+            for lost in lost.into_iter().filter(|&lost| !self.invaded[lost]).collect::<Vec<_>>() {
+                self.trapped[lost] = true;
+                self.held[lost] = self.applied;
+                self.stop_fronts_into(mesh, lost);
+            }
+        }
+        elements.iter().for_each(|&element| self.connect(mesh, element));
+    }
+
+    fn stop_fronts_into(&mut self, mesh: &Mesh, element: usize) {
+        for &(gate, end) in &mesh.elements[element].gates {
+            self.fronts[gate][end] = None;
+        }
+    }
+
+    /// Joins an element of the invading phase to the inlet, with all that is joined to it.
+    fn connect(&mut self, mesh: &Mesh, element: usize) {
+        let mut open = vec![element];
+        while let Some(element) = open.pop() {
+            if std::mem::replace(&mut self.connected[element], true) {
+                continue;
+            }
+            self.has_reached_outlet |= self.is_outlet[element];
+            open.extend(mesh.neighbors(element).filter(|&other| self.invaded[other] && !self.connected[other]));
+            self.advance_from(mesh, element);
+        }
+    }
+
+    /// Lets menisci advance from an element into those beside it that defend and can flow out.
+    fn advance_from(&mut self, mesh: &Mesh, element: usize) {
+        for &(gate, end) in &mesh.elements[element].gates {
+            let (to, target) = (1 - end, mesh.element(gate, 1 - end));
+            if !self.invaded[target] && !self.trapped[target] && self.fronts[gate][to].is_none() {
+                self.advance_through(mesh, gate, to);
+            }
+        }
+    }
+
+    /// Which events there are.
+    pub(crate) fn events(&self) -> Events {
+        self.conditions.events
+    }
+
+    /// The elements; they tile the pore space.
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// The phase that an element holds.
+    pub fn phase(&self, element: usize) -> Phase {
+        if self.invaded[self.mesh.element_of[element]] { Phase::Invading } else { Phase::Defending }
+    }
+
+    /// Whether an element holds the defending phase and cannot let it go.
+    pub fn is_trapped(&self, element: usize) -> bool {
+        self.trapped[self.mesh.element_of[element]]
+    }
+
+    /// Whether the invading phase, joined to the inlet, has come to an outlet.
+    pub fn reached_outlet(&self) -> bool {
+        self.has_reached_outlet
+    }
+
+    /// The menisci at the applied curvature in 1/m, each a polyline in m.
+    pub(crate) fn menisci(&self, applied: f64) -> Vec<Vec<Vec2>> {
+        const POINTS: usize = 17;
+        let fronts = self.fronts.iter().flatten().flatten();
+        fronts.filter_map(|front| front.passage.at(applied.min(front.own))).map(|m| m.points(POINTS)).collect()
+    }
+
+    /// The passage of a meniscus through a throat into its region `to`, 0 or 1, and the walls ahead that it may touch, in the frame of that
+    /// region; none where the throat is no gate.
+    pub fn passage_through(&self, throat: usize, to: usize) -> Option<(Passage, Vec<Curve>)> {
+        let gate = self.mesh.gates.iter().position(|gate| gate.throat == Some(throat))?;
+        Some(self.passage_at(&self.conditions.angle, &self.mesh, (gate, to), Vec2::zeros()))
+    }
+
+    /// Curvature in 1/m at which menisci burst through each throat, the larger one of both directions, under other conditions; NaN for throats that
+    /// are no gates.
+    pub fn entry_curvatures(&self, conditions: &Conditions, throats: usize) -> Vec<f64> {
+        let mut found = vec![f64::NAN; throats];
+        for (gate, throat) in self.mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
+            let burst = |to| {
+                let (passage, _) = self.passage_at(&conditions.angle, &self.mesh, (gate, to), Vec2::zeros());
+                let formula = passage.burst().map_or(f64::NAN, |meniscus| meniscus.curvature);
+                conditions.burst(Some(throat), formula)
+            };
+            found[throat] = burst(0).max(burst(1));
+        }
+        found
+    }
+}

@@ -1,0 +1,146 @@
+//! The conductors of a state: which parts of the pore space share a pressure, and what resists between them.
+
+use std::collections::BTreeMap;
+
+use super::graph::{Graph, Link, Way};
+use super::{Drive, Dynamic};
+use crate::network::conductance::LEAST_RESISTANCE as LEAST;
+use crate::network::displacement::FrontId;
+use crate::math::root;
+use crate::network::laplacian::{Edge, FlowError, Laplacian};
+
+/// The node of a body of invading phase.
+struct BodyNode {
+    node: usize,
+    /// In m² of all throats on the side of the body.
+    conductance: f64,
+    /// Least resistance in 1/m² on the other side.
+    least: f64,
+}
+
+/// Least resistance of a body over that of a throat on the other side.
+const LEAST_BODY: f64 = 1e-2;
+
+impl BodyNode {
+    /// A throat leads into the body: half of its resistance on the side of the body is shared with the others.
+    fn join(&mut self, halves: &mut [f64; 2]) {
+        halves[1] *= 0.5;
+        self.conductance += 1.0 / halves[1];
+        self.least = self.least.min(LEAST_BODY * halves[0]);
+    }
+
+    /// In 1/m².
+    fn resistance(&self) -> f64 {
+        let shared = 1.0 / self.conductance;
+        if self.least.is_finite() { shared.max(self.least) } else { shared }
+    }
+}
+
+impl Dynamic {
+    /// The conductors of the present state.
+    pub(super) fn graph(&self) -> Result<Graph, FlowError> {
+        let elements = self.state.filling.len();
+        // Elements of one region that hold the same phase side by side have one pressure.
+        let mut parent: Vec<usize> = (0..elements).collect();
+        for gate in self.gates.iter().filter(|gate| gate.throat.is_none()) {
+            let [a, b] = gate.elements;
+            if self.is_invaded(a) == self.is_invaded(b) {
+                let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+                parent[a.max(b)] = a.min(b);
+            }
+        }
+        let mut number = vec![usize::MAX; elements];
+        let mut nodes = 0;
+        let node_of: Vec<usize> = (0..elements)
+            .map(|element| {
+                let part = root(&mut parent, element);
+                if number[part] == usize::MAX {
+                    number[part] = nodes;
+                    nodes += 1;
+                }
+                number[part]
+            })
+            .collect();
+        let inlet = matches!(self.terms.drive, Drive::Rate(_)).then_some(nodes);
+        nodes += usize::from(inlet.is_some());
+        let mut bodies = self.bodies(&mut nodes);
+        let mut link_of = vec![None; self.gates.len()];
+        let (mut links, mut edges): (Vec<Link>, Vec<Edge>) = (Vec::new(), Vec::new());
+        for (index, gate) in self.gates.iter().enumerate() {
+            let [a, b] = gate.elements;
+            let halves = self.halves(index);
+            let menisci = &self.state.menisci[index];
+            if let Some(end) = (0..2).find(|&end| menisci[end].is_some()) {
+                let (from, to) = (gate.elements[1 - end], gate.elements[end]);
+                link_of[index] = Some(links.len());
+                let mut halves = [halves[1 - end], halves[end]];
+                let has_burst = menisci[end].is_some_and(|meniscus| meniscus.has_burst);
+                let mut end_node = node_of[to];
+                if let Some(body) = bodies.get_mut(&to).filter(|_| has_burst) {
+                    end_node = body.node;
+                    body.join(&mut halves);
+                }
+                links.push(Link { way: Way::Meniscus((index, end)), elements: [from, to], halves });
+                edges.push(Edge { ends: (node_of[from], Some(end_node)), is_good: has_burst });
+            } else if gate.throat.is_some() && self.is_invaded(a) == self.is_invaded(b) && node_of[a] != node_of[b] {
+                links.push(Link { way: Way::Open, elements: [a, b], halves });
+                edges.push(Edge { ends: (node_of[a], Some(node_of[b])), is_good: true });
+            }
+        }
+        for (&element, body) in &bodies {
+            links.push(Link { way: Way::Body(element), elements: [element; 2], halves: [0.0, body.resistance()] });
+            edges.push(Edge { ends: (body.node, Some(node_of[element])), is_good: false });
+        }
+        for &(opening, element) in &self.openings {
+            let side = self.network.openings[opening].side;
+            let way = match () {
+                () if self.terms.inlet[side] => Way::Inlet,
+                () if self.terms.outlet[side] => Way::Outlet,
+                () => continue,
+            };
+            links.push(Link { way, elements: [element; 2], halves: [self.opening_resistances[opening], 0.0] });
+            let to = if way == Way::Inlet { inlet } else { None };
+            edges.push(Edge { ends: (node_of[element], to), is_good: to.is_some() });
+        }
+        Ok(Graph { laplacian: Laplacian::new(nodes, edges)?, links, nodes, inlet, link_of })
+    }
+
+    /// The bodies of invading phase in elements that are being filled, with nodes of their own.
+    fn bodies(&self, nodes: &mut usize) -> BTreeMap<usize, BodyNode> {
+        // Elements between two menisci that have met around a grain are filled once those ahead of them let the phase in.
+        let enters = |&(gate, end): &FrontId| self.state.menisci[gate][end].is_some_and(|meniscus| meniscus.has_burst);
+        let is_entered = |&e: &usize| {
+            self.state.filling[e].is_some() && !self.is_outlet[e] && self.displacement.gates_of(e).iter().any(enters)
+        };
+        let filling = (0..self.state.filling.len()).filter(is_entered);
+        let mut next = || {
+            *nodes += 1;
+            BodyNode { node: *nodes - 1, conductance: 0.0, least: f64::INFINITY }
+        };
+        filling.map(|element| (element, next())).collect()
+    }
+
+    /// Resistances in 1/m² of both sides of a gate. Across a segment that divides a region a phase flows as through a square of its width.
+    fn halves(&self, gate: usize) -> [f64; 2] {
+        let facts = &self.gates[gate];
+        let width = facts.width;
+        match facts.throat {
+            Some(throat) => {
+                let halves = self.resistances[throat];
+                let missing = (LEAST / (width * width) - halves[0] - halves[1]).max(0.0);
+                halves.map(|half| half + 0.5 * missing)
+            }
+            None => [6.0 / (width * width); 2],
+        }
+    }
+
+    /// Viscosity in Pa s of what an element holds: of one that is being filled, the mean by area.
+    pub(super) fn viscosity(&self, element: usize) -> f64 {
+        let [invading, defending] = self.terms.viscosity;
+        match &self.state.filling[element] {
+            _ if self.is_invaded(element) => invading,
+            Some(_) => defending + self.share(element) * (invading - defending),
+            None => defending,
+        }
+    }
+}

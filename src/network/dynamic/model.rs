@@ -1,0 +1,61 @@
+//! A displacement in time as its writers read it.
+
+use super::Dynamic;
+use crate::network::cycles::FluidPhase;
+use crate::network::model::Model;
+use crate::network::occupation::Occupation;
+
+/// A network and the displacement in it.
+pub(crate) struct DynamicModel {
+    /// The network, with nothing displaced.
+    pub(crate) still: Model,
+    /// The displacement.
+    pub(crate) dynamic: Dynamic,
+    /// The phase that comes in.
+    pub(crate) invading: FluidPhase,
+}
+
+impl DynamicModel {
+    /// Pore volumes of the invading phase that have passed the inlet.
+    pub(crate) fn injected(&self) -> f64 {
+        self.dynamic.state.passed[0] / self.dynamic.pore_area
+    }
+
+    /// Share of the pore space that the invading phase holds.
+    pub(crate) fn saturation(&self) -> f64 {
+        self.dynamic.invading_area() / self.dynamic.pore_area
+    }
+
+    /// μ U/σ with the viscosity of the invading phase and the flow into the inlet over the length of its side.
+    pub(crate) fn capillary_number(&self) -> f64 {
+        let (_, inflow) = self.dynamic.drive_now();
+        let terms = self.dynamic.terms();
+        let setting = &self.still.setting;
+        let side = setting.inlet.map_or(f64::NAN, |inlet| setting.bounds.size()[1 - inlet / 2]);
+        terms.viscosity[0] * inflow / (side * terms.tension)
+    }
+
+    /// The present state.
+    pub(crate) fn occupation(&self) -> Occupation<'_> {
+        let elements = self.dynamic.displacement().elements();
+        let name = match self.invading {
+            FluidPhase::NonWetting => "drainage",
+            FluidPhase::Wetting => "imbibition",
+        };
+        Occupation {
+            elements,
+            invading: self.invading,
+            share: (0..elements.len()).map(|element| self.dynamic.share(element)).collect(),
+            trapped: self.dynamic.trapped(),
+            invasions: self.dynamic.invasions(),
+            passed: self.dynamic.history().iter().map(|event| event.throat).collect(),
+            menisci: self.dynamic.menisci(),
+            note: format!(
+                "{name} at t = {:.3e} s: {:.3} pore volumes injected, Ca {:.1e}",
+                self.dynamic.time(),
+                self.injected(),
+                self.capillary_number()
+            ),
+        }
+    }
+}
