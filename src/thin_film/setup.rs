@@ -5,7 +5,7 @@ use super::cells::{Cells, Layout, Model};
 use super::droplet::{Droplet, particles};
 use super::equilibrium::Equilibrium;
 use super::film::Film;
-use super::grid::{Equation, GridFilm};
+use super::grid_film::{Equation, GridFilm};
 use super::kernel::Kernel;
 use super::ode::{Integrator, Tolerance};
 use super::particles::{ParticleMethod, Pull};
