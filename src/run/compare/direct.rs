@@ -2,11 +2,11 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::pair::{CompareError, Task};
 use super::states::States;
-use super::{CompareError, Grid, Record, Task, Track};
-use crate::case::Case;
-use crate::case::FluidPhase;
+use super::track::{Grid, Record, Track};
 use crate::case::network::state::NetworkState;
+use crate::case::{Case, FluidPhase};
 use crate::io::FileError;
 use crate::math::Vec2;
 use crate::run::execute::{Job, Mode, RunError, case_hash, execute};
