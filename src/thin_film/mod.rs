@@ -17,6 +17,7 @@ mod implicit_particles;
 pub mod kernel;
 mod measures;
 mod model;
+mod observed;
 pub mod ode;
 pub mod particles;
 pub mod profile;
