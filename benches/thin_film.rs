@@ -10,7 +10,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use meniscus::case::film::{FilmIntegrator, FilmWeights, LatticeEnergy};
 use meniscus::thin_film::backward_euler::StepRule;
 use meniscus::thin_film::droplet::{Droplet, particles};
-use meniscus::thin_film::grid::{Equation, GridFilm};
+use meniscus::thin_film::grid_film::{Equation, GridFilm};
 use meniscus::thin_film::kernel::Kernel;
 use meniscus::thin_film::ode::{Implicit, Integrator, Tolerance};
 use meniscus::thin_film::particles::{ParticleMethod, Pull};

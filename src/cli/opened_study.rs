@@ -13,7 +13,8 @@ use crate::study::folder::StudyFolder;
 use crate::study::load::load;
 use crate::study::report::{StudyReport, report};
 use crate::study::results::{RunResult, Standing};
-use crate::study::runs::{PlannedRun, plan};
+use crate::study::run::PlannedRun;
+use crate::study::runs::plan;
 use crate::study::verdict::Verdict;
 
 /// A study with its checked runs and its folder.

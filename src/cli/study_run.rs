@@ -18,7 +18,8 @@ use crate::study::estimate::estimates;
 use crate::study::execute::{self, Ending, ExecuteError};
 use crate::study::folder::Share;
 use crate::study::load::load;
-use crate::study::runs::{PlannedRun, Run, runs};
+use crate::study::run::{PlannedRun, Run};
+use crate::study::runs::runs;
 use crate::study::slurm::{Array, submit};
 
 /// Bytes of a mebibyte.

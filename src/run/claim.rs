@@ -7,7 +7,7 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use super::folder::FolderError;
+use super::folder_error::FolderError;
 use crate::io::{FileError, atomic};
 
 /// The right to work in a folder; it ends when this is dropped.

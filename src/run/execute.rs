@@ -5,7 +5,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use super::claim::Claim;
-use super::folder::{self, FolderError};
+use super::folder;
+use super::folder_error::FolderError;
 use super::numbers::{self, Length};
 use super::processor_time::ProcessorTime;
 use super::report::{self, Machine, Reached, Report, SolverReport, Status, readings, verdicts, wall_time};

@@ -11,6 +11,7 @@ pub(crate) mod compare;
 pub(crate) mod drift;
 pub mod execute;
 pub(crate) mod folder;
+pub(crate) mod folder_error;
 pub(crate) mod memory;
 #[cfg(test)]
 pub(crate) mod mock;

@@ -9,7 +9,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
-use super::runs::Run;
+use super::run::Run;
 
 /// The program, to be started again.
 #[derive(Debug, Clone)]

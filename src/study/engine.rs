@@ -11,7 +11,7 @@ use super::child::Program;
 use super::estimate::{Cores, Estimate};
 use super::folder::StudyFolder;
 use super::results::{Standing, is_complete, standing};
-use super::runs::{PlannedRun, Run};
+use super::run::{PlannedRun, Run};
 use crate::io::{FileError, atomic};
 use crate::run::memory;
 

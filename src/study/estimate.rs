@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::child::Program;
-use super::runs::PlannedRun;
+use super::run::PlannedRun;
 use crate::io::atomic;
 use crate::run::trial::Trial;
 

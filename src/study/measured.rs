@@ -4,7 +4,7 @@
 
 use super::definition::{Choice, Study};
 use super::results::RUN_NUMBERS;
-use super::runs::PlannedRun;
+use super::run::PlannedRun;
 use crate::case::measures::{offer_of_comparison, offers, unmeasured};
 use crate::input::Problem;
 

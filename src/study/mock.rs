@@ -3,7 +3,8 @@
 use super::definition::Study;
 use super::load::load;
 use super::results::{RunReport, RunResult, Standing, Total, Unknowns};
-use super::runs::{Run, runs};
+use super::run::Run;
+use super::runs::runs;
 use crate::run::report::{Motion, Reading, Status};
 
 /// A study of these axes, expectations and curves.

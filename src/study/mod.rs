@@ -1,6 +1,6 @@
 //! Parameter studies: from a study file to many runs, a table, curves and a page.
 //!
-//! [`load`] reads a study file into a [`definition::Study`]; [`runs`] makes its runs and checks their cases; [`estimate`] tells what
+//! [`load`] reads a study file into a [`definition::Study`]; [`runs`] makes its [`run`]s and checks their cases; [`estimate`] tells what
 //! each will take; [`execute`] does one of them, or a [`comparison`] of its case with a network, and [`engine`] all, each in a process of its own, or [`slurm`] hands them to
 //! a cluster; [`results`] reads their reports back, [`convergence`] and [`verdict`] judge them, and [`report`] writes [`table`]s, [`curve`]s and the
 //! [`page`]. Nothing here knows a solver or a model: a study is a matter of case files, folders and reports.
@@ -26,6 +26,7 @@ pub(crate) mod raw;
 pub(crate) mod report;
 pub(crate) mod resolution;
 pub(crate) mod results;
+pub(crate) mod run;
 pub mod runs;
 pub(crate) mod slurm;
 pub(crate) mod table;

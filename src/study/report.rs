@@ -10,7 +10,7 @@ use super::folder::StudyFolder;
 use super::page::{Content, page};
 use super::resolution::Resolution;
 use super::results::{RUN_NUMBERS, RunResult, Standing, measures, moving, results};
-use super::runs::PlannedRun;
+use super::run::PlannedRun;
 use super::table::{self, Table};
 use super::verdict::{Judgment, judgments};
 use crate::input::nearest;

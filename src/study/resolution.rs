@@ -75,7 +75,7 @@ mod tests {
             "[[axis]]\nname = 'angle'\nkey = 'a'\nvalues = [30, 60]\n\
              [[axis]]\nname = 'dx'\nkey = 'sph.spacing'\nvalues = [0.1, 0.4, 0.2]\n",
         );
-        let dx = |run: &super::super::runs::Run| run.value("dx").and_then(Value::as_float).unwrap();
+        let dx = |run: &super::super::run::Run| run.value("dx").and_then(Value::as_float).unwrap();
         let results = complete(&study, |run| {
             if run.value("angle").and_then(Value::as_integer) == Some(30) {
                 30.0 - dx(run)

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::folder::StudyFolder;
-use super::runs::{PlannedRun, Run};
+use super::run::{PlannedRun, Run};
 use crate::io::restart;
 use crate::run::compare::DIRECT_RUN;
 use crate::run::report::{Motion, REPORT, Reading, Status};

@@ -7,7 +7,7 @@ use super::child::Program;
 use super::engine::memory_of;
 use super::estimate::Estimate;
 use super::folder::StudyFolder;
-use super::runs::PlannedRun;
+use super::run::PlannedRun;
 use crate::io::{FileError, atomic};
 
 /// Seconds before a time limit at which a run is asked to save its state.

@@ -332,7 +332,7 @@ impl Grid for Cells {
 #[cfg(test)]
 mod tests {
     use super::super::backward_euler::StepRule;
-    use super::super::grid::{Equation, GridFilm};
+    use super::super::grid_film::{Equation, GridFilm};
     use super::*;
 
     const MODELS: [Model; 4] = [

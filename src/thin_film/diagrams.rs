@@ -3,8 +3,8 @@
 //! axes are powers or ratios.
 
 use super::history::{COX_VOINOV, CoxVoinov};
+use super::observed::ObservedFilm;
 use super::similarity::{EXPONENT, fit, shoot};
-use super::solver::ThinFilmSolver;
 use crate::diagram::{Axis, Diagram, Map, Stroke, Trace};
 
 /// Profiles that are laid over one another.
@@ -18,14 +18,14 @@ const PLACE: &str = "x in m";
 const TIME: &str = "time in s";
 
 /// All diagrams that there is something to show in.
-pub(crate) fn all(solver: &ThinFilmSolver) -> Vec<Diagram> {
+pub(crate) fn all(observed: &ObservedFilm) -> Vec<Diagram> {
     let found = [
-        Some(space_time(solver)),
-        trajectories(solver),
-        Some(contact_line(solver)),
-        similarity(solver),
-        rest(solver),
-        cox_voinov(solver),
+        Some(space_time(observed)),
+        trajectories(observed),
+        Some(contact_line(observed)),
+        similarity(observed),
+        rest(observed),
+        cox_voinov(observed),
     ];
     found.into_iter().flatten().collect()
 }
@@ -43,11 +43,11 @@ fn trace(name: impl Into<String>, stroke: Stroke, points: impl IntoIterator<Item
 }
 
 /// Height over place and time, with the contact line.
-fn space_time(solver: &ThinFilmSolver) -> Diagram {
-    let (scales, history) = (solver.surroundings().scales, solver.history());
+fn space_time(observed: &ObservedFilm) -> Diagram {
+    let (scales, history) = (observed.surroundings.scales, &observed.history);
     let map = Map {
         label: "height in m",
-        x: solver.frame_places().iter().map(|x| x * scales.length).collect(),
+        x: observed.frame_places().iter().map(|x| x * scales.length).collect(),
         y: history.frames.iter().map(|frame| frame.time * scales.time).collect(),
         values: history.frames.iter().flat_map(|frame| frame.heights.iter().map(|h| h * scales.height)).collect(),
     };
@@ -64,15 +64,15 @@ fn tanner(points: &[[f64; 2]], exponent: f64, name: &str) -> Option<Trace> {
     Some(trace(name, Stroke::Dashed, law))
 }
 
-fn trajectories(solver: &ThinFilmSolver) -> Option<Diagram> {
-    let (scales, frames) = (solver.surroundings().scales, &solver.history().frames);
+fn trajectories(observed: &ObservedFilm) -> Option<Diagram> {
+    let (scales, frames) = (observed.surroundings.scales, &observed.history.frames);
     let count = frames.first()?.ways.len();
     let way = |i: usize| {
         frames.iter().filter_map(move |frame| Some([frame.time * scales.time, frame.ways.get(i)? * scales.length]))
     };
     let last: Vec<[f64; 2]> = way(count.checked_sub(1)?).collect();
     let mut traces: Vec<Trace> = (0..count - 1).map(|i| trace("", Stroke::Thin, way(i))).collect();
-    if solver.surroundings().rest.is_none() {
+    if observed.surroundings.rest.is_none() {
         traces.extend(tanner(&last, EXPONENT, "Tanner's law, 1/7"));
     }
     traces.push(trace("last particle", Stroke::Full, last));
@@ -80,11 +80,11 @@ fn trajectories(solver: &ThinFilmSolver) -> Option<Diagram> {
     Some(Diagram { name: "trajectories", title, x: logarithmic(TIME), y: logarithmic(PLACE), map: None, traces })
 }
 
-fn contact_line(solver: &ThinFilmSolver) -> Diagram {
-    let surroundings = solver.surroundings();
+fn contact_line(observed: &ObservedFilm) -> Diagram {
+    let surroundings = &observed.surroundings;
     let scales = surroundings.scales;
     let line: Vec<[f64; 2]> =
-        solver.history().records.iter().map(|r| [r.time * scales.time, r.position * scales.length]).collect();
+        observed.history.records.iter().map(|r| [r.time * scales.time, r.position * scales.length]).collect();
     let mut traces = Vec::new();
     if surroundings.rest.is_none() {
         let (exponent, name) = match surroundings.about_axis {
@@ -103,15 +103,15 @@ fn contact_line(solver: &ThinFilmSolver) -> Diagram {
 }
 
 /// Profiles in the variables that make one of them, and the solution of the equation without regularization.
-fn similarity(solver: &ThinFilmSolver) -> Option<Diagram> {
-    if !solver.surroundings().is_self_similar {
+fn similarity(observed: &ObservedFilm) -> Option<Diagram> {
+    if !observed.surroundings.is_self_similar {
         return None;
     }
-    let (profile, time, foot) = (solver.profile(), solver.film().time(), solver.foot()?);
+    let (profile, time, foot) = (observed.profile(), observed.film.time(), observed.foot()?);
     let shape = fit(&profile, time, foot.position)?;
-    let frames: Vec<_> = solver.history().frames.iter().filter(|frame| frame.time > FORGETTING * time).collect();
+    let frames: Vec<_> = observed.history.frames.iter().filter(|frame| frame.time > FORGETTING * time).collect();
     let step = frames.len().div_ceil(SHAPES).max(1);
-    let places = solver.frame_places();
+    let places = observed.frame_places();
     let mut traces: Vec<Trace> = frames
         .iter()
         .rev()
@@ -119,7 +119,7 @@ fn similarity(solver: &ThinFilmSolver) -> Option<Diagram> {
         .map(|frame| {
             let stretch = frame.time.powf(EXPONENT);
             let points = places.iter().zip(&frame.heights).filter(|(x, _)| **x >= 0.0);
-            let name = format!("{} s", two_digits(frame.time * solver.surroundings().scales.time));
+            let name = format!("{} s", two_digits(frame.time * observed.surroundings.scales.time));
             trace(name, Stroke::Full, points.map(|(x, h)| [x / stretch, h * stretch]))
         })
         .collect();
@@ -136,10 +136,10 @@ fn similarity(solver: &ThinFilmSolver) -> Option<Diagram> {
     Some(Diagram { name: "similarity", title: "Profiles in similarity variables", x, y, map: None, traces })
 }
 
-fn rest(solver: &ThinFilmSolver) -> Option<Diagram> {
-    let surroundings = solver.surroundings();
+fn rest(observed: &ObservedFilm) -> Option<Diagram> {
+    let surroundings = &observed.surroundings;
     let (droplet, scales) = (surroundings.equilibrium?, surroundings.scales);
-    let profile = solver.profile();
+    let profile = observed.profile();
     let found = profile.x.iter().zip(&profile.height).map(|(x, h)| [x * scales.length, h * scales.height]);
     let known = profile.x.iter().map(|x| [x * scales.length, droplet.height(x - surroundings.right) * scales.height]);
     // Lines of some hundred points; a million would make a file that no browser opens.
@@ -152,10 +152,10 @@ fn rest(solver: &ThinFilmSolver) -> Option<Diagram> {
     Some(Diagram { name: "rest", title: "The droplet at rest", x, y, map: None, traces })
 }
 
-fn cox_voinov(solver: &ThinFilmSolver) -> Option<Diagram> {
-    let surroundings = solver.surroundings();
+fn cox_voinov(observed: &ObservedFilm) -> Option<Diagram> {
+    let surroundings = &observed.surroundings;
     let rest = surroundings.rest.filter(|_| surroundings.cap_sides.is_none())?;
-    let (CoxVoinov { factor, length, .. }, points) = solver.history().cox_voinov_points(rest)?;
+    let (CoxVoinov { factor, length, .. }, points) = observed.history.cox_voinov_points(rest)?;
     let across = |[speed, position, _]: &[f64; 3]| COX_VOINOV * speed * (position / length).ln();
     let mut law: Vec<f64> = points.iter().map(across).collect();
     law.sort_by(f64::total_cmp);

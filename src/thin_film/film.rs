@@ -1,7 +1,7 @@
 //! The two methods behind one face: what solver and output need of a film, scaled.
 
 use super::droplet::PointMasses;
-use super::grid::GridFilm;
+use super::grid_film::GridFilm;
 use super::ode::{Integrator, Rates};
 use super::particles::{ParticleMethod, WIDEST_GAP, widest_gap};
 use super::profile::Profile;

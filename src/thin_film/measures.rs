@@ -1,9 +1,9 @@
 //! Final results of a thin film: where its contact line is, how it came there, how far it is from rest and from known laws.
 
 use super::history::{COX_VOINOV, Record, WINDOW};
+use super::observed::ObservedFilm;
 use super::similarity::{COVERED, fit};
-use super::solver::ThinFilmSolver;
-use crate::solver::{Measure, Solver};
+use crate::solver::Measure;
 
 /// Share of the run that the exponents leave out at its beginning, where the droplet still forgets its shape.
 const FORGETTING: f64 = 1.0 / 50.0;
@@ -11,17 +11,17 @@ const FORGETTING: f64 = 1.0 / 50.0;
 const VISIBLE: f64 = 0.1;
 
 /// All measures of a film.
-pub(crate) fn all(solver: &ThinFilmSolver) -> Vec<Measure> {
-    let mut found = contact_line(solver);
-    found.extend(rest(solver));
-    found.extend(laws(solver));
-    found.extend(lattice(solver));
+pub(crate) fn all(observed: &ObservedFilm) -> Vec<Measure> {
+    let mut found = contact_line(observed);
+    found.extend(rest(observed));
+    found.extend(laws(observed));
+    found.extend(lattice(observed));
     found
 }
 
-fn contact_line(solver: &ThinFilmSolver) -> Vec<Measure> {
-    let (scales, film) = (solver.surroundings().scales, solver.film());
-    let foot = solver.foot();
+fn contact_line(observed: &ObservedFilm) -> Vec<Measure> {
+    let (scales, film) = (observed.surroundings.scales, &observed.film);
+    let foot = observed.foot();
     let position = foot.map_or(f64::NAN, |foot| foot.position * scales.length);
     let angle = foot.map_or(f64::NAN, |foot| (foot.slope * scales.slope()).atan().to_degrees());
     let mut found = vec![
@@ -34,35 +34,35 @@ fn contact_line(solver: &ThinFilmSolver) -> Vec<Measure> {
         measure("center-height", film.center_height() * scales.height, "m", "height at x = 0"),
         measure("contact-angle-deg", angle, "deg", "angle of the tangent at the steepest place on the right"),
     ];
-    let droplets = solver.profile().peaks();
+    let droplets = observed.profile().peaks();
     found.push(measure("droplet-count", droplets as f64, "", "maxima of the film above a twentieth of the highest"));
-    let (value, method) = spreading(solver, |record| Some(record.position));
+    let (value, method) = spreading(observed, |record| Some(record.position));
     found.push(measure("contact-line-exponent", value, "", &method));
     if let Some(last) = film.last_particle() {
         found.push(measure("last-particle-position", last * scales.length, "m", "position of the last particle"));
-        let (value, method) = spreading(solver, |record| record.last);
+        let (value, method) = spreading(observed, |record| record.last);
         found.push(measure("last-particle-exponent", value, "", &method));
     }
     found
 }
 
 /// How far a partially wetting film is from rest.
-fn rest(solver: &ThinFilmSolver) -> Vec<Measure> {
-    let surroundings = solver.surroundings();
+fn rest(observed: &ObservedFilm) -> Vec<Measure> {
+    let surroundings = &observed.surroundings;
     let mut found = Vec::new();
     if let Some(rest) = surroundings.rest {
-        let slope = solver.foot().map_or(f64::NAN, |foot| foot.slope / rest);
+        let slope = observed.foot().map_or(f64::NAN, |foot| foot.slope / rest);
         found.push(measure("contact-angle-ratio", slope, "", "slope at the steepest place over the slope at rest"));
     }
     if let Some(sides) = surroundings.cap_sides {
-        let profile = solver.profile();
+        let profile = observed.profile();
         let top = (0..profile.x.len()).max_by(|&i, &j| profile.height[i].total_cmp(&profile.height[j]));
         let cap = top.map_or(f64::NAN, |i| (-2.0 * profile.height[i] * profile.curvature[i] / sides).sqrt());
         let method = "slope at the wall of the parabola through the top of the droplet, over the slope at rest";
         found.push(measure("cap-angle-ratio", cap, "", method));
     }
     if let Some(droplet) = surroundings.equilibrium {
-        let distance = solver.profile().distance_to(|x| droplet.height(x - surroundings.right));
+        let distance = observed.profile().distance_to(|x| droplet.height(x - surroundings.right));
         found.push(measure(
             "equilibrium-l1-error",
             distance / droplet.area,
@@ -74,12 +74,12 @@ fn rest(solver: &ThinFilmSolver) -> Vec<Measure> {
 }
 
 /// Fits of known laws, where they can hold.
-fn laws(solver: &ThinFilmSolver) -> Vec<Measure> {
-    let surroundings = solver.surroundings();
+fn laws(observed: &ObservedFilm) -> Vec<Measure> {
+    let surroundings = &observed.surroundings;
     let scales = surroundings.scales;
     let mut found = Vec::new();
     if surroundings.cap_sides.is_none()
-        && let Some(law) = surroundings.rest.and_then(|rest| solver.history().cox_voinov(rest))
+        && let Some(law) = surroundings.rest.and_then(|rest| observed.history.cox_voinov(rest))
     {
         let [from, to] = [WINDOW.0, WINDOW.1].map(|time| time * scales.time);
         let method = |what: &str| {
@@ -97,10 +97,10 @@ fn laws(solver: &ThinFilmSolver) -> Vec<Measure> {
             &method("rms misfit of the cubed angle over that at rest"),
         ));
     }
-    let time = solver.film().time();
+    let time = observed.film.time();
     if surroundings.is_self_similar
-        && let Some(foot) = solver.foot()
-        && let Some(shape) = fit(&solver.profile(), time, foot.position)
+        && let Some(foot) = observed.foot()
+        && let Some(shape) = fit(&observed.profile(), time, foot.position)
     {
         let method = format!("f''' = eta/(7 f^2) by shooting, fitted over {COVERED} of the way to the contact line");
         found.push(measure("similarity-curvature", shape.curvature, "", &format!("f''(0): {method}")));
@@ -109,8 +109,8 @@ fn laws(solver: &ThinFilmSolver) -> Vec<Measure> {
     found
 }
 
-fn lattice(solver: &ThinFilmSolver) -> Option<Measure> {
-    let share = solver.film().lattice_slope()? / solver.foot().map_or(f64::NAN, |foot| foot.slope);
+fn lattice(observed: &ObservedFilm) -> Option<Measure> {
+    let share = observed.film.lattice_slope()? / observed.foot().map_or(f64::NAN, |foot| foot.slope);
     let method = if share > VISIBLE {
         "slope that the lattice of particles imitates over that of the film; the contact line is held back: take a smaller \
          spacing, or lattice-energy = \"taken-off\""
@@ -121,13 +121,13 @@ fn lattice(solver: &ThinFilmSolver) -> Option<Measure> {
 }
 
 /// The exponent of a length in time, and how it was found.
-fn spreading(solver: &ThinFilmSolver, length: impl Fn(&Record) -> Option<f64>) -> (f64, String) {
-    let start = FORGETTING * solver.film().time();
-    let exponent = solver.history().exponent(start, length).unwrap_or(f64::NAN);
-    let from = start * solver.surroundings().scales.time;
+fn spreading(observed: &ObservedFilm, length: impl Fn(&Record) -> Option<f64>) -> (f64, String) {
+    let start = FORGETTING * observed.film.time();
+    let exponent = observed.history.exponent(start, length).unwrap_or(f64::NAN);
+    let from = start * observed.surroundings.scales.time;
     (
         exponent,
-        format!("least squares in the logarithms of time and position, from {from:.3e} to {:.3e} s", solver.time()),
+        format!("least squares in the logarithms of time and position, from {from:.3e} to {:.3e} s", observed.time),
     )
 }
 

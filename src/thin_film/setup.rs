@@ -5,13 +5,14 @@ use super::cells::{Cells, Layout, Model};
 use super::droplet::{Droplet, particles};
 use super::equilibrium::Equilibrium;
 use super::film::Film;
-use super::grid::{Equation, GridFilm};
+use super::grid_film::{Equation, GridFilm};
 use super::kernel::Kernel;
+use super::observed::Surroundings;
 use super::ode::{Integrator, Tolerance};
 use super::particles::{ParticleMethod, Pull};
 use super::ring::{Line, Ring};
 use super::scales::Scales;
-use super::solver::{Surroundings, ThinFilmSolver};
+use super::solver::ThinFilmSolver;
 use super::sparse::TooLarge;
 use crate::case::Case;
 use crate::case::film::{

@@ -1,6 +1,6 @@
 //! What a reader must know before trusting the measures of a thin film: what its particles, its domain or its equation do to them.
 
-use super::solver::ThinFilmSolver;
+use super::observed::ObservedFilm;
 
 /// Slope of the particle lattice over that of the film from which the contact line of a spreading droplet is a percent short.
 const VISIBLE: f64 = 0.5;
@@ -10,14 +10,14 @@ const AT_REST: f64 = 20.0;
 const OFF: f64 = 0.02;
 
 /// All warnings of a film.
-pub(crate) fn all(solver: &ThinFilmSolver) -> Vec<String> {
-    [covered(solver), apart(solver), lattice(solver), off(solver)].into_iter().flatten().collect()
+pub(crate) fn all(observed: &ObservedFilm) -> Vec<String> {
+    [covered(observed), apart(observed), lattice(observed), off(observed)].into_iter().flatten().collect()
 }
 
 /// A film over the whole domain has no contact line.
-fn covered(solver: &ThinFilmSolver) -> Option<String> {
-    let [left, right] = solver.surroundings().wall;
-    solver.foot().is_none().then(|| {
+fn covered(observed: &ObservedFilm) -> Option<String> {
+    let [left, right] = observed.surroundings.wall;
+    observed.foot().is_none().then(|| {
         format!(
             "the film has no contact line within the domain from {left:e} to {right:e} m: it covers the wall; a wider domain or an earlier end \
              would do"
@@ -26,10 +26,10 @@ fn covered(solver: &ThinFilmSolver) -> Option<String> {
 }
 
 /// A film without attraction to itself joins droplets, and makes none.
-fn apart(solver: &ThinFilmSolver) -> Option<String> {
+fn apart(observed: &ObservedFilm) -> Option<String> {
     // A film that covers the wall is flat but for rounding.
-    solver.foot()?;
-    let (most, found) = (solver.surroundings().most_droplets?, solver.profile().peaks());
+    observed.foot()?;
+    let (most, found) = (observed.surroundings.most_droplets?, observed.profile().peaks());
     (found > most).then(|| {
         format!(
             "the film has {found} maxima, expected at most {most}: it comes apart by its resolution; a smaller spacing, finite differences or a \
@@ -39,17 +39,17 @@ fn apart(solver: &ThinFilmSolver) -> Option<String> {
 }
 
 /// Particles hold the contact line back, in partial wetting by an angle that is known before the run.
-fn lattice(solver: &ThinFilmSolver) -> Option<String> {
-    let slope = solver.film().lattice_slope()?;
-    if solver.surroundings().takes_lattice_off {
+fn lattice(observed: &ObservedFilm) -> Option<String> {
+    let slope = observed.film.lattice_slope()?;
+    if observed.surroundings.takes_lattice_off {
         return Some(
             "the lattice energy was no longer taken off once a gap between particles exceeded half of the smoothing length; a smaller \
              spacing would do"
                 .to_owned(),
         );
     }
-    let share = slope / solver.foot()?.slope;
-    (solver.surroundings().rest.is_none() && share > VISIBLE).then(|| {
+    let share = slope / observed.foot()?.slope;
+    (observed.surroundings.rest.is_none() && share > VISIBLE).then(|| {
         format!(
             "the lattice of particles imitates a slope of {share:.2} of that of the film, expected at most {VISIBLE}: the contact line is held \
              back by percents; a smaller spacing, lattice-energy = \"taken-off\" or finite differences would do"
@@ -58,9 +58,9 @@ fn lattice(solver: &ThinFilmSolver) -> Option<String> {
 }
 
 /// A film that no longer moves and is not the droplet at rest.
-fn off(solver: &ThinFilmSolver) -> Option<String> {
-    let droplet = solver.surroundings().equilibrium.filter(|_| solver.film().time() > AT_REST)?;
-    let distance = solver.profile().distance_to(|x| droplet.height(x - solver.surroundings().right)) / droplet.area;
+fn off(observed: &ObservedFilm) -> Option<String> {
+    let droplet = observed.surroundings.equilibrium.filter(|_| observed.film.time() > AT_REST)?;
+    let distance = observed.profile().distance_to(|x| droplet.height(x - observed.surroundings.right)) / droplet.area;
     (distance > OFF).then(|| {
         format!(
             "the film rests {:.1} % of its area away from the droplet at rest, expected at most {:.0} %: contact line and angle are off by as much",

@@ -5,7 +5,7 @@ use meniscus::thin_film::backward_euler::StepRule;
 use meniscus::thin_film::cells::{Cells, Layout, Model};
 use meniscus::thin_film::droplet::{Droplet, particles};
 use meniscus::thin_film::equilibrium::Equilibrium;
-use meniscus::thin_film::grid::{Equation, GridFilm};
+use meniscus::thin_film::grid_film::{Equation, GridFilm};
 use meniscus::thin_film::kernel::Kernel;
 use meniscus::thin_film::ode::{Integrator, Tolerance};
 use meniscus::thin_film::particles::{ParticleMethod, Pull};

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::graph::{Graph, Link, Way};
 use super::{Drive, Dynamic};
+use crate::math::root;
 use crate::network::conductance::LEAST_RESISTANCE as LEAST;
 use crate::network::displacement::FrontId;
-use crate::math::root;
 use crate::network::laplacian::{Edge, FlowError, Laplacian};
 
 /// The node of a body of invading phase.

@@ -2,15 +2,16 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::pair::{CompareError, Task};
 use super::states::States;
-use super::{CompareError, Grid, Record, Task, Track};
-use crate::case::Case;
-use crate::case::FluidPhase;
+use super::track::{Grid, Record, Track};
 use crate::case::network::state::NetworkState;
+use crate::case::{Case, FluidPhase};
 use crate::io::FileError;
 use crate::math::Vec2;
 use crate::run::execute::{Job, Mode, RunError, case_hash, execute};
-use crate::run::folder::{self, FolderError};
+use crate::run::folder;
+use crate::run::folder_error::FolderError;
 use crate::run::report::{Report, Status};
 use crate::run::setup;
 use crate::run::simulation::{Progress, Watcher};

@@ -3,8 +3,10 @@
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use super::comparison::{Comparison, Side};
 use super::measures::measures;
-use super::{CompareError, Comparison, DIRECT_RUN, Side, Task, compare, write};
+use super::pair::{CompareError, Task};
+use super::{direct, files, side_by_side};
 use crate::run::execute::{Mode, RunError};
 use crate::run::folder;
 use crate::run::numbers::{self, Length, expected_speed};
@@ -37,10 +39,10 @@ pub(crate) fn execute(
     let (clock, processor_time) = (Instant::now(), ProcessorTime::start());
     let _claim = match task.mode {
         Mode::New => folder::create(task.folder),
-        Mode::Resume => folder::take_up(task.folder, &task.folder.join(DIRECT_RUN)),
+        Mode::Resume => folder::take_up(task.folder, &task.folder.join(direct::RUN)),
     }
     .map_err(RunError::from)?;
-    let (found, status, error) = match compare(task, interrupt, watcher) {
+    let (found, status, error) = match side_by_side::compare(task, interrupt, watcher) {
         Ok(found) => (Some(found), Status::Done, None),
         Err(CompareError::Interrupted) => (None, Status::Interrupted, None),
         Err(error @ (CompareError::Solver(_) | CompareError::Failed(_))) => {
@@ -57,7 +59,7 @@ pub(crate) fn execute(
     let of_both = found.as_ref().and_then(|it| Some(it.network.processor_time_s? + it.direct.processor_time_s?));
     report.cpu_s = of_both.or(processor_time.seconds());
     if let Some(found) = &found {
-        write(found, task.folder).map_err(RunError::from)?;
+        files::write(found, task.folder).map_err(RunError::from)?;
     }
     report.write(task.folder).map_err(RunError::from)?;
     Ok(report)

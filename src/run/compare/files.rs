@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::{Comparison, page};
+use super::comparison::Comparison;
+use super::page;
 use crate::io::{FileError, atomic};
 
 /// The page.

@@ -1,6 +1,6 @@
 //! What a comparison tells in numbers, as measures of a run.
 
-use super::{Comparison, Side};
+use super::comparison::{Comparison, Side};
 use crate::solver::Measure;
 
 /// Those of both together, then each of the network and of the direct simulation.

@@ -1,6 +1,7 @@
 //! The network of a comparison, from event to event.
 
-use super::{CompareError, Grid, Record, Track};
+use super::pair::CompareError;
+use super::track::{Grid, Record, Track};
 use crate::case::Side;
 use crate::case::network::state::NetworkState;
 use crate::geometry::curve::Curve;

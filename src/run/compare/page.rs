@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Comparison, Side};
+use super::comparison::{Comparison, Side};
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::io::diagram::{self, DiagramError};
 use crate::io::html::{self, escaped};

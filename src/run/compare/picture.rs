@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::Grid;
+use super::track::Grid;
 
 /// Colors of the solid, of the invading and of the defending phase, as in the pictures of runs.
 const SOLID: &str = "#c4c0b8";

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Grid, Record};
+use super::track::{Grid, Record};
 use crate::io::FileError;
 use crate::io::journal::{Journal, Mark};
 

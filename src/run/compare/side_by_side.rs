@@ -1,0 +1,134 @@
+//! Both displacements side by side: what came out of each, and at equal saturations.
+
+use std::sync::atomic::AtomicBool;
+
+use super::comparison::{AtSaturation, Comparison, Side};
+use super::pair::{CompareError, Pair, Task};
+use super::track::{Grid, Record, Track};
+use super::{direct, network, picture, rank};
+use crate::case::Model;
+use crate::case::network::state::NetworkState;
+use crate::geometry::elements::Elements;
+use crate::network::solver::NetworkSolver;
+use crate::run::setup::{self, SetupError};
+use crate::run::simulation::Watcher;
+
+/// Saturations at which both are drawn.
+const PICTURES: usize = 4;
+
+/// Whether two cases can be compared.
+pub(crate) fn check(pair: &Pair<'_>) -> Result<(), CompareError> {
+    fitting(pair).map(|_| ())
+}
+
+/// Runs both cases and compares them. `interrupt` stops the direct simulation after the present step, which is reported to `watcher`; it can be taken
+/// up. The network is run again: it takes seconds.
+pub(crate) fn compare(
+    task: &Task<'_>,
+    interrupt: &AtomicBool,
+    watcher: &mut dyn Watcher,
+) -> Result<Comparison, CompareError> {
+    let pair = &task.pair;
+    let (mut solver, state) = fitting(pair)?;
+    let boundaries = state.elements.iter().map(|element| NetworkState::curves(&element.boundary)).collect();
+    let elements = Elements::new(boundaries, state.images());
+    let bounds = setup::geometry(pair.network)?.bounds();
+    let grid = Grid::new(bounds, &elements);
+    let by_network = network::track(&mut solver, &grid)?;
+    let by_direct = direct::track(task, (&state, &grid), interrupt, watcher)?;
+    let outlet = network::outlet_elements(&state);
+    Ok(Comparison {
+        titles: [pair.network.title.clone(), pair.direct.title.clone()],
+        network: side(&by_network, &outlet),
+        direct: side(&by_direct, &outlet),
+        ..compared(&by_network, &by_direct, &grid)
+    })
+}
+
+/// The network and its first state, where the direct simulation has the same shapes and sides.
+fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareError> {
+    let Model::Network(wanted) = &pair.network.model else { return Err(CompareError::NoNetwork) };
+    let Model::Sph(sph) = &pair.direct.model else { return Err(CompareError::NoDirect) };
+    if sph.non_wetting.is_none() {
+        return Err(CompareError::NoDirect);
+    }
+    let solver = crate::network::setup::build_still(pair.network, wanted).map_err(SetupError::from)?;
+    let state = network::state(&solver).ok_or(CompareError::NoNetwork)?;
+    if let Some(misfit) = state.misfit(&pair.direct.geometry) {
+        return Err(CompareError::OtherGeometry(misfit));
+    }
+    if let Some((side, misfit)) = state.misfit_of_sides(&sph.sides) {
+        return Err(CompareError::OtherSides { side, misfit });
+    }
+    Ok((solver, state))
+}
+
+fn side(track: &Track, outlet: &[usize]) -> Side {
+    let through = outlet.iter().filter_map(|&element| track.filled[element]).min().filter(|&record| record > 0);
+    let pressures = through.map(|record| track.records[..=record].iter().map(|it| it.pressure));
+    let largest = pressures.map(|pressures| pressures.fold(f64::NAN, f64::max)).filter(|pressure| pressure.is_finite());
+    Side {
+        saturation: track.records.iter().map(|record| record.saturation).collect(),
+        capillary_pressure_pa: track.records.iter().map(|it| Some(it.pressure).filter(|p| p.is_finite())).collect(),
+        breakthrough_pressure_pa: largest,
+        saturation_at_breakthrough: through.map(|record| track.records[record].saturation),
+        permeability_m2: track.permeability,
+        wall_time_s: track.wall_time_s,
+        processor_time_s: track.processor_time_s,
+        unknowns: track.unknowns,
+        steps: track.steps,
+        warnings: track.warnings.clone(),
+    }
+}
+
+/// What is told by both together; the sides are left to be filled in.
+fn compared(network: &Track, direct: &Track, grid: &Grid) -> Comparison {
+    let nearest = |track: &Track, saturation: f64| {
+        let off = |record: &Record| (record.saturation - saturation).abs();
+        (0..track.records.len()).min_by(|&a, &b| off(&track.records[a]).total_cmp(&off(&track.records[b]))).unwrap_or(0)
+    };
+    let overlap = |i: usize, j: usize| rank::overlap(&network.records[i].invaded, &direct.records[j].invaded);
+    let ends = |track: &Track| {
+        let all = || track.records.iter().map(|record| record.saturation);
+        [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
+    };
+    let ([a, b], [c, d]) = (ends(network), ends(direct));
+    let (low, high) = (a.max(c), b.min(d));
+    let has_range = high > low;
+    let targets = (1..=PICTURES).map(|k| high - (high - low) * k as f64 / PICTURES as f64).filter(|_| has_range);
+    let at_equal_saturation = targets
+        .map(|saturation| {
+            // The direct simulation has more states: the one nearest to that of the network.
+            let i = nearest(network, saturation);
+            let j = nearest(direct, network.records[i].saturation);
+            AtSaturation {
+                saturation: [network.records[i].saturation, direct.records[j].saturation],
+                overlap: overlap(i, j),
+                picture: picture::svg(grid, [&network.records[i].invaded, &direct.records[j].invaded]),
+            }
+        })
+        .collect();
+    let both: Vec<[usize; 2]> = network
+        .filled
+        .iter()
+        .zip(&direct.filled)
+        .filter_map(|(one, other)| Some([(*one)?, (*other)?]))
+        .filter(|both| both.iter().all(|&record| record > 0))
+        .collect();
+    let in_range = |record: &&Record| has_range && (low..=high).contains(&record.saturation);
+    let overlaps: Vec<f64> = direct
+        .records
+        .iter()
+        .filter(in_range)
+        .map(|record| rank::overlap(&network.records[nearest(network, record.saturation)].invaded, &record.invaded))
+        .collect();
+    Comparison {
+        titles: Default::default(),
+        network: Side::default(),
+        direct: Side::default(),
+        rank_correlation: rank::correlation(&both),
+        elements_in_both: both.len(),
+        mean_overlap: (!overlaps.is_empty()).then(|| overlaps.iter().sum::<f64>() / overlaps.len() as f64),
+        at_equal_saturation,
+    }
+}

@@ -1,0 +1,138 @@
+//! A run of a study with its parameters, and its case, which is loaded and checked.
+
+use std::path::{Path, PathBuf};
+
+use toml::Value;
+
+use super::base_case;
+use super::comparison::{self, DirectRun, NetworkRun, PlannedNetwork};
+use super::definition::{Assignment, Choice, Quantity, Study};
+use super::values::{number_of, same};
+use crate::case::{Case, Loaded};
+use crate::input::{Document, InputError, Problem};
+use crate::io::checksum::fnv1a;
+
+/// A parameter with its value in a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Name.
+    pub name: String,
+    /// Value.
+    pub value: Value,
+}
+
+/// A run of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Number from 1, in the order of the axes.
+    pub index: usize,
+    /// Name of its folder.
+    pub name: String,
+    /// The base case.
+    pub case: PathBuf,
+    /// Where the base case is named: a key path in the study file.
+    pub case_origin: String,
+    /// The parameters.
+    pub parameters: Vec<Parameter>,
+    /// What differs from the base case.
+    pub assignments: Vec<Assignment>,
+    /// What it is compared with, where it is.
+    pub network: Option<NetworkRun>,
+}
+
+/// A run with its checked case.
+#[derive(Debug, Clone)]
+pub struct PlannedRun {
+    /// The run.
+    pub run: Run,
+    /// The case.
+    pub case: Case,
+    /// The case file with all that was filled in; with that of the network where it is compared with one.
+    pub resolved: String,
+    /// The text of the case file.
+    pub document: Document,
+    /// What it is compared with, where it is.
+    pub network: Option<PlannedNetwork>,
+}
+
+impl PlannedRun {
+    /// Tells whether a run is of this case: the hash of the resolved case.
+    pub fn digest(&self) -> String {
+        format!("{:016x}", fnv1a(self.resolved.as_bytes()))
+    }
+}
+
+impl Run {
+    /// The value of a parameter.
+    pub(crate) fn value(&self, name: &str) -> Option<&Value> {
+        self.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| &parameter.value)
+    }
+
+    /// The number that a quantity is in this run.
+    pub(crate) fn quantity(&self, quantity: &Quantity) -> Option<f64> {
+        match quantity {
+            Quantity::Number(number) => Some(*number),
+            Quantity::Parameter(name) => self.value(name).and_then(number_of),
+        }
+    }
+
+    /// Whether the run is among those chosen.
+    pub(crate) fn is_in(&self, choice: &Choice) -> bool {
+        choice.0.iter().all(|(name, value)| self.value(name).is_some_and(|found| same(found, value)))
+    }
+
+    /// What differs from the base case, as `--set` takes it.
+    pub(crate) fn overrides(&self) -> Vec<String> {
+        base_case::overrides(&self.assignments)
+    }
+
+    /// Loads the case of the run and holds it against its geometry.
+    ///
+    /// # Errors
+    /// All mistakes; those of a value of the study at its place in the study file.
+    pub fn plan(&self, study: &Study) -> Result<PlannedRun, InputError> {
+        self.load(study).map_err(|error| self.placed(study, error))
+    }
+
+    fn load(&self, study: &Study) -> Result<PlannedRun, InputError> {
+        let (loaded, network) = match &self.network {
+            Some(network) => {
+                let direct = DirectRun { case: &self.case, origin: &self.case_origin, assignments: &self.assignments };
+                let (direct, network) = comparison::plan(study, &direct, network)?;
+                (direct, Some(network))
+            }
+            None => (base_case::load(&self.case, &self.assignments)?, None),
+        };
+        let Loaded { case, resolved, document, .. } = loaded;
+        Ok(PlannedRun { run: self.clone(), case, resolved, document, network })
+    }
+
+    /// Moves the mistakes of values that the study sets to their places in the study file.
+    fn placed(&self, study: &Study, error: InputError) -> InputError {
+        let mut mistakes = Vec::new();
+        let of_network = self.network.iter();
+        let assignments = || self.assignments.iter().chain(of_network.clone().flat_map(|network| &network.assignments));
+        let cases = || {
+            let network = of_network.clone().map(|network| (&network.case, comparison::NETWORK_KEY));
+            std::iter::once((&self.case, self.case_origin.as_str())).chain(network)
+        };
+        for mistake in error.mistakes {
+            let set_here = assignments().find(|one| mistake.name == format!("--set {}", one.text));
+            let is_missing = |case: &Path| mistake.place.is_none() && mistake.name == case.display().to_string();
+            let missing_case = cases().find(|(case, _)| is_missing(case));
+            let problem = match set_here {
+                Some(one) => {
+                    let message = format!("{} (in `{}`)", mistake.message, one.text);
+                    Some(Problem::new(&one.origin, message, mistake.help_text()))
+                }
+                None => missing_case.map(|(_, origin)| Problem::new(origin, &mistake.message, mistake.help_text())),
+            };
+            let moved = problem.and_then(|problem| study.refuse(vec![problem]).err());
+            match moved {
+                Some(error) => mistakes.extend(error.mistakes),
+                None => mistakes.push(mistake),
+            }
+        }
+        InputError { mistakes }
+    }
+}

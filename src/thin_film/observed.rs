@@ -1,0 +1,100 @@
+//! A film with all that is needed to observe it: what tables, pictures, measures and warnings are read off.
+
+use super::equilibrium::Equilibrium;
+use super::film::Film;
+use super::history::{Frame, History};
+use super::profile::{Foot, Profile};
+use super::scales::Scales;
+
+/// Points of the output's profile of particles per filter length; the foot is then good to 1e-7 of it.
+const POINTS_PER_FILTER: f64 = 20.0;
+/// Most points of that profile.
+const MOST_POINTS: f64 = 2.0e4;
+
+/// Steps between the places of a frame.
+const FRAME_PLACES: u32 = 240;
+/// Particles whose ways are kept.
+const WAYS: usize = 12;
+
+/// What stands still around the film.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Surroundings {
+    /// Scales.
+    pub(crate) scales: Scales,
+    /// Left and right end of the wall in m.
+    pub(crate) wall: [f64; 2],
+    /// Scaled length that the film varies over at its contact line: the filter length, or the grid's spacing.
+    pub(crate) resolution: f64,
+    /// Scaled middle of the droplet on the right.
+    pub(crate) right: f64,
+    /// Whether the film is the same all around the axis x = 0.
+    pub(crate) about_axis: bool,
+    /// Scaled slope at rest, in partial wetting.
+    pub(crate) rest: Option<f64>,
+    /// For a partially wetting droplet that rests as a parabola: directions that its curvature is the sum of, 1 in the plane
+    /// and 2 about an axis.
+    pub(crate) cap_sides: Option<f64>,
+    /// Whether the case takes the energy of the particle lattice off.
+    pub(crate) takes_lattice_off: bool,
+    /// Droplets at the start of a film that can only join them: a geometric one that does not hang.
+    pub(crate) most_droplets: Option<usize>,
+    /// Whether the droplet comes to a self-similar shape by surface tension.
+    pub(crate) is_self_similar: bool,
+    /// The droplet at rest, where its form is known.
+    pub(crate) equilibrium: Option<Equilibrium>,
+}
+
+/// A film, scaled, and how it came there.
+#[derive(Debug, Clone)]
+pub(crate) struct ObservedFilm {
+    /// The film.
+    pub(crate) film: Film,
+    /// What stands around it.
+    pub(crate) surroundings: Surroundings,
+    /// The way of the contact line.
+    pub(crate) history: History,
+    /// Time in s.
+    pub(crate) time: f64,
+}
+
+impl ObservedFilm {
+    /// The scaled profile over the wall.
+    pub(crate) fn profile(&self) -> Profile {
+        let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
+        let wanted = POINTS_PER_FILTER * (right - left) / self.surroundings.resolution;
+        let count = wanted.ceil().clamp(2.0, MOST_POINTS);
+        let places: Vec<f64> = (0..=count as usize).map(|i| left + (right - left) * i as f64 / count).collect();
+        self.film.profile(&places)
+    }
+
+    /// The scaled contact line on the right; none where its tangent meets the wall outside of the domain, as that of a film that
+    /// covers the whole of it does.
+    pub(crate) fn foot(&self) -> Option<Foot> {
+        let end = self.surroundings.wall[1] / self.surroundings.scales.length;
+        self.profile().foot(self.surroundings.right).filter(|foot| foot.position <= end)
+    }
+
+    /// The scaled places of the heights in frames: equal steps along the wall.
+    pub(crate) fn frame_places(&self) -> Vec<f64> {
+        let [left, right] = self.surroundings.wall.map(|x| x / self.surroundings.scales.length);
+        (0..=FRAME_PLACES).map(|i| left + (right - left) * f64::from(i) / f64::from(FRAME_PLACES)).collect()
+    }
+
+    pub(crate) fn frame(&self) -> Frame {
+        let time = self.film.time();
+        let heights = self.film.heights(&self.frame_places());
+        Frame { time, heights, ways: self.film.ways(WAYS) }
+    }
+
+    /// Column of the film's size, and its unit of scaled mass: an area in the plane, a volume about an axis.
+    pub(crate) fn mass_unit(&self) -> (&'static str, f64) {
+        let s = &self.surroundings.scales;
+        if self.surroundings.about_axis { ("volume_m3", s.area() * s.length) } else { ("area_m2", s.area()) }
+    }
+
+    pub(crate) fn fastest(&self) -> (f64, f64) {
+        let seen = self.film.seen();
+        let pairs = seen.velocity.iter().zip(&seen.x);
+        pairs.map(|(v, x)| (v.abs(), *x)).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a })
+    }
+}
