@@ -62,6 +62,11 @@ pub struct Measure {
     pub moves_with: Option<MovesWith>,
 }
 
+/// A measure without an error bar; its value in `unit`, and in one sentence the `method`.
+pub(crate) fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
+    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
+}
+
 /// The column that a measure moves with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovesWith {

@@ -6,11 +6,7 @@ use super::model::{Model, Setting};
 use super::permeability::Drive;
 use super::tables::kept;
 use super::warnings::notes_on_permeability;
-use crate::solver::Measure;
-
-pub(super) fn measure(name: &str, value: f64, unit: &str, method: impl Into<String>) -> Measure {
-    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
-}
+use crate::solver::{Measure, measure};
 
 /// All measures.
 pub(crate) fn all(model: &Model) -> Vec<Measure> {

@@ -3,7 +3,7 @@
 use super::history::{COX_VOINOV, Record, WINDOW};
 use super::observed::ObservedFilm;
 use super::similarity::{COVERED, fit};
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 
 /// Share of the run that the exponents leave out at its beginning, where the droplet still forgets its shape.
 const FORGETTING: f64 = 1.0 / 50.0;
@@ -129,8 +129,4 @@ fn spreading(observed: &ObservedFilm, length: impl Fn(&Record) -> Option<f64>) -
         exponent,
         format!("least squares in the logarithms of time and position, from {from:.3e} to {:.3e} s", observed.time),
     )
-}
-
-fn measure(name: &str, value: f64, unit: &str, method: &str) -> Measure {
-    Measure { name: name.into(), value, unit: unit.into(), uncertainty: None, method: method.into(), moves_with: None }
 }

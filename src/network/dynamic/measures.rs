@@ -3,9 +3,9 @@
 use super::model::DynamicModel;
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::network::cycles::FluidPhase;
-use crate::network::measures::{measure, of_network_with_flow};
+use crate::network::measures::of_network_with_flow;
 use crate::network::tables::{counts, numbers, numbers_of_throats, places, words};
-use crate::solver::{Measure, Series};
+use crate::solver::{Measure, Series, measure};
 use crate::table::Table;
 
 /// All measures.

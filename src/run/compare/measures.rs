@@ -1,7 +1,7 @@
 //! What a comparison tells in numbers, as measures of a run.
 
 use super::comparison::{Comparison, Side};
-use crate::solver::Measure;
+use crate::solver::{self, Measure};
 
 /// Those of both together, then each of the network and of the direct simulation.
 pub(crate) fn measures(found: &Comparison) -> Vec<Measure> {
@@ -36,14 +36,7 @@ pub(crate) fn measures(found: &Comparison) -> Vec<Measure> {
     ]
 }
 
-/// A measure without uncertainty; what was not measured is NaN.
+/// A measure without an error bar; what was not measured is NaN.
 fn measure(name: &str, value: Option<f64>, unit: &str, method: &str) -> Measure {
-    Measure {
-        name: name.into(),
-        value: value.unwrap_or(f64::NAN),
-        unit: unit.into(),
-        uncertainty: None,
-        method: method.into(),
-        moves_with: None,
-    }
+    solver::measure(name, value.unwrap_or(f64::NAN), unit, method)
 }

@@ -2,7 +2,7 @@
 
 use crate::analysis::phases::PhaseAreas;
 use crate::math::{Bounds, Vec2};
-use crate::solver::{Measure, Series};
+use crate::solver::{self, Measure, Series};
 use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
 use crate::sph::stages::Stages;
@@ -61,5 +61,5 @@ impl Group {
 
 /// A measure: its value and standard `uncertainty` in `unit`, and in one sentence the `method`.
 pub fn measure(name: &str, value: f64, unit: &str, uncertainty: Option<f64>, method: &str) -> Measure {
-    Measure { name: name.into(), value, unit: unit.into(), uncertainty, method: method.into(), moves_with: None }
+    Measure { uncertainty, ..solver::measure(name, value, unit, method) }
 }
