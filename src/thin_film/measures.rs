@@ -88,13 +88,13 @@ fn laws(observed: &ObservedFilm) -> Vec<Measure> {
             )
         };
         let ratio = law.factor / COX_VOINOV;
-        found.push(measure("cox-voinov-ratio", ratio, "", &method("factor of Ca ln(x/d) over 9")));
-        found.push(measure("cox-voinov-length-m", law.length * scales.length, "m", &method("d")));
+        found.push(measure("cox-voinov-ratio", ratio, "", method("factor of Ca ln(x/d) over 9")));
+        found.push(measure("cox-voinov-length-m", law.length * scales.length, "m", method("d")));
         found.push(measure(
             "cox-voinov-error",
             law.error,
             "",
-            &method("rms misfit of the cubed angle over that at rest"),
+            method("rms misfit of the cubed angle over that at rest"),
         ));
     }
     let time = observed.film.time();
@@ -103,8 +103,8 @@ fn laws(observed: &ObservedFilm) -> Vec<Measure> {
         && let Some(shape) = fit(&observed.profile(), time, foot.position)
     {
         let method = format!("f''' = eta/(7 f^2) by shooting, fitted over {COVERED} of the way to the contact line");
-        found.push(measure("similarity-curvature", shape.curvature, "", &format!("f''(0): {method}")));
-        found.push(measure("similarity-error", shape.error, "", &format!("largest misfit over f(0): {method}")));
+        found.push(measure("similarity-curvature", shape.curvature, "", format!("f''(0): {method}")));
+        found.push(measure("similarity-error", shape.error, "", format!("largest misfit over f(0): {method}")));
     }
     found
 }
