@@ -143,7 +143,7 @@ pub fn offer_of_comparison() -> Offer {
 
 /// The measures of every direct simulation and those of its walls, tension and wetting.
 fn of_flow(sph: &Sph, has_shapes: bool) -> [Offer; 4] {
-    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let sides = sph.sides.each();
     let has_walls = has_shapes || sides.contains(&Side::Wall);
     // An interface that is frozen has neither angle nor tension.
     let is_frozen = sph.measure.relative_permeability;
@@ -161,7 +161,7 @@ fn of_flow(sph: &Sph, has_shapes: bool) -> [Offer; 4] {
 
 /// The measures of what passes through the sides.
 fn of_open_sides(sph: &Sph) -> [Offer; 5] {
-    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let sides = sph.sides.each();
     let open = || sides.iter().zip(&sph.open).filter_map(|(side, open)| Some((*side, (*open)?)));
     let is_given = open().any(|(_, open)| !matches!(open.drive, Drive::Pressure(_)));
     let has_steps = open().any(|(_, open)| open.pressure_steps.is_some());

@@ -86,7 +86,7 @@ pub(super) fn open(
     two_phases: bool,
 ) -> Option<[Option<Open>; 4]> {
     let before = checker.problems.len();
-    let kinds = [sides.left, sides.right, sides.bottom, sides.top];
+    let kinds = sides.each();
     let tables = [tables.left, tables.right, tables.bottom, tables.top];
     let mut open = [None; 4];
     for (i, table) in tables.iter().enumerate() {

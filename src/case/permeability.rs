@@ -31,7 +31,7 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
     if no_side_is_driven(checker, sph) {
         force(checker, sph);
     }
-    let has_walls = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top].contains(&Side::Wall);
+    let has_walls = sph.sides.each().contains(&Side::Wall);
     if geometry.is_some_and(|geometry| geometry.shapes.is_empty()) && !has_walls {
         checker.refuse(
             "sph.measure.permeability",
@@ -43,7 +43,7 @@ pub(super) fn permeability(checker: &mut Checker, model: Option<&Model>, geometr
 
 /// Whether no side is open, driven or moving; refuses those that are.
 pub(super) fn no_side_is_driven(checker: &mut Checker, sph: &Sph) -> bool {
-    let kinds = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let kinds = sph.sides.each();
     let before = checker.problems.len();
     for (i, side) in SIDES.iter().enumerate() {
         let is_driven = sph.open[i].is_some() || matches!(kinds[i], Side::Inlet | Side::Outlet);

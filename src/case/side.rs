@@ -57,3 +57,10 @@ pub struct Sides {
     /// y = max.
     pub top: Side,
 }
+
+impl Sides {
+    /// The sides in the order of their numbers.
+    pub(crate) fn each(&self) -> [Side; 4] {
+        [self.left, self.right, self.bottom, self.top]
+    }
+}

@@ -197,7 +197,7 @@ fn patched_wall(
         }
         (None, Some(side)) => {
             let (number, name) = (side.number(), SIDES[side.number()]);
-            let kind = sides.map(|sides| [sides.left, sides.right, sides.bottom, sides.top][number]);
+            let kind = sides.map(|sides| sides.each()[number]);
             if kind.is_some_and(|kind| kind != Side::Wall) {
                 checker.refuse(
                     format!("{at}.side"),

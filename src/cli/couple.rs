@@ -140,7 +140,7 @@ fn inlet_pressure(direct: &Source, inlet: usize, difference: f64) -> Result<Stri
         let help = "add [sph.initial] network = \"at-end.json\"; `couple` sets the file";
         return Err(direct.refused_at("sph.initial", message, help));
     }
-    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let sides = sph.sides.each();
     let pressure = |side: usize| match sph.open[side].map(|open| open.drive) {
         Some(Drive::Pressure(pressure)) => Some(pressure),
         _ => None,

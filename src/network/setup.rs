@@ -86,7 +86,7 @@ impl SetupError {
 }
 
 fn kinds(network: &PoreNetwork) -> [Side; 4] {
-    [network.sides.left, network.sides.right, network.sides.bottom, network.sides.top]
+    network.sides.each()
 }
 
 /// The solids of a case as its network sees them: periodic sides joined, wall sides closed.

@@ -130,7 +130,7 @@ fn sides(case: &Case) -> Option<(Geometry, [bool; 4])> {
         Model::Network(network) => network.sides,
         Model::ThinFilm(_) => return None,
     };
-    let kinds = [sides.left, sides.right, sides.bottom, sides.top];
+    let kinds = sides.each();
     let open = kinds.map(|side| matches!(side, Side::Inlet | Side::Outlet));
     Some((setup::geometry(case).ok()?, open))
 }

@@ -210,7 +210,7 @@ fn static_model(checker: &mut Checker, model: Wetting) -> Option<Wetting> {
 
 /// The network as a table.
 pub(in crate::case) fn raw(network: &PoreNetwork) -> RawNetwork {
-    let sides = [network.sides.left, network.sides.right, network.sides.bottom, network.sides.top];
+    let sides = network.sides.each();
     let with = |kind| sides.iter().zip(SideName::ALL).find(|(side, _)| **side == kind).map(|(_, name)| name);
     let [left, right, bottom, top] = sides.map(|side| match side {
         Side::Periodic => Some(RawNetworkSide::Periodic),

@@ -212,7 +212,7 @@ impl NetworkState {
     /// What of these sides does not go with those of the state: the first such side and why.
     pub(crate) fn misfit_of_sides(&self, sides: &Sides) -> Option<(&'static str, String)> {
         const NAMES: [&str; 4] = ["left", "right", "bottom", "top"];
-        let given = [sides.left, sides.right, sides.bottom, sides.top];
+        let given = sides.each();
         let fits = |state: Side, side: Side| match state {
             Side::Periodic => side == Side::Periodic,
             Side::Wall => side == Side::Wall,

@@ -32,7 +32,7 @@ impl Ground {
     /// The same where the periods are known to be long enough.
     pub(super) fn of(geometry: &Geometry, sph: &Sph) -> Self {
         let bounds = geometry.bounds();
-        let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+        let sides = sph.sides.each();
         let lattice = Lattice::fitting(bounds, sph.spacing);
         let method = method(sph, &lattice);
         Self { lattice, method, domain: Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides)) }

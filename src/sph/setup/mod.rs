@@ -41,7 +41,7 @@ use crate::sph::solver::SphSolver;
 /// # Errors
 /// [`SetupError::Geometry`] with what is wrong with the shapes.
 pub(crate) fn geometry(case: &Case, sph: &Sph) -> Result<Geometry, SetupError> {
-    let sides = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let sides = sph.sides.each();
     let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
     let walls = sides.map(|side| side == Side::Wall);
     Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
@@ -102,7 +102,7 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
         bounds,
         step: lattice.step,
         support: method.kernel.support(),
-        walls: [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top].map(|side| side == Side::Wall),
+        walls: sph.sides.each().map(|side| side == Side::Wall),
         signed_distance: &|x| geometry.signed_distance(inside(x)),
         phase: &phase,
     };
@@ -148,7 +148,7 @@ fn filled(
         domain: &ground.domain,
         lattice: &ground.lattice,
         method: &ground.method,
-        sides: [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top],
+        sides: sph.sides.each(),
         fitted_walls: sph.numerics.fitted_walls,
     };
     let places = places(&filling, interface, packed);

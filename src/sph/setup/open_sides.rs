@@ -20,7 +20,7 @@ pub(super) fn open_sides(
     phase: &dyn Fn(Vec2) -> Phase,
 ) -> Result<Open, SetupError> {
     let bounds = geometry.bounds();
-    let kinds = [sph.sides.left, sph.sides.right, sph.sides.bottom, sph.sides.top];
+    let kinds = sph.sides.each();
     let mut open = Open::default();
     for (number, given) in sph.open.iter().enumerate() {
         let Some(given) = given else { continue };
