@@ -107,10 +107,8 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     checker.format(raw.format);
     let mut sources: Vec<PathBuf> = origin.path().map(Path::to_path_buf).into_iter().collect();
     let mut elsewhere = Vec::new();
-    let geometry = match &raw.geometry {
-        None => None,
-        Some(geometry) => read_geometry(&mut checker, geometry, origin, &mut sources, &mut elsewhere),
-    };
+    let geometry = raw.geometry.as_ref();
+    let geometry = geometry.and_then(|raw| read_geometry(&mut checker, raw, origin, &mut sources, &mut elsewhere));
     let (geometry, mut notes) = geometry.map_or((None, Vec::new()), |read| (Some(read.spec), read.notes));
     notes.extend(document.notes_on_renamed());
     let geometry = geometry.and_then(|spec| {
