@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::{Source, heads_behind, is_word, sources};
 
 /// For each node those that it imports outside of its tests.
-type Imports = BTreeMap<String, BTreeSet<String>>;
+pub type Imports = BTreeMap<String, BTreeSet<String>>;
 
 /// The folders of the source, from the paths of their files.
 fn folders(sources: &[Source]) -> BTreeSet<&str> {
@@ -23,7 +23,7 @@ fn heads_above(code: &str, n: usize) -> Vec<String> {
 }
 
 /// The imports between the files and subfolders of a folder.
-fn imports_within(folder: &str, sources: &[Source]) -> Imports {
+pub fn imports_within(folder: &str, sources: &[Source]) -> Imports {
     let inside: Vec<(&Source, &str)> = sources
         .iter()
         .filter(|source| !source.is_of_tests())

@@ -246,19 +246,28 @@ fn imports_of_modules() -> picture::Imports {
     found
 }
 
-/// `MENISCUS_BLESS=1 cargo test --release --test layers` draws it anew.
+/// `MENISCUS_BLESS=1 cargo test --release --test layers` draws them anew.
 #[test]
-fn the_picture_of_the_structure_is_that_of_the_source() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/figures/structure.svg");
-    let drawn = picture::svg(&imports_of_modules());
-    if std::env::var_os("MENISCUS_BLESS").is_some() {
-        std::fs::write(&file, &drawn).unwrap();
+fn the_pictures_of_the_structure_are_those_of_the_source() {
+    let sources = sources();
+    let inside = ["sph", "network", "thin_film", "geometry"].map(|folder| {
+        let mut imports = circles::imports_within(folder, &sources);
+        imports.remove("mod");
+        imports.values_mut().for_each(|imported| imported.retain(|import| import != "mod"));
+        (format!("structure-{folder}.svg"), picture::svg(&imports, false))
+    });
+    let whole = ("structure.svg".to_owned(), picture::svg(&imports_of_modules(), true));
+    for (name, drawn) in inside.into_iter().chain([whole]) {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/figures").join(&name);
+        if std::env::var_os("MENISCUS_BLESS").is_some() {
+            std::fs::write(&file, &drawn).unwrap();
+        }
+        let shown = std::fs::read_to_string(&file).unwrap_or_default();
+        assert!(
+            shown == drawn,
+            "docs/figures/{name} is not of this source: MENISCUS_BLESS=1 cargo test --release --test layers"
+        );
     }
-    let shown = std::fs::read_to_string(&file).unwrap_or_default();
-    assert!(
-        shown == drawn,
-        "docs/figures/structure.svg is not of this source: MENISCUS_BLESS=1 cargo test --release --test layers"
-    );
 }
 
 #[test]

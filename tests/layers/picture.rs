@@ -1,4 +1,4 @@
-//! The modules of the crate as a picture: a module lies above all that it imports, an arrow leads to what it imports and no other
+//! The modules of the crate, or the files and folders of one of its folders, as a picture: a module lies above all that it imports, an arrow leads to what it imports and no other
 //! module on the way imports for it.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -7,9 +7,12 @@ use std::fmt::Write;
 /// Each module with those that it imports.
 pub type Imports = BTreeMap<String, BTreeSet<String>>;
 
-/// Size of a box, and of the grid that boxes stand on, in px.
-const BOX: [f64; 2] = [104.0, 32.0];
-const GRID: [f64; 2] = [128.0, 76.0];
+/// Height of a box and of the rows that boxes stand in, gap between boxes of a row, width of a letter and of what is beside a name, in px.
+const BOX: f64 = 32.0;
+const ROW: f64 = 76.0;
+const GAP: f64 = 24.0;
+const LETTER: f64 = 8.0;
+const RIM: f64 = 16.0;
 
 /// Modules between which the data passes and those around them, by their colors.
 const COLORS: [(&str, &[&str]); 4] = [
@@ -45,12 +48,15 @@ fn rows(imports: &Imports) -> Vec<Vec<String>> {
     rows
 }
 
-/// The picture as SVG.
-pub fn svg(imports: &Imports) -> String {
+/// The picture as SVG, in the colors of the modules of the crate or in one.
+pub fn svg(imports: &Imports, is_crate: bool) -> String {
     let mut rows = rows(imports);
     rows.reverse();
+    let longest = imports.keys().map(String::len).max().unwrap_or(0) as f64;
+    let wide = LETTER * longest + RIM;
+    let column = wide + GAP;
     let widest = rows.iter().map(Vec::len).max().unwrap_or(0) as f64;
-    let [width, height] = [widest * GRID[0], rows.len() as f64 * GRID[1]];
+    let [width, height] = [widest * column, rows.len() as f64 * ROW];
     let is_direct =
         |from: &str, to: &str| !imports[from].iter().any(|by| by != to && reached(imports, by).contains(to));
     let arrows: Vec<(&String, &String)> = imports
@@ -67,9 +73,9 @@ pub fn svg(imports: &Imports) -> String {
         };
         let mut ordered: Vec<(f64, String)> = row.iter().map(|module| (wanted(module), module.clone())).collect();
         ordered.sort_by(|a, b| a.partial_cmp(b).expect("places are numbers"));
-        let first = (width - (row.len() - 1) as f64 * GRID[0]) / 2.0;
+        let first = (width - (row.len() - 1) as f64 * column) / 2.0;
         for (i, (_, module)) in ordered.into_iter().enumerate() {
-            place.insert(module, [first + i as f64 * GRID[0], (number as f64 + 0.5) * GRID[1]]);
+            place.insert(module, [first + i as f64 * column, (number as f64 + 0.5) * ROW]);
         }
     }
     let mut svg = format!(
@@ -81,7 +87,7 @@ pub fn svg(imports: &Imports) -> String {
     // Writing to a string cannot fail.
     for (from, to) in &arrows {
         let ([x0, y0], [x1, y1]) = (place[*from], place[*to]);
-        let (begin, end) = (y0 + BOX[1] / 2.0, y1 - BOX[1] / 2.0);
+        let (begin, end) = (y0 + BOX / 2.0, y1 - BOX / 2.0);
         let bend = (end - begin) / 2.0;
         let _ = writeln!(
             svg,
@@ -91,14 +97,15 @@ pub fn svg(imports: &Imports) -> String {
         );
     }
     for (module, [x, y]) in &place {
-        let color = COLORS.iter().find(|(_, modules)| modules.contains(&module.as_str())).map_or("#fff", |it| it.0);
+        let is_in = |(_, modules): &&(&str, &[&str])| is_crate && modules.contains(&module.as_str());
+        let color = COLORS.iter().find(is_in).map_or("#f4f4f4", |it| it.0);
         let _ = writeln!(
             svg,
             "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"5\" fill=\"{color}\" stroke=\"#555\"/><text x=\"{x}\" y=\"{}\">{module}</text>",
-            x - BOX[0] / 2.0,
-            y - BOX[1] / 2.0,
-            BOX[0],
-            BOX[1],
+            x - wide / 2.0,
+            y - BOX / 2.0,
+            wide,
+            BOX,
             y + 5.0
         );
     }
