@@ -62,6 +62,7 @@ fn quick(arguments: &NetworkArguments, geometry: GeometrySpec) -> Result<Source,
         let lines: Vec<String> = problems
             .iter()
             .map(|problem| format!("{}: {}; {}", option(&problem.path), problem.message, problem.help))
+            .map(|line| line.trim_end_matches("; ").to_owned())
             .collect();
         Failure::new(BAD_INPUT, &lines.join("\n"))
     })?;
