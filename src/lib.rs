@@ -73,57 +73,44 @@
 #![warn(unreachable_pub)]
 #![allow(rustdoc::private_intra_doc_links, reason = "comments are for readers of the source too")]
 
+#[doc(hidden)]
+pub mod analysis;
+#[doc(hidden)]
+pub mod benchmarks;
+#[doc(hidden)]
+pub mod case;
+#[doc(hidden)]
+pub mod cli;
 pub(crate) mod diagram;
 #[doc(hidden)]
+pub mod geometry;
+#[doc(hidden)]
+pub mod input;
+#[doc(hidden)]
+pub mod interface;
+#[doc(hidden)]
+pub mod io;
+#[doc(hidden)]
 pub mod math;
+#[doc(hidden)]
+pub mod network;
+#[doc(hidden)]
+pub mod run;
 #[doc(hidden)]
 pub mod snapshot;
 #[doc(hidden)]
 pub mod solver;
-pub(crate) mod table;
-
-#[doc(hidden)]
-pub mod input;
-
-#[doc(hidden)]
-pub mod geometry;
-
-#[doc(hidden)]
-pub mod interface;
-
-#[doc(hidden)]
-pub mod analysis;
-
-#[doc(hidden)]
-pub mod wetting;
-
-#[doc(hidden)]
-pub mod case;
-
-#[doc(hidden)]
-pub mod network;
 #[doc(hidden)]
 pub mod sph;
 #[doc(hidden)]
-pub mod thin_film;
-
-#[doc(hidden)]
-pub mod benchmarks;
-
-#[doc(hidden)]
-pub mod io;
-
-#[doc(hidden)]
-pub mod run;
-
-#[doc(hidden)]
 pub mod study;
-
+pub(crate) mod table;
+#[doc(hidden)]
+pub mod thin_film;
 #[doc(hidden)]
 pub mod verify;
-
 #[doc(hidden)]
-pub mod cli;
+pub mod wetting;
 
 pub use case::{Case, Loaded, Model, load, load_default};
 pub use geometry::spec::{Channel, Disc, GeometrySpec, Polygon, Rectangle, ShapeSpec, SolidSide};

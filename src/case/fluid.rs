@@ -70,7 +70,7 @@ const LARGEST_DENSITY_RATIO: f64 = 1.0e4;
 /// The fluid of the table at the key path `at`, none where it is wrong.
 pub(super) fn fluid(checker: &mut Checker, at: &str, raw: &RawFluid) -> Option<Fluid> {
     let path = format!("{at}.temperature-c");
-    if raw.temperature_c.is_some() && raw.preset.is_none() {
+    if checker.is_given(&path, raw.temperature_c.as_ref()) && raw.preset.is_none() {
         checker.refuse(
             path,
             "a temperature needs a preset",

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::case_file::{self, Case, Model, RawCase};
 use super::kind::other_than_a_case;
 use super::magnitude::magnitudes;
+use super::network::RawNetwork;
 use super::network::state::Start;
 use super::shapes::{RawGeometry, RawShapeFile};
 use super::{film, network, permeability, records, relative_permeability, shapes, sph, start};
@@ -100,15 +101,18 @@ pub fn load_default(overrides: &Overrides) -> Result<Loaded, InputError> {
 fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> Result<Loaded, InputError> {
     let document = Document::parse(name, text, overrides)?.with_renamed(&RENAMED);
     document.refuse(other_than_a_case(text).into_iter().collect())?;
-    let reading = document.read::<RawCase>();
+    let mut reading = document.read::<RawCase>();
     let mut checker = Checker::default();
-    let raw = one_model(&mut checker, reading.value.clone()).in_range(&mut checker, "");
-    let raw = &raw;
+    let written = one_model(&mut checker, std::mem::take(&mut reading.value));
+    let raw = &written.clone().in_range(&mut checker, "");
     checker.format(raw.format);
     let mut sources: Vec<PathBuf> = origin.path().map(Path::to_path_buf).into_iter().collect();
     let mut elsewhere = Vec::new();
-    let geometry = raw.geometry.as_ref();
-    let geometry = geometry.and_then(|raw| read_geometry(&mut checker, raw, origin, &mut sources, &mut elsewhere));
+    // Which of its keys go with a file is a question of all that are written.
+    let geometry = written
+        .geometry
+        .as_ref()
+        .and_then(|raw| read_geometry(&mut checker, raw, origin, &mut sources, &mut elsewhere));
     let (geometry, mut notes) = geometry.map_or((None, Vec::new()), |read| (Some(read.spec), read.notes));
     notes.extend(document.notes_on_renamed());
     let geometry = geometry.and_then(|spec| {
@@ -123,7 +127,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     let given = if let Origin::Started(_, state) = origin { Some(*state) } else { None };
     let start = start::start(&mut checker, raw, (folder, given), geometry.as_ref(), &mut sources);
     let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
-    let model = model(&mut checker, &RawCase { network, ..raw.clone() }, geometry.as_ref(), start);
+    let model = model(&mut checker, (raw, network.as_ref()), geometry.as_ref(), start);
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref().and_then(Model::sides));
     permeability::permeability(&mut checker, model.as_ref(), geometry.as_ref());
     relative_permeability::relative_permeability(&mut checker, model.as_ref());
@@ -154,8 +158,14 @@ fn in_spacings(geometry: Option<&GeometrySpec>, model: Option<&Model>) -> Option
     Some([0, 1].map(|axis| (geometry.max[axis] - geometry.min[axis]) / sph.spacing))
 }
 
-fn model(checker: &mut Checker, raw: &RawCase, geometry: Option<&GeometrySpec>, start: Option<Start>) -> Option<Model> {
-    match (&raw.sph, &raw.thin_film, &raw.network) {
+/// The model of the case; `network` is its network with the measured values of the file that it names.
+fn model(
+    checker: &mut Checker,
+    (raw, network): (&RawCase, Option<&RawNetwork>),
+    geometry: Option<&GeometrySpec>,
+    start: Option<Start>,
+) -> Option<Model> {
+    match (&raw.sph, &raw.thin_film, network) {
         (Some(raw), None, None) => sph::sph(checker, raw, geometry, start).map(|sph| Model::Sph(Box::new(sph))),
         (None, Some(raw), None) => film::thin_film(checker, raw, geometry).map(|film| Model::ThinFilm(Box::new(film))),
         (None, None, Some(raw)) => {

@@ -1,6 +1,6 @@
 //! `[sph.measure]`: groups of measures that a case can ask for; each is a table `[sph.measure.NAME]`.
 
-use crate::input::tables::{Empty, tables};
+use crate::input::tables::{Empty, name, tables};
 
 /// Measures that come together, and what a case must have for them.
 #[derive(Debug)]
@@ -43,7 +43,7 @@ macro_rules! groups {
             pub(super) fn offers(&self) -> Vec<Offer> {
                 vec![$(Offer {
                     names: &[$($name),*],
-                    given_by: format!("[sph.measure.{}]", stringify!($group).replace('_', "-")),
+                    given_by: format!("[sph.measure.{}]", name(stringify!($group))),
                     is_given: self.$group,
                 },)*]
             }

@@ -121,7 +121,10 @@ fn is_open(kind: Side) -> bool {
 
 fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenSide>) -> Option<Open> {
     let path = at(name);
-    let given = raw.map_or([false; 3], |raw| [raw.pressure.is_some(), raw.velocity.is_some(), raw.flow_rate.is_some()]);
+    let is_given = |key: &str, value: Option<f64>| checker.is_given(&format!("{path}.{key}"), value.as_ref());
+    let given = raw.map_or([false; 3], |raw| {
+        [raw.pressure.is_some(), is_given("velocity", raw.velocity), is_given("flow-rate", raw.flow_rate)]
+    });
     let (allowed, example): ([bool; 3], &str) = match kind {
         Side::Inlet => ([true; 3], "velocity in m/s, flow-rate in m2/s or pressure in Pa"),
         Side::Outlet => ([true, false, false], "pressure in Pa"),
@@ -144,8 +147,7 @@ fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenS
     // An outlet to the open air needs no more than its name.
     let needed = usize::from(kind != Side::Outlet);
     let is_wrong = given.iter().zip(allowed).any(|(given, allowed)| *given && !allowed);
-    let is_refused = checker.is_refused(&path);
-    if is_wrong || count > 1 || (count < needed && !is_refused) {
+    if is_wrong || count > 1 || count < needed {
         let kind = format!("{kind:?}").to_lowercase();
         let found = ["pressure", "velocity", "flow-rate"].iter().zip(given).filter(|(_, given)| *given);
         let found: Vec<&str> = found.map(|(key, _)| *key).collect();
@@ -164,7 +166,7 @@ fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenS
         (_, Some(rate)) => Drive::FlowRate(rate, shape),
         _ => Drive::Pressure(raw.pressure.unwrap_or(0.0)),
     };
-    if raw.profile.is_some() && raw.velocity.is_none() && raw.flow_rate.is_none() && !is_refused {
+    if raw.profile.is_some() && !given[1] && !given[2] {
         checker.refuse(
             format!("{path}.profile"),
             "a profile needs a velocity or a flow rate",

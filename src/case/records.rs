@@ -133,9 +133,10 @@ fn every(
     let (end_or_one, parts) = end.unwrap_or((1.0, 1.0));
     let default = if end_or_one > 0.0 { end_or_one / (records * parts) } else { 1.0 / records };
     let [given, other] = raw.map_or([None; 2], clock.value);
-    if other.is_some() {
+    let path_of_other = format!("{table}.{}", clock.other);
+    if checker.is_given(&path_of_other, other.as_ref()) {
         checker.refuse(
-            format!("{table}.{}", clock.other),
+            path_of_other,
             format!("the records of this case are not counted by `{}`", clock.other),
             format!("write {} = ... # {}", clock.key, clock.what),
         );

@@ -7,7 +7,7 @@ use super::side::{Side, Sides};
 use super::sides::RawSides;
 use crate::geometry::import::{Beyond, Options, options};
 use crate::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
-use crate::input::tables::{Key, tables};
+use crate::input::tables::{Key, join, tables};
 use crate::input::{Checker, Problem};
 
 tables! {
@@ -237,8 +237,4 @@ fn spec_problems(spec: &GeometrySpec) -> Vec<Problem> {
 /// What is wrong with one shape, written at the key path `at`.
 pub(super) fn shape_problems(at: &str, shape: &ShapeSpec, geometry: Option<&GeometrySpec>) -> Vec<Problem> {
     geometry.map_or_else(|| shape.problems(at), |geometry| shape.problems_in(geometry, at))
-}
-
-fn join(at: &str, key: &str) -> String {
-    if at.is_empty() { key.to_owned() } else { format!("{at}.{key}") }
 }

@@ -97,7 +97,7 @@ pub(super) fn wall_speeds(checker: &mut Checker, raw: &RawSides) -> [f64; 4] {
 /// Slip lengths; `has_lines` where contact lines can stand on the walls, `spacing` in m.
 pub(super) fn walls(checker: &mut Checker, raw: &RawWalls, has_lines: bool, spacing: Option<f64>) -> Walls {
     const LINE: &str = "sph.walls.line-slip-length";
-    if raw.line_slip_length.is_some() && !has_lines {
+    if checker.is_given(LINE, raw.line_slip_length.as_ref()) && !has_lines {
         checker.refuse(
             LINE,
             "there are no contact lines without a wetting model",

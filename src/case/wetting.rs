@@ -160,7 +160,10 @@ fn patch_model(checker: &mut Checker, at: &str, raw: &RawWettingPatch, model: We
     ];
     let law = model.table();
     let known = law.angles();
-    for (key, _) in given.iter().filter(|(key, value)| value.is_some() && !known.contains(key)) {
+    for (key, value) in given.iter().filter(|(key, _)| !known.contains(key)) {
+        if !checker.is_given(&format!("{at}.{key}"), value.as_ref()) {
+            continue;
+        }
         checker.refuse(
             format!("{at}.{key}"),
             format!("the wetting model has no `{key}`"),

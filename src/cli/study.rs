@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::exit::{DONE, Failure, USAGE};
 use super::opened_study::{Opened, cores, each, finish, open};
 use super::output::{duration, readable, say};
-use super::study_arguments::{StudyCommand, StudyPlanArguments, StudyReportArguments};
+use super::study_arguments::{StudyCommand, StudyFiles, StudyPlanArguments};
 use super::study_run;
 use crate::run::trial::Trial;
 use crate::study::definition::{Study, Target};
@@ -29,7 +29,7 @@ pub(crate) fn study(command: &StudyCommand) -> Result<u8, Failure> {
 
 fn tell_plan(arguments: &StudyPlanArguments) -> Result<u8, Failure> {
     let cores = cores(&arguments.cores);
-    each(&open(&arguments.studies, arguments.out.as_deref())?, |opened| tell_one_plan(opened, cores))
+    each(&open(&arguments.files.studies, arguments.files.out.as_deref())?, |opened| tell_one_plan(opened, cores))
 }
 
 fn tell_one_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
@@ -106,8 +106,8 @@ fn totals(results: &[RunResult], estimates: &[Estimate], cores: Cores) -> String
     )
 }
 
-fn write_report(arguments: &StudyReportArguments) -> Result<u8, Failure> {
-    each(&open(&arguments.studies, arguments.out.as_deref())?, |opened| {
+fn write_report(files: &StudyFiles) -> Result<u8, Failure> {
+    each(&open(&files.studies, files.out.as_deref())?, |opened| {
         if !opened.folder.root().exists() {
             let folder = opened.folder.root().display();
             let message =

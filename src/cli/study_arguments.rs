@@ -12,18 +12,25 @@ pub(crate) enum StudyCommand {
     /// Do all runs that are not complete, then write the report
     Run(Box<StudyRunArguments>),
     /// Write table, curves and page from the runs that are complete
-    Report(StudyReportArguments),
+    Report(StudyFiles),
 }
 
-/// `study plan`.
+/// Studies and their folder; what `study report` takes.
 #[derive(Debug, Args)]
-pub(crate) struct StudyPlanArguments {
+pub(crate) struct StudyFiles {
     /// Study files, one after the other
     #[arg(required = true, value_name = "STUDY")]
     pub(crate) studies: Vec<PathBuf>,
-    /// Study folder, out/study-NAME where there is none; nothing is written. Of several studies: the folder that holds theirs
+    /// Study folder, new or of this study; out/study-NAME where there is none. Of several studies: the folder that holds theirs
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+}
+
+/// `study plan`, which writes nothing.
+#[derive(Debug, Args)]
+pub(crate) struct StudyPlanArguments {
+    #[command(flatten)]
+    pub(crate) files: StudyFiles,
     #[command(flatten)]
     pub(crate) cores: CoresArguments,
 }
@@ -42,23 +49,15 @@ pub(crate) struct CoresArguments {
 /// `study run`.
 #[derive(Debug, Args)]
 pub(crate) struct StudyRunArguments {
-    /// Study files, one after the other
-    #[arg(required = true, value_name = "STUDY")]
-    pub(crate) studies: Vec<PathBuf>,
-    /// Study folder, new or of this study; out/study-NAME where there is none. Of several studies: the folder that holds theirs
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) files: StudyFiles,
     #[command(flatten)]
     pub(crate) cores: CoresArguments,
     /// Memory for all runs at once in MiB; nine tenths of what is free where there is none
     #[arg(long, value_name = "MIB")]
     pub(crate) memory: Option<u64>,
-    /// Where the runs are done
-    #[arg(long, value_enum, default_value = "local")]
-    pub(crate) engine: Engine,
-    /// Further option for the job array, as in --sbatch=--partition=long
-    #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
-    pub(crate) sbatch: Vec<String>,
+    #[command(flatten)]
+    pub(crate) place: EngineArguments,
     /// Do only the run of this number, in this process
     #[arg(long, value_name = "I")]
     pub(crate) index: Option<std::num::NonZeroUsize>,
@@ -70,6 +69,17 @@ pub(crate) struct StudyRunArguments {
     pub(crate) digest: Option<String>,
 }
 
+/// Where runs are done, and how.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct EngineArguments {
+    /// Where the runs are done
+    #[arg(long, value_enum, default_value = "local")]
+    pub(crate) engine: Engine,
+    /// Further option for the job array, as in --sbatch=--partition=long
+    #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
+    pub(crate) sbatch: Vec<String>,
+}
+
 /// Where runs are done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Engine {
@@ -77,15 +87,4 @@ pub(crate) enum Engine {
     Local,
     /// As a job array of Slurm
     Slurm,
-}
-
-/// `study report`.
-#[derive(Debug, Args)]
-pub(crate) struct StudyReportArguments {
-    /// Study files, one after the other
-    #[arg(required = true, value_name = "STUDY")]
-    pub(crate) studies: Vec<PathBuf>,
-    /// Study folder, out/study-NAME where there is none. Of several studies: the folder that holds theirs
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
 }

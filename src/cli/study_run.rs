@@ -28,14 +28,14 @@ const BYTES_PER_MEBIBYTE: u64 = 1 << 20;
 /// Does the runs; the exit code says how the studies stand.
 pub(crate) fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
     if let Some(index) = arguments.index {
-        let [study] = arguments.studies.as_slice() else {
+        let [study] = arguments.files.studies.as_slice() else {
             return Err(Failure::new(USAGE, &"--index is the number of a run of one study; name that study alone"));
         };
         return one(arguments, study, index.get());
     }
-    each(&open(&arguments.studies, arguments.out.as_deref())?, |opened| {
+    each(&open(&arguments.files.studies, arguments.files.out.as_deref())?, |opened| {
         let _claim = opened.folder.claim(Share::Alone).map_err(|error| Failure::new(USAGE, &error))?;
-        match arguments.engine {
+        match arguments.place.engine {
             Engine::Local => here(arguments, opened),
             Engine::Slurm => cluster(arguments, opened),
         }
@@ -122,7 +122,7 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
         program: &opened.program,
         threads: usize::from(arguments.cores.threads),
         jobs: arguments.cores.jobs.map(usize::from),
-        options: &arguments.sbatch,
+        options: &arguments.place.sbatch,
     };
     let job = submit(&array).map_err(|error| Failure::new(USAGE, &error))?;
     say(format_args!("{} runs submitted as job array {job}", open.len()));
@@ -145,7 +145,7 @@ fn one(arguments: &StudyRunArguments, study: &Path, index: usize) -> Result<u8, 
         let message = format!("the study or a case was changed while the study ran: run {index} is another one now");
         return Err(Failure::new(BAD_INPUT, &message));
     }
-    let folder = folder(&study, arguments.out.as_deref());
+    let folder = folder(&study, arguments.files.out.as_deref());
     let _claim = match arguments.worker {
         true => None,
         false => Some(folder.claim(Share::Together).map_err(|error| Failure::new(USAGE, &error))?),

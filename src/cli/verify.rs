@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::exit::{BAD_INPUT, DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{duration, say, tell};
-use super::study_arguments::{CoresArguments, Engine, StudyRunArguments};
+use super::study_arguments::{CoresArguments, Engine, StudyFiles, StudyRunArguments};
 use super::verify_arguments::VerifyArguments;
 use super::{source, study_run};
 use crate::study::folder::StudyFolder;
@@ -75,7 +75,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         let loaded = load(&study).map_err(Failure::input)?;
         found = results(&plan_runs(&loaded).map_err(Failure::input)?, &StudyFolder::new(&runs_in));
     }
-    if code == INTERRUPTED || arguments.only_write || arguments.engine == Engine::Slurm && is_open(&found) {
+    if code == INTERRUPTED || arguments.only_write || arguments.place.engine == Engine::Slurm && is_open(&found) {
         tell("the same command goes on, and tells what came out");
         return Ok(code);
     }
@@ -125,12 +125,10 @@ fn is_open(results: &[RunResult]) -> bool {
 
 fn study_arguments(arguments: &VerifyArguments, study: PathBuf, out: PathBuf) -> StudyRunArguments {
     StudyRunArguments {
-        studies: vec![study],
-        out: Some(out),
+        files: StudyFiles { studies: vec![study], out: Some(out) },
         cores: CoresArguments { threads: NonZeroUsize::MIN, jobs: arguments.threads },
         memory: None,
-        engine: arguments.engine,
-        sbatch: arguments.sbatch.clone(),
+        place: arguments.place.clone(),
         index: None,
         worker: false,
         digest: None,

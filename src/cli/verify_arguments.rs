@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::study_arguments::Engine;
+use super::study_arguments::EngineArguments;
 
 /// What is done with a network.
 #[derive(Debug, Subcommand)]
@@ -46,10 +46,6 @@ pub(crate) struct VerifyArguments {
     /// Runs at once, each on one thread; as many as there are cores where there is none
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<NonZeroUsize>,
-    /// Where the runs are done
-    #[arg(long, value_enum, default_value = "local")]
-    pub(crate) engine: Engine,
-    /// Further option for the job array, as in --sbatch=--partition=long
-    #[arg(long, value_name = "OPTION", allow_hyphen_values = true)]
-    pub(crate) sbatch: Vec<String>,
+    #[command(flatten)]
+    pub(crate) place: EngineArguments,
 }

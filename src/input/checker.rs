@@ -24,6 +24,11 @@ impl Checker {
         self.problems.iter().any(|problem| path::is_within(&problem.path, path))
     }
 
+    /// Whether the key at the path `path` is there: its value, or a problem with the one that is written.
+    pub(crate) fn is_given<T>(&self, path: &str, value: Option<&T>) -> bool {
+        value.is_some() || self.is_refused(path)
+    }
+
     /// The value, or a problem where it is missing and nothing else is wrong with it.
     pub(crate) fn require<T>(&mut self, path: &str, value: Option<T>, example: &str) -> Option<T> {
         if value.is_none() && !self.is_refused(path) {

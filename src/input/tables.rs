@@ -106,7 +106,7 @@ pub(crate) fn name(field: &str) -> String {
 }
 
 /// The path of a key in the table at `at`, which is empty for the whole file.
-fn join(at: &str, key: &str) -> String {
+pub(crate) fn join(at: &str, key: &str) -> String {
     if at.is_empty() { key.to_owned() } else { format!("{at}.{key}") }
 }
 

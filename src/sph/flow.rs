@@ -81,7 +81,7 @@ impl Flow {
 
     /// The state as bytes.
     pub fn save(&self) -> Vec<u8> {
-        // Plain numbers into memory: postcard has no way to fail here, and an empty state is refused by `load`.
+        // Plain numbers into memory: postcard cannot fail here, and an empty state is refused by `load`.
         postcard::to_stdvec(&self.state).unwrap_or_default()
     }
 

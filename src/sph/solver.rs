@@ -245,7 +245,7 @@ impl Solver for SphSolver {
     }
 
     fn state(&self) -> Vec<u8> {
-        // Numbers into memory: postcard has no way to fail here.
+        // Numbers into memory: postcard cannot fail here.
         let mut bytes = postcard::to_stdvec(&self.start).unwrap_or_default();
         if let Some((_, present)) = &self.frozen {
             bytes.extend(postcard::to_stdvec(present).unwrap_or_default());

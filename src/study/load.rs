@@ -36,10 +36,10 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
     let text = read(path, "check the path of the study file")?;
     let document = Document::parse(&path.display().to_string(), &text, &Overrides::default())?;
     document.refuse(other_than_a_study(&text).into_iter().collect())?;
-    let reading = document.read::<RawStudy>();
+    let mut reading = document.read::<RawStudy>();
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut checker = Checker::default();
-    let raw = &reading.value.clone().in_range(&mut checker, "");
+    let raw = &std::mem::take(&mut reading.value).in_range(&mut checker, "");
     checker.format(raw.format);
     let axes: Vec<Option<Axis>> =
         raw.axis.iter().flatten().enumerate().map(|(index, raw)| axis(&mut checker, raw, index, folder)).collect();

@@ -66,7 +66,7 @@ pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Opt
         Some(RawProcess::Imbibition) => Process::Imbibition,
         Some(RawProcess::Cycle) => Process::Cycle(raw.cycles.unwrap_or(1)),
     };
-    if raw.cycles.is_some() && !matches!(process, Process::Cycle(_)) {
+    if checker.is_given("network.cycles", raw.cycles.as_ref()) && !matches!(process, Process::Cycle(_)) {
         checker.refuse(
             "network.cycles",
             "only cycles are counted, and the process is none",
@@ -110,7 +110,7 @@ fn stop(checker: &mut Checker, raw: &RawNetwork) -> Stop {
             "add outlet = \"right\", say, or leave this out",
         );
     }
-    if given.injected.is_some() && raw.dynamic.is_none() {
+    if checker.is_given("network.stop.injected", given.injected.as_ref()) && raw.dynamic.is_none() {
         checker.refuse(
             "network.stop.injected",
             "injected volumes are those of a displacement in time, and this one is quasi-static",
@@ -130,7 +130,7 @@ pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
     let given = [
         ("outlet", raw.outlet.is_some()),
         ("process", raw.process.is_some()),
-        ("cycles", raw.cycles.is_some()),
+        ("cycles", checker.is_given("network.cycles", raw.cycles.as_ref())),
         ("trapping", raw.trapping.is_some()),
         ("events", raw.events.is_some()),
         ("stop", raw.stop.is_some()),

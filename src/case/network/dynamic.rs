@@ -40,16 +40,17 @@ pub(super) fn drive(
             "leave out `initial`, or [network.dynamic]",
         );
     }
-    let drive = match (dynamic.rate, dynamic.pressure_drop) {
-        (Some(_), Some(_)) => {
+    let rate = checker.is_given("network.dynamic.rate", dynamic.rate.as_ref());
+    let pressure = checker.is_given("network.dynamic.pressure-drop", dynamic.pressure_drop.as_ref());
+    let drive = match (rate, pressure) {
+        (true, true) => {
             let message = "a rate and a pressure drop are given, and one follows from the other";
             checker.refuse("network.dynamic.pressure-drop", message, "leave one of them out");
             None
         }
-        (Some(rate), None) => Some(Drive::Rate(rate)),
-        (None, Some(pressure)) => Some(Drive::PressureDrop(pressure)),
-        (None, None) if checker.is_refused("network.dynamic.pressure-drop") => None,
-        (None, None) => {
+        (true, false) => dynamic.rate.map(Drive::Rate),
+        (false, true) => dynamic.pressure_drop.map(Drive::PressureDrop),
+        (false, false) => {
             checker.require("network.dynamic.rate", None, "rate = 1.0e-8 # m2/s, or pressure-drop = 500.0 # Pa")
         }
     };

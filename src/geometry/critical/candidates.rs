@@ -5,7 +5,8 @@
 
 use delaunator::{Point, triangulate};
 
-use crate::geometry::critical::walls::{Link, Shift, Walls, minus, plus};
+use crate::geometry::critical::shift::{Shift, minus, plus};
+use crate::geometry::critical::walls::{Link, Walls};
 use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 

@@ -7,8 +7,9 @@
 use std::collections::HashMap;
 
 use crate::geometry::critical::opposite::{Opposite, slack};
+use crate::geometry::critical::shift::{Shift, minus};
 use crate::geometry::critical::slope::{Along, Slope, slope};
-use crate::geometry::critical::walls::{Contact, Shift, Walls, minus};
+use crate::geometry::critical::walls::{Contact, Walls};
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::intersect::meeting_places;
 use crate::math::{Vec2, perpendicular};

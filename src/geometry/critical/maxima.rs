@@ -5,7 +5,8 @@
 
 use crate::geometry::critical::candidates::Triple;
 use crate::geometry::critical::opposite::{SAME_DIRECTION, TIE, slack};
-use crate::geometry::critical::walls::{Contact, Shift, Walls, plus};
+use crate::geometry::critical::shift::{Shift, plus};
+use crate::geometry::critical::walls::{Contact, Walls};
 use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 

@@ -9,6 +9,7 @@ mod joints;
 pub(crate) mod level;
 pub(crate) mod maxima;
 pub(crate) mod opposite;
+pub(crate) mod shift;
 pub(crate) mod slope;
 pub(crate) mod walls;
 
@@ -16,8 +17,9 @@ use crate::geometry::critical::candidates::{Pair, Samples, candidates};
 use crate::geometry::critical::level::{Classifier, Kind};
 use crate::geometry::critical::maxima::{Maximum, center_of_arc, maximum};
 use crate::geometry::critical::opposite::{Opposite, TIE, opposite_points};
+use crate::geometry::critical::shift::minus;
 use crate::geometry::critical::slope::is_opening;
-use crate::geometry::critical::walls::{Contact, Walls, minus};
+use crate::geometry::critical::walls::{Contact, Walls};
 use crate::math::Vec2;
 
 /// Critical places nearer than this share of their distance from the walls are one.

@@ -6,25 +6,13 @@
 
 use crate::geometry::boundary::{Boundary, Piece};
 use crate::geometry::critical::joints::{clipped, turn};
+use crate::geometry::critical::shift::{Shift, minus, period_of, plus};
 use crate::geometry::curve::{Curve, cross};
 use crate::geometry::solid::Geometry;
 use crate::math::{Bounds, Vec2, perpendicular};
 
-/// Periods along x and y.
-pub(crate) type Shift = [i32; 2];
-
 /// Ends within this many tolerances are joined: they come from intersections computed once on each curve.
 const JOINED: f64 = 10.0;
-
-/// The sum of two shifts.
-pub(crate) fn plus(a: Shift, b: Shift) -> Shift {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-/// The difference of two shifts.
-pub(crate) fn minus(a: Shift, b: Shift) -> Shift {
-    [a[0] - b[0], a[1] - b[1]]
-}
 
 /// The piece that begins where another ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,7 +102,7 @@ impl Walls {
         }
         let cell = |curve: &Curve| -> Shift {
             let at = (curve.point(0.5) - domain.min).component_div(&domain.size());
-            [0, 1].map(|i| if periodic[i] { floor_near(at[i]) } else { 0 })
+            period_of(at, periodic)
         };
         // Each wall has one image whose middle lies in the half-open cell.
         let walls: Vec<Wall> = pieces
@@ -176,7 +164,7 @@ impl Walls {
     /// `x` brought into the half-open cell, and the shift that leads back.
     pub(crate) fn wrapped(&self, x: Vec2) -> (Vec2, Shift) {
         let at = (x - self.domain.min).component_div(&self.domain.size());
-        let shift = [0, 1].map(|i| if self.periodic[i] { floor_near(at[i]) } else { 0 });
+        let shift = period_of(at, self.periodic);
         (x - self.offset(shift), shift)
     }
 
@@ -393,11 +381,4 @@ impl Walls {
             }
         }
     }
-}
-
-/// The whole part of `x`; a value that is a whole number up to rounding counts as that.
-fn floor_near(x: f64) -> i32 {
-    const ROUNDING: f64 = 1e-9;
-    let whole = x.round();
-    if (x - whole).abs() < ROUNDING { whole as i32 } else { x.floor() as i32 }
 }

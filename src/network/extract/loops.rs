@@ -4,7 +4,8 @@
 //! the side to where the next wall begins. Loops run on base pieces and add up shifts, so that periodic domains need no images.
 
 use crate::geometry::critical::opposite::Opposite;
-use crate::geometry::critical::walls::{Contact, Shift, Walls, minus, plus};
+use crate::geometry::critical::shift::{Shift, minus, plus};
+use crate::geometry::critical::walls::{Contact, Walls};
 use crate::geometry::curve::cross;
 use crate::math::{Vec2, perpendicular};
 use crate::network::extract::sides::{Perimeter, SidePart};

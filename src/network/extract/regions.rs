@@ -2,8 +2,9 @@
 
 use crate::geometry::critical::CriticalPoints;
 use crate::geometry::critical::opposite::SAME_DIRECTION;
+use crate::geometry::critical::shift::{Shift, minus};
 use crate::geometry::critical::slope::curvature;
-use crate::geometry::critical::walls::{Contact, Shift, Walls, minus};
+use crate::geometry::critical::walls::{Contact, Walls};
 use crate::math::Vec2;
 use crate::network::extract::loops::{Loop, Loops, Step};
 use crate::network::extract::moments::Moments;

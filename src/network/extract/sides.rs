@@ -2,7 +2,8 @@
 //!
 //! The sides are run through clockwise, domain on the right: up the left one, along the top one, down the right one, back along the bottom.
 
-use crate::geometry::critical::walls::{Shift, Walls};
+use crate::geometry::critical::shift::Shift;
+use crate::geometry::critical::walls::Walls;
 use crate::math::Vec2;
 
 /// A straight part of one side.

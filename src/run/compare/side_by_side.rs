@@ -81,7 +81,7 @@ fn side(track: &Track, outlet: &[usize]) -> Side {
     }
 }
 
-/// What is told by both together; the sides are left to be filled in.
+/// What follows from both together; the sides are left to be filled in.
 fn compared(network: &Track, direct: &Track, grid: &Grid) -> Comparison {
     let nearest = |track: &Track, saturation: f64| {
         let off = |record: &Record| (record.saturation - saturation).abs();
