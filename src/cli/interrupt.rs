@@ -20,9 +20,11 @@ pub(crate) fn flag() -> Arc<AtomicBool> {
     }))
 }
 
-/// A signal came.
+/// A signal came. Only a second one ends the program: the flag may have been set otherwise, by a parent that got the same signal.
 fn asked_to_stop(flag: &AtomicBool, how: &str) {
-    if flag.swap(true, Ordering::Relaxed) {
+    static ONE_CAME: AtomicBool = AtomicBool::new(false);
+    flag.store(true, Ordering::Relaxed);
+    if ONE_CAME.swap(true, Ordering::Relaxed) {
         std::process::exit(i32::from(INTERRUPTED));
     }
     tell(format_args!("\ninterrupted{how}: finishing the step and saving the state (once more: stop at once)"));
