@@ -31,7 +31,7 @@
 //! Shapes, the signed distance from their walls, the pore network between them, and the events of a displacement:
 //!
 //! ```
-//! use meniscus::{Conditions, Disc, Displacement, Events, Geometry, GeometrySpec, Pores, ShapeSpec, SolidSide, Vec2, extract};
+//! use meniscus::{Conditions, Disc, Displacement, Events, Geometry, GeometrySpec, Pores, ShapeSpec, SolidSide, Trapping, Vec2, extract};
 //!
 //! let disc = |y| ShapeSpec::Disc(Disc { center: [0.0, y], radius: 0.9e-3 });
 //! let shapes = vec![disc(-1e-3), disc(1e-3)];
@@ -49,7 +49,7 @@
 //!     angle: vec![0.0; 2 + 4],
 //!     inlet: [true, false, false, false],
 //!     outlet: [false, true, false, false],
-//!     trapping: true,
+//!     trapping: Trapping::Disconnected,
 //!     events: Events::All,
 //!     largest_curvature: f64::INFINITY,
 //!     measured: Vec::new(),
@@ -117,7 +117,7 @@ pub use geometry::spec::{Channel, Disc, GeometrySpec, Polygon, Rectangle, ShapeS
 pub use geometry::{Geometry, GeometryError};
 pub use input::{InputError, Mistake, Overrides};
 pub use math::{Bounds, Vec2};
-pub use network::displacement::{Conditions, Displacement, Event, EventKind, Events, Phase};
+pub use network::displacement::{Conditions, Displacement, Event, EventKind, Events, Phase, Trapping};
 pub use network::graph::{Network, Opening, Pores, Region, Throat};
 pub use network::{ExtractError, extract};
 pub use run::execute::{Finished, Job, Mode, RunError, execute};

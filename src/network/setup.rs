@@ -15,7 +15,7 @@ use super::solver::NetworkSolver;
 use super::state;
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
-use crate::case::network::{NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop};
+use crate::case::network::{NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop, Trapping};
 use crate::case::{Case, PatchedWall, SIDES, Side};
 use crate::geometry::{Geometry, GeometryError};
 use crate::solver::Solver;
@@ -213,7 +213,7 @@ pub(crate) fn assemble(
         angle: angles(interface, walls, FluidPhase::NonWetting),
         inlet: [false; 4],
         outlet: [false; 4],
-        trapping: false,
+        trapping: Trapping::None,
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: measured(wanted),
@@ -251,7 +251,7 @@ fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Flui
         angle: angles(interface, walls, invading),
         inlet,
         outlet,
-        trapping: false,
+        trapping: Trapping::None,
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),

@@ -9,7 +9,7 @@ use meniscus::geometry::Geometry;
 use meniscus::input::Overrides;
 use meniscus::math::Vec2;
 use meniscus::network::conductance::conductances;
-use meniscus::network::displacement::{Conditions, Displacement, EventKind, Events};
+use meniscus::network::displacement::{Conditions, Displacement, EventKind, Events, Trapping};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 use meniscus::study;
@@ -65,7 +65,7 @@ fn own_throat(cut_out: &CutOut) -> (f64, f64) {
         angle: vec![cut_out.angle; cut_out.geometry.shapes.len() + 4],
         inlet: [false; 4],
         outlet: [false; 4],
-        trapping: false,
+        trapping: Trapping::None,
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
@@ -215,7 +215,7 @@ fn has_event(cut_out: &WholePore) -> bool {
         angle: vec![cut_out.angle; cut_out.geometry.shapes.len() + 4],
         inlet: [true, false, false, false],
         outlet: [false, true, false, false],
-        trapping: false,
+        trapping: Trapping::None,
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),

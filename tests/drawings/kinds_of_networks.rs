@@ -30,7 +30,7 @@ fn drained(name: &str, [inlet, outlet]: [usize; 2], angle_deg: f64, trapping: bo
         angle: vec![angle_deg.to_radians(); spec.shapes.len() + 4],
         inlet: [0, 1, 2, 3].map(|side| side == inlet),
         outlet: [0, 1, 2, 3].map(|side| side == outlet),
-        trapping,
+        trapping: trapping.into(),
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),

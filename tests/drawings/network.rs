@@ -29,7 +29,7 @@ fn conditions(angle_deg: f64, shapes: usize, trapping: bool) -> Conditions {
         angle: vec![angle_deg.to_radians(); shapes + 4],
         inlet: [true, false, false, false],
         outlet: [false, true, false, false],
-        trapping,
+        trapping: trapping.into(),
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),

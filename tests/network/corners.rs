@@ -2,7 +2,7 @@
 
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::ShapeSpec;
-use meniscus::network::displacement::{Conditions, Displacement, Events};
+use meniscus::network::displacement::{Conditions, Displacement, Events, Trapping};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 
@@ -22,7 +22,7 @@ fn drained(shapes: Vec<ShapeSpec>, angle_deg: f64) -> Option<[f64; 2]> {
         angle: vec![angle_deg.to_radians(); shapes.len() + 4],
         inlet: LEFT,
         outlet: RIGHT,
-        trapping: true,
+        trapping: Trapping::Disconnected,
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),

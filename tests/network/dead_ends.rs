@@ -89,7 +89,7 @@ impl DeadEnd {
             angle: vec![angle; 6],
             inlet,
             outlet,
-            trapping,
+            trapping: trapping.into(),
             events: Events::All,
             largest_curvature: f64::INFINITY,
             measured: Vec::new(),

@@ -38,7 +38,7 @@ fn conditions(angle_deg: f64, shapes: usize, trapping: bool, events: Events) -> 
         angle: vec![angle_deg.to_radians(); shapes],
         inlet: LEFT,
         outlet: RIGHT,
-        trapping,
+        trapping: trapping.into(),
         events,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),

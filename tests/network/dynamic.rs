@@ -46,7 +46,7 @@ impl Pack {
             angle: vec![angle_deg.to_radians(); self.walls],
             inlet,
             outlet: RIGHT,
-            trapping,
+            trapping: trapping.into(),
             events: Events::All,
             largest_curvature: f64::INFINITY,
             measured: Vec::new(),

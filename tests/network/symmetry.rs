@@ -147,7 +147,7 @@ impl Outcome {
                 angle: vec![scene.angle_deg.to_radians(); scene.grains.len() + 4],
                 inlet: on(0),
                 outlet: on(1),
-                trapping: scene.trapping,
+                trapping: scene.trapping.into(),
                 events: Events::All,
                 largest_curvature: f64::INFINITY,
                 measured: Vec::new(),

@@ -11,8 +11,8 @@ use crate::input::Checker;
 pub struct NetworkDisplacement {
     /// The half cycles in their order.
     pub process: Process,
-    /// Whether a defending region without a way to the outlet is trapped.
-    pub trapping: bool,
+    /// What is trapped.
+    pub trapping: Trapping,
     /// Which events move menisci.
     pub(crate) events: Events,
     /// Where it ends early.
@@ -22,6 +22,28 @@ pub struct NetworkDisplacement {
     pub initial: Option<Start>,
     /// What drives it in time; absent where it is quasi-static.
     pub dynamic: Option<DynamicDrive>,
+}
+
+/// What of the defending phase is trapped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(into = "bool")]
+pub enum Trapping {
+    /// What has no way to an outlet; the invading phase advances from what is joined to an inlet.
+    Disconnected,
+    /// Nothing: films drain all.
+    None,
+}
+
+impl From<bool> for Trapping {
+    fn from(is_trapped: bool) -> Self {
+        if is_trapped { Self::Disconnected } else { Self::None }
+    }
+}
+
+impl From<Trapping> for bool {
+    fn from(rule: Trapping) -> Self {
+        rule == Trapping::Disconnected
+    }
 }
 
 /// Which phase invades.
@@ -82,7 +104,7 @@ pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Opt
     }
     NetworkDisplacement {
         process,
-        trapping: raw.trapping.unwrap_or(true),
+        trapping: raw.trapping.unwrap_or(true).into(),
         events: raw.events.unwrap_or(Events::All),
         stop: stop(checker, raw),
         dynamic: raw
@@ -157,7 +179,7 @@ pub(super) fn raw_displacement(displacement: &NetworkDisplacement, network: RawN
     RawNetwork {
         process: Some(process),
         cycles,
-        trapping: displacement.dynamic.is_none().then_some(displacement.trapping),
+        trapping: displacement.dynamic.is_none().then_some(displacement.trapping.into()),
         events: Some(displacement.events),
         stop: Some(RawStop {
             breakthrough: Some(stop.breakthrough),

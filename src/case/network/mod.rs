@@ -7,6 +7,7 @@ mod pore_network;
 pub mod state;
 mod table;
 
+pub use displacement::Trapping;
 pub(crate) use displacement::{NetworkDisplacement, Process, Stop};
 pub use dynamic::{DEFAULT_LARGEST_STEP, Drive, DynamicDrive};
 pub(crate) use pore_network::{NetworkInterface, PoreNetwork};

@@ -1,6 +1,6 @@
 //! What displaces what: angles, open sides, and which events there are.
 
-use crate::case::network::Events;
+use crate::case::network::{Events, Trapping};
 
 /// What displaces what.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,9 +12,8 @@ pub struct Conditions {
     pub inlet: [bool; 4],
     /// Sides through which the defending phase leaves.
     pub outlet: [bool; 4],
-    /// Whether a defending element without a way to an outlet stays. Without trapping, films drain it; where no outlet opens, nothing is
-    /// trapped either.
-    pub trapping: bool,
+    /// What is trapped.
+    pub trapping: Trapping,
     /// Which events there are.
     pub events: Events,
     /// No event takes place above this curvature in 1/m.

@@ -125,7 +125,7 @@ impl Displacement {
             }
             let (beyond, twin, shift) = mesh.twins[index][crossing]?;
             let element = mesh.element_of[beyond];
-            if self.invaded[element] || self.trapped[element] {
+            if self.invaded[element] || self.connection.trapped[element] {
                 return None;
             }
             found.offset += from_crossing(&mesh.loops[beyond], twin) - shift;

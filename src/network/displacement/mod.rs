@@ -22,6 +22,7 @@ mod outline;
 mod progress;
 mod sequence;
 mod standing;
+mod trapping;
 mod wall_chains;
 mod walls;
 
@@ -33,7 +34,7 @@ pub use self::progress::{Displacement, Element, Phase};
 pub use self::sequence::Event;
 pub(crate) use self::standing::{Beginning, Standing};
 use super::graph::Region;
-pub use crate::case::network::Events;
+pub use crate::case::network::{Events, Trapping};
 use crate::math::Vec2;
 
 /// The boundary of a region as a polygon in m, arcs as chords, for pictures.

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::conditions::Conditions;
 use super::event::Candidate;
 use super::mesh::Mesh;
-use super::outflow::Outflow;
 use super::outline::outline;
+use super::trapping::Connection;
 use crate::case::network::Events;
 use crate::geometry::curve::Curve;
 use crate::interface::menisci::Passage;
@@ -51,9 +51,7 @@ pub struct Displacement {
     pub(super) centers: Arc<Vec<Vec2>>,
     pub(super) conditions: Conditions,
     pub(super) invaded: Vec<bool>,
-    connected: Vec<bool>,
-    outflow: Option<Outflow>,
-    pub(super) trapped: Vec<bool>,
+    pub(super) connection: Connection,
     /// Applied curvature in 1/m when an element was trapped, or when the half cycle before ended; NaN where there was none.
     pub(super) held: Vec<f64>,
     pub(super) fronts: Vec<[Option<Front>; 2]>,
@@ -89,7 +87,8 @@ impl Displacement {
         let conditions = Conditions { events: self.conditions.events, ..conditions };
         // What bulged into the defending phase is seen from the other side now.
         let last = if self.applied.is_finite() { -self.applied } else { f64::NAN };
-        let held = self.trapped.iter().zip(&self.held).map(|(&trapped, held)| if trapped { -held } else { last });
+        let held =
+            self.connection.trapped.iter().zip(&self.held).map(|(&trapped, held)| if trapped { -held } else { last });
         let held = held.collect();
         Self { held, ..Self::begun(self.mesh, self.elements, self.centers, conditions, invaded) }
     }
@@ -107,11 +106,7 @@ impl Displacement {
         };
         let (inlets, outlets) = (opens(conditions.inlet), opens(conditions.outlet));
         inlets.iter().zip(&mut invaded).for_each(|(&inlet, invaded)| *invaded |= inlet);
-        let defends: Vec<bool> = invaded.iter().map(|invaded| !invaded).collect();
-        let has_outlet = outlets.iter().any(|&outlet| outlet);
-        let outflow = (conditions.trapping && has_outlet).then(|| Outflow::new(&mesh, &defends, &outlets));
-        let trapped = (0..count).map(|e| defends[e] && outflow.as_ref().is_some_and(|o| !o.is_open(e))).collect();
-        let connected: Vec<bool> = if conditions.trapping { vec![false; count] } else { invaded.clone() };
+        let (connection, first) = Connection::begin(conditions.trapping, &mesh, &invaded, [&inlets, &outlets]);
         let fronts = vec![const { [None, None] }; mesh.gates.len()];
         let mut begun = Self {
             mesh: mesh.clone(),
@@ -119,9 +114,7 @@ impl Displacement {
             centers,
             conditions,
             invaded,
-            connected,
-            outflow,
-            trapped,
+            connection,
             held: vec![f64::NAN; count],
             fronts,
             queue: BinaryHeap::new(),
@@ -131,15 +124,7 @@ impl Displacement {
             is_outlet: outlets,
             has_reached_outlet: false,
         };
-        if begun.conditions.trapping {
-            (0..count).filter(|&element| inlets[element]).for_each(|element| begun.connect(&mesh, element));
-        } else {
-            let starts: Vec<usize> = (0..count).filter(|&element| begun.invaded[element]).collect();
-            for element in starts {
-                begun.has_reached_outlet |= begun.is_outlet[element];
-                begun.advance_from(&mesh, element);
-            }
-        }
+        begun.advance_from_all(&mesh, &first);
         begun
     }
 
@@ -155,14 +140,15 @@ impl Displacement {
     pub(super) fn settle(&mut self, mesh: &Mesh) {
         let elements = std::mem::take(&mut self.filled);
         for &element in &elements {
-            let lost = self.outflow.as_mut().map(|outflow| outflow.remove(mesh, element)).unwrap_or_default();
-            for lost in lost.into_iter().filter(|&lost| !self.invaded[lost]).collect::<Vec<_>>() {
-                self.trapped[lost] = true;
+            for lost in self.connection.lose(mesh, &self.invaded, element) {
                 self.held[lost] = self.applied;
                 self.stop_fronts_into(mesh, lost);
             }
         }
-        elements.iter().for_each(|&element| self.connect(mesh, element));
+        for element in elements {
+            let joined = self.connection.join(mesh, &self.invaded, element);
+            self.advance_from_all(mesh, &joined);
+        }
     }
 
     fn stop_fronts_into(&mut self, mesh: &Mesh, element: usize) {
@@ -171,15 +157,9 @@ impl Displacement {
         }
     }
 
-    /// Joins an element of the invading phase to the inlet, with all that is joined to it.
-    fn connect(&mut self, mesh: &Mesh, element: usize) {
-        let mut open = vec![element];
-        while let Some(element) = open.pop() {
-            if std::mem::replace(&mut self.connected[element], true) {
-                continue;
-            }
+    fn advance_from_all(&mut self, mesh: &Mesh, elements: &[usize]) {
+        for &element in elements {
             self.has_reached_outlet |= self.is_outlet[element];
-            open.extend(mesh.neighbors(element).filter(|&other| self.invaded[other] && !self.connected[other]));
             self.advance_from(mesh, element);
         }
     }
@@ -188,7 +168,7 @@ impl Displacement {
     fn advance_from(&mut self, mesh: &Mesh, element: usize) {
         for &(gate, end) in &mesh.elements[element].gates {
             let (to, target) = (1 - end, mesh.element(gate, 1 - end));
-            if !self.invaded[target] && !self.trapped[target] && self.fronts[gate][to].is_none() {
+            if !self.invaded[target] && !self.connection.trapped[target] && self.fronts[gate][to].is_none() {
                 self.advance_through(mesh, gate, to);
             }
         }
@@ -211,7 +191,7 @@ impl Displacement {
 
     /// Whether an element holds the defending phase and cannot let it go.
     pub fn is_trapped(&self, element: usize) -> bool {
-        self.trapped[self.mesh.element_of[element]]
+        self.connection.trapped[self.mesh.element_of[element]]
     }
 
     /// Whether the invading phase, joined to the inlet, has come to an outlet.

@@ -93,7 +93,7 @@ impl Displacement {
         let angles = &self.conditions.angle;
         let mut found = vec![f64::NAN; mesh.elements.len()];
         let mut is_seen = vec![false; mesh.elements.len()];
-        for first in (0..mesh.elements.len()).filter(|&element| self.trapped[element]) {
+        for first in (0..mesh.elements.len()).filter(|&element| self.connection.trapped[element]) {
             if is_seen[first] {
                 continue;
             }
@@ -107,7 +107,7 @@ impl Displacement {
                     if self.invaded[beyond] {
                         let (passage, obstacles) = self.passage_at(angles, mesh, (gate, to), Vec2::zeros());
                         curvature = curvature.min(self.own_event(&passage, &obstacles).1);
-                    } else if self.trapped[beyond] && !std::mem::replace(&mut is_seen[beyond], true) {
+                    } else if self.connection.trapped[beyond] && !std::mem::replace(&mut is_seen[beyond], true) {
                         region.push(beyond);
                     }
                 }
@@ -177,7 +177,7 @@ impl Displacement {
             }
             let curvature = match &self.fronts[gate][to] {
                 Some(front) => applied.min(front.own),
-                None if self.trapped[into] => trapped[into],
+                None if self.connection.trapped[into] => trapped[into],
                 None => self.held[from],
             };
             let curvature = if curvature.is_nan() { applied } else { curvature };
