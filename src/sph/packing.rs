@@ -169,9 +169,9 @@ impl Packing<'_> {
         density::volume(pairs, &mut volume[..fluids]);
         let density_error = |a: usize| if a < fluids { self.volume / volume[a] - 1.0 } else { 0.0 };
         let mut source: Vec<f64> = (0..n).map(|a| SHARE * volume[a] * density_error(a)).collect();
-        images.extend(&mut volume);
+        let volume = images.field(volume);
         let ones = vec![1.0; volume.len()];
-        assemble(&mut solve.matrix, pairs, images, &volume, &ones, |_, _| true);
+        let matrix = assemble(pairs, images, &volume, &ones, |_, _| true);
         let part = parts(pairs, images, |_, _| true);
         let unknowns = Unknowns {
             position: &points[..n],
@@ -183,9 +183,8 @@ impl Packing<'_> {
         let mut potential = vec![0.0; n];
         // What the solve leaves over, the next round takes.
         let system = System { b: &mut source, x: &mut potential, tolerance: TOLERANCE };
-        solve.solve(&unknowns, &volume[..n], &mut [system]);
-        images.extend(&mut potential);
-        let down = pressure_gradient::down(pairs, &volume, &ones, &potential, fluids);
+        solve.solve(&matrix, &unknowns, &volume[..n], &mut [system]);
+        let down = pressure_gradient::down(pairs, &volume, &ones, &images.field(potential), fluids);
         moves.iter_mut().zip(&down).for_each(|(m, down)| m.by += down);
     }
 

@@ -65,9 +65,7 @@ impl Cloud {
 
 /// The matrix of the pressure equation.
 pub fn pressure_matrix(cloud: &Cloud, density: &[f64]) -> Matrix {
-    let mut matrix = Matrix::default();
-    assemble(&mut matrix, &cloud.pairs, &cloud.images, &cloud.volume, density, |_, _| true);
-    matrix
+    assemble(&cloud.pairs, &cloud.images, &cloud.volume, density, |_, _| true)
 }
 
 /// A right side of the pressure equation: numbers that look random and sum to zero.

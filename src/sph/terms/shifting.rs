@@ -41,9 +41,7 @@ pub fn anti_clustering(pairs: &Pairs, volume: &[f64], strength: f64, w_of_spacin
 /// The mean of short pushes drives particles from strained to calm places. The pressure must then bring fluid back, by a flow that is no flow
 /// of the liquid and goes through interfaces. `fluid_volume` in m², 0 on walls, over particles and images.
 pub fn take_out_mean(pairs: &Pairs, images: &Images, fluid_volume: &[f64], push: &mut [Vec2]) {
-    let mut all = push.to_vec();
-    all.resize(pairs.rows(), Vec2::zeros());
-    images.extend_reflected(&mut all);
+    let all = images.reflected_field(push.to_vec());
     let mut mean = vec![Vec2::zeros(); push.len()];
     average::over_fluid(pairs, fluid_volume, &all, &mut mean);
     push.iter_mut().zip(mean).for_each(|(push, mean)| *push -= mean);
