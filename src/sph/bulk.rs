@@ -1,12 +1,10 @@
 //! Fields of the fluids, wherever their interface is.
 
-use rayon::prelude::*;
-
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
-use crate::sph::parallel::GRAIN;
+use crate::sph::parallel::values;
 use crate::sph::setting::Setting;
 use crate::sph::terms::density;
 use crate::sph::view::View;
@@ -35,8 +33,8 @@ impl BulkFields {
         let (Neighborhood { pairs, images }, particles) = (neighborhood, &flow.state.particles);
         let (n, fluids, moving) = (particles.len(), particles.fluids, particles.moving());
         // Buffer particles see no neighbors beyond the far end: they have the volume of the lattice.
-        let mut volume = vec![method.volume; n];
-        density::volume(pairs, &mut volume[..fluids]);
+        let mut volume = density::volume(pairs, fluids);
+        volume.resize(n, method.volume);
         let fluid_volume = images.field(volume[..moving].to_vec());
 
         let mass = |a: usize| method.fluid(particles.phase[a]).density * method.volume;
@@ -44,14 +42,10 @@ impl BulkFields {
         let density = shepard::into_walls(neighborhood, &fluid_volume, moving, density);
         let viscosity = particles.phase[..moving].iter().map(|&phase| method.fluid(phase).viscosity).collect();
 
-        let nearest: Vec<(f64, Vec2)> = (0..moving)
-            .into_par_iter()
-            .with_min_len(GRAIN)
-            .map(|a| {
-                let has_wall = pairs.of(a).any(|ab| images.source(ab.b) >= moving);
-                if has_wall { wall(particles.position[a]) } else { (f64::INFINITY, Vec2::zeros()) }
-            })
-            .collect();
+        let nearest = values(moving, |a| {
+            let has_wall = pairs.of(a).any(|ab| images.source(ab.b) >= moving);
+            if has_wall { wall(particles.position[a]) } else { (f64::INFINITY, Vec2::zeros()) }
+        });
         let (wall_distance, wall_normal) = nearest.into_iter().unzip();
         let (volume, viscosity) = (images.field(volume), images.field(viscosity));
         Self { volume, fluid_volume, density, viscosity, wall_distance, wall_normal }

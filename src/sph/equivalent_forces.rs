@@ -4,7 +4,6 @@ use crate::case::LineDelta;
 use crate::math::Vec2;
 use crate::sph::flow::Flow;
 use crate::sph::surface_force::SurfaceForce;
-use crate::sph::surface_force::continuum::Band;
 use crate::sph::terms::curvature;
 use crate::sph::wetting::contact_line::MeanLine;
 use crate::sph::wetting::lines::{DetectedLine, LINE_REACH, nearest};
@@ -16,14 +15,13 @@ pub fn volume_forces(flow: &Flow) -> [Vec<Vec2>; 2] {
     if let SurfaceForce::Continuum { surface, line } = &f.force {
         return [surface.clone(), line.clone()];
     }
-    let (mut unit_normal, weight) = (vec![Vec2::zeros(); fluids], vec![1.0; fluids]);
-    curvature::unit_normal(&f.normal, h, &mut unit_normal);
-    let band = Band { normal: &f.normal, unit_normal: &unit_normal, curvature: &f.curvature, weight: &weight };
+    let unit_normal = curvature::unit_normal(&f.normal[..fluids], h);
     // A line that the jump does not know is not driven: its angle is that which is there.
     let angle = |seen: &MeanLine| {
         nearest(&flow.lines, &flow.setting.domain, seen.place(), seen.outward(), LINE_REACH * h)
             .map_or_else(|| seen.present(None), |line| line.angle)
     };
     let angles = |seen: &[MeanLine]| seen.iter().map(angle).collect();
-    flow.view().with(&flow.fields.bulk).volume_forces(&band, LineDelta::Normalized, angles)
+    let (flow, normals) = (flow.view().with(&flow.fields.bulk), [&f.normal, &unit_normal[..]]);
+    flow.volume_forces(normals, &f.curvature, &vec![1.0; fluids], LineDelta::Normalized, angles)
 }

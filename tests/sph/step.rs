@@ -149,14 +149,12 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
             (0..flow.state.particles.len()).map(|a| if moves(a) { Vec2::x() } else { Vec2::zeros() }).collect();
         let velocity = flow.neighborhood.images.velocity_field(velocity);
         let by = vec![Vec2::new(0.0, 0.1 * flow.setting.method.spacing); flow.state.particles.fluids];
-        let mut change = vec![Vec2::zeros(); flow.state.particles.fluids];
-        carried_velocity(
+        let change = carried_velocity(
             &flow.neighborhood.pairs,
             &flow.fields.bulk.volume,
             &flow.fields.bulk.density,
             &velocity,
             &by,
-            &mut change,
         );
         let largest = |of_moving: bool| {
             let meant = (0..flow.state.particles.fluids).filter(|a| moves(*a) == of_moving);
@@ -172,10 +170,8 @@ fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
     let mut flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
     let (dx, fluids) = (flow.setting.method.spacing, flow.state.particles.fluids);
     let push = |flow: &Flow| {
-        let mut push = vec![Vec2::zeros(); fluids];
         let w_of_spacing = flow.setting.method.kernel.w(dx);
-        anti_clustering(&flow.neighborhood.pairs, &flow.fields.bulk.fluid_volume, 0.2, w_of_spacing, &mut push);
-        push
+        anti_clustering(&flow.neighborhood.pairs, &flow.fields.bulk.fluid_volume, 0.2, w_of_spacing, fluids)
     };
     let largest = |push: &[Vec2]| push.iter().map(|s| s.norm()).fold(0.0, f64::max);
     assert!(largest(&push(&flow)) < 1e-9 / dx, "nothing is pushed on the lattice");

@@ -45,8 +45,7 @@ impl Cloud {
         let mut all = points.clone();
         let images = Images::append(&mut all, &domain, kernel.support());
         let pairs = Pairs::find(&all, points.len(), &domain, &kernel);
-        let mut volume = vec![0.0; points.len()];
-        density::volume(&pairs, &mut volume);
+        let volume = density::volume(&pairs, points.len());
         Self { domain, kernel, points, pairs, images, volume, spacing, lattice_volume: lattice.volume() }
     }
 

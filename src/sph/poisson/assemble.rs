@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::sph::components::components;
 use crate::sph::images::Images;
 use crate::sph::pairs::{Pairs, split_rows};
-use crate::sph::parallel::each;
+use crate::sph::parallel::values;
 use crate::sph::poisson::matrix::Matrix;
 use crate::sph::terms::poisson::coefficient;
 
@@ -37,8 +37,7 @@ pub fn assemble(
             *out = value as f32;
         }
     });
-    let mut diagonal = vec![0.0; pairs.rows()];
-    each(&mut diagonal, |a| {
+    let diagonal = values(pairs.rows(), |a| {
         let sum: f64 = coupling[pairs.row(a)].iter().copied().map(f64::from).sum();
         // A particle without neighbors has no equation: its pressure stays zero.
         if sum > 0.0 { sum } else { 1.0 }

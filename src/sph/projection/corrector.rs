@@ -33,7 +33,6 @@ impl View<'_, Fields> {
     pub(super) fn pressure_acceleration(&self, pressure: &[f64]) -> Vec<Vec2> {
         let (fluids, f) = (self.state.particles.fluids, &self.fields.bulk);
         let mut p = pressure.to_vec();
-        let mut acceleration = vec![Vec2::zeros(); fluids];
         let form = self.setting.method.pressure_gradient();
         if form != PressureGradient::Difference {
             // The constant matters in these forms: all pressures at or above the background order the particles.
@@ -44,18 +43,18 @@ impl View<'_, Fields> {
         let p = self.neighborhood.images.field(p);
         let (pairs, volume, density) = (&self.neighborhood.pairs, &f.volume, &f.density);
         match form {
-            PressureGradient::Symmetric => pressure_gradient::symmetric(pairs, volume, density, &p, &mut acceleration),
-            PressureGradient::Weighted => pressure_gradient::weighted(pairs, volume, density, &p, &mut acceleration),
+            PressureGradient::Symmetric => pressure_gradient::symmetric(pairs, volume, density, &p, fluids),
+            PressureGradient::Weighted => pressure_gradient::weighted(pairs, volume, density, &p, fluids),
             PressureGradient::Difference => {
                 let hydrostatic = self.hydrostatic();
                 let rise = |a: usize, b: usize| hydrostatic.difference(a, b);
-                pressure_gradient::difference(pairs, volume, density, &p, rise, &mut acceleration);
+                let mut acceleration = pressure_gradient::difference(pairs, volume, density, &p, rise, fluids);
                 // Not without tension: there vortices keep their rate better as the sums are (docs/numerics/pressure.md).
                 if let SurfaceForce::Jump { moment, .. } = &self.fields.interface.force {
                     pressure_gradient::correct_gradient(moment, &mut acceleration);
                 }
+                acceleration
             }
         }
-        acceleration
     }
 }

@@ -11,7 +11,7 @@ use crate::solver::SolverError;
 use crate::sph::fields::Fields;
 use crate::sph::flow::Flow;
 use crate::sph::open::OpenSide;
-use crate::sph::parallel::{each, total};
+use crate::sph::parallel::{total, values};
 use crate::sph::poisson::Matrix;
 use crate::sph::setting::Setting;
 use crate::sph::surface_force::SurfaceForce;
@@ -45,8 +45,7 @@ impl View<'_, Fields> {
             let by = (0..self.state.particles.moving()).map(|a| way / self.fields.bulk.density[a]).collect();
             return self.minus_outflow(&self.neighborhood.images.velocity_field(by));
         }
-        let mut right = vec![0.0; self.state.particles.len()];
-        each(&mut right, |a| {
+        values(self.state.particles.len(), |a| {
             let coupling = &matrix.coupling[self.neighborhood.pairs.row(a)];
             self.neighborhood
                 .pairs
@@ -54,21 +53,20 @@ impl View<'_, Fields> {
                 .zip(coupling)
                 .map(|(ab, coupling)| f64::from(*coupling) * way.dot(&self.separation(a, ab.b)))
                 .sum()
-        });
-        right
+        })
     }
 
     /// What the unit gradient along `way` does, with the periodic part of its pressure.
     pub(super) fn response(&self, way: Vec2, potential: Vec<f64>) -> Response {
         let (pairs, f, fluids) = (&self.neighborhood.pairs, &self.fields.bulk, self.state.particles.fluids);
         let extended = self.neighborhood.images.field(potential.clone());
-        let mut acceleration = vec![Vec2::zeros(); fluids];
+        let mut acceleration;
         if let SurfaceForce::Jump { moment, .. } = &self.fields.interface.force {
             let rise = |a: usize, b: usize| -way.dot(&self.separation(a, b));
-            pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, rise, &mut acceleration);
+            acceleration = pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, rise, fluids);
             pressure_gradient::correct_gradient(moment, &mut acceleration);
         } else {
-            pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, |_, _| 0.0, &mut acceleration);
+            acceleration = pressure_gradient::down(pairs, &f.volume, &f.density, &extended, fluids);
             acceleration.iter_mut().zip(&*f.density).for_each(|(by, density)| *by += way / *density);
         }
         Response { potential, acceleration }

@@ -16,7 +16,7 @@ use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, Tolerance, c
 use crate::sph::fields::Fields;
 use crate::sph::images::{Field, Images};
 use crate::sph::pairs::{Pair, Pairs, split_rows};
-use crate::sph::parallel::{GRAIN, each, largest};
+use crate::sph::parallel::{GRAIN, each, largest, values};
 use crate::sph::poisson::weighted_sum;
 use crate::sph::view::View;
 
@@ -126,13 +126,10 @@ impl ViscousMatrix<'_> {
     pub(super) fn change(&self, acceleration: &[Vec2], dt: f64) -> (Vec<Vec2>, Convergence) {
         let weight = self.weight(dt);
         let fluids = self.diagonal.len();
-        let mut diagonal = vec![Mat2::identity(); fluids];
-        each(&mut diagonal, |a| Mat2::identity() + weight * self.diagonal[a]);
-        let mut inverse = vec![Mat2::zeros(); fluids];
-        each(&mut inverse, |a| diagonal[a].try_inverse().unwrap_or_else(Mat2::identity));
+        let diagonal = values(fluids, |a| Mat2::identity() + weight * self.diagonal[a]);
+        let inverse = values(fluids, |a| diagonal[a].try_inverse().unwrap_or_else(Mat2::identity));
         let system = System { viscous: self, weight, diagonal };
-        let mut b = vec![Vec2::zeros(); fluids];
-        each(&mut b, |a| dt * self.root_mass[a] * acceleration[a]);
+        let b = values(fluids, |a| dt * self.root_mass[a] * acceleration[a]);
         let mut change = vec![Vec2::zeros(); fluids];
         let tolerance = Tolerance { residual: RESIDUAL, iterations: ITERATIONS };
         let found = conjugate_gradients(&system, &b, &mut change, tolerance, |r, z| {

@@ -80,7 +80,7 @@ impl View<'_, Fields> {
         let diffusion = m.numerics.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
         let mut by = vec![Vec2::zeros(); fluids];
         if diffusion > 0.0 {
-            shifting::shift(&self.uneven(), diffusion, m.kernel.h, &mut by);
+            by = shifting::shift(&self.uneven(), diffusion, m.kernel.h);
         }
         if let SurfaceForce::Jump { jump, wall_hysteresis, .. } = &self.fields.interface.force {
             let sharpening = Sharpening {
@@ -96,11 +96,10 @@ impl View<'_, Fields> {
         } else if diffusion == 0.0 {
             return;
         }
-        let mut change = vec![Vec2::zeros(); fluids];
         let mut all = velocity.to_vec();
         all.extend_from_slice(&self.state.particles.velocity[self.state.particles.moving()..]);
         let all = self.neighborhood.images.velocity_field(all);
-        shifting::carried_velocity(&self.neighborhood.pairs, &f.volume, &f.density, &all, &by, &mut change);
+        let change = shifting::carried_velocity(&self.neighborhood.pairs, &f.volume, &f.density, &all, &by);
         for a in 0..fluids {
             position[a] = self.setting.domain.wrapped(position[a] + by[a]);
             velocity[a] += change[a];
@@ -111,15 +110,14 @@ impl View<'_, Fields> {
     /// shifting goes down.
     fn uneven(&self) -> Vec<Vec2> {
         let (m, f, interface) = (&self.setting.method, &self.fields.bulk, &self.fields.interface);
-        let mut uneven = vec![Vec2::zeros(); self.state.particles.fluids];
-        shifting::concentration_gradient(&self.neighborhood.pairs, &f.volume, &mut uneven);
+        let (Neighborhood { pairs, images }, fluids) = (self.neighborhood, self.state.particles.fluids);
+        let mut uneven = shifting::concentration_gradient(pairs, &f.volume, fluids);
         if interface.force.jump().is_some() {
             shifting::keep_along(&interface.normal, m.kernel.h, &mut uneven);
         }
         if m.numerics.anti_clustering > 0.0 {
-            let mut push = vec![Vec2::zeros(); self.state.particles.fluids];
-            let (Neighborhood { pairs, images }, w) = (self.neighborhood, m.kernel.w(m.spacing));
-            shifting::anti_clustering(pairs, &f.volume, m.numerics.anti_clustering, w, &mut push);
+            let (strength, w) = (m.numerics.anti_clustering, m.kernel.w(m.spacing));
+            let mut push = shifting::anti_clustering(pairs, &f.volume, strength, w, fluids);
             shifting::take_out_mean(pairs, images, &f.fluid_volume, &mut push);
             uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
         }

@@ -9,7 +9,7 @@ use crate::solver::SolverError;
 use crate::sph::fields::Fields;
 use crate::sph::method::PressureGradient;
 use crate::sph::open::InteriorPoints;
-use crate::sph::parallel::{each, largest};
+use crate::sph::parallel::{each, largest, values};
 use crate::sph::surface_force::SurfaceForce;
 use crate::sph::terms::pressure_gradient;
 use crate::sph::time_step::landing;
@@ -53,8 +53,7 @@ impl View<'_, Fields> {
         let background = self.background_acceleration();
         let body = self.setting.method.gravity - self.setting.balanced_gravity();
         let driving = if self.gradient_in_pressure() { Vec2::zeros() } else { self.driving_gradient() };
-        let mut acceleration = vec![Vec2::zeros(); fluids];
-        each(&mut acceleration, |a| {
+        let mut acceleration = values(fluids, |a| {
             let forces = (force.on(a) + driving) / f.density[a];
             viscous[a] + body + forces + background[a]
         });
@@ -85,8 +84,7 @@ impl View<'_, Fields> {
             return Ok(Damped::default());
         }
         let by_pressure = self.pressure_acceleration(&self.state.particles.pressure);
-        let mut net = vec![Vec2::zeros(); acceleration.len()];
-        each(&mut net, |a| acceleration[a] + by_pressure[a]);
+        let net = values(acceleration.len(), |a| acceleration[a] + by_pressure[a]);
         let (change, found) = matrix.change(&net, dt);
         if !(found.residual <= implicit_viscosity::RESIDUAL) {
             return Err(SolverError::NotConverged {
@@ -103,14 +101,11 @@ impl View<'_, Fields> {
     }
 
     fn background_acceleration(&self) -> Vec<Vec2> {
-        let mut acceleration = vec![Vec2::zeros(); self.state.particles.fluids];
-        let method = &self.setting.method;
-        if method.pressure_gradient() == PressureGradient::Difference && method.numerics.background_pressure > 0.0 {
-            let over_density =
-                method.background_pressure_at(self.state.particles.fluid_speed()) / method.mean_density();
-            let (pairs, volume) = (&self.neighborhood.pairs, &self.fields.bulk.volume);
-            pressure_gradient::background(pairs, volume, over_density, &mut acceleration);
+        let (method, fluids) = (&self.setting.method, self.state.particles.fluids);
+        if method.pressure_gradient() != PressureGradient::Difference || method.numerics.background_pressure <= 0.0 {
+            return vec![Vec2::zeros(); fluids];
         }
-        acceleration
+        let over_density = method.background_pressure_at(self.state.particles.fluid_speed()) / method.mean_density();
+        pressure_gradient::background(&self.neighborhood.pairs, &self.fields.bulk.volume, over_density, fluids)
     }
 }

@@ -13,7 +13,7 @@ use crate::sph::images::Field;
 use crate::sph::method::Method;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::open::{OpenSide, Prescribed};
-use crate::sph::parallel::{GRAIN, each};
+use crate::sph::parallel::{GRAIN, values};
 use crate::sph::particles::Particles;
 use crate::sph::poisson::{Matrix, PressureSolve, System, Tolerance, Unknowns, assemble, impose};
 use crate::sph::terms::divergence::divergence;
@@ -69,12 +69,10 @@ impl View<'_, Fields> {
         let matrix = self.assembled();
         let (n, dt, position) = (self.state.particles.len(), predicted.dt, &self.state.particles.position);
         let (method, f) = (&self.setting.method, &self.fields.bulk);
-        let mut source = vec![0.0; n];
-        divergence(&self.neighborhood.pairs, &f.volume, &predicted.velocity, &mut source);
+        let source = divergence(&self.neighborhood.pairs, &f.volume, &predicted.velocity, n);
         // A long step takes back all there is, and no more.
         let correction = method.density_correction_rate(predicted.fastest).min(1.0 / dt) / dt;
-        let mut b = vec![0.0; n];
-        each(&mut b, |a| {
+        let mut b = values(n, |a| {
             if self.setting.sees_the_fluid(position[a]) {
                 -f.volume[a] * (source[a] / dt - correction * self.density_error(a))
             } else {
@@ -91,8 +89,7 @@ impl View<'_, Fields> {
         let viscous_pressure = self.viscous_pressure(predicted, &matrix, &b);
         let mut others = Vec::new();
         if method.numerics.density_error_shifting > 0.0 {
-            let mut error = vec![0.0; n];
-            each(&mut error, |a| {
+            let error = values(n, |a| {
                 let seen = if self.setting.sees_the_fluid(position[a]) { self.density_error(a) } else { 0.0 };
                 method.numerics.density_error_shifting * f.volume[a] * seen
             });
@@ -194,8 +191,7 @@ impl View<'_, Fields> {
     /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s), where there is fluid to see.
     pub(super) fn minus_outflow(&self, velocity: &Field<Vec2>) -> Vec<f64> {
         let position = &self.state.particles.position;
-        let mut outflow = vec![0.0; position.len()];
-        divergence(&self.neighborhood.pairs, &self.fields.bulk.volume, velocity, &mut outflow);
+        let mut outflow = divergence(&self.neighborhood.pairs, &self.fields.bulk.volume, velocity, position.len());
         outflow.iter_mut().zip(&*self.fields.bulk.volume).enumerate().for_each(|(a, (outflow, volume))| {
             *outflow = if self.setting.sees_the_fluid(position[a]) { -volume * *outflow } else { 0.0 };
         });
@@ -216,8 +212,7 @@ impl View<'_, Fields> {
         acceleration.resize(n, Vec2::zeros());
         predicted.interior.set_buffer_acceleration(&self.state.particles, &self.setting.open.sides, &mut acceleration);
         let acceleration = self.neighborhood.images.velocity_field(acceleration);
-        let mut of_gradient = vec![0.0; n];
-        divergence(&self.neighborhood.pairs, &f.volume, &acceleration, &mut of_gradient);
+        let of_gradient = divergence(&self.neighborhood.pairs, &f.volume, &acceleration, n);
         let Particles { position, pressure, .. } = &self.state.particles;
         b.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, b)| {
             if self.setting.sees_the_fluid(position[a]) {

@@ -20,20 +20,19 @@ impl View<'_, Fields> {
     pub(super) fn viscous_acceleration(&self, velocity: &Field<Vec2>) -> Vec<Vec2> {
         let (fluids, f, viscous) = (self.state.particles.fluids, &self.fields.bulk, self.viscous());
         let v_ab = |a: usize, b: usize| self.velocity_difference(velocity, a, b);
-        let mut acceleration = vec![Vec2::zeros(); fluids];
         match self.setting.method.numerics.viscous_term {
             ViscousTerm::Stress => {
-                viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration);
+                let mut acceleration = viscous.morris(&self.neighborhood.pairs, v_ab, fluids);
                 if let Some(stress) = self.transposed_stress() {
                     let forces = stress.force(velocity, fluids);
                     let both = acceleration.iter_mut().zip(forces).enumerate();
                     both.for_each(|(a, (by, force))| *by += force / (f.density[a] * f.volume[a]));
                 }
+                acceleration
             }
-            ViscousTerm::Morris => viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration),
-            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, &mut acceleration),
+            ViscousTerm::Morris => viscous.morris(&self.neighborhood.pairs, v_ab, fluids),
+            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, fluids),
         }
-        acceleration
     }
 
     /// The transposed part of the stress, where the method has it and the fluids differ in viscosity.
@@ -49,8 +48,8 @@ impl View<'_, Fields> {
 
     /// The largest viscous rate in 1/s, see [`Viscous::rate`].
     pub fn viscous_rate(&self) -> f64 {
-        let mut rate = vec![0.0; self.state.particles.fluids];
-        self.viscous().rate(&self.neighborhood.pairs, |a, b| self.stretch(a, b), &mut rate);
+        let rate =
+            self.viscous().rate(&self.neighborhood.pairs, |a, b| self.stretch(a, b), self.state.particles.fluids);
         rate.iter().fold(0.0, |m: f64, r| m.max(*r))
     }
 
@@ -64,14 +63,13 @@ impl View<'_, Fields> {
             let counts = source >= moving && is_meant(a, particles.position[source]);
             if counts { self.velocity_difference(&velocity, a, b) } else { Vec2::zeros() }
         };
-        let mut acceleration = vec![Vec2::zeros(); particles.fluids];
-        match self.setting.method.numerics.viscous_term {
+        let acceleration = match self.setting.method.numerics.viscous_term {
             // The transposed part has no force on walls.
             ViscousTerm::Morris | ViscousTerm::Stress => {
-                viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration)
+                viscous.morris(&self.neighborhood.pairs, v_ab, particles.fluids)
             }
-            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, &mut acceleration),
-        }
+            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, particles.fluids),
+        };
         -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
     }
 

@@ -11,33 +11,19 @@ use crate::sph::view::View;
 use crate::sph::wetting::contact_line::{LineFields, LineParticles, MeanLine};
 use crate::sph::wetting::lines::Line;
 
-/// The interface in a band of fluid particles.
-pub(crate) struct Band<'a> {
-    /// n in 1/m.
-    pub(crate) normal: &'a [Vec2],
-    /// n̂, zero where not valid.
-    pub(crate) unit_normal: &'a [Vec2],
-    /// κ in 1/m.
-    pub(crate) curvature: &'a [f64],
-    /// The weights of the forces.
-    pub(crate) weight: &'a [f64],
-}
-
 impl View<'_, BulkFields> {
     /// Normals and curvature in a band, surface force and line force [Huber2013, Eqs. 18-23].
     pub(super) fn with_continuum_force(&self, color: Field<f64>, delta: LineDelta) -> (InterfaceFields, Vec<Line>) {
         let (Neighborhood { pairs, images }, method, bulk) = (self.neighborhood, &self.setting.method, self.fields);
         let (fluids, moving) = (self.state.particles.fluids, self.state.particles.moving());
-        let (mut normal, mut unit_normal) = (vec![Vec2::zeros(); moving], vec![Vec2::zeros(); moving]);
-        color::color_gradient(pairs, &bulk.fluid_volume, &color, &mut normal);
-        curvature::unit_normal(&normal, method.kernel.h, &mut unit_normal);
-        let (normal, unit_normal) = (images.reflected_field(normal), images.reflected_field(unit_normal));
-        let mut curvature = vec![0.0; self.state.particles.len()];
-        curvature::curvature(pairs, &bulk.fluid_volume, &unit_normal, &mut curvature[..moving]);
+        let normal = color::color_gradient(pairs, &bulk.fluid_volume, &color, moving);
+        let unit_normal = images.reflected_field(curvature::unit_normal(&normal, method.kernel.h));
+        let normal = images.reflected_field(normal);
+        let mut curvature = curvature::curvature(pairs, &bulk.fluid_volume, &unit_normal, moving);
+        curvature.resize(self.state.particles.len(), 0.0);
         let weight: Vec<f64> = bulk.density[..fluids].iter().map(|&rho| method.force_weight(rho)).collect();
-        let band = Band { normal: &normal, unit_normal: &unit_normal, curvature: &curvature, weight: &weight };
         let mut lines = Vec::new();
-        let [surface, line] = self.volume_forces(&band, delta, |seen| {
+        let [surface, line] = self.volume_forces([&normal, &unit_normal], &curvature, &weight, delta, |seen| {
             lines = self.followed(seen);
             lines.iter().map(|line| line.angle).collect()
         });
@@ -45,17 +31,19 @@ impl View<'_, BulkFields> {
         (InterfaceFields { color, normal, curvature, force, ..InterfaceFields::default() }, lines)
     }
 
-    /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³; `angles` are those in rad at which the lines seen are to
-    /// meet the wall.
+    /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³, from n and n̂, κ and the weights of the forces; `angles`
+    /// are those in rad at which the lines seen are to meet the wall.
     pub(crate) fn volume_forces(
         &self,
-        &Band { normal, unit_normal, curvature, weight }: &Band,
+        [normal, unit_normal]: [&[Vec2]; 2],
+        curvature: &[f64],
+        weight: &[f64],
         delta: LineDelta,
         angles: impl FnOnce(&[MeanLine]) -> Vec<f64>,
     ) -> [Vec<Vec2>; 2] {
         let (particles, method, bulk) = (&self.state.particles, &self.setting.method, self.fields);
-        let (mut surface, mut line) = (vec![Vec2::zeros(); particles.fluids], vec![Vec2::zeros(); particles.fluids]);
-        surface_tension::surface_force(method.tension, curvature, normal, weight, &mut surface);
+        let surface = surface_tension::surface_force(method.tension, curvature, normal, weight);
+        let mut line = vec![Vec2::zeros(); particles.fluids];
         if method.wetting.is_some() {
             let fields = LineFields {
                 position: &particles.position,
@@ -69,7 +57,7 @@ impl View<'_, BulkFields> {
             };
             let found = LineParticles::find(self.neighborhood, &fields, &method.kernel, particles.fluids);
             let angles = angles(&found.detected_lines(&fields, &self.setting.domain));
-            found.line_force(&fields, delta, &angles, method.tension, &mut line);
+            line = found.line_force(&fields, delta, &angles, method.tension);
         }
         [surface, line]
     }

@@ -7,7 +7,7 @@ use crate::sph::bulk::BulkFields;
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::pairs::Pairs;
-use crate::sph::parallel::{GRAIN, each};
+use crate::sph::parallel::{GRAIN, each, values};
 use crate::sph::surface_force::fit::{Fitted, Turning};
 use crate::sph::surface_force::stencils::{SMOOTHNESS, STENCIL_RADIUS};
 use crate::sph::view::View;
@@ -63,8 +63,7 @@ impl Jump {
         let (domain, h) = (&flow.setting.domain, flow.setting.method.kernel.h);
         let (n, fluids) = (pairs.rows(), flow.state.particles.moving());
         let side = images.field(color[..n].iter().map(|&c| if c > 0.5 { 1.0 } else { 0.0 }).collect());
-        let mut is_across = vec![false; n];
-        each(&mut is_across, |a| pairs.of(a).any(|ab| side[ab.b] != side[a]));
+        let is_across = values(n, |a| pairs.of(a).any(|ab| side[ab.b] != side[a]));
         let fitted: Vec<Option<Fitted>> = (0..fluids)
             .into_par_iter()
             .with_min_len(GRAIN / 8)
@@ -73,8 +72,7 @@ impl Jump {
         let rest =
             |a: usize, b: usize| interface.gradient.dot(&domain.separation(position[a], position[images.source(b)]));
         let apart = |x: Vec2, y: Vec2| domain.separation(x, y).norm();
-        let mut on_fluid = vec![f64::NAN; fluids];
-        each(&mut on_fluid, |a| {
+        let on_fluid = values(fluids, |a| {
             let Some(Fitted { curvature, turning }) = fitted[a] else { return f64::NAN };
             let Some(here) = turning else { return curvature };
             let neighbors = pairs.of(a).filter_map(|ab| {

@@ -24,7 +24,7 @@ pub(crate) use self::fields::{InterfaceFields, SurfaceForce};
 use crate::case;
 use crate::sph::bulk::BulkFields;
 use crate::sph::neighborhood::Neighborhood;
-use crate::sph::parallel::each;
+use crate::sph::parallel::values;
 use crate::sph::particles::Phase;
 use crate::sph::terms::color;
 use crate::sph::view::View;
@@ -40,14 +40,11 @@ pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec
         (found.color, found.normal, found.curvature) = (sharp, images.field(Vec::new()), vec![0.0; n]);
     } else {
         // Both fluids are within the support; also true of walls, which have no color of their own.
-        let mut mixed = vec![false; n];
-        each(&mut mixed, |a| {
+        let mixed = values(n, |a| {
             let is_other = |b: usize| b < moving && phase[b] != phase[a];
             a >= moving || pairs.of(a).any(|ab| is_other(images.source(ab.b)))
         });
-        let mut smoothed = sharp[..n].to_vec();
-        color::smoothed_color(pairs, &flow.fields.fluid_volume, &sharp, &mixed, &mut smoothed);
-        let color = images.field(smoothed);
+        let color = images.field(color::smoothed_color(pairs, &flow.fields.fluid_volume, &sharp, &mixed));
         (found, lines) = match method.surface_force {
             case::SurfaceForce::Csf { line_delta } => flow.with_continuum_force(color, line_delta),
             case::SurfaceForce::PressureJump { curvature } => flow.with_jump(sharp, color, &mixed, curvature),
@@ -60,12 +57,10 @@ pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec
 /// The slip length in m of the wall next to each fluid particle: near contact `lines` that of lines.
 fn slip_lengths(flow: &View<BulkFields>, lines: &[Line]) -> Vec<f64> {
     let (particles, setting) = (&flow.state.particles, flow.setting);
-    let mut slip_length = vec![0.0; particles.fluids];
-    each(&mut slip_length, |a| {
+    values(particles.fluids, |a| {
         let distance = |line: &Line| setting.domain.separation(particles.position[a], line.position).norm();
         let has_wall = flow.fields.wall_distance[a].is_finite();
         let nearest = lines.iter().filter(|_| has_wall).map(distance).fold(f64::INFINITY, f64::min);
         setting.method.no_slip.slip_length_at(nearest)
-    });
-    slip_length
+    })
 }

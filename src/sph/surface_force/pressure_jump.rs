@@ -5,7 +5,7 @@ use crate::sph::boundary::shepard;
 use crate::sph::bulk::BulkFields;
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
-use crate::sph::parallel::each;
+use crate::sph::parallel::values;
 use crate::sph::setting::Setting;
 use crate::sph::surface_force::fields::{InterfaceFields, SurfaceForce};
 use crate::sph::surface_force::fit::{Fitted, InterfaceFit};
@@ -30,15 +30,13 @@ impl View<'_, BulkFields> {
         let (particles, bulk) = (&self.state.particles, self.fields);
         let (fluids, moving) = (particles.fluids, particles.moving());
         let r_ab = |a: usize, b: usize| self.separation(a, b);
-        let mut near = vec![false; moving];
-        each(&mut near, |a| {
+        let near = values(moving, |a| {
             let is_mixed = |b: usize| b < moving && mixed[b];
             mixed[a] || pairs.of(a).any(|ab| is_mixed(images.source(ab.b)))
         });
-        let (mut normal, mut moment) = (vec![Vec2::zeros(); moving], vec![0.0; fluids]);
-        color::consistent_gradient(pairs, &bulk.fluid_volume, &near, &color, r_ab, &mut normal);
-        pressure_gradient::moment(pairs, &bulk.volume, r_ab, &mut moment);
+        let normal = color::consistent_gradient(pairs, &bulk.fluid_volume, &near, &color, r_ab);
         let normal = images.reflected_field(normal);
+        let moment = pressure_gradient::moment(pairs, &bulk.volume, r_ab, fluids);
         let fields = PointFields { color: &color, gradient: &normal, velocity: &self.velocity(), near: &near };
         let points = interface_points(self, &fields);
         let resolution = Resolution { spacing: method.spacing, h: method.kernel.h };
