@@ -57,7 +57,7 @@ fn columns(flow: &Flow, _: &Observation) -> Columns {
     let length = bounds.size().x;
     let mode = |a: usize| {
         let x = flow.state.particles.position[a].x - bounds.center().x;
-        flow.fields.volume[a] * (TAU * x / length).cos()
+        flow.fields.bulk.volume[a] * (TAU * x / length).cos()
     };
     let wetting = (0..fluids).filter(|&a| flow.state.particles.phase[a] == Phase::Wetting);
     vec![("wave_amplitude_m", 2.0 / length * wetting.map(mode).sum::<f64>())]

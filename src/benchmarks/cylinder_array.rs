@@ -12,7 +12,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let (flow, m) = (s.flow, &s.flow.setting.method);
     let area = flow.setting.domain.bounds.area();
     let p = &flow.state.particles;
-    let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.volume[a] * p.velocity[a]).sum();
+    let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.bulk.volume[a] * p.velocity[a]).sum();
     let force = m.wetting_fluid.density * m.gravity;
     // Along the force, so that its direction does not matter.
     let along = force.try_normalize(0.0).unwrap_or_else(Vec2::x);
@@ -21,7 +21,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let bounds = flow.setting.domain.bounds;
     let is_side = |x: Vec2| !bounds.contains(x);
     let mu_u = m.wetting_fluid.viscosity * mean;
-    let drag = (force.norm() * area - flow.friction(|_, x| is_side(x)).dot(&along)) / mu_u;
+    let drag = (force.norm() * area - flow.view().friction(|_, x| is_side(x)).dot(&along)) / mu_u;
     let permeability = mu_u / force.norm();
     let method = "force per volume times the area of the cell less the friction on its sides that are walls, over viscosity and the \
                   velocity averaged over the whole cell, at the end";

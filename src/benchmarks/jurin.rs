@@ -22,9 +22,9 @@ fn measures(s: &Subject) -> Vec<Measure> {
         // Below the plate the trough is one; its area says nothing of the levels.
         if flow.state.particles.phase[a] == Phase::Wetting && x.y > plate.min.y {
             if x.x < plate.min.x {
-                areas[0] += flow.fields.volume[a];
+                areas[0] += flow.fields.bulk.volume[a];
             } else if x.x > plate.max.x {
-                areas[1] += flow.fields.volume[a];
+                areas[1] += flow.fields.bulk.volume[a];
             }
         }
     }

@@ -62,7 +62,8 @@ fn measures(s: &Subject) -> Vec<Measure> {
         let exact = law.velocity(p.position[a].y - bounds.min.y);
         error += (p.velocity[a].x - exact).powi(2) + p.velocity[a].y.powi(2);
         size += exact * exact;
-        rates[usize::from(p.phase[a] != Phase::Wetting)] += flow.fields.volume[a] * p.velocity[a].x / bounds.size().x;
+        rates[usize::from(p.phase[a] != Phase::Wetting)] +=
+            flow.fields.bulk.volume[a] * p.velocity[a].x / bounds.size().x;
     }
     let exact = law.flow_rates();
     let method = "flow rate of the layer at the end over the exact one";

@@ -50,7 +50,7 @@ fn ahead(flow: &Flow, lines: &[Line]) -> Option<Vec2> {
 }
 
 fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
-    let lines = &flow.fields.lines;
+    let lines = &flow.lines;
     let ahead = ahead(flow, lines)?;
     let mut sums = [[0.0; 4]; 2];
     let mut counts = [[0.0; 4]; 2];
@@ -96,11 +96,11 @@ fn fitted(flow: &Flow, seen: &Observation, window: f64) -> Vec<MeniscusEnd> {
 
 /// Body force on the drop less buoyancy, and viscous force of the walls on it, in N/m.
 fn forces(flow: &Flow) -> [Vec2; 2] {
-    let (p, f, m) = (&flow.state.particles, &flow.fields, &flow.setting.method);
+    let (p, f, m) = (&flow.state.particles, &flow.fields.bulk, &flow.setting.method);
     let is_drop = |a: usize| a < p.fluids && p.phase[a] == Phase::Wetting;
     let area: f64 = (0..p.fluids).filter(|&a| is_drop(a)).map(|a| f.volume[a]).sum();
     let drive = (m.wetting_fluid.density - m.other_fluid.density) * area * m.gravity;
-    [drive, -flow.friction(|a, _| is_drop(a))]
+    [drive, -flow.view().friction(|a, _| is_drop(a))]
 }
 
 /// Angles, ways and speeds of both ends, and what drives the drop along the wall.

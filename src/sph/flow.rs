@@ -4,16 +4,18 @@
 
 use std::time::Instant;
 
-use crate::math::Vec2;
 use crate::solver::{PartTime, StateError};
 use crate::sph::cells::Cells;
-use crate::sph::fields::{Fields, joined};
+use crate::sph::fields::Fields;
 use crate::sph::neighborhood::Neighborhood;
-use crate::sph::open::{GivenFlow, OpenSide};
+use crate::sph::open::GivenFlow;
 use crate::sph::particles::Particles;
 use crate::sph::poisson::{PressureSolve, parts};
 use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;
+use crate::sph::view::View;
+use crate::sph::walls::WallFields;
+use crate::sph::wetting::lines::Line;
 
 /// The particles are put in the order of their cells every so many steps, so that neighbors are near in memory.
 const REORDER_EVERY: u64 = 20;
@@ -31,6 +33,8 @@ pub struct Flow {
     pub neighborhood: Neighborhood,
     /// Volumes, densities, normals and forces at the present positions; they follow from the state.
     pub fields: Fields,
+    /// The contact lines at the present positions, which the next step takes into the state.
+    pub lines: Vec<Line>,
     /// Matrix and memory of the pressure solve. No step depends on what the one before left in it.
     pub pressure: PressureSolve,
     /// Counts, for reports only.
@@ -68,14 +72,15 @@ impl Flow {
             state,
             neighborhood: Neighborhood::default(),
             fields: Fields::default(),
+            lines: Vec::new(),
             pressure: PressureSolve::default(),
             work: Work::default(),
         };
-        flow.fields.face_walls(&flow.setting, &flow.state.particles);
+        flow.fields.walls = WallFields::of(&flow.setting, &flow.state.particles);
         flow.prepare();
         let Neighborhood { pairs, images } = &flow.neighborhood;
-        let facing = flow.fields.facing(flow.state.particles.moving(), images);
-        flow.state.particles.part = parts(pairs, images, |a, b| joined(facing[a], facing[b]));
+        let joined = flow.fields.walls.joined(flow.state.particles.moving(), images);
+        flow.state.particles.part = parts(pairs, images, joined);
         flow
     }
 
@@ -101,7 +106,7 @@ impl Flow {
         // A side that the saved run did not have begins anew.
         state.given_flows.resize(self.state.given_flows.len(), GivenFlow::default());
         self.state = state;
-        self.fields.face_walls(&self.setting, &self.state.particles);
+        self.fields.walls = WallFields::of(&self.setting, &self.state.particles);
         self.prepare();
         Ok(())
     }
@@ -109,25 +114,27 @@ impl Flow {
     /// All that follows from the state: neighbors, volumes, normals, forces of interface and lines.
     pub fn prepare(&mut self) {
         let start = Instant::now();
-        let Self { setting, state, neighborhood, fields, .. } = self;
+        let Self { setting, state, neighborhood, fields, lines, .. } = self;
         if state.steps.is_multiple_of(REORDER_EVERY) {
             order_fluid(&mut state.particles, setting);
         }
         neighborhood.find_anew(&state.particles.position, &setting.domain, &setting.method.kernel);
         let after = Instant::now();
-        fields.update(setting, state, neighborhood);
+        *lines = fields.update(setting, state, neighborhood);
         self.work.seconds[0] += (after - start).as_secs_f64();
         self.work.seconds[1] += after.elapsed().as_secs_f64();
     }
 
-    /// The periodic sides with a given flow rate, each with how its flow goes on.
-    pub(crate) fn given_flows(&self) -> impl Iterator<Item = (&OpenSide, &GivenFlow)> {
-        self.setting.open.through.iter().zip(&self.state.given_flows)
+    /// The flow to read.
+    pub fn view(&self) -> View<'_, Fields> {
+        let Self { setting, state, neighborhood, fields, .. } = self;
+        View { setting, state, neighborhood, fields }
     }
 
-    /// The mean pressure gradient −∇P in Pa/m that drives the given flows.
-    pub fn driving_gradient(&self) -> Vec2 {
-        self.given_flows().map(|(side, given)| given.gradient * side.way()).sum()
+    /// The flow to read, with what solves for the pressure and what counts it.
+    pub(crate) fn solving(&mut self) -> (View<'_, Fields>, &mut PressureSolve, &mut Work) {
+        let Self { setting, state, neighborhood, fields, pressure, work, .. } = self;
+        (View { setting, state, neighborhood, fields }, pressure, work)
     }
 
     /// Wall time by part in s.

@@ -1,7 +1,13 @@
 //! Image particles behind mirror sides [Huber2013, Eqs. 32-34]: copies of the particles within the support.
 
+use std::ops::Deref;
+
 use crate::math::Vec2;
 use crate::sph::domain::{Domain, Mirror};
+
+/// Values of all particles and, behind them, of their images. Only [`Images`] makes it, so that none lacks those of the images.
+#[derive(Debug, Clone, Default)]
+pub struct Field<T>(Vec<T>);
 
 /// The images of one step. They are numbered after the particles: image i has index `first + i` in every field.
 #[derive(Debug, Clone, Default)]
@@ -66,33 +72,36 @@ impl Images {
         self.source.is_empty()
     }
 
-    /// Appends the images' values of a field that the reflection leaves alone: p' = p [Huber2013, Eq. 34].
-    pub(crate) fn extend<T: Copy>(&self, field: &mut Vec<T>) {
-        field.truncate(self.first);
-        for &source in &self.source {
-            field.push(field[source as usize]);
-        }
+    /// The field of these values of the particles where the reflection leaves it alone: p' = p [Huber2013, Eq. 34]. Particles behind those that
+    /// have a value have zero.
+    pub(crate) fn field<T: Copy + Default>(&self, values: Vec<T>) -> Field<T> {
+        self.field_by(values, |_, value| value)
     }
 
-    /// Appends the images of a polar vector such as a normal.
-    pub(crate) fn extend_reflected(&self, field: &mut Vec<Vec2>) {
-        self.extend_by(field, |mirror, v| mirror.reflect(v));
+    /// The field of a polar vector such as a normal.
+    pub(crate) fn reflected_field(&self, values: Vec<Vec2>) -> Field<Vec2> {
+        self.field_by(values, Mirror::reflect)
     }
 
-    /// Appends the images' velocities: v' = −v on no-slip sides [Huber2013, Eq. 34].
-    pub fn extend_velocity(&self, field: &mut Vec<Vec2>) {
-        self.extend_by(field, |mirror, v| mirror.velocity(v));
+    /// The field of velocities: v' = −v on no-slip sides [Huber2013, Eq. 34].
+    pub fn velocity_field(&self, values: Vec<Vec2>) -> Field<Vec2> {
+        self.field_by(values, Mirror::velocity)
     }
 
-    fn extend_by(&self, field: &mut Vec<Vec2>, apply: impl Fn(&Mirror, Vec2) -> Vec2) {
-        field.truncate(self.first);
+    fn field_by<T: Copy + Default>(&self, mut values: Vec<T>, image: impl Fn(&Mirror, T) -> T) -> Field<T> {
+        values.resize(self.first, T::default());
         for (&source, &via) in self.source.iter().zip(&self.via) {
-            let mut v = field[source as usize];
-            for mirror in self.mirrors_of(via) {
-                v = apply(mirror, v);
-            }
-            field.push(v);
+            values.push(self.mirrors_of(via).fold(values[source as usize], |value, mirror| image(mirror, value)));
         }
+        Field(values)
+    }
+}
+
+impl<T> Deref for Field<T> {
+    type Target = [T];
+
+    fn deref(&self) -> &[T] {
+        &self.0
     }
 }
 
@@ -112,8 +121,7 @@ mod tests {
         let images = Images::append(&mut points, &domain, 0.2);
         assert_eq!(points.len(), 5);
         assert!(points[4] == Vec2::new(-0.1, -0.05));
-        let mut v = vec![Vec2::new(1.0, 2.0), Vec2::zeros()];
-        images.extend_velocity(&mut v);
+        let v = images.velocity_field(vec![Vec2::new(1.0, 2.0)]);
         assert_eq!(v[2], Vec2::new(-1.0, 2.0));
         assert_eq!(v[3], Vec2::new(-1.0, -2.0));
         assert_eq!(v[4], Vec2::new(1.0, -2.0));

@@ -4,6 +4,7 @@
 //! holds the equations.
 
 pub(crate) mod boundary;
+pub(crate) mod bulk;
 mod cells;
 mod components;
 pub mod conjugate_gradients;
@@ -36,5 +37,7 @@ pub(crate) mod surface_force;
 pub mod terms;
 pub(crate) mod time_step;
 pub(crate) mod unresolved;
+pub(crate) mod view;
+pub(crate) mod walls;
 pub(crate) mod warnings;
 pub mod wetting;

@@ -26,10 +26,4 @@ impl Neighborhood {
         let cells = Cells::build(&points, domain, kernel.support());
         self.pairs.find_anew(&cells, &points, position.len(), domain, kernel);
     }
-
-    /// x_a − x_b in m of a particle and a particle or image, from the `position` (m) of the particles.
-    #[inline]
-    pub(crate) fn separation(&self, a: usize, b: usize, position: &[Vec2], domain: &Domain) -> Vec2 {
-        domain.separation(position[a], self.images.position(b, position))
-    }
 }

@@ -53,7 +53,7 @@ impl Observation {
         let fluids = flow.state.particles.fluids;
         // Interpolation near open sides needs their buffers; areas do not.
         let all = sharp_color(flow);
-        let (volumes, color) = (&flow.fields.volume[..fluids], &all[..fluids]);
+        let (volumes, color) = (&flow.fields.bulk.volume[..fluids], &all[..fluids]);
         let areas = PhaseAreas::new(volumes, color);
         let wall_point = |x: Vec2| WallPoint::from((flow.setting.wall)(x));
         let two_phases = flow.setting.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
@@ -122,7 +122,7 @@ pub(crate) fn fluid_samples(flow: &Flow) -> Samples<'_> {
     let moving = flow.state.particles.moving();
     Samples {
         points: &flow.state.particles.position[..moving],
-        volumes: &flow.fields.volume[..moving],
+        volumes: &flow.fields.bulk.volume[..moving],
         smoothing_length: flow.setting.method.kernel.h,
         period: flow.setting.domain.periods(),
     }

@@ -68,8 +68,8 @@ fn particles(flow: &Flow, thin: &ThinParts) -> Cloud<'static> {
     let (p, f, n) = (&flow.state.particles, &flow.fields, flow.state.particles.len());
     let on_fluid = |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect();
     let (distance, normal) = p.position.par_iter().map(|&x| wall(flow, x)).unzip();
-    let (surface_force, line_force) = volume_forces(flow);
-    let (driving, from) = (flow.driving_gradient(), flow.setting.domain.bounds.min);
+    let [surface_force, line_force] = volume_forces(flow);
+    let (driving, from) = (flow.view().driving_gradient(), flow.setting.domain.bounds.min);
     let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from))).collect();
     let fields = vec![
         integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
@@ -77,11 +77,11 @@ fn particles(flow: &Flow, thin: &ThinParts) -> Cloud<'static> {
         integer("phase", p.phase.iter().map(|phase| phase.number()).collect()),
         vector("velocity", "m/s", p.velocity.clone()),
         scalar("pressure", "Pa", pressure),
-        scalar("density", "kg/m^3", f.density[..n].to_vec()),
-        scalar("volume", "m^2", f.volume[..n].to_vec()),
-        scalar("color", "", f.color[..n].to_vec()),
-        vector("normal", "1/m", f.normal[..n].to_vec()),
-        scalar("curvature", "1/m", f.curvature[..n].to_vec()),
+        scalar("density", "kg/m^3", f.bulk.density[..n].to_vec()),
+        scalar("volume", "m^2", f.bulk.volume[..n].to_vec()),
+        scalar("color", "", f.interface.color[..n].to_vec()),
+        vector("normal", "1/m", f.interface.normal[..n].to_vec()),
+        scalar("curvature", "1/m", f.interface.curvature.clone()),
         vector("surface-force", "N/m^3", on_fluid(&surface_force)),
         vector("line-force", "N/m^3", on_fluid(&line_force)),
         scalar("wall-distance", "m", distance),

@@ -17,7 +17,7 @@ use crate::sph::domain::Domain;
 use crate::sph::images::Images;
 use crate::sph::kernel::WendlandC2;
 use crate::sph::pairs::Pairs;
-use crate::sph::parallel::each;
+use crate::sph::parallel::{each, values};
 use crate::sph::poisson::{PressureSolve, System, Tolerance, Unknowns, assemble, parts};
 use crate::sph::terms::{density, pressure_gradient};
 
@@ -144,8 +144,7 @@ impl Packing<'_> {
     fn order(&self, around: &Round, fluids: usize) -> Vec<Move> {
         let diffusion = DIFFUSION * self.kernel.h * self.kernel.h * self.volume;
         let reach2 = self.kernel.support() * self.kernel.support();
-        let mut moves = vec![Move { by: Vec2::zeros(), sees_fixed: false }; fluids];
-        each(&mut moves, |a| {
+        values(fluids, |a| {
             let mut found = Move { by: Vec2::zeros(), sees_fixed: false };
             let x = around.points[a];
             let mut neighbors = Vec::with_capacity(64);
@@ -156,8 +155,7 @@ impl Packing<'_> {
                 found.sees_fixed |= around.images.source(b as usize) >= fluids;
             }
             found
-        });
-        moves
+        })
     }
 
     /// Adds −∇φ with −∇²φ = the density error V_0/V − 1 of the fluid.
@@ -165,13 +163,13 @@ impl Packing<'_> {
         let Round { points, count, images, cells } = around;
         let pairs = &Pairs::find_in(cells, points, *count, self.domain, self.kernel);
         let (n, fluids) = (*count, moves.len());
-        let mut volume = vec![self.volume; n];
-        density::volume(pairs, &mut volume[..fluids]);
+        let mut volume = density::volume(pairs, fluids);
+        volume.resize(n, self.volume);
         let density_error = |a: usize| if a < fluids { self.volume / volume[a] - 1.0 } else { 0.0 };
         let mut source: Vec<f64> = (0..n).map(|a| SHARE * volume[a] * density_error(a)).collect();
-        images.extend(&mut volume);
+        let volume = images.field(volume);
         let ones = vec![1.0; volume.len()];
-        assemble(&mut solve.matrix, pairs, images, &volume, &ones, |_, _| true);
+        let matrix = assemble(pairs, images, &volume, &ones, |_, _| true);
         let part = parts(pairs, images, |_, _| true);
         let unknowns = Unknowns {
             position: &points[..n],
@@ -183,9 +181,8 @@ impl Packing<'_> {
         let mut potential = vec![0.0; n];
         // What the solve leaves over, the next round takes.
         let system = System { b: &mut source, x: &mut potential, tolerance: TOLERANCE };
-        solve.solve(&unknowns, &volume[..n], &mut [system]);
-        images.extend(&mut potential);
-        let down = pressure_gradient::down(pairs, &volume, &ones, &potential, fluids);
+        solve.solve(&matrix, &unknowns, &volume[..n], &mut [system]);
+        let down = pressure_gradient::down(pairs, &volume, &ones, &images.field(potential), fluids);
         moves.iter_mut().zip(&down).for_each(|(m, down)| m.by += down);
     }
 

@@ -10,7 +10,7 @@ use crate::math::Vec2;
 use crate::sph::cells::Cells;
 use crate::sph::domain::Domain;
 use crate::sph::kernel::WendlandC2;
-use crate::sph::parallel::{GRAIN, each};
+use crate::sph::parallel::{GRAIN, values};
 
 /// ζ over h [Huber2013, Eq. 16]: keeps the denominators of the Laplacians above zero.
 const ZETA: f64 = 0.01;
@@ -176,9 +176,9 @@ impl Pairs {
         })
     }
 
-    /// `out[a]` = Σ_b `term(a, ab)` for each a of `out`, in parallel with one writer per element.
-    pub(crate) fn sum_into<T: Sum + Send>(&self, out: &mut [T], term: impl Fn(usize, &Pair) -> T + Sync) {
-        each(out, |a| self.of(a).map(|ab| term(a, &ab)).sum());
+    /// Σ_b `term(a, ab)` of each of the first `count` particles a, in parallel.
+    pub(crate) fn sums<T: Sum + Send>(&self, count: usize, term: impl Fn(usize, &Pair) -> T + Sync) -> Vec<T> {
+        values(count, |a| self.of(a).map(|ab| term(a, &ab)).sum())
     }
 
     /// Bytes held.

@@ -10,6 +10,11 @@ pub(crate) fn each<T: Send>(out: &mut [T], value: impl Fn(usize) -> T + Sync) {
     out.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, out)| *out = value(a));
 }
 
+/// `value(a)` of each a in 0..n, in parallel.
+pub(crate) fn values<T: Send>(n: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    (0..n).into_par_iter().with_min_len(GRAIN).map(&value).collect()
+}
+
 /// Σ_a `value(a)` over 0..n, in parts of fixed length added in order: the same bits for any number of threads.
 pub(crate) fn total(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
     let parts: Vec<f64> = (0..n.div_ceil(GRAIN))

@@ -172,7 +172,7 @@ impl Solver for SphSolver {
     fn sample(&self) -> Vec<Sample> {
         let (flow, seen) = (&self.flow, self.observe());
         let fluids = flow.state.particles.fluids;
-        let [error, _] = density_error(&flow.fields.volume[..fluids], flow.setting.method.volume);
+        let [error, _] = density_error(&flow.fields.bulk.volume[..fluids], flow.setting.method.volume);
         let speed = flow.state.particles.fluid_speed();
         let momentum = self.momentum();
         let row = [

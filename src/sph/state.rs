@@ -20,7 +20,7 @@ pub struct FlowState {
     pub particles: Particles,
     /// Depth of each wall particle in m.
     pub wall_depth: Vec<f64>,
-    /// The contact lines as the last step left them; those of the present positions are among the fields.
+    /// The contact lines as the last step left them; those of the present positions are [`Flow::lines`](crate::sph::flow::Flow::lines).
     pub lines: Vec<Line>,
     /// What passed through the sides.
     pub ledger: Ledger,

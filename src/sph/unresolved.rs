@@ -37,7 +37,7 @@ pub(crate) fn small_pieces(flow: &Flow, wetting_pieces: &[Blob]) -> usize {
         return 0;
     }
     let others: Vec<bool> = wetting(flow).iter().map(|wetting| !wetting).collect();
-    let (points, volumes) = (&flow.state.particles.position[..others.len()], &flow.fields.volume[..others.len()]);
+    let (points, volumes) = (&flow.state.particles.position[..others.len()], &flow.fields.bulk.volume[..others.len()]);
     let link = LINK * flow.setting.method.spacing;
     let pieces = blobs(points, volumes, &others, link, flow.setting.domain.periods());
     wetting_pieces.iter().chain(&pieces).filter(|piece| piece.count < SMALLEST_PIECE).count()

@@ -44,7 +44,10 @@ const PORES: [(&str, &str, &str); 6] = [
 ];
 
 fn density_errors(flow: &Flow) -> Vec<f64> {
-    flow.fields.volume[..flow.state.particles.fluids].iter().map(|v| flow.setting.method.volume / v - 1.0).collect()
+    flow.fields.bulk.volume[..flow.state.particles.fluids]
+        .iter()
+        .map(|v| flow.setting.method.volume / v - 1.0)
+        .collect()
 }
 
 fn spread(errors: &[f64]) -> [f64; 3] {

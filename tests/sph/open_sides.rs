@@ -101,7 +101,7 @@ fn long_steps_between_two_pressures_leave_the_flow_as_short_ones_do() {
         let fluids = flow.state.particles.fluids;
         let flux = flow.state.particles.velocity[..fluids].iter().map(|v| v.x).sum::<f64>() / fluids as f64;
         let density_error = |volume: &f64| (flow.setting.method.volume / volume - 1.0).abs();
-        (flow.state.steps, flux, flow.fields.volume[..fluids].iter().map(density_error).fold(0.0, f64::max))
+        (flow.state.steps, flux, flow.fields.bulk.volume[..fluids].iter().map(density_error).fold(0.0, f64::max))
     });
     assert!(2 * long.0 < short.0, "{long:?} and {short:?}");
     assert!((long.1 / short.1 - 1.0).abs() < 5e-3, "{long:?} and {short:?}");
@@ -201,7 +201,7 @@ fn a_given_flow_rate_holds_in_every_step_and_takes_the_pressure_of_a_parabola() 
         let error = rate_error(&mut flow, 4, dt);
         assert!(error < 1e-9, "{error:.1e} at {dt} s at the end");
         let exact = 12.0 * 1.0e-3 * 1.0e-3 / 1.0e-6;
-        let gradient = flow.driving_gradient().x;
+        let gradient = flow.view().driving_gradient().x;
         println!("{profile}: gradient over exact {:.5}", gradient / exact);
         assert!((gradient / exact - 1.0).abs() < 0.01, "{gradient:.4} Pa/m, exact {exact:.4}");
     }

@@ -84,16 +84,16 @@ fn small_systems_are_solved_directly() {
     let cloud = Cloud::new(17, true, 0.3);
     let density = stripe(&cloud, 10.0);
     let mut solver = PressureSolve::default();
-    solver.matrix = pressure_matrix(&cloud, &density);
+    let matrix = pressure_matrix(&cloud, &density);
     let n = cloud.points.len();
     let (kind, part) = (vec![0; n], parts(&cloud.pairs, &cloud.images, |_, _| true));
     assert!(part.iter().all(|part| *part == 0), "one pore, one part");
     let unknowns =
         Unknowns { position: &cloud.points, kind: &kind, part: &part, has_dirichlet: &[], spacing: cloud.spacing };
     let (mut b, mut p) = (right_side(n), vec![0.0; n]);
-    let wanted = direct(&solver.matrix, &b);
+    let wanted = direct(&matrix, &b);
     let tolerance = Tolerance { residual: 1e-6, iterations: 300 };
-    let found = solver.solve(&unknowns, &cloud.volume, &mut [System { b: &mut b, x: &mut p, tolerance }])[0];
+    let found = solver.solve(&matrix, &unknowns, &cloud.volume, &mut [System { b: &mut b, x: &mut p, tolerance }])[0];
     assert_eq!(found.iterations, 1);
     assert!(found.residual < 1e-12, "{}", found.residual);
     assert!(difference(&p, &wanted) < 1e-10);

@@ -6,6 +6,7 @@ use crate::support::boxes::{SURFACE_FORCES, case, fastest, steps};
 use crate::support::flow::{flow, solver};
 use meniscus::math::Vec2;
 use meniscus::solver::Solver;
+use meniscus::sph::equivalent_forces::volume_forces;
 use meniscus::sph::flow::Flow;
 use meniscus::sph::particles::Phase;
 use meniscus::sph::terms::shifting::{anti_clustering, carried_velocity, keep_along, take_out_mean};
@@ -44,7 +45,7 @@ fn the_density_error_shifting_evens_the_density_of_a_fluid_at_rest_and_leaves_it
     let mut flow = flow(&text);
     shake(&mut flow);
     let uneven = |flow: &Flow| {
-        let errors = flow.fields.volume[..flow.state.particles.fluids]
+        let errors = flow.fields.bulk.volume[..flow.state.particles.fluids]
             .iter()
             .map(|v| (flow.setting.method.volume / v - 1.0).powi(2));
         errors.sum::<f64>().sqrt()
@@ -144,18 +145,16 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
         shake(&mut flow);
         // The fluid around the drop moves by 1 m/s, the drop does not.
         let moves = |a: usize| flow.state.particles.phase[a] == Phase::NonWetting;
-        let mut velocity: Vec<Vec2> =
+        let velocity: Vec<Vec2> =
             (0..flow.state.particles.len()).map(|a| if moves(a) { Vec2::x() } else { Vec2::zeros() }).collect();
-        flow.neighborhood.images.extend_velocity(&mut velocity);
+        let velocity = flow.neighborhood.images.velocity_field(velocity);
         let by = vec![Vec2::new(0.0, 0.1 * flow.setting.method.spacing); flow.state.particles.fluids];
-        let mut change = vec![Vec2::zeros(); flow.state.particles.fluids];
-        carried_velocity(
+        let change = carried_velocity(
             &flow.neighborhood.pairs,
-            &flow.fields.volume,
-            &flow.fields.density,
+            &flow.fields.bulk.volume,
+            &flow.fields.bulk.density,
             &velocity,
             &by,
-            &mut change,
         );
         let largest = |of_moving: bool| {
             let meant = (0..flow.state.particles.fluids).filter(|a| moves(*a) == of_moving);
@@ -171,17 +170,15 @@ fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
     let mut flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
     let (dx, fluids) = (flow.setting.method.spacing, flow.state.particles.fluids);
     let push = |flow: &Flow| {
-        let mut push = vec![Vec2::zeros(); fluids];
         let w_of_spacing = flow.setting.method.kernel.w(dx);
-        anti_clustering(&flow.neighborhood.pairs, &flow.fields.fluid_volume, 0.2, w_of_spacing, &mut push);
-        push
+        anti_clustering(&flow.neighborhood.pairs, &flow.fields.bulk.fluid_volume, 0.2, w_of_spacing, fluids)
     };
     let largest = |push: &[Vec2]| push.iter().map(|s| s.norm()).fold(0.0, f64::max);
     assert!(largest(&push(&flow)) < 1e-9 / dx, "nothing is pushed on the lattice");
 
     // What is the same everywhere would move all, and is taken out.
     let mut all_alike = vec![Vec2::new(1.0, -2.0) / dx; fluids];
-    take_out_mean(&flow.neighborhood.pairs, &flow.neighborhood.images, &flow.fields.fluid_volume, &mut all_alike);
+    take_out_mean(&flow.neighborhood.pairs, &flow.neighborhood.images, &flow.fields.bulk.fluid_volume, &mut all_alike);
     assert!(largest(&all_alike) < 1e-9 / dx, "{:.1e} of 2.2/dx", largest(&all_alike) * dx);
 
     // Two neighbors come to half of the spacing: the sum points to the other, shifting goes down it.
@@ -197,7 +194,7 @@ fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
         |flow: &Flow, x: Vec2| (0..fluids).find(|&c| (flow.state.particles.position[c] - x).norm() < 0.1 * dx).unwrap();
     let (left, right) = (of(&flow, moved - Vec2::new(0.5 * dx, 0.0)), of(&flow, moved));
     let mut push = push(&flow);
-    take_out_mean(&flow.neighborhood.pairs, &flow.neighborhood.images, &flow.fields.fluid_volume, &mut push);
+    take_out_mean(&flow.neighborhood.pairs, &flow.neighborhood.images, &flow.fields.bulk.fluid_volume, &mut push);
     assert!(
         push[left].x * dx > 0.1 && push[right].x * dx < -0.1,
         "{} and {} over 1/dx",
@@ -240,7 +237,8 @@ fn pushes_part_a_crowded_row_across_the_interface() {
 #[test]
 fn particles_go_down_the_concentration_along_the_interface_only() {
     let flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
-    let (fluids, h, normal) = (flow.state.particles.fluids, flow.setting.method.kernel.h, &flow.fields.normal);
+    let (fluids, h, normal) =
+        (flow.state.particles.fluids, flow.setting.method.kernel.h, &flow.fields.interface.normal);
     let given = Vec2::new(1.0, -2.0);
     let mut kept = vec![given; fluids];
     keep_along(normal, h, &mut kept);
@@ -257,8 +255,9 @@ fn momentum_is_kept_at_equal_densities() {
     let mut flow = flow(&drop(1000.0, [0.0, 0.0], "csf"));
     shake(&mut flow);
     let momentum = |flow: &Flow| -> Vec2 { flow.state.particles.velocity.iter().sum() };
-    let force: Vec2 = flow.fields.surface_force.iter().zip(&flow.fields.volume).map(|(f, v)| *v * f).sum();
-    let sizes: f64 = flow.fields.surface_force.iter().zip(&flow.fields.volume).map(|(f, v)| v * f.norm()).sum();
+    let [surface_force, _] = volume_forces(&flow);
+    let force: Vec2 = surface_force.iter().zip(&*flow.fields.bulk.volume).map(|(f, v)| *v * f).sum();
+    let sizes: f64 = surface_force.iter().zip(&*flow.fields.bulk.volume).map(|(f, v)| v * f.norm()).sum();
     // The continuum surface force is no sum of pair forces: on shaken particles this much of it is left over.
     println!("surface force left over: {:.1e}", force.norm() / sizes);
     // What is left over acts as long as they move: these are a quarter of what surface tension allows.
@@ -288,10 +287,10 @@ fn the_curvature_of_a_resolved_wave_keeps_its_amplitude() {
             *x += a * Vec2::new(0.5 * along.sin() * across.sin(), along.cos() * across.cos());
         }
         flow.prepare();
-        let near = (0..flow.state.particles.fluids).filter(|&i| flow.fields.curvature[i] != 0.0);
+        let near = (0..flow.state.particles.fluids).filter(|&i| flow.fields.interface.curvature[i] != 0.0);
         let (sum, norm) = near.fold((0.0, 0.0), |(sum, norm), i| {
             let wave = (k * flow.state.particles.position[i].x).cos();
-            (sum + wave * flow.fields.curvature[i], norm + wave * wave)
+            (sum + wave * flow.fields.interface.curvature[i], norm + wave * wave)
         });
         let ratio = sum / norm / (a * k * k);
         println!("{cells} spacings per wavelength: {ratio}");
@@ -310,9 +309,9 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
         // Three viscous times, density H²/viscosity: the slowest part has decayed by exp(-30), with slip by exp(-24).
         steps(&mut flow, 375, 8e-5);
         let weight = 1000.0 * flow.setting.method.volume * flow.state.particles.fluids as f64 * GRAVITY;
-        let all = flow.friction(|_, _| true);
+        let all = flow.view().friction(|_, _| true);
         assert!((all.x / weight - 1.0).abs() < 1e-6, "slip {slip} m: {:.6} of the weight", all.x / weight);
-        let below = flow.friction(|_, x| x.y < 0.0);
+        let below = flow.view().friction(|_, x| x.y < 0.0);
         assert!((below.x / all.x - 0.5).abs() < 1e-6 && all.y.abs() < 1e-6 * weight, "{below:?} of {all:?}");
     }
 }

@@ -117,7 +117,7 @@ fn at_rest_the_drag_on_a_layer_is_what_its_wall_and_its_weight_leave() {
     let exact = force * height / 2.0 * (0.01 - 1.0e-3) / (0.01 + 1.0e-3) * length;
     assert!((found.friction / exact - 1.0).abs() < 0.03, "{found:?}, exact {exact:.3e}");
     let wetting = |a: usize| flow.state.particles.phase[a] == Phase::Wetting;
-    let wall = -flow.friction(|a, _| wetting(a)).x;
+    let wall = -flow.view().friction(|a, _| wetting(a)).x;
     let count = (0..flow.state.particles.fluids).filter(|&a| wetting(a)).count() as f64;
     let weight = force * flow.setting.method.volume * count;
     // Pairs keep momentum, so what is left is the change that ten decay times have not ended, and the drift of shifted particles.

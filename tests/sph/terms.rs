@@ -42,11 +42,8 @@ fn viscosity_keeps_momentum_on_shaken_particles() {
     let velocity: Vec<Vec2> = (0..n).map(|_| dice.vector()).collect();
     let viscous = Viscous { volume: &cloud.volume, density: &density, viscosity: &viscosity };
     let v_ab = |a: usize, b: usize| velocity[a] - velocity[b];
-    let mut acceleration = vec![Vec2::zeros(); n];
-    viscous.morris(&cloud.pairs, v_ab, &mut acceleration);
-    assert!(imbalance(&cloud, &density, &acceleration) < ROUNDING);
-    viscous.szewc(&cloud.pairs, v_ab, &mut acceleration);
-    assert!(imbalance(&cloud, &density, &acceleration) < ROUNDING);
+    assert!(imbalance(&cloud, &density, &viscous.morris(&cloud.pairs, v_ab, n)) < ROUNDING);
+    assert!(imbalance(&cloud, &density, &viscous.szewc(&cloud.pairs, v_ab, n)) < ROUNDING);
 }
 
 #[test]
@@ -58,9 +55,7 @@ fn viscosity_takes_energy_from_every_motion() {
     for seed in 0..5 {
         let mut dice = Dice::new(seed);
         let velocity: Vec<Vec2> = (0..n).map(|_| dice.vector()).collect();
-        let mut acceleration = vec![Vec2::zeros(); n];
-        let v_ab = |a: usize, b: usize| velocity[a] - velocity[b];
-        viscous.morris(&cloud.pairs, v_ab, &mut acceleration);
+        let acceleration = viscous.morris(&cloud.pairs, |a, b| velocity[a] - velocity[b], n);
         let power: f64 = (0..n).map(|a| cloud.volume[a] * velocity[a].dot(&acceleration[a])).sum();
         assert!(power < 0.0, "{power}");
     }
@@ -73,8 +68,7 @@ fn the_symmetric_pressure_gradient_keeps_momentum_on_shaken_particles() {
     let density = densities(n, 5.0);
     let mut dice = Dice::new(5);
     let pressure: Vec<f64> = (0..n).map(|_| dice.between(-100.0, 300.0)).collect();
-    let mut acceleration = vec![Vec2::zeros(); n];
-    pressure_gradient::symmetric(&cloud.pairs, &cloud.volume, &density, &pressure, &mut acceleration);
+    let acceleration = pressure_gradient::symmetric(&cloud.pairs, &cloud.volume, &density, &pressure, n);
     assert!(imbalance(&cloud, &density, &acceleration) < ROUNDING);
 }
 
@@ -84,14 +78,12 @@ fn divergence_and_pressure_gradient_of_linear_fields_are_exact_on_the_lattice() 
     let n = cloud.points.len();
     let volume = vec![cloud.lattice_volume; n];
     let velocity: Vec<Vec2> = cloud.points.iter().map(|x| Vec2::new(3.0 * x.x - x.y, 0.5 * x.x + 2.0 * x.y)).collect();
-    let mut found = vec![0.0; n];
-    divergence::divergence(&cloud.pairs, &volume, &velocity, &mut found);
+    let found = divergence::divergence(&cloud.pairs, &volume, &velocity, n);
     let slope = Vec2::new(7.0, -4.0);
     let pressure: Vec<f64> = cloud.points.iter().map(|x| 5.0 + slope.dot(x)).collect();
-    let (mut by_difference, mut symmetric) = (vec![Vec2::zeros(); n], vec![Vec2::zeros(); n]);
     let density = vec![2.0; n];
-    pressure_gradient::difference(&cloud.pairs, &volume, &density, &pressure, |_, _| 0.0, &mut by_difference);
-    pressure_gradient::symmetric(&cloud.pairs, &volume, &density, &pressure, &mut symmetric);
+    let by_difference = pressure_gradient::difference(&cloud.pairs, &volume, &density, &pressure, |_, _| 0.0, n);
+    let symmetric = pressure_gradient::symmetric(&cloud.pairs, &volume, &density, &pressure, n);
     assert!(!cloud.inner().is_empty());
     for a in cloud.inner() {
         assert!((found[a] - 5.0).abs() < 5.0 * WEIGHTS, "{}", found[a]);
@@ -108,11 +100,10 @@ fn a_gradient_over_its_moment_has_the_mean_of_a_linear_field() {
     let density = vec![1.0; n];
     let along = |slope: Vec2| {
         let pressure: Vec<f64> = cloud.points.iter().map(|x| slope.dot(x)).collect();
-        let mut gradient = vec![Vec2::zeros(); n];
-        pressure_gradient::difference(&cloud.pairs, &cloud.volume, &density, &pressure, |_, _| 0.0, &mut gradient);
+        let (pairs, volume) = (&cloud.pairs, &cloud.volume);
+        let mut gradient = pressure_gradient::difference(pairs, volume, &density, &pressure, |_, _| 0.0, n);
         let plain: Vec<f64> = gradient.iter().map(|g| -g.dot(&slope)).collect();
-        let mut moment = vec![0.0; n];
-        pressure_gradient::moment(&cloud.pairs, &cloud.volume, |a, b| cloud.separation(a, b), &mut moment);
+        let moment = pressure_gradient::moment(pairs, volume, |a, b| cloud.separation(a, b), n);
         pressure_gradient::correct_gradient(&moment, &mut gradient);
         (plain, gradient.iter().map(|g| -g.dot(&slope)).collect::<Vec<f64>>())
     };
@@ -134,8 +125,7 @@ fn viscosity_of_a_parabola_is_its_second_derivative_on_the_lattice() {
     let velocity: Vec<Vec2> = cloud.points.iter().map(|x| Vec2::new(x.y * x.y, x.x * x.x)).collect();
     let viscous = Viscous { volume: &volume, density: &density, viscosity: &viscosity };
     let v_ab = |a: usize, b: usize| velocity[a] - velocity[b];
-    let mut acceleration = vec![Vec2::zeros(); n];
-    viscous.morris(&cloud.pairs, v_ab, &mut acceleration);
+    let acceleration = viscous.morris(&cloud.pairs, v_ab, n);
     for a in cloud.inner() {
         // mu/rho times 2; zeta² = 1e-4 h² takes at most 1e-4 h²/dx² off.
         assert!((acceleration[a] - Vec2::repeat(3.0)).norm() < 1e-3, "{:?}", acceleration[a]);
@@ -148,8 +138,7 @@ fn viscous_forces(cloud: &Cloud, of_place: impl Fn(Vec2) -> f64, velocity: &[Vec
     let density = vec![1.0; n];
     let viscosity: Vec<f64> = cloud.points.iter().map(|&x| of_place(x)).collect();
     let viscous = Viscous { volume: &cloud.volume, density: &density, viscosity: &viscosity };
-    let mut by_morris = vec![Vec2::zeros(); n];
-    viscous.morris(&cloud.pairs, |a, b| velocity[a] - velocity[b], &mut by_morris);
+    let mut by_morris = viscous.morris(&cloud.pairs, |a, b| velocity[a] - velocity[b], n);
     by_morris.iter_mut().zip(&cloud.volume).for_each(|(f, volume)| *f *= *volume);
     let stress = TransposedStress::new(&cloud.pairs, &cloud.volume, &viscosity, n, [0.1, 10.0]).unwrap();
     [by_morris, stress.force(velocity, n)]
@@ -245,14 +234,11 @@ impl Interface {
     fn of(cloud: &Cloud, is_wetting: impl Fn(Vec2) -> bool) -> Self {
         let n = cloud.points.len();
         let sharp: Vec<f64> = cloud.points.iter().map(|&x| f64::from(u8::from(is_wetting(x)))).collect();
-        let mut smooth = vec![0.0; n];
-        color::smoothed_color(&cloud.pairs, &cloud.volume, &sharp, &vec![true; n], &mut smooth);
-        let (mut normal, mut unit_normal) = (vec![Vec2::zeros(); n], vec![Vec2::zeros(); n]);
-        color::color_gradient(&cloud.pairs, &cloud.volume, &smooth, &mut normal);
-        curvature::unit_normal(&normal, cloud.kernel.h, &mut unit_normal);
-        let mut kappa = vec![0.0; n];
-        curvature::curvature(&cloud.pairs, &cloud.volume, &unit_normal, &mut kappa);
-        Self { normal, unit_normal, curvature: kappa }
+        let smooth = color::smoothed_color(&cloud.pairs, &cloud.volume, &sharp, &vec![true; n]);
+        let normal = color::color_gradient(&cloud.pairs, &cloud.volume, &smooth, n);
+        let unit_normal = curvature::unit_normal(&normal, cloud.kernel.h);
+        let curvature = curvature::curvature(&cloud.pairs, &cloud.volume, &unit_normal, n);
+        Self { normal, unit_normal, curvature }
     }
 
     /// Mean curvature, weighted by |n|, and its standard deviation in 1/m: what the surface force feels.
@@ -303,9 +289,8 @@ fn the_surface_force_of_a_drop_sums_to_zero() {
     let cloud = Cloud::new(40, true, 0.0);
     let interface = Interface::of(&cloud, |x| (x - Vec2::repeat(0.5)).norm() < 0.25);
     let n = cloud.points.len();
-    let mut force = vec![Vec2::zeros(); n];
-    surface_tension::surface_force(0.02, &interface.curvature, &interface.normal, &vec![1.0; n], &mut force);
     let ones = vec![1.0; n];
+    let force = surface_tension::surface_force(0.02, &interface.curvature, &interface.normal, &ones);
     assert!(imbalance(&cloud, &ones, &force) < ROUNDING, "the lattice is symmetric about the drop");
 }
 
@@ -330,7 +315,6 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
         weight: &ones,
     };
     let law = Wetting::Young(Young { contact_angle_deg: contact_angle.to_degrees() });
-    let mut force = vec![Vec2::zeros(); n];
     let following = Following {
         domain: &cloud.domain,
         model: &|_| law,
@@ -346,13 +330,12 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
     let found = LineParticles::find(&neighborhood, &fields, &cloud.kernel, n);
     let lines = following.follow(&[], &found.detected_lines(&fields, &cloud.domain), 0.0);
     let angles: Vec<f64> = lines.iter().map(|line| line.angle).collect();
-    found.line_force(&fields, delta, &angles, 0.03, &mut force);
-    let lines = found.count();
+    let force = found.line_force(&fields, delta, &angles, 0.03);
     let half = |right: bool| {
         let near = |a: &usize| (0.25..0.75).contains(&cloud.points[*a].x) == right;
         (0..n).filter(near).map(|a| cloud.volume[a] * force[a]).sum()
     };
-    ([half(false), half(true)], lines)
+    ([half(false), half(true)], lines.len())
 }
 
 #[test]

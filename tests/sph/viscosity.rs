@@ -43,7 +43,7 @@ fn energy(flow: &Flow) -> f64 {
 
 /// The explicit limit of the step in s.
 fn explicit_limit(flow: &Flow) -> f64 {
-    1.0 / flow.viscous_rate()
+    1.0 / flow.view().viscous_rate()
 }
 
 #[test]

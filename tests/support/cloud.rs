@@ -45,8 +45,7 @@ impl Cloud {
         let mut all = points.clone();
         let images = Images::append(&mut all, &domain, kernel.support());
         let pairs = Pairs::find(&all, points.len(), &domain, &kernel);
-        let mut volume = vec![0.0; points.len()];
-        density::volume(&pairs, &mut volume);
+        let volume = density::volume(&pairs, points.len());
         Self { domain, kernel, points, pairs, images, volume, spacing, lattice_volume: lattice.volume() }
     }
 
@@ -65,9 +64,7 @@ impl Cloud {
 
 /// The matrix of the pressure equation.
 pub fn pressure_matrix(cloud: &Cloud, density: &[f64]) -> Matrix {
-    let mut matrix = Matrix::default();
-    assemble(&mut matrix, &cloud.pairs, &cloud.images, &cloud.volume, density, |_, _| true);
-    matrix
+    assemble(&cloud.pairs, &cloud.images, &cloud.volume, density, |_, _| true)
 }
 
 /// A right side of the pressure equation: numbers that look random and sum to zero.

@@ -1,10 +1,17 @@
 //! Fields carried from the fluid into the wall particles: averages over the nearest fluid, then inwards.
 
-use crate::sph::pairs::Pairs;
+use crate::sph::images::Field;
+use crate::sph::neighborhood::Neighborhood;
 
-/// Fills `field[fluids..]` with Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid; layers without fluid in reach copy the
-/// average of the layers before them. What no layer reaches keeps its value. The field covers particles and images.
-pub(crate) fn into_walls(pairs: &Pairs, fluid_volume: &[f64], fluids: usize, field: &mut [f64]) {
+/// The field of these values of the particles, on walls behind the first `fluids` particles Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid; layers
+/// without fluid in reach copy the average of the layers before them. What no layer reaches keeps its value.
+pub(crate) fn into_walls(
+    Neighborhood { pairs, images }: &Neighborhood,
+    fluid_volume: &[f64],
+    fluids: usize,
+    values: Vec<f64>,
+) -> Field<f64> {
+    let mut field = images.field(values).to_vec();
     let average = |field: &[f64], a: usize, weight: &dyn Fn(usize) -> f64| {
         let (sum, norm) = pairs.of(a).fold((0.0, 0.0), |(sum, norm), ab| {
             let w = weight(ab.b) * ab.w;
@@ -15,7 +22,7 @@ pub(crate) fn into_walls(pairs: &Pairs, fluid_volume: &[f64], fluids: usize, fie
     let walls = fluids..pairs.rows();
     let mut known: Vec<bool> = vec![false; pairs.rows()];
     for a in walls.clone() {
-        if let Some(value) = average(field, a, &|b| fluid_volume[b]) {
+        if let Some(value) = average(&field, a, &|b| fluid_volume[b]) {
             field[a] = value;
             known[a] = true;
         }
@@ -23,8 +30,9 @@ pub(crate) fn into_walls(pairs: &Pairs, fluid_volume: &[f64], fluids: usize, fie
     let front = known.clone();
     for a in walls.filter(|&a| !front[a]) {
         let is_front = |b: usize| if b < front.len() && front[b] { 1.0 } else { 0.0 };
-        if let Some(value) = average(field, a, &is_front) {
+        if let Some(value) = average(&field, a, &is_front) {
             field[a] = value;
         }
     }
+    images.field(field)
 }

@@ -10,7 +10,7 @@ use crate::sph::warnings::most_small_pieces;
 
 pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let fluids = s.flow.state.particles.fluids;
-    let [rms, largest] = density_error(&s.flow.fields.volume[..fluids], s.flow.setting.method.volume);
+    let [rms, largest] = density_error(&s.flow.fields.bulk.volume[..fluids], s.flow.setting.method.volume);
     let mut found = vec![
         measure("density-error", rms, "", None, "root mean square of V0/V - 1 over fluid particles at the end"),
         measure("largest-density-error", largest, "", None, "largest |V0/V - 1| over fluid particles at the end"),
@@ -35,12 +35,11 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
 
 /// Distance of the two nearest fluid particles over the spacing.
 fn smallest_distance(flow: &Flow) -> f64 {
-    let (position, fluids) = (&flow.state.particles.position, flow.state.particles.fluids);
+    let fluids = flow.state.particles.fluids;
     let among_fluids =
         |a: usize| flow.neighborhood.pairs.of(a).filter(|ab| flow.neighborhood.images.source(ab.b) < fluids);
-    let distances = (0..fluids).flat_map(|a| {
-        among_fluids(a).map(move |ab| flow.neighborhood.separation(a, ab.b, position, &flow.setting.domain).norm())
-    });
+    let view = &flow.view();
+    let distances = (0..fluids).flat_map(|a| among_fluids(a).map(move |ab| view.separation(a, ab.b).norm()));
     distances.fold(f64::INFINITY, f64::min) / flow.setting.method.spacing
 }
 

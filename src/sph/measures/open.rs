@@ -65,7 +65,7 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
         let others = (0..flow.state.ledger.left.len()).filter(|number| *number != entry);
         columns.push((PASSED, area(others.map(|number| flow.state.ledger.left[number][phase]).sum())));
     }
-    for (side, given) in flow.given_flows() {
+    for (side, given) in flow.view().given_flows() {
         let (rate, gradient) = names[side.axis()];
         let sign = side.inwards();
         columns.extend([(rate, sign * given.rate), (gradient, sign * given.gradient)]);
@@ -185,7 +185,7 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
         (if asked.is_some() { ledger.passed[side.number] } else { counted() } / time, asked)
     };
     let through_period = |(side, given): (&OpenSide, &GivenFlow)| (given.passed / time, Some(side.flow_rate()));
-    let rates = open.sides.iter().map(through_open_side).chain(flow.given_flows().map(through_period));
+    let rates = open.sides.iter().map(through_open_side).chain(flow.view().given_flows().map(through_period));
     let (mut came_in, mut asked_in, mut given_in) = (0.0, 0.0, 0.0);
     for (rate, asked) in rates {
         came_in += f64::max(rate, 0.0);
@@ -201,7 +201,7 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
             "area that came in through the sides with a given velocity or flow rate, over that which was asked for";
         found.push(measure("inflow-ratio", given_in / asked_in, "", None, method));
     }
-    for (side, given) in flow.given_flows() {
+    for (side, given) in flow.view().given_flows() {
         let drop = given.gradient * flow.setting.domain.bounds.size()[side.axis()];
         let method =
             "largest relative error of the flow rate through the periodic side in a step, by the ways of all particles";

@@ -23,7 +23,7 @@ const MOMENTA: [&str; 2] = ["momentum_x_kg_per_m_s", "momentum_y_kg_per_m_s"];
 /// The velocity averaged over the whole cell, solids at rest, in m/s.
 pub(crate) fn columns(flow: &Flow) -> Columns {
     let p = &flow.state.particles;
-    let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.volume[a] * p.velocity[a]).sum();
+    let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.bulk.volume[a] * p.velocity[a]).sum();
     let mean = flux / flow.setting.domain.bounds.area();
     MEANS.into_iter().zip([mean.x, mean.y]).collect()
 }

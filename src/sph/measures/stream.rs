@@ -57,8 +57,10 @@ pub(crate) fn given(flow: &Flow, wall: Vec2) -> Vec2 {
 /// between plates), where no particle of the other fluid is in reach of it, and with the continuum surface force.
 pub fn along(flow: &Flow, seen: &Observation, ahead: Vec2) -> StreamForce {
     let is_wetting = |a: usize| a < flow.state.particles.fluids && flow.state.particles.phase[a] == Phase::Wetting;
-    let friction = flow.viscous_force(is_wetting) + flow.friction(|a, _| is_wetting(a));
-    let pressure = if flow.fields.jump.is_some() { by_pressure(flow, &seen.interface, ahead) } else { None };
+    let view = flow.view();
+    let friction = view.viscous_force(is_wetting) + view.friction(|a, _| is_wetting(a));
+    let pressure =
+        if flow.fields.interface.force.jump().is_some() { by_pressure(flow, &seen.interface, ahead) } else { None };
     StreamForce { pressure: pressure.unwrap_or(f64::NAN), friction: friction.dot(&ahead) }
 }
 
@@ -68,7 +70,7 @@ fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> 
     let points: Vec<Vec2> = other.iter().map(|&a| p.position[a]).collect();
     let cells = Cells::build(&points, &flow.setting.domain, flow.setting.method.kernel.support());
     // Without the weight of the fluid displaced, and with the mean gradient that drives a given flow.
-    let even = flow.setting.method.other_fluid.density * flow.setting.method.gravity + flow.driving_gradient();
+    let even = flow.setting.method.other_fluid.density * flow.setting.method.gravity + flow.view().driving_gradient();
     let (mut force, mut gained, mut length) = (0.0, 0.0, 0.0);
     for line in interface {
         let from = line.points.first()?;

@@ -7,30 +7,27 @@ use rayon::prelude::*;
 use crate::sph::components::components;
 use crate::sph::images::Images;
 use crate::sph::pairs::{Pairs, split_rows};
-use crate::sph::parallel::each;
+use crate::sph::parallel::values;
 use crate::sph::poisson::matrix::Matrix;
 use crate::sph::terms::poisson::coefficient;
 
-/// Fills `matrix` with the coefficients of Eq. (30) times −V_a; images count for their sources [Eq. 34: p' = p].
+/// The matrix with the coefficients of Eq. (30) times −V_a; images count for their sources [Eq. 34: p' = p].
 ///
 /// `volume` in m² and `density` in kg/m³ over particles and images. Pairs that are not `joined` have no coupling.
 pub fn assemble(
-    matrix: &mut Matrix,
     pairs: &Pairs,
     images: &Images,
     volume: &[f64],
     density: &[f64],
     joined: impl Fn(usize, usize) -> bool + Sync,
-) {
-    let rows = pairs.rows();
-    matrix.start = Arc::clone(pairs.starts());
-    matrix.column = if images.is_empty() {
+) -> Matrix {
+    let column = if images.is_empty() {
         Arc::clone(pairs.neighbors())
     } else {
         Arc::new(pairs.neighbors().iter().map(|&b| images.source(b as usize) as u32).collect())
     };
-    matrix.coupling.resize(pairs.len(), 0.0);
-    let tasks: Vec<_> = split_rows(pairs.starts(), &mut matrix.coupling).collect();
+    let mut coupling = vec![0.0; pairs.len()];
+    let tasks: Vec<_> = split_rows(pairs.starts(), &mut coupling).collect();
     tasks.into_par_iter().for_each(|(range, coupling)| {
         let all = range.flat_map(|a| pairs.of(a).map(move |ab| (a, ab)));
         for (out, (a, ab)) in coupling.iter_mut().zip(all) {
@@ -40,13 +37,12 @@ pub fn assemble(
             *out = value as f32;
         }
     });
-    matrix.diagonal.resize(rows, 0.0);
-    let (start, coupling) = (&matrix.start, &matrix.coupling);
-    each(&mut matrix.diagonal, |a| {
-        let sum: f64 = coupling[start[a]..start[a + 1]].iter().copied().map(f64::from).sum();
+    let diagonal = values(pairs.rows(), |a| {
+        let sum: f64 = coupling[pairs.row(a)].iter().copied().map(f64::from).sum();
         // A particle without neighbors has no equation: its pressure stays zero.
         if sum > 0.0 { sum } else { 1.0 }
     });
+    Matrix { start: Arc::clone(pairs.starts()), column, coupling, diagonal }
 }
 
 /// Numbers the parts of the pore space that share no neighbors that are `joined`; each has a pressure constant of its own.

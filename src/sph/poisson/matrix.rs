@@ -54,12 +54,6 @@ impl Matrix {
         each(r, |a| b[a] - self.diagonal[a] * x[a] + self.coupled(a, x));
     }
 
-    /// Lets go of the pattern, so that the pairs that it was shared with can be freed; `coupling` keeps its memory.
-    pub(crate) fn release_pattern(&mut self) {
-        self.start = Arc::default();
-        self.column = Arc::default();
-    }
-
     /// Bytes held, a pattern that it shares with the pairs included.
     pub(crate) fn bytes(&self) -> usize {
         self.start.len() * 8 + (self.column.len() + self.coupling.len()) * 4 + self.diagonal.len() * 8

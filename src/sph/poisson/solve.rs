@@ -37,56 +37,61 @@ pub struct System<'a> {
 /// Solves the pressure Poisson equation step after step.
 #[derive(Default)]
 pub struct PressureSolve {
-    /// The matrix of the next solve; afterwards its memory without its pattern.
-    pub matrix: Matrix,
     cholesky: SparseCholesky,
-    hierarchy_bytes: usize,
+    /// Bytes that the last solve held in its matrix, without the pattern that it shares, and in its hierarchy.
+    bytes: [usize; 2],
 }
 
 impl PressureSolve {
-    /// Solves M x = b for the matrix set before, one system after the other, from the first guesses `x`.
+    /// Solves M x = b, one system after the other, from the first guesses `x`.
     ///
     /// Without a given pressure b must sum to zero over each part; what is left over by the discrete divergence is spread by `volume`.
     /// Then x has mean zero over each such part.
-    pub fn solve(&mut self, unknowns: &Unknowns, volume: &[f64], systems: &mut [System]) -> Vec<Convergence> {
+    pub fn solve(
+        &mut self,
+        matrix: &Matrix,
+        unknowns: &Unknowns,
+        volume: &[f64],
+        systems: &mut [System],
+    ) -> Vec<Convergence> {
+        self.bytes[0] = matrix.coupling.len() * 4 + matrix.rows() * 8;
         systems.iter_mut().for_each(|system| subtract_mean(unknowns, volume, system.b));
-        let convergence = if self.matrix.rows() <= SMALL {
-            systems.iter_mut().map(|system| self.solve_directly(unknowns, system)).collect()
+        let convergence = if matrix.rows() <= SMALL {
+            systems.iter_mut().map(|system| self.solve_directly(matrix, unknowns, system)).collect()
         } else {
-            self.iterate(unknowns, systems)
+            self.iterate(matrix, unknowns, systems)
         };
         let ones = vec![1.0; volume.len()];
         systems.iter_mut().for_each(|system| subtract_mean(unknowns, &ones, system.x));
-        self.matrix.release_pattern();
         convergence
     }
 
-    fn solve_directly(&mut self, unknowns: &Unknowns, system: &mut System) -> Convergence {
+    fn solve_directly(&mut self, matrix: &Matrix, unknowns: &Unknowns, system: &mut System) -> Convergence {
         let (b, x) = (&*system.b, &mut *system.x);
-        if self.cholesky.solve(&self.matrix, unknowns.part, unknowns.has_dirichlet, b, x).is_err() {
-            return self.iterate(unknowns, std::slice::from_mut(system))[0];
+        if self.cholesky.solve(matrix, unknowns.part, unknowns.has_dirichlet, b, x).is_err() {
+            return self.iterate(matrix, unknowns, std::slice::from_mut(system))[0];
         }
         let mut r = vec![0.0; b.len()];
-        self.matrix.residual(b, x, &mut r);
+        matrix.residual(b, x, &mut r);
         let norm = |v: &[f64]| total(v.len(), |i| v[i] * v[i]).sqrt();
         let residual = if norm(b) > 0.0 { norm(&r) / norm(b) } else { 0.0 };
         Convergence { iterations: 1, residual }
     }
 
-    fn iterate(&mut self, unknowns: &Unknowns, systems: &mut [System]) -> Vec<Convergence> {
-        let multigrid = Multigrid::new(&self.matrix, unknowns.position, unknowns.kind, unknowns.spacing);
-        self.hierarchy_bytes = multigrid.bytes();
+    fn iterate(&mut self, matrix: &Matrix, unknowns: &Unknowns, systems: &mut [System]) -> Vec<Convergence> {
+        let multigrid = Multigrid::new(matrix, unknowns.position, unknowns.kind, unknowns.spacing);
+        self.bytes[1] = multigrid.bytes();
         let solve = |System { b, x, tolerance }: &mut System| {
-            conjugate_gradients(&self.matrix, b, x, *tolerance, |r, z| {
-                multigrid.precondition(&self.matrix, r, z);
+            conjugate_gradients(matrix, b, x, *tolerance, |r, z| {
+                multigrid.precondition(matrix, r, z);
             })
         };
         systems.iter_mut().map(solve).collect()
     }
 
-    /// Bytes held between solves and by the hierarchy during them.
+    /// Bytes that the last solve held.
     pub(crate) fn bytes(&self) -> usize {
-        self.matrix.bytes() + self.hierarchy_bytes
+        self.bytes.iter().sum()
     }
 }
 

@@ -4,19 +4,21 @@ use super::given_flow::{add_responses, gradient_changes};
 use super::intermediate::{Corrected, Predicted};
 use super::pressure::Projected;
 use crate::math::Vec2;
-use crate::sph::flow::Flow;
+use crate::sph::fields::Fields;
 use crate::sph::method::PressureGradient;
+use crate::sph::surface_force::SurfaceForce;
 use crate::sph::terms::pressure_gradient;
+use crate::sph::view::View;
 
-impl Flow {
+impl View<'_, Fields> {
     /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26], with the given flow rates through
     /// periodic sides.
     pub(super) fn correct(&self, predicted: &Predicted, projected: Projected) -> Corrected {
         let Projected { mut pressure, viscous_pressure, density_error_shift, responses } = projected;
         let acceleration = self.pressure_acceleration(&pressure);
-        let corrected = acceleration.iter().zip(&predicted.velocity).map(|(a, v)| v + predicted.dt * a);
+        let corrected = acceleration.iter().zip(&*predicted.velocity).map(|(a, v)| v + predicted.dt * a);
         let mut velocity: Vec<Vec2> = corrected.collect();
-        let gradient_changes = gradient_changes(&self.setting, &velocity, &responses, predicted.dt);
+        let gradient_changes = gradient_changes(self.setting, &velocity, &responses, predicted.dt);
         add_responses(&mut velocity, &responses, &gradient_changes, predicted.dt);
         for (response, change) in responses.iter().zip(&gradient_changes) {
             pressure.iter_mut().zip(&response.potential).for_each(|(p, by)| *p += change * by);
@@ -29,9 +31,8 @@ impl Flow {
     /// The acceleration of the fluid particles in m/s² by the gradient of a `pressure` (Pa), with the gravity that goes with it and the jump
     /// across the interface.
     pub(super) fn pressure_acceleration(&self, pressure: &[f64]) -> Vec<Vec2> {
-        let (fluids, f) = (self.state.particles.fluids, &self.fields);
+        let (fluids, f) = (self.state.particles.fluids, &self.fields.bulk);
         let mut p = pressure.to_vec();
-        let mut acceleration = vec![Vec2::zeros(); fluids];
         let form = self.setting.method.pressure_gradient();
         if form != PressureGradient::Difference {
             // The constant matters in these forms: all pressures at or above the background order the particles.
@@ -39,21 +40,21 @@ impl Flow {
             let shift = self.setting.method.background_pressure_at(self.state.particles.fluid_speed()) - lowest;
             p.iter_mut().for_each(|p| *p += shift);
         }
-        self.neighborhood.images.extend(&mut p);
+        let p = self.neighborhood.images.field(p);
         let (pairs, volume, density) = (&self.neighborhood.pairs, &f.volume, &f.density);
         match form {
-            PressureGradient::Symmetric => pressure_gradient::symmetric(pairs, volume, density, &p, &mut acceleration),
-            PressureGradient::Weighted => pressure_gradient::weighted(pairs, volume, density, &p, &mut acceleration),
+            PressureGradient::Symmetric => pressure_gradient::symmetric(pairs, volume, density, &p, fluids),
+            PressureGradient::Weighted => pressure_gradient::weighted(pairs, volume, density, &p, fluids),
             PressureGradient::Difference => {
                 let hydrostatic = self.hydrostatic();
                 let rise = |a: usize, b: usize| hydrostatic.difference(a, b);
-                pressure_gradient::difference(pairs, volume, density, &p, rise, &mut acceleration);
+                let mut acceleration = pressure_gradient::difference(pairs, volume, density, &p, rise, fluids);
                 // Not without tension: there vortices keep their rate better as the sums are (docs/numerics/pressure.md).
-                if f.jump.is_some() {
-                    pressure_gradient::correct_gradient(&f.moment, &mut acceleration);
+                if let SurfaceForce::Jump { moment, .. } = &self.fields.interface.force {
+                    pressure_gradient::correct_gradient(moment, &mut acceleration);
                 }
+                acceleration
             }
         }
-        acceleration
     }
 }

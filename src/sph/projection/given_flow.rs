@@ -8,12 +8,15 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::math::Vec2;
 use crate::solver::SolverError;
+use crate::sph::fields::Fields;
 use crate::sph::flow::Flow;
 use crate::sph::open::OpenSide;
-use crate::sph::parallel::{each, total};
+use crate::sph::parallel::{total, values};
 use crate::sph::poisson::Matrix;
 use crate::sph::setting::Setting;
+use crate::sph::surface_force::SurfaceForce;
 use crate::sph::terms::pressure_gradient;
+use crate::sph::view::View;
 
 /// Largest relative residual of a response: the change of G in a step is small, and so is the divergence that this leaves of it.
 pub(super) const RESPONSE_RESIDUAL: f64 = 1e-3;
@@ -29,24 +32,20 @@ pub(super) struct Response {
     pub(super) acceleration: Vec<Vec2>,
 }
 
-impl Flow {
+impl View<'_, Fields> {
     /// Whether differences of pressure have the mean gradient in them; else it is a body force: sums that do not divide by their moment
     /// are not exact for linear pressures.
     pub(super) fn gradient_in_pressure(&self) -> bool {
-        self.fields.jump.is_some()
+        self.fields.interface.force.jump().is_some()
     }
 
     /// The right side of the pressure equation for the unit gradient along `way`; `matrix` as assembled.
     pub(super) fn right_side_of_gradient(&self, way: Vec2, matrix: &Matrix) -> Vec<f64> {
-        let n = self.state.particles.len();
         if !self.gradient_in_pressure() {
-            let mut by = vec![Vec2::zeros(); n];
-            (0..self.state.particles.moving()).for_each(|a| by[a] = way / self.fields.density[a]);
-            self.neighborhood.images.extend_velocity(&mut by);
-            return self.minus_outflow(&by);
+            let by = (0..self.state.particles.moving()).map(|a| way / self.fields.bulk.density[a]).collect();
+            return self.minus_outflow(&self.neighborhood.images.velocity_field(by));
         }
-        let mut right = vec![0.0; n];
-        each(&mut right, |a| {
+        values(self.state.particles.len(), |a| {
             let coupling = &matrix.coupling[self.neighborhood.pairs.row(a)];
             self.neighborhood
                 .pairs
@@ -54,30 +53,23 @@ impl Flow {
                 .zip(coupling)
                 .map(|(ab, coupling)| f64::from(*coupling) * way.dot(&self.separation(a, ab.b)))
                 .sum()
-        });
-        right
+        })
     }
 
     /// What the unit gradient along `way` does, with the periodic part of its pressure.
     pub(super) fn response(&self, way: Vec2, potential: Vec<f64>) -> Response {
-        let (pairs, f, fluids) = (&self.neighborhood.pairs, &self.fields, self.state.particles.fluids);
-        let mut extended = potential.clone();
-        self.neighborhood.images.extend(&mut extended);
-        let mut acceleration = vec![Vec2::zeros(); fluids];
-        if self.gradient_in_pressure() {
+        let (pairs, f, fluids) = (&self.neighborhood.pairs, &self.fields.bulk, self.state.particles.fluids);
+        let extended = self.neighborhood.images.field(potential.clone());
+        let mut acceleration;
+        if let SurfaceForce::Jump { moment, .. } = &self.fields.interface.force {
             let rise = |a: usize, b: usize| -way.dot(&self.separation(a, b));
-            pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, rise, &mut acceleration);
-            pressure_gradient::correct_gradient(&f.moment, &mut acceleration);
+            acceleration = pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, rise, fluids);
+            pressure_gradient::correct_gradient(moment, &mut acceleration);
         } else {
-            pressure_gradient::difference(pairs, &f.volume, &f.density, &extended, |_, _| 0.0, &mut acceleration);
-            acceleration.iter_mut().zip(&f.density).for_each(|(by, density)| *by += way / *density);
+            acceleration = pressure_gradient::down(pairs, &f.volume, &f.density, &extended, fluids);
+            acceleration.iter_mut().zip(&*f.density).for_each(|(by, density)| *by += way / *density);
         }
         Response { potential, acceleration }
-    }
-
-    /// x_a − x_b in m, of a particle and a particle or image.
-    pub(super) fn separation(&self, a: usize, b: usize) -> Vec2 {
-        self.neighborhood.separation(a, b, &self.state.particles.position, &self.setting.domain)
     }
 
     /// Whether fluid that goes on from particle to particle along the axis of the side comes back to itself.
@@ -111,29 +103,30 @@ impl Flow {
         }
         false
     }
+}
 
+impl Flow {
     /// Gives the fluid at time zero the flow rates that are asked for: what it has is made free of divergence, and what is missing is added as
     /// a pressure gradient that sets in at once does.
     ///
     /// # Errors
     /// [`SolverError::Blocked`] where solids close the way along a side, and what the pressure solve returns.
     pub(super) fn start_given_flow(&mut self) -> Result<(), SolverError> {
-        if self.setting.open.through.is_empty() {
+        let (flow, solve, work) = self.solving();
+        let (through, particles) = (&flow.setting.open.through, &flow.state.particles);
+        if through.is_empty() {
             return Ok(());
         }
-        if let Some(side) = self.setting.open.through.iter().find(|side| !self.is_open(side)) {
-            return Err(SolverError::Blocked { side: side.name(), time: self.state.time, step: self.state.steps });
+        if let Some(side) = through.iter().find(|side| !flow.is_open(side)) {
+            return Err(SolverError::Blocked { side: side.name(), time: flow.state.time, step: flow.state.steps });
         }
-        let mut velocity = self.state.particles.velocity.clone();
-        velocity[self.state.particles.moving()..].fill(Vec2::zeros());
-        self.neighborhood.images.extend_velocity(&mut velocity);
-        let (by_walls, responses) = self.project_kinematically(&velocity)?;
-        let fluids = self.state.particles.fluids;
-        velocity.truncate(fluids);
+        let moving = flow.neighborhood.images.velocity_field(particles.velocity[..particles.moving()].to_vec());
+        let (by_walls, responses) = flow.project_kinematically(&moving, solve, work)?;
+        let mut velocity = particles.velocity[..particles.fluids].to_vec();
         velocity.iter_mut().zip(&by_walls).for_each(|(v, by)| *v += by);
-        let changes = gradient_changes(&self.setting, &velocity, &responses, 1.0);
+        let changes = gradient_changes(flow.setting, &velocity, &responses, 1.0);
         add_responses(&mut velocity, &responses, &changes, 1.0);
-        self.state.particles.velocity[..fluids].copy_from_slice(&velocity);
+        self.state.particles.velocity[..velocity.len()].copy_from_slice(&velocity);
         Ok(())
     }
 }

@@ -8,54 +8,53 @@ use rayon::prelude::*;
 
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
-use crate::sph::flow::Flow;
+use crate::sph::fields::Fields;
+use crate::sph::images::Field;
 use crate::sph::pairs::Pairs;
 use crate::sph::parallel::GRAIN;
 use crate::sph::poisson::Matrix;
 use crate::sph::surface_force::jump::Jump;
+use crate::sph::view::View;
 
 /// What makes the pressure of a fluid at rest uneven.
 pub(super) struct HydrostaticDifference<'a> {
     jump: Option<&'a Jump>,
     tension: f64,
-    /// In kg/m³ over particles and images, empty without gravity.
-    density: Vec<f64>,
-    /// g·x in m²/s² over particles and images, empty without gravity.
-    potential: Vec<f64>,
+    /// In kg/m³, empty without gravity.
+    density: Field<f64>,
+    /// g·x in m²/s², empty without gravity.
+    potential: Field<f64>,
     /// The mean gradient in Pa/m that drives given flows, with the flow whose places it acts between; none without.
-    driven: Option<(Vec2, &'a Flow)>,
+    driven: Option<(Vec2, &'a View<'a, Fields>)>,
 }
 
-impl Flow {
+impl View<'_, Fields> {
     /// The fluid at its present places, at rest.
     pub(super) fn hydrostatic(&self) -> HydrostaticDifference<'_> {
         let gravity = self.setting.balanced_gravity();
-        let mut potential = Vec::new();
+        let (mut potential, mut density) = (Field::default(), Field::default());
         if gravity != Vec2::zeros() {
-            potential.extend(self.state.particles.position.iter().map(|x| gravity.dot(x)));
-            self.neighborhood.images.extend(&mut potential);
+            let of_particles = self.state.particles.position.iter().map(|x| gravity.dot(x)).collect();
+            (potential, density) = (self.neighborhood.images.field(of_particles), self.density_at_rest());
         }
-        let jump = self.fields.jump.as_ref();
-        let density = if potential.is_empty() { Vec::new() } else { self.density_at_rest() };
+        let jump = self.fields.interface.force.jump();
         let driving = self.driving_gradient();
         let driven = (driving != Vec2::zeros() && self.gradient_in_pressure()).then_some((driving, self));
         HydrostaticDifference { jump, tension: self.setting.method.tension, density, potential, driven }
     }
 
-    /// The density in kg/m³ of the phase, over particles and images; walls have that of the side they take, or of the fluid nearby.
-    fn density_at_rest(&self) -> Vec<f64> {
+    /// The density in kg/m³ of the phase; walls have that of the side they take, or of the fluid nearby.
+    fn density_at_rest(&self) -> Field<f64> {
         let (particles, moving, method) = (&self.state.particles, self.state.particles.moving(), &self.setting.method);
-        if let Some(jump) = &self.fields.jump {
+        if let Some(jump) = self.fields.interface.force.jump() {
             let (wetting, other) = (method.wetting_fluid.density, method.other_fluid.density);
-            return jump.side.iter().map(|&side| if side == 1.0 { wetting } else { other }).collect();
+            let of_side = jump.side[..particles.len()].iter().map(|&side| if side == 1.0 { wetting } else { other });
+            return self.neighborhood.images.field(of_side.collect());
         }
         let of_phase = particles.phase[..moving].iter().map(|&phase| method.fluid(phase).density);
         let mut density: Vec<f64> = of_phase.collect();
         density.resize(particles.len(), method.mean_density());
-        self.neighborhood.images.extend(&mut density);
-        shepard::into_walls(&self.neighborhood.pairs, &self.fields.fluid_volume, moving, &mut density);
-        self.neighborhood.images.extend(&mut density);
-        density
+        shepard::into_walls(self.neighborhood, &self.fields.bulk.fluid_volume, moving, density)
     }
 }
 

@@ -13,12 +13,12 @@ use rayon::prelude::*;
 use crate::case::ViscousTerm;
 use crate::math::{Mat2, Vec2};
 use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, Tolerance, conjugate_gradients};
-use crate::sph::flow::Flow;
-use crate::sph::images::Images;
+use crate::sph::fields::Fields;
+use crate::sph::images::{Field, Images};
 use crate::sph::pairs::{Pair, Pairs, split_rows};
-use crate::sph::parallel::{GRAIN, each, largest};
+use crate::sph::parallel::{GRAIN, each, largest, values};
 use crate::sph::poisson::weighted_sum;
-use crate::sph::terms::viscosity::Viscous;
+use crate::sph::view::View;
 
 /// Largest relative residual of the change of the velocity.
 pub(super) const RESIDUAL: f64 = 1e-6;
@@ -46,12 +46,12 @@ pub(super) struct ViscousMatrix<'a> {
     largest_rate: f64,
 }
 
-impl Flow {
+impl View<'_, Fields> {
     /// The viscous matrix at the present positions.
     pub(super) fn viscous_matrix(&self) -> ViscousMatrix<'_> {
         let (pairs, images, fluids, f) =
-            (&self.neighborhood.pairs, &self.neighborhood.images, self.state.particles.fluids, &self.fields);
-        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
+            (&self.neighborhood.pairs, &self.neighborhood.images, self.state.particles.fluids, &self.fields.bulk);
+        let viscous = self.viscous();
         let is_central = self.setting.method.numerics.viscous_term == ViscousTerm::Szewc;
         let transposed = self.transposed_stress();
         let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
@@ -126,13 +126,10 @@ impl ViscousMatrix<'_> {
     pub(super) fn change(&self, acceleration: &[Vec2], dt: f64) -> (Vec<Vec2>, Convergence) {
         let weight = self.weight(dt);
         let fluids = self.diagonal.len();
-        let mut diagonal = vec![Mat2::identity(); fluids];
-        each(&mut diagonal, |a| Mat2::identity() + weight * self.diagonal[a]);
-        let mut inverse = vec![Mat2::zeros(); fluids];
-        each(&mut inverse, |a| diagonal[a].try_inverse().unwrap_or_else(Mat2::identity));
+        let diagonal = values(fluids, |a| Mat2::identity() + weight * self.diagonal[a]);
+        let inverse = values(fluids, |a| diagonal[a].try_inverse().unwrap_or_else(Mat2::identity));
         let system = System { viscous: self, weight, diagonal };
-        let mut b = vec![Vec2::zeros(); fluids];
-        each(&mut b, |a| dt * self.root_mass[a] * acceleration[a]);
+        let b = values(fluids, |a| dt * self.root_mass[a] * acceleration[a]);
         let mut change = vec![Vec2::zeros(); fluids];
         let tolerance = Tolerance { residual: RESIDUAL, iterations: ITERATIONS };
         let found = conjugate_gradients(&system, &b, &mut change, tolerance, |r, z| {
@@ -157,9 +154,9 @@ struct System<'a> {
 }
 
 impl System<'_> {
-    /// A row of the product with x, which is given over particles and images.
+    /// A row of the product with x.
     #[inline]
-    fn row(&self, a: usize, x: &[Vec2]) -> Vec2 {
+    fn row(&self, a: usize, x: &Field<Vec2>) -> Vec2 {
         let v = self.viscous;
         let row = v.pairs.row(a);
         let coupling = &v.coupling[row.clone()];
@@ -173,12 +170,8 @@ impl System<'_> {
     }
 
     /// x over particles and images; walls and buffers do not change.
-    fn extended(&self, x: &[Vec2]) -> Vec<Vec2> {
-        let (pairs, images) = (self.viscous.pairs, self.viscous.images);
-        let mut all = x.to_vec();
-        all.resize(pairs.rows(), Vec2::zeros());
-        images.extend_velocity(&mut all);
-        all
+    fn extended(&self, x: &[Vec2]) -> Field<Vec2> {
+        self.viscous.images.velocity_field(x.to_vec())
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::given_flow::Response;
 use crate::math::Vec2;
+use crate::sph::images::Field;
 use crate::sph::open::InteriorPoints;
 
 /// The intermediate state of a step [Huber2013, Eq. 25].
@@ -10,8 +11,8 @@ pub(super) struct Predicted {
     pub(super) limit: &'static str,
     /// The largest velocity of a particle in m/s, relative to the mean of all.
     pub(super) fastest: f64,
-    /// v_int over particles and images in m/s, without the gravity that goes with the pressure.
-    pub(super) velocity: Vec<Vec2>,
+    /// v_int in m/s, without the gravity that goes with the pressure.
+    pub(super) velocity: Field<Vec2>,
     /// Where the buffers of open sides take the velocity from.
     pub(super) interior: InteriorPoints,
     /// What comes of the viscous solve.

@@ -44,20 +44,20 @@ impl Flow {
         if self.state.last_dt == 0.0 {
             self.find_first_pressure(until)?;
         }
-        let mut predicted = self.predict(until, f64::INFINITY, self.setting.method.numerics.viscous_step)?;
+        let mut predicted = self.view().predict(until, f64::INFINITY, self.setting.method.numerics.viscous_step)?;
         let after_forces = Instant::now();
         let mut corrected = self.end_of(&predicted)?;
         for _ in 0..MOST_REPEATS {
             let velocity = &corrected.velocity;
             let fastest = largest(velocity.len(), |a| velocity[a].norm()).map_or(0.0, |l| l.1);
             let Some(dt) = self.setting.method.shorter_step(predicted.dt, fastest * predicted.dt) else { break };
-            predicted = self.predict(until, dt, self.setting.method.numerics.viscous_step)?;
+            predicted = self.view().predict(until, dt, self.setting.method.numerics.viscous_step)?;
             corrected = self.end_of(&predicted)?;
             self.work.repeats += 1;
         }
         self.work.viscous_iterations += predicted.damped.iterations as u64;
         let after_pressure = Instant::now();
-        let moved = self.moved(&predicted, &corrected)?;
+        let moved = self.view().moved(&predicted, &corrected)?;
         self.take_end(&predicted, corrected, moved, until);
         self.work.seconds[1] += (after_forces - start).as_secs_f64();
         self.work.seconds[2] += (after_pressure - after_forces).as_secs_f64();
@@ -85,7 +85,7 @@ impl Flow {
         state.time = if dt >= until - state.time { until } else { state.time + dt };
         state.steps += 1;
         state.last_dt = dt;
-        state.lines = std::mem::take(&mut self.fields.lines);
+        state.lines = std::mem::take(&mut self.lines);
         state.gone = state.gone.or_else(|| gone(&state.lines, method.spacing));
         let mut pressure = corrected.pressure;
         pressure.iter_mut().zip(&corrected.viscous_pressure).for_each(|(p, by)| *p += by);
@@ -101,7 +101,7 @@ impl Flow {
     fn find_first_pressure(&mut self, until: f64) -> Result<(), SolverError> {
         self.start_given_flow()?;
         for _ in 0..if self.setting.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
-            let predicted = self.predict(until, f64::INFINITY, ViscousStep::Explicit)?;
+            let predicted = self.view().predict(until, f64::INFINITY, ViscousStep::Explicit)?;
             let corrected = self.end_of(&predicted)?;
             self.take_up_pressure(corrected.pressure, &corrected.gradient_changes);
         }
@@ -110,8 +110,9 @@ impl Flow {
 
     /// The end of the step that is predicted so.
     fn end_of(&mut self, predicted: &Predicted) -> Result<Corrected, SolverError> {
-        let projected = self.project(predicted)?;
-        Ok(self.correct(predicted, projected))
+        let (flow, solve, work) = self.solving();
+        let projected = flow.project(predicted, solve, work)?;
+        Ok(flow.correct(predicted, projected))
     }
 
     /// Takes up the pressure (Pa) of a step with the changes of the mean gradients (Pa/m).

@@ -4,13 +4,15 @@ use super::given_flow::keep_flow_rates;
 use super::intermediate::{Corrected, Predicted};
 use crate::math::Vec2;
 use crate::solver::SolverError;
-use crate::sph::flow::Flow;
+use crate::sph::fields::Fields;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::parallel::largest;
 use crate::sph::particles::Phase;
 use crate::sph::setting::Setting;
+use crate::sph::surface_force::SurfaceForce;
 use crate::sph::terms::sharpening::Sharpening;
 use crate::sph::terms::shifting;
+use crate::sph::view::View;
 
 /// A particle that moves farther than this share of h in a step has run away.
 const LARGEST_MOVE: f64 = 0.5;
@@ -37,7 +39,7 @@ pub(super) struct Motion {
     pub(super) set_back: u64,
 }
 
-impl Flow {
+impl View<'_, Fields> {
     /// Moves the particles with the new velocity, and by the density-error shift, if there is any, which takes density errors back and leaves velocities
     /// alone. The mean of old and new velocity [Huber2013, Eq. 27] would feed every swing that viscosity does not damp (docs/numerics/forces.md).
     ///
@@ -45,7 +47,7 @@ impl Flow {
     /// [`SolverError::BlowUp`] where a particle would go too far.
     pub(super) fn moved(&self, predicted: &Predicted, corrected: &Corrected) -> Result<Motion, SolverError> {
         let Corrected { density_error_shift, responses, .. } = corrected;
-        let (setting, old) = (&self.setting, &self.state.particles.position);
+        let (setting, old) = (self.setting, &self.state.particles.position);
         let mut velocity = corrected.velocity.clone();
         let (fluids, moving, dt) = (self.state.particles.fluids, self.state.particles.moving(), predicted.dt);
         let mut position = Vec::with_capacity(moving);
@@ -67,38 +69,37 @@ impl Flow {
             *x = self.setting.domain.wrapped(*x + by);
         }
         keep_flow_rates(setting, responses, dt, &old[..fluids], &mut position[..fluids]);
-        let wall_distance = &self.fields.wall_distance;
+        let wall_distance = &self.fields.bulk.wall_distance;
         let set_back = set_back(setting, wall_distance, &mut position[..fluids], &mut velocity[..fluids]);
         Ok(Motion { position, velocity, set_back })
     }
 
     /// Shifts particles that lie close apart, and isolated ones back across the interface; they carry their velocity along.
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
-        let (fluids, m, f) = (self.state.particles.fluids, &self.setting.method, &self.fields);
+        let (fluids, m, f) = (self.state.particles.fluids, &self.setting.method, &self.fields.bulk);
         let diffusion = m.numerics.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
         let mut by = vec![Vec2::zeros(); fluids];
         if diffusion > 0.0 {
-            shifting::shift(&self.uneven(), diffusion, m.kernel.h, &mut by);
+            by = shifting::shift(&self.uneven(), diffusion, m.kernel.h);
         }
-        if let Some(jump) = &f.jump {
+        if let SurfaceForce::Jump { jump, wall_hysteresis, .. } = &self.fields.interface.force {
             let sharpening = Sharpening {
                 side: &jump.side,
-                normal: &f.normal,
+                normal: &self.fields.interface.normal,
                 fluid_volume: &f.fluid_volume,
                 wall_distance: &f.wall_distance,
                 wall_normal: &f.wall_normal,
                 weight: (m.wetting_fluid.density - m.other_fluid.density) / m.mean_density() * m.gravity,
-                wall_hysteresis: &f.wall_hysteresis,
+                wall_hysteresis,
             };
             sharpening.displace(&self.neighborhood.pairs, m.kernel.h, m.capillary_speed(), dt, &mut by);
         } else if diffusion == 0.0 {
             return;
         }
-        let mut change = vec![Vec2::zeros(); fluids];
         let mut all = velocity.to_vec();
         all.extend_from_slice(&self.state.particles.velocity[self.state.particles.moving()..]);
-        self.neighborhood.images.extend_velocity(&mut all);
-        shifting::carried_velocity(&self.neighborhood.pairs, &f.volume, &f.density, &all, &by, &mut change);
+        let all = self.neighborhood.images.velocity_field(all);
+        let change = shifting::carried_velocity(&self.neighborhood.pairs, &f.volume, &f.density, &all, &by);
         for a in 0..fluids {
             position[a] = self.setting.domain.wrapped(position[a] + by[a]);
             velocity[a] += change[a];
@@ -108,16 +109,15 @@ impl Flow {
     /// ∇C of the fluid particles, near the interface its part along that, and the anti-clustering force, less their mean, in 1/m: what
     /// shifting goes down.
     fn uneven(&self) -> Vec<Vec2> {
-        let (m, f) = (&self.setting.method, &self.fields);
-        let mut uneven = vec![Vec2::zeros(); self.state.particles.fluids];
-        shifting::concentration_gradient(&self.neighborhood.pairs, &f.volume, &mut uneven);
-        if f.jump.is_some() {
-            shifting::keep_along(&f.normal, m.kernel.h, &mut uneven);
+        let (m, f, interface) = (&self.setting.method, &self.fields.bulk, &self.fields.interface);
+        let (Neighborhood { pairs, images }, fluids) = (self.neighborhood, self.state.particles.fluids);
+        let mut uneven = shifting::concentration_gradient(pairs, &f.volume, fluids);
+        if interface.force.jump().is_some() {
+            shifting::keep_along(&interface.normal, m.kernel.h, &mut uneven);
         }
         if m.numerics.anti_clustering > 0.0 {
-            let mut push = vec![Vec2::zeros(); self.state.particles.fluids];
-            let (Neighborhood { pairs, images }, w) = (&self.neighborhood, m.kernel.w(m.spacing));
-            shifting::anti_clustering(pairs, &f.volume, m.numerics.anti_clustering, w, &mut push);
+            let (strength, w) = (m.numerics.anti_clustering, m.kernel.w(m.spacing));
+            let mut push = shifting::anti_clustering(pairs, &f.volume, strength, w, fluids);
             shifting::take_out_mean(pairs, images, &f.fluid_volume, &mut push);
             uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
         }

@@ -6,14 +6,16 @@ use super::motion::relative_speed;
 use crate::case::ViscousStep;
 use crate::math::Vec2;
 use crate::solver::SolverError;
-use crate::sph::flow::Flow;
+use crate::sph::fields::Fields;
 use crate::sph::method::PressureGradient;
 use crate::sph::open::InteriorPoints;
-use crate::sph::parallel::{each, largest};
+use crate::sph::parallel::{each, largest, values};
+use crate::sph::surface_force::SurfaceForce;
 use crate::sph::terms::pressure_gradient;
 use crate::sph::time_step::landing;
+use crate::sph::view::View;
 
-impl Flow {
+impl View<'_, Fields> {
     /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25], without the gravity that goes with the
     /// pressure (`hydrostatic`). The step ends at `until` (s) or before, and is at most `longest` (s) long. Viscosity goes on as
     /// `viscous_step` says; how long the step is does not hang on it.
@@ -25,15 +27,15 @@ impl Flow {
     ) -> Result<Predicted, SolverError> {
         let (particles, fluids, moving) =
             (&self.state.particles, self.state.particles.fluids, self.state.particles.moving());
-        let mut velocity = particles.velocity.clone();
-        self.neighborhood.images.extend_velocity(&mut velocity);
-        let viscous = self.viscous_acceleration(&velocity);
+        let viscous = self.viscous_acceleration(&self.velocity());
         let is_limited = self.setting.method.numerics.viscous_step == ViscousStep::Explicit;
         let rate = if is_limited { self.viscous_rate() } else { 0.0 };
         // Walls count: what they drag along has their velocity at the end of the step.
         let (place, speed) = largest(particles.len(), |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
         let method = &self.setting.method;
-        let pinned = if self.fields.has_pinned_line { method.pinned_time_step() } else { f64::INFINITY };
+        let (f, force) = (&self.fields.bulk, &self.fields.interface.force);
+        let is_pinned = matches!(force, SurfaceForce::Jump { has_pinned_line: true, .. });
+        let pinned = if is_pinned { method.pinned_time_step() } else { f64::INFINITY };
         let settled = if self.setting.has_viscous_pressure() { self.state.time - self.setting.since } else { 0.0 };
         let step = method
             .time_step(speed, rate)
@@ -49,25 +51,24 @@ impl Flow {
         let step = landing(step, self.state.time, until);
         let fastest = relative_speed(&particles.velocity[..fluids]);
         let background = self.background_acceleration();
-        let f = &self.fields;
         let body = self.setting.method.gravity - self.setting.balanced_gravity();
         let driving = if self.gradient_in_pressure() { Vec2::zeros() } else { self.driving_gradient() };
-        let mut acceleration = vec![Vec2::zeros(); fluids];
-        each(&mut acceleration, |a| {
-            let forces = (f.surface_force[a] + f.line_force[a] + driving) / f.density[a];
+        let mut acceleration = values(fluids, |a| {
+            let forces = (force.on(a) + driving) / f.density[a];
             viscous[a] + body + forces + background[a]
         });
         let damped = match viscous_step {
             ViscousStep::Implicit => self.damp(&mut acceleration, step.dt)?,
             ViscousStep::Explicit => Damped::default(),
         };
+        let mut velocity = particles.velocity.clone();
         each(&mut velocity[..fluids], |a| particles.velocity[a] + step.dt * acceleration[a]);
         let interior =
             InteriorPoints::new(particles, &self.setting.open.sides, &self.setting.domain, &self.setting.method.kernel);
         interior.set_buffer_velocity(particles, &self.setting.open.sides, &mut velocity);
         // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
         velocity[moving..particles.len()].fill(Vec2::zeros());
-        self.neighborhood.images.extend_velocity(&mut velocity);
+        let velocity = self.neighborhood.images.velocity_field(velocity);
         Ok(Predicted { dt: step.dt, limit: step.limit, fastest, velocity, interior, damped })
     }
 
@@ -83,8 +84,7 @@ impl Flow {
             return Ok(Damped::default());
         }
         let by_pressure = self.pressure_acceleration(&self.state.particles.pressure);
-        let mut net = vec![Vec2::zeros(); acceleration.len()];
-        each(&mut net, |a| acceleration[a] + by_pressure[a]);
+        let net = values(acceleration.len(), |a| acceleration[a] + by_pressure[a]);
         let (change, found) = matrix.change(&net, dt);
         if !(found.residual <= implicit_viscosity::RESIDUAL) {
             return Err(SolverError::NotConverged {
@@ -101,14 +101,11 @@ impl Flow {
     }
 
     fn background_acceleration(&self) -> Vec<Vec2> {
-        let mut acceleration = vec![Vec2::zeros(); self.state.particles.fluids];
-        let method = &self.setting.method;
-        if method.pressure_gradient() == PressureGradient::Difference && method.numerics.background_pressure > 0.0 {
-            let over_density =
-                method.background_pressure_at(self.state.particles.fluid_speed()) / method.mean_density();
-            let (pairs, volume) = (&self.neighborhood.pairs, &self.fields.volume);
-            pressure_gradient::background(pairs, volume, over_density, &mut acceleration);
+        let (method, fluids) = (&self.setting.method, self.state.particles.fluids);
+        if method.pressure_gradient() != PressureGradient::Difference || method.numerics.background_pressure <= 0.0 {
+            return vec![Vec2::zeros(); fluids];
         }
-        acceleration
+        let over_density = method.background_pressure_at(self.state.particles.fluid_speed()) / method.mean_density();
+        pressure_gradient::background(&self.neighborhood.pairs, &self.fields.bulk.volume, over_density, fluids)
     }
 }

@@ -7,16 +7,18 @@ use super::intermediate::Predicted;
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::boundary::shepard;
-use crate::sph::fields::joined;
-use crate::sph::flow::Flow;
+use crate::sph::fields::Fields;
+use crate::sph::flow::Work;
+use crate::sph::images::Field;
 use crate::sph::method::Method;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::open::{OpenSide, Prescribed};
-use crate::sph::parallel::{GRAIN, each};
+use crate::sph::parallel::{GRAIN, values};
 use crate::sph::particles::Particles;
-use crate::sph::poisson::{Matrix, System, Tolerance, Unknowns, assemble, impose};
+use crate::sph::poisson::{Matrix, PressureSolve, System, Tolerance, Unknowns, assemble, impose};
 use crate::sph::terms::divergence::divergence;
 use crate::sph::terms::pressure_gradient;
+use crate::sph::view::View;
 
 /// Above this density ratio the multigrid keeps light and heavy particles apart.
 const LARGEST_SMOOTH_RATIO: f64 = 5.0;
@@ -31,7 +33,7 @@ const CORRECTION_RESIDUAL: f64 = 0.01;
 pub(super) struct Projected {
     /// Pressure in Pa.
     pub(super) pressure: Vec<f64>,
-    /// What the pressure that the next step begins with has more, in Pa, see [`Flow::viscous_pressure`].
+    /// What the pressure that the next step begins with has more, in Pa, see [`View::viscous_pressure`].
     pub(super) viscous_pressure: Vec<f64>,
     /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
     pub(super) density_error_shift: Vec<Vec2>,
@@ -53,21 +55,24 @@ struct PressureEquation {
     others: Vec<(Vec<f64>, Tolerance)>,
 }
 
-impl Flow {
+impl View<'_, Fields> {
     /// The pressure that makes the end of the step free of divergence [Huber2013, Eqs. 29-31], mean zero over each part in which
     /// no open side gives it.
     ///
     /// The right side gives a share of the density error back (the density-error correction, which the paper lacks).
-    pub(super) fn project(&mut self, predicted: &Predicted) -> Result<Projected, SolverError> {
+    pub(super) fn project(
+        &self,
+        predicted: &Predicted,
+        solve: &mut PressureSolve,
+        work: &mut Work,
+    ) -> Result<Projected, SolverError> {
         let matrix = self.assembled();
         let (n, dt, position) = (self.state.particles.len(), predicted.dt, &self.state.particles.position);
-        let (method, f) = (&self.setting.method, &self.fields);
-        let mut source = vec![0.0; n];
-        divergence(&self.neighborhood.pairs, &f.volume, &predicted.velocity, &mut source);
+        let (method, f) = (&self.setting.method, &self.fields.bulk);
+        let source = divergence(&self.neighborhood.pairs, &f.volume, &predicted.velocity, n);
         // A long step takes back all there is, and no more.
         let correction = method.density_correction_rate(predicted.fastest).min(1.0 / dt) / dt;
-        let mut b = vec![0.0; n];
-        each(&mut b, |a| {
+        let mut b = values(n, |a| {
             if self.setting.sees_the_fluid(position[a]) {
                 -f.volume[a] * (source[a] / dt - correction * self.density_error(a))
             } else {
@@ -78,13 +83,13 @@ impl Flow {
         self.hydrostatic().subtract_from(&mut hydrostatic, &matrix, &self.neighborhood.pairs);
         b.iter_mut().zip(&hydrostatic).for_each(|(b, hydrostatic)| *b += hydrostatic);
         self.subtract_divergence_error(predicted, &matrix, &hydrostatic, &mut b);
-        let jump = |b: usize| f.jump.as_ref().map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
+        let jump = self.fields.interface.force.jump();
+        let jump = |b: usize| jump.map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
         let prescribed = Prescribed::new(&self.state.particles, &self.setting.open.sides, jump, method.kernel.h);
         let viscous_pressure = self.viscous_pressure(predicted, &matrix, &b);
         let mut others = Vec::new();
         if method.numerics.density_error_shifting > 0.0 {
-            let mut error = vec![0.0; n];
-            each(&mut error, |a| {
+            let error = values(n, |a| {
                 let seen = if self.setting.sees_the_fluid(position[a]) { self.density_error(a) } else { 0.0 };
                 method.numerics.density_error_shifting * f.volume[a] * seen
             });
@@ -94,7 +99,8 @@ impl Flow {
         let ways: Vec<Vec2> = self.setting.open.through.iter().map(OpenSide::way).collect();
         others.extend(ways.iter().map(|&way| (self.right_side_of_gradient(way, &matrix), tolerance)));
         let guess = self.state.particles.pressure.clone();
-        let (pressure, mut found) = self.solve(PressureEquation { matrix, b, prescribed, guess, others })?;
+        let equation = PressureEquation { matrix, b, prescribed, guess, others };
+        let (pressure, mut found) = self.solve(equation, solve, work)?;
         let potentials = found.split_off(found.len() - ways.len());
         let responses = ways.iter().zip(potentials).map(|(&way, potential)| self.response(way, potential)).collect();
         // −∇ψ/ρ with the potential ψ in kg/m: the same on both sides of an interface.
@@ -102,11 +108,13 @@ impl Flow {
         Ok(Projected { pressure, viscous_pressure, density_error_shift, responses })
     }
 
-    /// The change of the velocity of the fluid particles in m/s that makes `velocity` (m/s) over particles and images free of divergence, and
+    /// The change of the velocity of the fluid particles in m/s that makes `velocity` (m/s) free of divergence, and
     /// what unit gradients along the periodic sides with a given flow do.
     pub(super) fn project_kinematically(
-        &mut self,
-        velocity: &[Vec2],
+        &self,
+        velocity: &Field<Vec2>,
+        solve: &mut PressureSolve,
+        work: &mut Work,
     ) -> Result<(Vec<Vec2>, Vec<Response>), SolverError> {
         let b = self.minus_outflow(velocity);
         let matrix = self.assembled();
@@ -120,26 +128,30 @@ impl Flow {
         let value = given.value.iter().map(|value| 0.0 * value).collect();
         let prescribed = Prescribed { value, reference: 0.0 };
         let guess = vec![0.0; self.state.particles.len()];
-        let (potential, found) = self.solve(PressureEquation { matrix, b, prescribed, guess, others })?;
+        let equation = PressureEquation { matrix, b, prescribed, guess, others };
+        let (potential, found) = self.solve(equation, solve, work)?;
         let responses = ways.iter().zip(found).map(|(&way, potential)| self.response(way, potential)).collect();
         Ok((self.down(potential), responses))
     }
 
     /// The matrix of the pressure equation at the present positions.
-    fn assembled(&mut self) -> Matrix {
-        let mut matrix = std::mem::take(&mut self.pressure.matrix);
-        let (Neighborhood { pairs, images }, f) = (&self.neighborhood, &self.fields);
-        let facing = f.facing(self.state.particles.moving(), images);
-        assemble(&mut matrix, pairs, images, &f.volume, &f.density, |a, b| joined(facing[a], facing[b]));
-        matrix
+    fn assembled(&self) -> Matrix {
+        let (Neighborhood { pairs, images }, Fields { bulk, walls, .. }) = (self.neighborhood, self.fields);
+        let joined = walls.joined(self.state.particles.moving(), images);
+        assemble(pairs, images, &bulk.volume, &bulk.density, joined)
     }
 
     /// The pressure (Pa), and what solves the equation for each of its further right sides.
-    fn solve(&mut self, equation: PressureEquation) -> Result<(Vec<f64>, Vec<Vec<f64>>), SolverError> {
+    fn solve(
+        &self,
+        equation: PressureEquation,
+        solve: &mut PressureSolve,
+        work: &mut Work,
+    ) -> Result<(Vec<f64>, Vec<Vec<f64>>), SolverError> {
         let PressureEquation { mut matrix, mut b, prescribed, guess: mut p, mut others } = equation;
         let (fluids, tolerance) = (self.state.particles.fluids, self.setting.method.tolerance);
         let given = |a: usize| prescribed.of(a, fluids);
-        let mut kind = kinds(&self.setting.method, &self.fields.density[..self.state.particles.len()]);
+        let mut kind = kinds(&self.setting.method, &self.fields.bulk.density[..self.state.particles.len()]);
         let mut has_dirichlet =
             vec![false; self.state.particles.part.iter().max().map_or(0, |last| *last as usize + 1)];
         for a in self.state.particles.buffer().filter(|&a| given(a).is_some()) {
@@ -148,22 +160,21 @@ impl Flow {
             others.iter_mut().for_each(|(right, _)| right[a] = 0.0);
         }
         impose(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
-        self.pressure.matrix = matrix;
         let (Particles { position, part, .. }, spacing) = (&self.state.particles, self.setting.method.spacing);
         let unknowns = Unknowns { position, kind: &kind, part, has_dirichlet: &has_dirichlet, spacing };
         let offset = |a: usize| if has_dirichlet[part[a] as usize] { prescribed.reference } else { 0.0 };
         p.iter_mut().enumerate().for_each(|(a, p)| *p = if given(a).is_some() { 0.0 } else { *p - offset(a) });
-        let volume = &self.fields.volume[..p.len()];
+        let volume = &self.fields.bulk.volume[..p.len()];
         let mut found: Vec<Vec<f64>> = others.iter().map(|(right, _)| vec![0.0; right.len()]).collect();
         let mut systems = vec![System { b: &mut b, x: &mut p, tolerance }];
         let others = others.iter_mut().zip(&mut found);
         systems.extend(others.map(|((b, tolerance), x)| System { b, x, tolerance: *tolerance }));
-        let solved = self.pressure.solve(&unknowns, volume, &mut systems);
+        let solved = solve.solve(&matrix, &unknowns, volume, &mut systems);
         let convergence = solved[0];
         p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
-        self.work.last_iterations = convergence.iterations;
-        self.work.iterations += solved.iter().map(|solved| solved.iterations as u64).sum::<u64>();
-        self.work.residual = convergence.residual;
+        work.last_iterations = convergence.iterations;
+        work.iterations += solved.iter().map(|solved| solved.iterations as u64).sum::<u64>();
+        work.residual = convergence.residual;
         if !(convergence.residual <= tolerance.residual) {
             return Err(SolverError::NotConverged {
                 system: "the pressure equation",
@@ -177,12 +188,11 @@ impl Flow {
         Ok((p, found))
     }
 
-    /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s) over particles and images, where there is fluid to see.
-    pub(super) fn minus_outflow(&self, velocity: &[Vec2]) -> Vec<f64> {
+    /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s), where there is fluid to see.
+    pub(super) fn minus_outflow(&self, velocity: &Field<Vec2>) -> Vec<f64> {
         let position = &self.state.particles.position;
-        let mut outflow = vec![0.0; position.len()];
-        divergence(&self.neighborhood.pairs, &self.fields.volume, velocity, &mut outflow);
-        outflow.iter_mut().zip(&self.fields.volume).enumerate().for_each(|(a, (outflow, volume))| {
+        let mut outflow = divergence(&self.neighborhood.pairs, &self.fields.bulk.volume, velocity, position.len());
+        outflow.iter_mut().zip(&*self.fields.bulk.volume).enumerate().for_each(|(a, (outflow, volume))| {
             *outflow = if self.setting.sees_the_fluid(position[a]) { -volume * *outflow } else { 0.0 };
         });
         outflow
@@ -197,13 +207,12 @@ impl Flow {
         if damped.excess == 0.0 {
             return;
         }
-        let (n, f) = (self.state.particles.len(), &self.fields);
+        let (n, f) = (self.state.particles.len(), &self.fields.bulk);
         let mut acceleration = damped.by_pressure.clone();
         acceleration.resize(n, Vec2::zeros());
         predicted.interior.set_buffer_acceleration(&self.state.particles, &self.setting.open.sides, &mut acceleration);
-        self.neighborhood.images.extend_velocity(&mut acceleration);
-        let mut of_gradient = vec![0.0; n];
-        divergence(&self.neighborhood.pairs, &f.volume, &acceleration, &mut of_gradient);
+        let acceleration = self.neighborhood.images.velocity_field(acceleration);
+        let of_gradient = divergence(&self.neighborhood.pairs, &f.volume, &acceleration, n);
         let Particles { position, pressure, .. } = &self.state.particles;
         b.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, b)| {
             if self.setting.sees_the_fluid(position[a]) {
@@ -223,14 +232,14 @@ impl Flow {
         if predicted.damped.excess == 0.0 || !self.setting.has_viscous_pressure() {
             return Vec::new();
         }
-        let (f, n) = (&self.fields, b.len());
+        let (f, n) = (&self.fields.bulk, b.len());
         let of_fluid = &f.viscosity[..self.state.particles.fluids];
         // Where the viscosity jumps, long steps would amplify it.
         if of_fluid.iter().any(|mu| *mu != of_fluid[0]) {
             return Vec::new();
         }
-        let mut viscosity = f.viscosity.clone();
-        shepard::into_walls(&self.neighborhood.pairs, &f.fluid_volume, self.state.particles.moving(), &mut viscosity);
+        let (moving, of_particles) = (self.state.particles.moving(), f.viscosity.to_vec());
+        let viscosity = shepard::into_walls(self.neighborhood, &f.fluid_volume, moving, of_particles);
         let mut change = vec![0.0; n];
         matrix.residual(b, &self.state.particles.pressure, &mut change);
         let weight = predicted.damped.weight;
@@ -240,13 +249,17 @@ impl Flow {
 
     /// V_0/V_a − 1, the density error of a fluid particle; 0 on others.
     fn density_error(&self, a: usize) -> f64 {
-        if a < self.state.particles.fluids { self.setting.method.volume / self.fields.volume[a] - 1.0 } else { 0.0 }
+        if a < self.state.particles.fluids {
+            self.setting.method.volume / self.fields.bulk.volume[a] - 1.0
+        } else {
+            0.0
+        }
     }
 
     /// −∇φ/ρ of the fluid particles.
-    fn down(&self, mut potential: Vec<f64>) -> Vec<Vec2> {
-        self.neighborhood.images.extend(&mut potential);
-        let (pairs, f) = (&self.neighborhood.pairs, &self.fields);
+    fn down(&self, potential: Vec<f64>) -> Vec<Vec2> {
+        let potential = self.neighborhood.images.field(potential);
+        let (pairs, f) = (&self.neighborhood.pairs, &self.fields.bulk);
         pressure_gradient::down(pairs, &f.volume, &f.density, &potential, self.state.particles.fluids)
     }
 }

@@ -3,35 +3,41 @@
 use crate::case::ViscousTerm;
 use crate::math::{Mat2, Vec2};
 use crate::sph::boundary::no_slip::WallDepth;
-use crate::sph::flow::Flow;
+use crate::sph::fields::Fields;
+use crate::sph::images::Field;
 use crate::sph::terms::transposed_stress::TransposedStress;
 use crate::sph::terms::viscosity::Viscous;
+use crate::sph::view::View;
 
-impl Flow {
+impl View<'_, Fields> {
+    /// What viscous sums need of the particles.
+    pub(super) fn viscous(&self) -> Viscous<'_> {
+        let f = &self.fields.bulk;
+        Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity }
+    }
+
     /// The viscous acceleration of the fluid particles in m/s².
-    pub(super) fn viscous_acceleration(&self, velocity: &[Vec2]) -> Vec<Vec2> {
-        let (fluids, f) = (self.state.particles.fluids, &self.fields);
-        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
+    pub(super) fn viscous_acceleration(&self, velocity: &Field<Vec2>) -> Vec<Vec2> {
+        let (fluids, f, viscous) = (self.state.particles.fluids, &self.fields.bulk, self.viscous());
         let v_ab = |a: usize, b: usize| self.velocity_difference(velocity, a, b);
-        let mut acceleration = vec![Vec2::zeros(); fluids];
         match self.setting.method.numerics.viscous_term {
             ViscousTerm::Stress => {
-                viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration);
+                let mut acceleration = viscous.morris(&self.neighborhood.pairs, v_ab, fluids);
                 if let Some(stress) = self.transposed_stress() {
                     let forces = stress.force(velocity, fluids);
                     let both = acceleration.iter_mut().zip(forces).enumerate();
                     both.for_each(|(a, (by, force))| *by += force / (f.density[a] * f.volume[a]));
                 }
+                acceleration
             }
-            ViscousTerm::Morris => viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration),
-            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, &mut acceleration),
+            ViscousTerm::Morris => viscous.morris(&self.neighborhood.pairs, v_ab, fluids),
+            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, fluids),
         }
-        acceleration
     }
 
     /// The transposed part of the stress, where the method has it and the fluids differ in viscosity.
     pub(super) fn transposed_stress(&self) -> Option<TransposedStress<'_>> {
-        let (method, f) = (&self.setting.method, &self.fields);
+        let (method, f) = (&self.setting.method, &self.fields.bulk);
         let viscosities = [method.wetting_fluid.viscosity, method.other_fluid.viscosity];
         if method.numerics.viscous_term != ViscousTerm::Stress {
             return None;
@@ -42,77 +48,69 @@ impl Flow {
 
     /// The largest viscous rate in 1/s, see [`Viscous::rate`].
     pub fn viscous_rate(&self) -> f64 {
-        let f = &self.fields;
-        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
-        let mut rate = vec![0.0; self.state.particles.fluids];
-        viscous.rate(&self.neighborhood.pairs, |a, b| self.stretch(a, b), &mut rate);
+        let rate =
+            self.viscous().rate(&self.neighborhood.pairs, |a, b| self.stretch(a, b), self.state.particles.fluids);
         rate.iter().fold(0.0, |m: f64, r| m.max(*r))
     }
 
     /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles and to the wall particles that
     /// `is_meant` takes by the index and by the place (m).
     pub fn friction(&self, is_meant: impl Fn(usize, Vec2) -> bool + Sync) -> Vec2 {
-        let (particles, fluids, f) = (&self.state.particles, self.state.particles.fluids, &self.fields);
-        let moving = particles.moving();
-        let mut velocity = particles.velocity.clone();
-        self.neighborhood.images.extend_velocity(&mut velocity);
-        let viscous = Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity };
+        let (particles, f, viscous) = (&self.state.particles, &self.fields.bulk, self.viscous());
+        let (moving, velocity) = (particles.moving(), self.velocity());
         let v_ab = |a: usize, b: usize| {
             let source = self.neighborhood.images.source(b);
             let counts = source >= moving && is_meant(a, particles.position[source]);
             if counts { self.velocity_difference(&velocity, a, b) } else { Vec2::zeros() }
         };
-        let mut acceleration = vec![Vec2::zeros(); fluids];
-        match self.setting.method.numerics.viscous_term {
+        let acceleration = match self.setting.method.numerics.viscous_term {
             // The transposed part has no force on walls.
             ViscousTerm::Morris | ViscousTerm::Stress => {
-                viscous.morris(&self.neighborhood.pairs, v_ab, &mut acceleration)
+                viscous.morris(&self.neighborhood.pairs, v_ab, particles.fluids)
             }
-            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, &mut acceleration),
-        }
+            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, particles.fluids),
+        };
         -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
     }
 
     /// The viscous force in N per m of depth on the fluid particles that `is_meant` takes, by fluid and walls around them.
     pub(crate) fn viscous_force(&self, is_meant: impl Fn(usize) -> bool) -> Vec2 {
-        let mut velocity = self.state.particles.velocity.clone();
-        self.neighborhood.images.extend_velocity(&mut velocity);
-        let acceleration = self.viscous_acceleration(&velocity);
-        let f = &self.fields;
+        let (f, acceleration) = (&self.fields.bulk, self.viscous_acceleration(&self.velocity()));
         let meant = acceleration.iter().enumerate().filter(|(a, _)| is_meant(*a));
         meant.map(|(a, by)| f.density[a] * f.volume[a] * by).sum()
     }
 
     /// v_a − v_b in m/s, at walls as these stretch it.
-    fn velocity_difference(&self, velocity: &[Vec2], a: usize, b: usize) -> Vec2 {
+    fn velocity_difference(&self, velocity: &Field<Vec2>, a: usize, b: usize) -> Vec2 {
         let v_ab = velocity[a] - velocity[b];
-        let f = &self.fields;
-        if f.wall_distance[a].is_infinite() {
+        let (distance, normal) = (self.fields.bulk.wall_distance[a], self.fields.bulk.wall_normal[a]);
+        if distance.is_infinite() {
             return v_ab;
         }
-        let (distance, normal) = (f.wall_distance[a], f.wall_normal[a]);
-        self.wall_depth(b).map_or(v_ab, |depth| {
-            self.setting.method.no_slip.difference(v_ab, distance, normal, depth, f.slip_length[a])
-        })
+        let slip_length = self.fields.interface.slip_length[a];
+        self.wall_depth(b)
+            .map_or(v_ab, |depth| self.setting.method.no_slip.difference(v_ab, distance, normal, depth, slip_length))
     }
 
     /// The matrix that stretches v_a − v_b as [`Self::velocity_difference`] does, with `of` each stretch in place of the stretch.
     pub(super) fn stretch_matrix(&self, a: usize, b: usize, of: impl Fn(f64) -> f64) -> Mat2 {
         let Some(depth) = self.wall_depth(b) else { return Mat2::identity() };
-        let (f, no_slip) = (&self.fields, &self.setting.method.no_slip);
-        let [along, across] = no_slip.stretches(f.wall_distance[a], depth, f.slip_length[a]).map(of);
+        let (f, no_slip) = (&self.fields.bulk, &self.setting.method.no_slip);
+        let slip_length = self.fields.interface.slip_length[a];
+        let [along, across] = no_slip.stretches(f.wall_distance[a], depth, slip_length).map(of);
         let normal = f.wall_normal[a];
         Mat2::from_diagonal_element(along) + (across - along) * normal * normal.transpose()
     }
 
     /// The largest |v_ab| over the velocity difference: β at walls, 1 between fluid particles.
     fn stretch(&self, a: usize, b: usize) -> f64 {
-        self.wall_depth(b).map_or(1.0, |depth| self.setting.method.no_slip.stretch(self.fields.wall_distance[a], depth))
+        let distance = self.fields.bulk.wall_distance[a];
+        self.wall_depth(b).map_or(1.0, |depth| self.setting.method.no_slip.stretch(distance, depth))
     }
 
     /// Where a wall particle or its image stands, none for fluid.
     fn wall_depth(&self, b: usize) -> Option<WallDepth> {
         let wall = self.neighborhood.images.source(b).checked_sub(self.state.particles.moving())?;
-        Some(WallDepth { depth: self.state.wall_depth[wall], curvature: self.fields.wall_curvature[wall] })
+        Some(WallDepth { depth: self.state.wall_depth[wall], curvature: self.fields.walls.curvature[wall] })
     }
 }

@@ -3,13 +3,14 @@
 use rayon::prelude::*;
 
 use crate::math::{LINE_MOMENT, Vec2};
-use crate::sph::domain::Domain;
+use crate::sph::bulk::BulkFields;
+use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::pairs::Pairs;
-use crate::sph::parallel::{GRAIN, each};
-use crate::sph::particles::Particles;
+use crate::sph::parallel::{GRAIN, each, values};
 use crate::sph::surface_force::fit::{Fitted, Turning};
 use crate::sph::surface_force::stencils::{SMOOTHNESS, STENCIL_RADIUS};
+use crate::sph::view::View;
 
 /// Passes of the smoothing of the curvature along the interface.
 const PASSES: usize = 1;
@@ -32,13 +33,13 @@ const LEAST_SPREAD: f64 = 0.02;
 /// Largest correction of a curvature over 1/h.
 const LARGEST_CORRECTION: f64 = 0.5;
 
-/// What decides the jump of each pair; slices over particles and images.
+/// What decides the jump of each pair.
 #[derive(Debug, Clone)]
 pub struct Jump {
     /// Side of the interface: 1 in the wetting phase, 0 in the other; wall particles take that of the fluid nearby.
-    pub side: Vec<f64>,
+    pub side: Field<f64>,
     /// Curvature in 1/m of the interface near the particle, continued to it by what it varies by at rest; NaN where there is none.
-    pub curvature: Vec<f64>,
+    pub curvature: Field<f64>,
     /// Whether a particle has a neighbor on the other side.
     pub is_across: Vec<bool>,
 }
@@ -49,25 +50,20 @@ pub(crate) struct InterfaceCurvature<F: Fn(Vec2) -> Option<Fitted> + Sync> {
     pub(crate) at: F,
     /// Its gradient at rest in 1/m².
     pub(crate) gradient: Vec2,
-    /// Smoothing length in m.
-    pub(crate) h: f64,
 }
 
 impl Jump {
     /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls.
     pub(crate) fn new(
-        particles: &Particles,
-        neighborhood: &Neighborhood,
-        domain: &Domain,
+        flow: &View<BulkFields>,
         color: &[f64],
         interface: &InterfaceCurvature<impl Fn(Vec2) -> Option<Fitted> + Sync>,
     ) -> Self {
-        let (Neighborhood { pairs, images }, position) = (neighborhood, &particles.position);
-        let (n, fluids) = (pairs.rows(), particles.moving());
-        let mut side: Vec<f64> = color[..n].iter().map(|&c| if c > 0.5 { 1.0 } else { 0.0 }).collect();
-        images.extend(&mut side);
-        let mut is_across = vec![false; n];
-        each(&mut is_across, |a| pairs.of(a).any(|ab| side[ab.b] != side[a]));
+        let (Neighborhood { pairs, images }, position) = (flow.neighborhood, &flow.state.particles.position);
+        let (domain, h) = (&flow.setting.domain, flow.setting.method.kernel.h);
+        let (n, fluids) = (pairs.rows(), flow.state.particles.moving());
+        let side = images.field(color[..n].iter().map(|&c| if c > 0.5 { 1.0 } else { 0.0 }).collect());
+        let is_across = values(n, |a| pairs.of(a).any(|ab| side[ab.b] != side[a]));
         let fitted: Vec<Option<Fitted>> = (0..fluids)
             .into_par_iter()
             .with_min_len(GRAIN / 8)
@@ -76,30 +72,27 @@ impl Jump {
         let rest =
             |a: usize, b: usize| interface.gradient.dot(&domain.separation(position[a], position[images.source(b)]));
         let apart = |x: Vec2, y: Vec2| domain.separation(x, y).norm();
-        let mut on_fluid = vec![f64::NAN; fluids];
-        each(&mut on_fluid, |a| {
+        let on_fluid = values(fluids, |a| {
             let Some(Fitted { curvature, turning }) = fitted[a] else { return f64::NAN };
             let Some(here) = turning else { return curvature };
             let neighbors = pairs.of(a).filter_map(|ab| {
                 let there = fitted.get(images.source(ab.b))?.as_ref()?.turning?;
-                let same = there.side == here.side && apart(there.line, here.line) < ONE_LINE * interface.h;
+                let same = there.side == here.side && apart(there.line, here.line) < ONE_LINE * h;
                 same.then(|| (ab.w, Turning { mean: there.mean + rest(a, ab.b), ..there }))
             });
-            curvature + here.share * turned(here, neighbors, pairs.w_self, interface.h)
+            curvature + here.share * turned(here, neighbors, pairs.w_self, h)
         });
-        let mut curvature = smoothed(on_fluid, neighborhood, &rest);
+        let mut curvature = smoothed(on_fluid, flow.neighborhood, &rest);
         curvature.resize(n, f64::NAN);
         // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
-        images.extend(&mut curvature);
         for _ in 0..2 {
-            let known = curvature.clone();
-            each(&mut curvature[fluids..n], |i| {
+            let known = images.field(curvature.clone());
+            each(&mut curvature[fluids..], |i| {
                 let a = fluids + i;
                 if known[a].is_nan() { average_at(a, pairs, None, |b| known[b] + rest(a, b)) } else { known[a] }
             });
-            images.extend(&mut curvature);
         }
-        Self { side, curvature, is_across }
+        Self { side, curvature: images.field(curvature), is_across }
     }
 
     /// J_ab in units of the tension: κ̄_ab (c_b − c_a) in 1/m, κ̄ the mean of the curvatures that exist.

@@ -9,9 +9,58 @@
 //! curvature; `jump`, which carries that to the pairs. The geometry of the circles is in [`interface`](crate::interface).
 
 mod contact_points;
+pub(crate) mod continuum;
 pub(crate) mod detected_lines;
+mod fields;
 pub(crate) mod fit;
+mod follow;
 pub(crate) mod jump;
 pub(crate) mod pinned_lines;
 pub(crate) mod points;
+mod pressure_jump;
 pub(crate) mod stencils;
+
+pub(crate) use self::fields::{InterfaceFields, SurfaceForce};
+use crate::case;
+use crate::sph::bulk::BulkFields;
+use crate::sph::neighborhood::Neighborhood;
+use crate::sph::parallel::values;
+use crate::sph::particles::Phase;
+use crate::sph::terms::color;
+use crate::sph::view::View;
+use crate::sph::wetting::lines::Line;
+
+/// The fields of the interface [Huber2013, Eqs. 18-23], and the contact lines now.
+pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec<Line>) {
+    let (Neighborhood { pairs, images }, method) = (flow.neighborhood, &flow.setting.method);
+    let (n, moving, phase) = (flow.state.particles.len(), flow.state.particles.moving(), &flow.state.particles.phase);
+    let sharp = images.field(phase.iter().map(|p: &Phase| p.color()).collect());
+    let (mut found, mut lines) = (InterfaceFields::default(), Vec::new());
+    if method.tension == 0.0 {
+        (found.color, found.normal, found.curvature) = (sharp, images.field(Vec::new()), vec![0.0; n]);
+    } else {
+        // Both fluids are within the support; also true of walls, which have no color of their own.
+        let mixed = values(n, |a| {
+            let is_other = |b: usize| b < moving && phase[b] != phase[a];
+            a >= moving || pairs.of(a).any(|ab| is_other(images.source(ab.b)))
+        });
+        let color = images.field(color::smoothed_color(pairs, &flow.fields.fluid_volume, &sharp, &mixed));
+        (found, lines) = match method.surface_force {
+            case::SurfaceForce::Csf { line_delta } => flow.with_continuum_force(color, line_delta),
+            case::SurfaceForce::PressureJump { curvature } => flow.with_jump(sharp, color, &mixed, curvature),
+        };
+    }
+    found.slip_length = slip_lengths(flow, &lines);
+    (found, lines)
+}
+
+/// The slip length in m of the wall next to each fluid particle: near contact `lines` that of lines.
+fn slip_lengths(flow: &View<BulkFields>, lines: &[Line]) -> Vec<f64> {
+    let (particles, setting) = (&flow.state.particles, flow.setting);
+    values(particles.fluids, |a| {
+        let distance = |line: &Line| setting.domain.separation(particles.position[a], line.position).norm();
+        let has_wall = flow.fields.wall_distance[a].is_finite();
+        let nearest = lines.iter().filter(|_| has_wall).map(distance).fold(f64::INFINITY, f64::min);
+        setting.method.no_slip.slip_length_at(nearest)
+    })
+}

@@ -1,8 +1,11 @@
 //! Points of the interface: where the smoothed color passes 1/2 between two near particles.
 
 use crate::math::Vec2;
+use crate::sph::bulk::BulkFields;
 use crate::sph::domain::Domain;
+use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
+use crate::sph::view::View;
 
 /// Pairs nearer than this, in units of dx, are looked at: nearest and diagonal neighbors of the lattice. Their weight falls to zero there.
 const LINK: f64 = 1.8;
@@ -35,21 +38,15 @@ pub(crate) struct InterfacePoint {
     pub(crate) weight: f64,
 }
 
-/// What the search for points needs; slices over particles and images, those of walls over fluid particles.
+/// What the search for points needs of the interface.
 pub(crate) struct PointFields<'a> {
-    /// Positions of the particles in m.
-    pub(crate) position: &'a [Vec2],
     /// Smoothed color.
-    pub(crate) color: &'a [f64],
+    pub(crate) color: &'a Field<f64>,
     /// Consistent gradient of the smoothed color in 1/m.
-    pub(crate) gradient: &'a [Vec2],
+    pub(crate) gradient: &'a Field<Vec2>,
     /// Velocity in m/s.
-    pub(crate) velocity: &'a [Vec2],
-    /// Wall distance in m of fluid particles, infinite where no wall is in reach.
-    pub(crate) wall_distance: &'a [f64],
-    /// Wall normal at fluid particles.
-    pub(crate) wall_normal: &'a [Vec2],
-    /// Whether the smoothed color of a particle or of one of its neighbors is neither 0 nor 1.
+    pub(crate) velocity: &'a Field<Vec2>,
+    /// Whether the smoothed color of a moving particle or of one of its neighbors is neither 0 nor 1.
     pub(crate) near: &'a [bool],
 }
 
@@ -62,55 +59,50 @@ pub(crate) struct Resolution {
     pub(crate) h: f64,
 }
 
-/// All interface points between the first `fluids` particles, with images near mirrors.
-pub(crate) fn interface_points(
-    neighborhood: &Neighborhood,
-    domain: &Domain,
-    fields: &PointFields,
-    fluids: usize,
-    Resolution { spacing, h }: Resolution,
-) -> Vec<InterfacePoint> {
-    let Neighborhood { pairs, images } = neighborhood;
+/// All interface points between moving particles, with images near mirrors.
+pub(crate) fn interface_points(flow: &View<BulkFields>, fields: &PointFields) -> Vec<InterfacePoint> {
+    let (Neighborhood { pairs, images }, moving) = (flow.neighborhood, flow.state.particles.moving());
+    let (spacing, h) = (flow.setting.method.spacing, flow.setting.method.kernel.h);
     let mut points = Vec::new();
     let link2 = (LINK * spacing).powi(2);
-    for a in (0..fluids).filter(|&a| fields.near[a]) {
+    for a in (0..moving).filter(|&a| fields.near[a]) {
         let c_a = fields.color[a] - LEVEL;
         for ab in pairs.of(a) {
             let source = images.source(ab.b);
             let is_image = source != ab.b;
             // Each pair of particles once; a particle and an image from the particle's side.
-            if source >= fluids || (!is_image && ab.b < a) {
+            if source >= moving || (!is_image && ab.b < a) {
                 continue;
             }
             let c_b = fields.color[ab.b] - LEVEL;
             if (c_a > 0.0) == (c_b > 0.0) {
                 continue;
             }
-            let x_a = fields.position[a];
-            let r_ba = -neighborhood.separation(a, ab.b, fields.position, domain);
+            let x_a = flow.state.particles.position[a];
+            let r_ba = -flow.separation(a, ab.b);
             let f = c_a / (c_a - c_b);
             let g = (1.0 - f) * fields.gradient[a] + f * fields.gradient[ab.b];
             let closeness = 1.0 - r_ba.norm_squared() / link2;
             if closeness > 0.0 && g.norm() > SMALLEST_GRADIENT / h {
-                let (wall_distance, wall_normal) = wall_between(fields, a, source, f);
+                let (wall_distance, wall_normal) = wall_between(flow.fields, a, source, f);
                 let velocity = (1.0 - f) * fields.velocity[a] + f * fields.velocity[ab.b];
                 let (x, normal) = (x_a + f * r_ba, g.normalize());
-                let touches = wall_distance.is_finite() && both_touch(neighborhood, fields, a, source, spacing);
+                let touches = wall_distance.is_finite() && both_touch(flow, fields.color, a, source);
                 let weight = closeness.powi(2);
                 points.push(InterfacePoint { x, normal, velocity, wall_distance, wall_normal, touches, weight });
             }
         }
     }
-    reflect(&mut points, domain, 3.0 * h);
+    reflect(&mut points, &flow.setting.domain, 3.0 * h);
     points
 }
 
 /// Whether particles of both phases, by the smoothed color, which is blind to isolated particles, touch the wall around `a` or `b`.
-fn both_touch(neighborhood: &Neighborhood, fields: &PointFields, a: usize, b: usize, spacing: f64) -> bool {
-    let Neighborhood { pairs, images } = neighborhood;
+fn both_touch(flow: &View<BulkFields>, color: &[f64], a: usize, b: usize) -> bool {
+    let (Neighborhood { pairs, images }, spacing) = (flow.neighborhood, flow.setting.method.spacing);
     let phase = |i: usize| {
-        let touches = fields.wall_distance.get(i).is_some_and(|d| *d < TOUCHING * spacing);
-        touches.then(|| fields.color[i] > LEVEL)
+        let touches = flow.fields.wall_distance.get(i).is_some_and(|d| *d < TOUCHING * spacing);
+        touches.then(|| color[i] > LEVEL)
     };
     [a, b].into_iter().any(|i| {
         let around = pairs.of(i).filter_map(|ij| phase(images.source(ij.b))).chain(phase(i));
@@ -124,7 +116,7 @@ fn both_touch(neighborhood: &Neighborhood, fields: &PointFields, a: usize, b: us
 }
 
 /// Wall distance and normal at the share `f` of the way from a to b.
-fn wall_between(fields: &PointFields, a: usize, b: usize, f: f64) -> (f64, Vec2) {
+fn wall_between(fields: &BulkFields, a: usize, b: usize, f: f64) -> (f64, Vec2) {
     let (d_a, d_b) = (fields.wall_distance[a], fields.wall_distance[b]);
     match (d_a.is_finite(), d_b.is_finite()) {
         (true, true) => {

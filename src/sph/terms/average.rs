@@ -3,20 +3,11 @@
 use std::ops::{Add, Div, Mul};
 
 use crate::sph::pairs::Pairs;
-use crate::sph::parallel::each;
 
 /// ⟨f⟩_a = Σ_b V_b f_b W_ab / Σ_b V_b W_ab over fluid, the particle itself included (Shepard); f_a where no fluid is near.
 ///
 /// `fluid_volume` in m², 0 on walls; it and `field` over particles and images.
-pub(crate) fn over_fluid<T>(pairs: &Pairs, fluid_volume: &[f64], field: &[T], average: &mut [T])
-where
-    T: Copy + Send + Sync + Add<Output = T> + Mul<f64, Output = T> + Div<f64, Output = T>,
-{
-    each(average, |a| over_fluid_at(a, pairs, fluid_volume, field));
-}
-
-/// [`over_fluid`] of one particle.
-pub(crate) fn over_fluid_at<T>(a: usize, pairs: &Pairs, fluid_volume: &[f64], field: &[T]) -> T
+pub(crate) fn over_fluid<T>(a: usize, pairs: &Pairs, fluid_volume: &[f64], field: &[T]) -> T
 where
     T: Copy + Add<Output = T> + Mul<f64, Output = T> + Div<f64, Output = T>,
 {

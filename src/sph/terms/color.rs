@@ -1,10 +1,8 @@
 //! The color function and its gradient, the normal of the interface [Huber2013, Eq. 18].
 
-use rayon::prelude::*;
-
 use crate::math::{Mat2, Vec2};
 use crate::sph::pairs::Pairs;
-use crate::sph::parallel::{GRAIN, each};
+use crate::sph::parallel::values;
 use crate::sph::terms::average;
 
 /// The moment matrix is 1 inside the fluid and about 1/4 in a right corner; below this its inverse is not to be trusted.
@@ -13,16 +11,14 @@ const SMALLEST_DETERMINANT: f64 = 0.05;
 /// ĉ_a = Σ_b V_b c_b W_ab / Σ_b V_b W_ab over fluid, the particle itself included (Shepard average).
 ///
 /// Smoothing once before the gradient brings the curvature's error down; the paper is silent on it. Particles that are not `mixed`, which see
-/// one color only, keep what they have in `smoothed`.
-pub fn smoothed_color(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], mixed: &[bool], smoothed: &mut [f64]) {
-    smoothed.par_iter_mut().enumerate().with_min_len(GRAIN).filter(|(a, _)| mixed[*a]).for_each(|(a, smoothed)| {
-        *smoothed = average::over_fluid_at(a, pairs, fluid_volume, color);
-    });
+/// one color only, keep theirs.
+pub fn smoothed_color(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], mixed: &[bool]) -> Vec<f64> {
+    values(mixed.len(), |a| if mixed[a] { average::over_fluid(a, pairs, fluid_volume, color) } else { color[a] })
 }
 
 /// n_a = (1/\[c\]) Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m, \[c\] = 1, over fluid [Huber2013, Eq. 18]. Points into the wetting phase.
-pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], normal: &mut [Vec2]) {
-    pairs.sum_into(normal, |a, ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w);
+pub fn color_gradient(pairs: &Pairs, fluid_volume: &[f64], color: &[f64], count: usize) -> Vec<Vec2> {
+    pairs.sums(count, |a, ab| fluid_volume[ab.b] * (color[ab.b] - color[a]) * ab.grad_w)
 }
 
 /// The gradient of Eq. (18) made exact for linear fields: g_a = B_a Σ_b V_b (c_b − c_a) ∇_a W_ab in 1/m over fluid.
@@ -35,9 +31,8 @@ pub(crate) fn consistent_gradient(
     near: &[bool],
     color: &[f64],
     r_ab: impl Fn(usize, usize) -> Vec2 + Sync,
-    gradient: &mut [Vec2],
-) {
-    each(gradient, |a| {
+) -> Vec<Vec2> {
+    values(near.len(), |a| {
         if !near[a] {
             return Vec2::zeros();
         }
@@ -45,5 +40,5 @@ pub(crate) fn consistent_gradient(
         let moment: Mat2 = pairs.of(a).map(|ab| -fluid_volume[ab.b] * ab.grad_w * r_ab(a, ab.b).transpose()).sum();
         let is_regular = moment.determinant() > SMALLEST_DETERMINANT;
         moment.try_inverse().filter(|_| is_regular).map_or(plain, |inverse| inverse * plain)
-    });
+    })
 }

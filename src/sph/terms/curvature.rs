@@ -2,25 +2,25 @@
 
 use crate::math::Vec2;
 use crate::sph::pairs::Pairs;
-use crate::sph::parallel::each;
+use crate::sph::parallel::values;
 
 /// Below this |n| in units of 1/h a normal is noise [Morris2000, section 3.3].
 const SMALLEST_NORMAL: f64 = 0.01;
 
 /// n̂_a = n_a/|n_a| where |n_a| > 0.01/h, else zero: not valid. `h` in m.
-pub fn unit_normal(normal: &[Vec2], h: f64, unit_normal: &mut [Vec2]) {
-    each(unit_normal, |a| {
+pub fn unit_normal(normal: &[Vec2], h: f64) -> Vec<Vec2> {
+    values(normal.len(), |a| {
         let length = normal[a].norm();
         if length > SMALLEST_NORMAL / h { normal[a] / length } else { Vec2::zeros() }
-    });
+    })
 }
 
 /// Curvature κ = −∇·n̂ in 1/m [Huber2013, Eq. 19], positive for a drop of the wetting phase.
 ///
 /// κ_a = −Σ_b V_b (n̂_b − n̂_a)·∇_a W_ab / Σ_b V_b W_ab, over fluid with a valid normal.
-pub fn curvature(pairs: &Pairs, fluid_volume: &[f64], unit_normal: &[Vec2], kappa: &mut [f64]) {
+pub fn curvature(pairs: &Pairs, fluid_volume: &[f64], unit_normal: &[Vec2], count: usize) -> Vec<f64> {
     let valid = |a: usize| unit_normal[a] != Vec2::zeros();
-    each(kappa, |a| {
+    values(count, |a| {
         if !valid(a) {
             return 0.0;
         }
@@ -30,5 +30,5 @@ pub fn curvature(pairs: &Pairs, fluid_volume: &[f64], unit_normal: &[Vec2], kapp
             (sum - v_b * (unit_normal[ab.b] - unit_normal[a]).dot(&ab.grad_w), norm + v_b * ab.w)
         });
         if norm > 0.0 { sum / norm } else { 0.0 }
-    });
+    })
 }

@@ -9,21 +9,21 @@ const SMALLEST_MOMENT: f64 = 0.5;
 /// −(∇p/ρ)_a = −Σ_b m_b (p_a + p_b)/(ρ_a ρ_b) ∇_a W_ab in m/s² [Huber2013, Eq. 15], after Morris 2000.
 ///
 /// Keeps momentum; the constant in p matters, since it orders the particles. Up to density ratios of about 5.
-pub fn symmetric(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], acceleration: &mut [Vec2]) {
-    pairs.sum_into(acceleration, |a, ab| -volume[ab.b] * (pressure[a] + pressure[ab.b]) / density[a] * ab.grad_w);
+pub fn symmetric(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], count: usize) -> Vec<Vec2> {
+    pairs.sums(count, |a, ab| -volume[ab.b] * (pressure[a] + pressure[ab.b]) / density[a] * ab.grad_w)
 }
 
 /// −(1/m_a) Σ_b (V_a² + V_b²) (ρ_b p_a + ρ_a p_b)/(ρ_a + ρ_b) ∇_a W_ab in m/s² [HuAdams2006, Eqs. 25, 29].
 ///
 /// Keeps momentum and is continuous in ∇p/ρ across the interface; the constant in p orders the particles as in
 /// [`symmetric`], to which it comes down for equal densities and volumes.
-pub(crate) fn weighted(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], acceleration: &mut [Vec2]) {
-    pairs.sum_into(acceleration, |a, ab| {
+pub(crate) fn weighted(pairs: &Pairs, volume: &[f64], density: &[f64], pressure: &[f64], count: usize) -> Vec<Vec2> {
+    pairs.sums(count, |a, ab| {
         let b = ab.b;
         let between = (density[b] * pressure[a] + density[a] * pressure[b]) / (density[a] + density[b]);
         let volumes = volume[a] * volume[a] + volume[b] * volume[b];
         -volumes * between / (density[a] * volume[a]) * ab.grad_w
-    });
+    })
 }
 
 /// −Σ_b V_b 2 (p_b − p_a)/(ρ_a + ρ_b) ∇_a W_ab in m/s²: the gradient whose Laplacian is Eq. (30).
@@ -38,17 +38,17 @@ pub fn difference(
     density: &[f64],
     pressure: &[f64],
     rise: impl Fn(usize, usize) -> f64 + Sync,
-    acceleration: &mut [Vec2],
-) {
-    pairs.sum_into(acceleration, |a, ab| {
+    count: usize,
+) -> Vec<Vec2> {
+    pairs.sums(count, |a, ab| {
         let b = ab.b;
         -volume[b] * 2.0 * (pressure[b] - pressure[a] - rise(a, b)) / (density[a] + density[b]) * ab.grad_w
-    });
+    })
 }
 
 /// −½ Σ_b V_b r_ab·∇_a W_ab, 1 on the lattice and a little less in disorder. `r_ab(a, b)` in m.
-pub fn moment(pairs: &Pairs, volume: &[f64], r_ab: impl Fn(usize, usize) -> Vec2 + Sync, moment: &mut [f64]) {
-    pairs.sum_into(moment, |a, ab| -0.5 * volume[ab.b] * r_ab(a, ab.b).dot(&ab.grad_w));
+pub fn moment(pairs: &Pairs, volume: &[f64], r_ab: impl Fn(usize, usize) -> Vec2 + Sync, count: usize) -> Vec<f64> {
+    pairs.sums(count, |a, ab| -0.5 * volume[ab.b] * r_ab(a, ab.b).dot(&ab.grad_w))
 }
 
 /// Divides what [`difference`] gives by the [`moment`] of its sums.
@@ -64,14 +64,12 @@ pub fn correct_gradient(moment: &[f64], acceleration: &mut [Vec2]) {
 }
 
 /// −∇φ/ρ of a potential φ without jumps, by [`difference`]: the way in m down the gradient for φ in kg/m.
-pub(crate) fn down(pairs: &Pairs, volume: &[f64], density: &[f64], potential: &[f64], particles: usize) -> Vec<Vec2> {
-    let mut by = vec![Vec2::zeros(); particles];
-    difference(pairs, volume, density, potential, |_, _| 0.0, &mut by);
-    by
+pub(crate) fn down(pairs: &Pairs, volume: &[f64], density: &[f64], potential: &[f64], count: usize) -> Vec<Vec2> {
+    difference(pairs, volume, density, potential, |_, _| 0.0, count)
 }
 
 /// −2 (p_0/ρ_0) Σ_b V_b ∇_a W_ab in m/s²: what a background pressure p_0 does in [`symmetric`], as an acceleration
 /// that is the same for light and heavy particles. `pressure_over_density` = p_0/ρ_0 in m²/s².
-pub(crate) fn background(pairs: &Pairs, volume: &[f64], pressure_over_density: f64, acceleration: &mut [Vec2]) {
-    pairs.sum_into(acceleration, |_, ab| -2.0 * pressure_over_density * volume[ab.b] * ab.grad_w);
+pub(crate) fn background(pairs: &Pairs, volume: &[f64], pressure_over_density: f64, count: usize) -> Vec<Vec2> {
+    pairs.sums(count, |_, ab| -2.0 * pressure_over_density * volume[ab.b] * ab.grad_w)
 }

@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::math::Vec2;
 use crate::sph::pairs::Pairs;
-use crate::sph::parallel::each;
+use crate::sph::parallel::values;
 
 /// A particle with a smaller share of its own kind among its neighbors is isolated. The first layer of a flat interface
 /// has one half, a particle that stands out of it by dx about a quarter.
@@ -52,8 +52,7 @@ pub(crate) struct Sharpening<'a> {
 impl Sharpening<'_> {
     /// Adds to `shift` (m) the way of isolated particles across the interface. `h` in m, capillary `speed` in m/s, `dt` in s.
     pub(crate) fn displace(&self, pairs: &Pairs, h: f64, speed: f64, dt: f64, shift: &mut [Vec2]) {
-        let mut back = vec![Vec2::zeros(); shift.len()];
-        each(&mut back, |a| {
+        let back = values(shift.len(), |a| {
             let n = self.normal[a];
             if n.norm() < SMALLEST_GRADIENT / h {
                 return Vec2::zeros();

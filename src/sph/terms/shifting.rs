@@ -5,7 +5,7 @@
 use crate::math::Vec2;
 use crate::sph::images::Images;
 use crate::sph::pairs::Pairs;
-use crate::sph::parallel::each;
+use crate::sph::parallel::{each, values};
 use crate::sph::terms::average;
 
 /// Where the color gradient exceeds this, in units of 1/h, particles go down the concentration along the interface only.
@@ -15,8 +15,8 @@ const INTERFACE: f64 = 0.05;
 const LARGEST_SHIFT: f64 = 0.1;
 
 /// ∇C_a = Σ_b V_b ∇_a W_ab in 1/m: points to where particles crowd.
-pub(crate) fn concentration_gradient(pairs: &Pairs, volume: &[f64], gradient: &mut [Vec2]) {
-    pairs.sum_into(gradient, |_, ab| volume[ab.b] * ab.grad_w);
+pub(crate) fn concentration_gradient(pairs: &Pairs, volume: &[f64], count: usize) -> Vec<Vec2> {
+    pairs.sums(count, |_, ab| volume[ab.b] * ab.grad_w)
 }
 
 /// Takes the part across the interface out of a concentration gradient, so that the interface keeps its place and shape; `normal` is
@@ -32,8 +32,8 @@ pub fn keep_along(normal: &[Vec2], h: f64, gradient: &mut [Vec2]) {
 /// s_a = R Σ_b (W_ab/W(dx))⁴ V_b ∇_a W_ab in 1/m: grows steeply where two are nearer than dx (after Monaghan 2000, Lind et al. 2012).
 ///
 /// Sums of ∇C can be even over particles that touch in pairs or rows; this one is not. `w_of_spacing` = W(dx) in 1/m².
-pub fn anti_clustering(pairs: &Pairs, volume: &[f64], strength: f64, w_of_spacing: f64, push: &mut [Vec2]) {
-    pairs.sum_into(push, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w);
+pub fn anti_clustering(pairs: &Pairs, volume: &[f64], strength: f64, w_of_spacing: f64, count: usize) -> Vec<Vec2> {
+    pairs.sums(count, |_, ab| strength * (ab.w / w_of_spacing).powi(4) * volume[ab.b] * ab.grad_w)
 }
 
 /// s_a − ⟨s⟩_a with the average over the fluid around: what is left parts neighbors and moves no crowds.
@@ -41,20 +41,16 @@ pub fn anti_clustering(pairs: &Pairs, volume: &[f64], strength: f64, w_of_spacin
 /// The mean of short pushes drives particles from strained to calm places. The pressure must then bring fluid back, by a flow that is no flow
 /// of the liquid and goes through interfaces. `fluid_volume` in m², 0 on walls, over particles and images.
 pub fn take_out_mean(pairs: &Pairs, images: &Images, fluid_volume: &[f64], push: &mut [Vec2]) {
-    let mut all = push.to_vec();
-    all.resize(pairs.rows(), Vec2::zeros());
-    images.extend_reflected(&mut all);
-    let mut mean = vec![Vec2::zeros(); push.len()];
-    average::over_fluid(pairs, fluid_volume, &all, &mut mean);
-    push.iter_mut().zip(mean).for_each(|(push, mean)| *push -= mean);
+    let all = images.reflected_field(push.to_vec());
+    each(push, |a| all[a] - average::over_fluid(a, pairs, fluid_volume, &all));
 }
 
 /// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `uneven` is ∇C with the anti-clustering force, in 1/m, `diffusion` in m², `h` and the result in m.
-pub(crate) fn shift(uneven: &[Vec2], diffusion: f64, h: f64, shift: &mut [Vec2]) {
-    each(shift, |a| {
+pub(crate) fn shift(uneven: &[Vec2], diffusion: f64, h: f64) -> Vec<Vec2> {
+    values(uneven.len(), |a| {
         let by = -diffusion * uneven[a];
         by * (LARGEST_SHIFT * h / by.norm()).min(1.0)
-    });
+    })
 }
 
 /// δv_a = δr_a·∇v_a = Σ_b 2ρ_b/(ρ_a + ρ_b) V_b (v_b − v_a) (∇_a W_ab·δr_a) in m/s: the velocity at the shifted place [Lind2012, Eq. 26].
@@ -66,11 +62,10 @@ pub fn carried_velocity(
     density: &[f64],
     velocity: &[Vec2],
     shift: &[Vec2],
-    change: &mut [Vec2],
-) {
-    pairs.sum_into(change, |a, ab| {
+) -> Vec<Vec2> {
+    pairs.sums(shift.len(), |a, ab| {
         let b = ab.b;
         let weight = 2.0 * density[b] / (density[a] + density[b]);
         weight * volume[b] * ab.grad_w.dot(&shift[a]) * (velocity[b] - velocity[a])
-    });
+    })
 }

@@ -13,7 +13,7 @@
 
 use crate::math::{Mat2, Vec2};
 use crate::sph::pairs::{Pair, Pairs};
-use crate::sph::parallel::each;
+use crate::sph::parallel::values;
 
 /// A gradient along which the neighbors have a smaller moment than this counts less and less; moments whose principal values differ by less have
 /// less and less of a direction.
@@ -63,8 +63,7 @@ impl<'a> TransposedStress<'a> {
         }
         let least = one.min(other);
         let mut stress = Self { pairs, volume, viscosity, least, around: Vec::new() };
-        let mut around = vec![Around::new(Mat2::zeros(), Mat2::zeros()); moving];
-        each(&mut around, |a| {
+        stress.around = values(moving, |a| {
             let (mut same, mut others) = (Mat2::zeros(), Mat2::zeros());
             for ab in stress.neighbors(a) {
                 let sum = if ab.b < moving { &mut same } else { &mut others };
@@ -72,7 +71,6 @@ impl<'a> TransposedStress<'a> {
             }
             Around::new(same, others)
         });
-        stress.around = around;
         Some(stress)
     }
 
@@ -87,15 +85,12 @@ impl<'a> TransposedStress<'a> {
     /// in m/s is that of all moving ones.
     pub fn force(&self, velocity: &[Vec2], count: usize) -> Vec<Vec2> {
         let moving = self.around.len();
-        let mut stress = vec![Mat2::zeros(); moving];
-        each(&mut stress, |a| self.stress(a, velocity));
-        let mut force = vec![Vec2::zeros(); count];
-        each(&mut force, |a| {
+        let stress = values(moving, |a| self.stress(a, velocity));
+        values(count, |a| {
             self.same_fluid(a, moving)
                 .map(|ab| self.volume[a] * self.volume[ab.b] * ((stress[a] + stress[ab.b]) * ab.grad_w))
                 .sum()
-        });
-        force
+        })
     }
 
     /// S_a = Δμ_a (tr M D + (1 − tr M/2) (D:A) A − G M) N⁻¹ in Pa, N the moment of the same fluid: half of the derivative of P_a by G.

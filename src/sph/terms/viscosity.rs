@@ -2,7 +2,7 @@
 
 use crate::math::Vec2;
 use crate::sph::pairs::{Pair, Pairs};
-use crate::sph::parallel::each;
+use crate::sph::parallel::values;
 
 /// What the viscous sums need of the particles; slices over particles and images.
 pub struct Viscous<'a> {
@@ -18,17 +18,15 @@ impl Viscous<'_> {
     /// (1/ρ_a) Σ_b V_b 2 μ_ab v_ab (r_ab·∇_a W_ab)/(|r_ab|² + ζ²), μ_ab the harmonic mean [Morris1997, Eq. 22].
     ///
     /// `v_ab(a, b)` in m/s is the velocity difference. Keeps momentum.
-    pub fn morris(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, acceleration: &mut [Vec2]) {
-        each(acceleration, |a| {
-            pairs.of(a).map(|ab| self.friction(a, &ab) * v_ab(a, ab.b)).sum::<Vec2>() / self.density[a]
-        });
+    pub fn morris(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, count: usize) -> Vec<Vec2> {
+        values(count, |a| pairs.of(a).map(|ab| self.friction(a, &ab) * v_ab(a, ab.b)).sum::<Vec2>() / self.density[a])
     }
 
     /// Σ_b 8 m_b (η_a + η_b)/(ρ_a + ρ_b) (v_ab·r_ab)/(|r_ab|² + ζ²) ∇_a W_ab with η = μ/ρ [Huber2013, Eq. 16].
     ///
     /// r_ab and ∇_a W_ab are parallel, so that (v_ab·r_ab)/(|r_ab|² + ζ²) is (v_ab·∇_a W_ab) over |∇_a W_ab|², times the slope.
-    pub fn szewc(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, acceleration: &mut [Vec2]) {
-        pairs.sum_into(acceleration, |a, ab| {
+    pub fn szewc(&self, pairs: &Pairs, v_ab: impl Fn(usize, usize) -> Vec2 + Sync, count: usize) -> Vec<Vec2> {
+        pairs.sums(count, |a, ab| {
             let b = ab.b;
             let (rho_a, rho_b) = (self.density[a], self.density[b]);
             let m_b = rho_b * self.volume[b];
@@ -36,7 +34,7 @@ impl Viscous<'_> {
             // Particles in one place have no direction, and their force vanishes.
             let along = if steepness > 0.0 { v_ab(a, b).dot(&ab.grad_w) * ab.slope / steepness } else { 0.0 };
             8.0 * m_b * self.both_kinematic(a, b) / (rho_a + rho_b) * along * ab.grad_w
-        });
+        })
     }
 
     /// −V_a V_b 2 μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in Pa s, never below 0: what Morris's form multiplies v_ab with in the force that b
@@ -66,8 +64,10 @@ impl Viscous<'_> {
     ///
     /// Gershgorin: the eigenvalues of the viscous operator lie in [−2 max λ, 0], and explicit Euler needs Δt·2 max λ ≤ 2.
     /// `stretch(a, b)` is |v_ab| over the velocity difference where a wall extrapolates it, else 1.
-    pub(crate) fn rate(&self, pairs: &Pairs, stretch: impl Fn(usize, usize) -> f64 + Sync, rate: &mut [f64]) {
-        each(rate, |a| -pairs.of(a).map(|ab| self.friction(a, &ab) * stretch(a, ab.b)).sum::<f64>() / self.density[a]);
+    pub(crate) fn rate(&self, pairs: &Pairs, stretch: impl Fn(usize, usize) -> f64 + Sync, count: usize) -> Vec<f64> {
+        values(count, |a| {
+            -pairs.of(a).map(|ab| self.friction(a, &ab) * stretch(a, ab.b)).sum::<f64>() / self.density[a]
+        })
     }
 
     /// 2 V_b μ_ab r_ab·∇_a W_ab/(|r_ab|² + ζ²) in kg/(m³ s), never above 0: what Morris's form multiplies v_ab with.

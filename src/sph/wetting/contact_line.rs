@@ -111,8 +111,8 @@ impl LineParticles {
     /// F_a = f_wns δ_wns,a ν_ns in N/m³ [Huber2013, Eq. 23].
     ///
     /// `angles` in rad are those of the wetting law at each line, in the order of detection; `tension` is σ_wn in N/m.
-    pub fn line_force(&self, fields: &LineFields, delta: LineDelta, angles: &[f64], tension: f64, force: &mut [Vec2]) {
-        force.fill(Vec2::zeros());
+    pub fn line_force(&self, fields: &LineFields, delta: LineDelta, angles: &[f64], tension: f64) -> Vec<Vec2> {
+        let mut force = vec![Vec2::zeros(); fields.weight.len()];
         for ((particles, norm), angle) in self.lines.iter().zip(&self.norm).zip(angles) {
             let share: f64 = particles.iter().map(|p| fields.volume[p.a] * p.delta * fields.weight[p.a]).sum();
             let n = share * (SMALLEST_LINE * self.integral / norm).max(1.0);
@@ -128,11 +128,7 @@ impl LineParticles {
                 force[p.a] = f * p.delta * fields.weight[p.a] / norm * p.tangent;
             }
         }
-    }
-
-    /// Number of lines that are long enough to bear their whole force.
-    pub fn count(&self) -> usize {
-        self.norm.iter().filter(|&&n| n >= SMALLEST_LINE * self.integral).count()
+        force
     }
 }
 

@@ -1,0 +1,53 @@
+//! Fields of the fluids, wherever their interface is.
+
+use crate::math::Vec2;
+use crate::sph::boundary::shepard;
+use crate::sph::images::Field;
+use crate::sph::neighborhood::Neighborhood;
+use crate::sph::parallel::values;
+use crate::sph::setting::Setting;
+use crate::sph::terms::density;
+use crate::sph::view::View;
+
+/// Volumes and densities [Huber2013, Eq. 17], viscosities and wall distances.
+#[derive(Debug, Clone, Default)]
+pub struct BulkFields {
+    /// Volume V_a in m²; on walls the lattice's V_0.
+    pub volume: Field<f64>,
+    /// V_a on fluid, 0 on walls.
+    pub fluid_volume: Field<f64>,
+    /// ρ_a in kg/m³; on walls that of the fluid nearby.
+    pub density: Field<f64>,
+    /// Dynamic viscosity in Pa s, 0 on walls.
+    pub viscosity: Field<f64>,
+    /// Distance to the wall in m: of fluid and buffer particles with a wall in reach, else infinite.
+    pub wall_distance: Vec<f64>,
+    /// Wall normal into the fluid, of the same particles; zero far away.
+    pub wall_normal: Vec<Vec2>,
+}
+
+impl BulkFields {
+    /// Finds them.
+    pub(crate) fn of(flow: &View<()>) -> Self {
+        let (Setting { method, wall, .. }, neighborhood) = (flow.setting, flow.neighborhood);
+        let (Neighborhood { pairs, images }, particles) = (neighborhood, &flow.state.particles);
+        let (n, fluids, moving) = (particles.len(), particles.fluids, particles.moving());
+        // Buffer particles see no neighbors beyond the far end: they have the volume of the lattice.
+        let mut volume = density::volume(pairs, fluids);
+        volume.resize(n, method.volume);
+        let fluid_volume = images.field(volume[..moving].to_vec());
+
+        let mass = |a: usize| method.fluid(particles.phase[a]).density * method.volume;
+        let density = (0..n).map(|a| if a < moving { mass(a) / volume[a] } else { method.mean_density() }).collect();
+        let density = shepard::into_walls(neighborhood, &fluid_volume, moving, density);
+        let viscosity = particles.phase[..moving].iter().map(|&phase| method.fluid(phase).viscosity).collect();
+
+        let nearest = values(moving, |a| {
+            let has_wall = pairs.of(a).any(|ab| images.source(ab.b) >= moving);
+            if has_wall { wall(particles.position[a]) } else { (f64::INFINITY, Vec2::zeros()) }
+        });
+        let (wall_distance, wall_normal) = nearest.into_iter().unzip();
+        let (volume, viscosity) = (images.field(volume), images.field(viscosity));
+        Self { volume, fluid_volume, density, viscosity, wall_distance, wall_normal }
+    }
+}

@@ -1,0 +1,64 @@
+//! The paper's form of the surface force: volume forces in a band.
+
+use crate::case::LineDelta;
+use crate::math::Vec2;
+use crate::sph::bulk::BulkFields;
+use crate::sph::images::Field;
+use crate::sph::neighborhood::Neighborhood;
+use crate::sph::surface_force::fields::{InterfaceFields, SurfaceForce};
+use crate::sph::terms::{color, curvature, surface_tension};
+use crate::sph::view::View;
+use crate::sph::wetting::contact_line::{LineFields, LineParticles, MeanLine};
+use crate::sph::wetting::lines::Line;
+
+impl View<'_, BulkFields> {
+    /// Normals and curvature in a band, surface force and line force [Huber2013, Eqs. 18-23].
+    pub(super) fn with_continuum_force(&self, color: Field<f64>, delta: LineDelta) -> (InterfaceFields, Vec<Line>) {
+        let (Neighborhood { pairs, images }, method, bulk) = (self.neighborhood, &self.setting.method, self.fields);
+        let (fluids, moving) = (self.state.particles.fluids, self.state.particles.moving());
+        let normal = color::color_gradient(pairs, &bulk.fluid_volume, &color, moving);
+        let unit_normal = images.reflected_field(curvature::unit_normal(&normal, method.kernel.h));
+        let normal = images.reflected_field(normal);
+        let mut curvature = curvature::curvature(pairs, &bulk.fluid_volume, &unit_normal, moving);
+        curvature.resize(self.state.particles.len(), 0.0);
+        let weight: Vec<f64> = bulk.density[..fluids].iter().map(|&rho| method.force_weight(rho)).collect();
+        let mut lines = Vec::new();
+        let [surface, line] = self.volume_forces([&normal, &unit_normal], &curvature, &weight, delta, |seen| {
+            lines = self.followed(seen);
+            lines.iter().map(|line| line.angle).collect()
+        });
+        let force = SurfaceForce::Continuum { surface, line };
+        (InterfaceFields { color, normal, curvature, force, ..InterfaceFields::default() }, lines)
+    }
+
+    /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³, from n and n̂, κ and the weights of the forces; `angles`
+    /// are those in rad at which the lines seen are to meet the wall.
+    pub(crate) fn volume_forces(
+        &self,
+        [normal, unit_normal]: [&[Vec2]; 2],
+        curvature: &[f64],
+        weight: &[f64],
+        delta: LineDelta,
+        angles: impl FnOnce(&[MeanLine]) -> Vec<f64>,
+    ) -> [Vec<Vec2>; 2] {
+        let (particles, method, bulk) = (&self.state.particles, &self.setting.method, self.fields);
+        let surface = surface_tension::surface_force(method.tension, curvature, normal, weight);
+        let mut line = vec![Vec2::zeros(); particles.fluids];
+        if method.wetting.is_some() {
+            let fields = LineFields {
+                position: &particles.position,
+                velocity: &particles.velocity,
+                normal,
+                unit_normal,
+                wall_distance: &bulk.wall_distance,
+                wall_normal: &bulk.wall_normal,
+                volume: &bulk.volume,
+                weight,
+            };
+            let found = LineParticles::find(self.neighborhood, &fields, &method.kernel, particles.fluids);
+            let angles = angles(&found.detected_lines(&fields, &self.setting.domain));
+            line = found.line_force(&fields, delta, &angles, method.tension);
+        }
+        [surface, line]
+    }
+}

@@ -1,0 +1,78 @@
+//! The surface force as a jump of the pressure.
+
+use crate::math::Vec2;
+use crate::sph::boundary::shepard;
+use crate::sph::bulk::BulkFields;
+use crate::sph::images::Field;
+use crate::sph::neighborhood::Neighborhood;
+use crate::sph::parallel::values;
+use crate::sph::setting::Setting;
+use crate::sph::surface_force::fields::{InterfaceFields, SurfaceForce};
+use crate::sph::surface_force::fit::{Fitted, InterfaceFit};
+use crate::sph::surface_force::jump::{InterfaceCurvature, Jump};
+use crate::sph::surface_force::points::{PointFields, Resolution, interface_points};
+use crate::sph::surface_force::stencils::Interface;
+use crate::sph::terms::{color, pressure_gradient};
+use crate::sph::view::View;
+use crate::sph::wetting::lines::{LINE_REACH, Line, nearest};
+
+impl View<'_, BulkFields> {
+    /// Sides and curvatures for the pressure jump, fitted where none is `given` (1/m); the normal is the consistent gradient of the smoothed `color`.
+    /// `sharp` is the color of each particle and image, 0 or 1; `mixed` tells which of them have both fluids within the support.
+    pub(super) fn with_jump(
+        &self,
+        sharp: Field<f64>,
+        color: Field<f64>,
+        mixed: &[bool],
+        given: Option<f64>,
+    ) -> (InterfaceFields, Vec<Line>) {
+        let (Neighborhood { pairs, images }, Setting { method, domain, .. }) = (self.neighborhood, self.setting);
+        let (particles, bulk) = (&self.state.particles, self.fields);
+        let (fluids, moving) = (particles.fluids, particles.moving());
+        let r_ab = |a: usize, b: usize| self.separation(a, b);
+        let near = values(moving, |a| {
+            let is_mixed = |b: usize| b < moving && mixed[b];
+            mixed[a] || pairs.of(a).any(|ab| is_mixed(images.source(ab.b)))
+        });
+        let normal = color::consistent_gradient(pairs, &bulk.fluid_volume, &near, &color, r_ab);
+        let normal = images.reflected_field(normal);
+        let moment = pressure_gradient::moment(pairs, &bulk.volume, r_ab, fluids);
+        let fields = PointFields { color: &color, gradient: &normal, velocity: &self.velocity(), near: &near };
+        let points = interface_points(self, &fields);
+        let resolution = Resolution { spacing: method.spacing, h: method.kernel.h };
+        let interface = Interface::new(&points, domain, resolution, &self.setting.wall)
+            .under(method.curvature_gradient())
+            .before(self.state.last_dt);
+        let (mut lines, mut pinned) = (Vec::new(), Vec::new());
+        if method.wetting.is_some() {
+            let seen = interface.lines();
+            lines = self.followed(&seen);
+            pinned.extend(seen.iter().zip(&lines).filter_map(|(line, now)| line.pinned(now.angle)));
+        }
+        let angle_at = |x: Vec2, outward: Vec2| {
+            // Without a model this is not asked for.
+            let Some(model) = self.setting.spots.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
+            let line =
+                if model.is_static() { None } else { nearest(&lines, domain, x, outward, LINE_REACH * resolution.h) };
+            line.map_or_else(|| model.static_angle(), |line| line.angle)
+        };
+        let mut fit = InterfaceFit::free(&interface);
+        if method.wetting.is_some() {
+            fit = fit.held_to(&angle_at).with_pinned_lines(&pinned);
+        }
+        let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
+        let given = given.map(|curvature| Fitted { curvature, turning: None });
+        let curvature = InterfaceCurvature { at: |x: Vec2| given.or_else(|| fit.at(x)), gradient };
+        let side = shepard::into_walls(self.neighborhood, &bulk.fluid_volume, moving, sharp.to_vec());
+        let jump = Jump::new(self, &side, &curvature);
+        let curvature = jump.curvature[..particles.len()].iter().map(|&k| if k.is_nan() { 0.0 } else { k }).collect();
+        let range = |a: usize| {
+            let has_wall = bulk.wall_distance[a].is_finite();
+            let model = if has_wall { self.setting.spots.model(method, particles.position[a]) } else { None };
+            model.map_or([f64::NAN; 2], |model| model.hysteresis_range())
+        };
+        let (wall_hysteresis, has_pinned_line) = ((0..fluids).map(range).collect(), !pinned.is_empty());
+        let force = SurfaceForce::Jump { jump, moment, wall_hysteresis, has_pinned_line };
+        (InterfaceFields { color, normal, curvature, force, ..InterfaceFields::default() }, lines)
+    }
+}

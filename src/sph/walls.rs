@@ -1,0 +1,36 @@
+//! Fields of the wall particles. Walls rest: found once.
+
+use crate::math::Vec2;
+use crate::sph::images::Images;
+use crate::sph::particles::Particles;
+use crate::sph::setting::Setting;
+
+/// Wall particles whose nearest walls face each other by a cosine below this belong to opposite sides of a solid.
+const OPPOSITE: f64 = -0.5;
+
+/// Fields over wall particles.
+#[derive(Debug, Clone, Default)]
+pub struct WallFields {
+    /// Normal of the wall nearest to each, into the fluid.
+    facing: Vec<Vec2>,
+    /// Curvature in 1/m of the wall nearest to each, positive where the solid is convex; 0 at edges.
+    pub(crate) curvature: Vec<f64>,
+}
+
+impl WallFields {
+    /// Finds where each wall particle faces and how its wall bends.
+    pub(crate) fn of(setting: &Setting, particles: &Particles) -> Self {
+        let walls = &particles.position[particles.moving()..];
+        let facing = walls.iter().map(|&x| (setting.wall)(x).1).collect();
+        Self { facing, curvature: walls.iter().map(|&x| setting.curvature_of_wall(x)).collect() }
+    }
+
+    /// Whether the pressures of two particles or images are coupled: all but those of wall particles that belong to opposite sides of a thin
+    /// solid, through which the pressure of one side would reach the other. `moving` particles come before the walls.
+    pub(crate) fn joined(&self, moving: usize, images: &Images) -> impl Fn(usize, usize) -> bool + use<> {
+        let mut facing = vec![Vec2::zeros(); moving];
+        facing.extend_from_slice(&self.facing);
+        let facing = images.reflected_field(facing);
+        move |a, b| facing[a].dot(&facing[b]) > OPPOSITE
+    }
+}
