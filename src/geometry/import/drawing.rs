@@ -172,3 +172,22 @@ pub(crate) fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
         _ => vec![vertex(curve)],
     }
 }
+
+/// What tests of readers look at.
+#[cfg(test)]
+pub(super) mod seen {
+    use super::*;
+
+    /// The area without overlaps taken into account: of rings that do not cross, each with its own sign.
+    pub(crate) fn area(outline: &Outline) -> f64 {
+        match outline {
+            Outline::Disc { radius, .. } => std::f64::consts::PI * radius * radius,
+            Outline::Area { rings, .. } => rings.iter().map(Ring::area).sum::<f64>().abs(),
+        }
+    }
+
+    pub(crate) fn only(drawing: &Drawing) -> &Outline {
+        assert_eq!(drawing.entities.len(), 1, "{drawing:?}");
+        &drawing.entities[0].outline
+    }
+}
