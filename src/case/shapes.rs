@@ -93,7 +93,7 @@ pub(super) fn inline(checker: &mut Checker, at: &str, raw: &RawGeometry) -> Opti
     if checker.problems.len() > before {
         return None;
     }
-    for problem in spec_problems(&spec) {
+    for problem in spec.problems() {
         checker.refuse(join(at, &in_file(&problem.path, &written)), problem.message, problem.help);
     }
     (checker.problems.len() == before).then_some(spec)
@@ -210,7 +210,7 @@ pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &R
     spec.min = raw.min.unwrap_or(spec.min);
     spec.max = raw.max.unwrap_or(spec.max);
     if raw.min.is_some() || raw.max.is_some() {
-        for problem in spec_problems(&spec) {
+        for problem in spec.problems() {
             // The shapes were right in their file, so that what is wrong now is the domain.
             let key = if raw.max.is_some() { "geometry.max" } else { "geometry.min" };
             let help = format!("{}; `window` in place of `min` and `max` leaves out what lies outside", problem.help);
@@ -227,11 +227,6 @@ pub(super) fn refuse_images(checker: &mut Checker, geometry: Option<&GeometrySpe
     for problem in geometry.map_or_else(Vec::new, |geometry| geometry.periodic_problems(periodic)) {
         checker.refuse(format!("geometry.{}", problem.path), problem.message, problem.help);
     }
-}
-
-/// What is wrong with a domain and its shapes; key paths within the geometry.
-fn spec_problems(spec: &GeometrySpec) -> Vec<Problem> {
-    spec.problems()
 }
 
 /// What is wrong with one shape, written at the key path `at`.

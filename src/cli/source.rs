@@ -4,8 +4,7 @@ use std::path::Path;
 
 use super::exit::{BAD_INPUT, Failure, USAGE};
 use super::output::tell;
-use crate::case::{self, Loaded};
-use crate::case::{Case, Model};
+use crate::case::{self, Case, Loaded, Model};
 use crate::geometry::import::{self, Beyond, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;

@@ -15,7 +15,7 @@ use super::study_arguments::{Engine, StudyRunArguments};
 use super::threads::pool;
 use crate::study::engine::{End, Event, Work, free_memory, work};
 use crate::study::estimate::estimates;
-use crate::study::execute::{self, Ending, ExecuteError};
+use crate::study::execute::{self, ExecuteError};
 use crate::study::folder::Share;
 use crate::study::load::load;
 use crate::study::run::{PlannedRun, Run};
@@ -160,16 +160,12 @@ fn one(arguments: &StudyRunArguments, study: &Path, index: usize) -> Result<u8, 
     let ending = pool.install(|| execute::run(&planned, &folder, &flag, &mut display));
     display.finish();
     match ending.map_err(failure)? {
-        Ending::WasComplete => {
-            say(format_args!("run {index} was complete"));
+        end @ (End::WasComplete | End::Complete) => {
+            say(format_args!("run {index} {} complete", if end == End::Complete { "is" } else { "was" }));
             Ok(DONE)
         }
-        Ending::Complete => {
-            say(format_args!("run {index} is complete"));
-            Ok(DONE)
-        }
-        Ending::Interrupted => Ok(INTERRUPTED),
-        Ending::Failed(why) => Err(Failure::new(SOLVER_FAILED, &why)),
+        End::Interrupted => Ok(INTERRUPTED),
+        End::Failed(why) => Err(Failure::new(SOLVER_FAILED, &why)),
     }
 }
 

@@ -91,7 +91,7 @@ impl GeometrySpec {
 }
 
 /// What numbers of a shape mean.
-enum Numbers<'s> {
+pub(crate) enum Numbers<'s> {
     /// Lengths in m.
     Sizes(&'static str, &'s [f64]),
     /// Points in m.
@@ -139,7 +139,8 @@ pub(crate) fn shape_problems(domain: Bounds, shape: &ShapeSpec, at: &str) -> Vec
     found
 }
 
-fn numbers(shape: &ShapeSpec) -> Vec<Numbers<'_>> {
+/// The numbers of a shape in the order of its keys.
+pub(crate) fn numbers(shape: &ShapeSpec) -> Vec<Numbers<'_>> {
     use Numbers::{Points, Sizes, Turn};
     use std::slice::from_ref;
     match shape {

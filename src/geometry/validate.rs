@@ -5,7 +5,7 @@
 use crate::geometry::body::{Body, Place, bulged_ring};
 use crate::geometry::boundary::split;
 use crate::geometry::curve::{Curve, cross};
-use crate::geometry::extent;
+use crate::geometry::extent::{self, Numbers};
 use crate::geometry::pack::PackError;
 use crate::geometry::rings::{RingFault, faults};
 use crate::geometry::solid::Geometry;
@@ -130,55 +130,27 @@ impl ShapeSpec {
     pub fn problems(&self, at: &str) -> Vec<Problem> {
         let mut check = Check { at: format!("{at}.{}", self.key()), found: Vec::new() };
         match self {
-            Self::HalfPlane(s) => {
-                check.finite("point", &s.point);
-                check.finite("rotation-deg", &[s.rotation_deg]);
-            }
-            Self::Disc(s) => {
-                check.finite("center", &s.center);
-                check.positive("radius", &[s.radius]);
-            }
-            Self::Rectangle(s) => {
-                check.finite("center", &s.center);
-                check.positive("size", &s.size);
-                check.finite("rotation-deg", &[s.rotation_deg]);
-            }
-            Self::Capsule(s) => {
-                check.finite("ends", s.ends.as_flattened());
-                check.positive("radius", &[s.radius]);
-            }
             Self::Polygon(s) => check.polygon(s),
             Self::CurvedPolygon(s) => check.curved_polygon(s),
-            Self::Channel(s) => {
-                check.finite("center", &s.center);
-                check.positive("width", &[s.width]);
-                check.finite("rotation-deg", &[s.rotation_deg]);
-            }
-            Self::ThroatDiscs(s) => {
-                check.finite("center", &s.center);
-                check.positive("radii", &s.radii);
-                check.positive("gap", &[s.gap]);
-                check.finite("rotation-deg", &[s.rotation_deg]);
-            }
-            Self::ThroatCosine(s) => {
-                check.finite("center", &s.center);
-                check.positive("width", &[s.width]);
-                check.positive("throat", &[s.throat]);
-                check.positive("length", &[s.length]);
-                check.finite("rotation-deg", &[s.rotation_deg]);
-                if s.throat > s.width {
-                    check.add(
-                        "throat",
-                        format!("the throat, {:e} m, is wider than the channel, {:e} m", s.throat, s.width),
-                        "make `throat` at most `width`",
-                    );
-                }
-            }
             Self::RandomPack(_) | Self::Array(_) => {
                 if let Err(PackError { key, message, help }) = self.expanded() {
                     check.add(key, message, help);
                 }
             }
+            _ => extent::numbers(self).into_iter().for_each(|numbers| match numbers {
+                Numbers::Sizes(key, sizes) => check.positive(key, sizes),
+                Numbers::Points(key, points) => check.finite(key, points.as_flattened()),
+                Numbers::Turn(turn) => check.finite("rotation-deg", &[turn]),
+            }),
+        }
+        if let Self::ThroatCosine(s) = self
+            && s.throat > s.width
+        {
+            check.add(
+                "throat",
+                format!("the throat, {:e} m, is wider than the channel, {:e} m", s.throat, s.width),
+                "make `throat` at most `width`",
+            );
         }
         check.found
     }

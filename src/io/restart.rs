@@ -22,7 +22,7 @@ const START_AGAIN: &str = "put the file back from a copy, or start the run again
 const CHECKSUM: usize = 8;
 
 /// A saved state.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Saved {
     /// Hash of the case that the state belongs to.
     pub case_hash: u64,
@@ -34,18 +34,9 @@ pub struct Saved {
     pub series: Mark,
     /// How much of the list of written frames belongs to it.
     pub frames: Mark,
-    /// The bytes of `Solver::state`.
+    /// The bytes of `Solver::state`, which stand behind the header.
+    #[serde(skip)]
     pub state: Vec<u8>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct Header {
-    format_version: u32,
-    case_hash: u64,
-    time: f64,
-    step: u64,
-    series: Mark,
-    frames: Mark,
 }
 
 /// The file of the saved state of the run in `folder`.
@@ -59,15 +50,7 @@ pub fn path(folder: &Path) -> PathBuf {
 /// [`FileError`]; then the state before is still there.
 pub fn save(folder: &Path, saved: &Saved) -> Result<(), FileError> {
     let path = path(folder);
-    let header = Header {
-        format_version: FORMAT_VERSION,
-        case_hash: saved.case_hash,
-        time: saved.time,
-        step: saved.step,
-        series: saved.series,
-        frames: saved.frames,
-    };
-    let header = postcard::to_stdvec(&header)
+    let header = postcard::to_stdvec(&(FORMAT_VERSION, saved))
         .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
     let mut bytes = [MAGIC.as_slice(), &header, &saved.state].concat();
     bytes.extend(fnv1a(&bytes).to_le_bytes());
@@ -97,16 +80,9 @@ fn decode(bytes: &[u8]) -> Result<Saved, String> {
         return Err("its checksum does not match: it was changed, damaged or cut short".to_owned());
     }
     let rest = &content[MAGIC.len().min(content.len())..];
-    let (header, state) =
-        postcard::take_from_bytes::<Header>(rest).map_err(|_| "its header cannot be read".to_owned())?;
-    Ok(Saved {
-        case_hash: header.case_hash,
-        time: header.time,
-        step: header.step,
-        series: header.series,
-        frames: header.frames,
-        state: state.to_vec(),
-    })
+    let ((_, header), state) =
+        postcard::take_from_bytes::<(u32, Saved)>(rest).map_err(|_| "its header cannot be read".to_owned())?;
+    Ok(Saved { state: state.to_vec(), ..header })
 }
 
 #[cfg(test)]

@@ -79,6 +79,13 @@ pub struct Throat {
     pub shift: Vec2,
 }
 
+impl Throat {
+    /// The middle of its chord in m.
+    pub(crate) fn middle(&self) -> Vec2 {
+        0.5 * (self.contacts[0] + self.contacts[1])
+    }
+}
+
 /// An interval of an open side between two walls: a throat without entry pressure to a boundary pore of area zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opening {

@@ -4,7 +4,7 @@ use super::cycles::{FluidPhase, Invasion};
 use super::model::{Model, Setting};
 use super::occupation::Occupation;
 use super::summary::PoreStates;
-use super::tables::{arms, center, kept, length, middle, pores_of, radius};
+use super::tables::{arms, center, kept, length, pores_of, radius};
 use crate::math::Vec2;
 use crate::snapshot::{CellKind, Field, Layer, Lines, Values};
 
@@ -107,7 +107,7 @@ fn throats(model: &Model) -> Layer<'static> {
     let setting = &model.setting;
     let (points, cells) = joined(kept(setting).map(|throat| {
         let [to_first, to_second] = arms(setting, throat);
-        vec![middle(throat) + to_first, middle(throat), middle(throat) + to_second]
+        vec![throat.middle() + to_first, throat.middle(), throat.middle() + to_second]
     }));
     let mut fields = vec![
         integer("throat", 0..setting.pores.throats.len() as i64),

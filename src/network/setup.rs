@@ -85,16 +85,12 @@ impl SetupError {
     }
 }
 
-fn kinds(network: &PoreNetwork) -> [Side; 4] {
-    network.sides.each()
-}
-
 /// The solids of a case as its network sees them: periodic sides joined, wall sides closed.
 ///
 /// # Errors
 /// [`SetupError::Geometry`] with what is wrong with the shapes.
 pub(crate) fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupError> {
-    let sides = kinds(network);
+    let sides = network.sides.each();
     let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
     let walls = sides.map(|side| side == Side::Wall);
     Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
@@ -113,7 +109,7 @@ pub(crate) fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>
 pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
     let clock = Instant::now();
     let geometry = geometry(case, wanted)?;
-    let sides = kinds(wanted);
+    let sides = wanted.sides.each();
     let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
     let network = super::extract(&geometry, open)?;
     if network.regions.is_empty() {
@@ -168,7 +164,7 @@ fn beginning(
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) => {
-            half_cycles(displacement, interface, kinds(wanted), (walls, &measured(wanted)))
+            half_cycles(displacement, interface, wanted.sides.each(), (walls, &measured(wanted)))
         }
         _ => Vec::new(),
     };
@@ -205,7 +201,7 @@ pub(crate) fn assemble(
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) if displacement.dynamic.is_none() => {
-            half_cycles(displacement, interface, kinds(wanted), (walls, &measured(wanted)))
+            half_cycles(displacement, interface, wanted.sides.each(), (walls, &measured(wanted)))
         }
         _ => Vec::new(),
     };
@@ -223,15 +219,15 @@ pub(crate) fn assemble(
         pores: Arc::clone(&pores),
         bounds: geometry.bounds(),
         periodic: geometry.periodic(),
-        inlet: kinds(wanted).iter().position(|&side| side == Side::Inlet),
-        outlet: kinds(wanted).iter().position(|&side| side == Side::Outlet),
+        inlet: wanted.sides.each().iter().position(|&side| side == Side::Inlet),
+        outlet: wanted.sides.each().iter().position(|&side| side == Side::Outlet),
         outline: geometry.outline_within(OUTLINE_ERROR * geometry.bounds().size().max()),
         porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / geometry.bounds().area(),
         tension: wanted.interface.as_ref().map(|interface| interface.tension),
         viscosities: [wanted.wetting, wanted.non_wetting].map(|fluid| fluid.map(|fluid| fluid.viscosity)),
         entry,
         geometry_hash: format!("{:016x}", geometry.hash()),
-        sides: kinds(wanted),
+        sides: wanted.sides.each(),
     };
     NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles, initial))
 }
@@ -244,7 +240,7 @@ fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Flui
     let invading =
         if displacement.process == Process::Imbibition { FluidPhase::Wetting } else { FluidPhase::NonWetting };
     let [wetting, non_wetting] = [wanted.wetting?.viscosity, wanted.non_wetting?.viscosity];
-    let sides = kinds(wanted);
+    let sides = wanted.sides.each();
     let [inlet, outlet] = [Side::Inlet, Side::Outlet].map(|kind| sides.map(|side| side == kind));
     let walls = setting.entry.as_ref().map_or(SIDES.len(), |entry| entry.angle.len());
     let conditions = Conditions {

@@ -48,11 +48,6 @@ pub(super) fn radius(setting: &Setting, pore: usize) -> f64 {
     setting.network.regions[setting.pores.main_region[pore]].radius
 }
 
-/// The middle of a throat in m.
-pub(super) fn middle(throat: &Throat) -> Vec2 {
-    0.5 * (throat.contacts[0] + throat.contacts[1])
-}
-
 /// The throats that were not dissolved.
 pub(super) fn kept(setting: &Setting) -> impl Iterator<Item = &Throat> {
     setting.pores.throats.iter().map(|&throat| &setting.network.throats[throat])
@@ -69,7 +64,7 @@ fn nearest(setting: &Setting, from: Vec2, to: Vec2) -> Vec2 {
 
 /// The way between both pores by way of the middle of their throat: vectors from the middle to both centers.
 pub(super) fn arms(setting: &Setting, throat: &Throat) -> [Vec2; 2] {
-    pores_of(setting, throat).map(|pore| nearest(setting, middle(throat), center(setting, pore)))
+    pores_of(setting, throat).map(|pore| nearest(setting, throat.middle(), center(setting, pore)))
 }
 
 /// Length of a throat from pore center to pore center by way of its middle, in m.
@@ -148,8 +143,8 @@ fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
         counts("throat", 0..setting.pores.throats.len()),
         counts("pore_1", kept(setting).map(|throat| pores_of(setting, throat)[0])),
         counts("pore_2", kept(setting).map(|throat| pores_of(setting, throat)[1])),
-        numbers("x_m", of(|throat| middle(throat).x)),
-        numbers("y_m", of(|throat| middle(throat).y)),
+        numbers("x_m", of(|throat| throat.middle().x)),
+        numbers("y_m", of(|throat| throat.middle().y)),
         numbers("width_m", of(|throat| throat.width)),
         numbers("length_m", kept(setting).map(|throat| length(setting, throat))),
         numbers("contact_1_x_m", of(|throat| throat.contacts[0].x)),

@@ -6,8 +6,7 @@ use serde::Serialize;
 
 use super::compare::outlet_elements;
 use super::setup::SetupError;
-use crate::case::FluidPhase;
-use crate::case::{Case, Model};
+use crate::case::{Case, FluidPhase, Model};
 use crate::network::displacement::{EventKind, Phase};
 use crate::network::solver::NetworkSolver;
 use crate::network::state;

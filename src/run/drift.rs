@@ -29,13 +29,13 @@ impl Drift {
     /// The drift of a column of `series` over windows of a fifth of the time; none where it is not known in each of them.
     pub(crate) fn of(series: &Series, column: &str) -> Option<Self> {
         let index = series.columns.iter().position(|one| one == column)?;
-        let windows = last_windows(&series.rows, &SteadyStop::default())?;
-        let values = windows.map(|rows| rows.iter().map(|row| row[index]).collect::<Vec<f64>>());
-        let [first, second, third] = means_of(series, column)?;
+        let [.., last_rows] = last_windows(&series.rows, &SteadyStop::default())?;
+        let values = windows(series, column)?;
+        let [first, second, third] = values.each_ref().map(|values| mean(values));
         let (before, last) = (second - first, third - second);
         let approach = if before * last > 0.0 { steady::left([first, second, third]) } else { 0.0 };
         let left = approach.max(0.5 * range(&values[2]));
-        let rate = slope(windows[2], index);
+        let rate = slope(last_rows, index);
         (left.is_finite() && rate.is_finite()).then_some(Self { left, rate, by_flow: 0.0, off: 0.0 })
     }
 
@@ -84,14 +84,20 @@ const FARTHEST_ERROR: f64 = 1.5;
 /// Share of the way to its end by which an angle that swings about it, and turns back, moved within three windows.
 const MOVED: f64 = 0.5;
 
+/// Values of a column in the last three windows.
+fn windows(series: &Series, column: &str) -> Option<[Vec<f64>; 3]> {
+    let index = series.columns.iter().position(|one| one == column)?;
+    let windows = last_windows(&series.rows, &SteadyStop::default())?;
+    Some(windows.map(|rows| rows.iter().map(|row| row[index]).collect()))
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
 /// Range of a column within the last three windows together.
 fn moved(series: &Series, column: &str) -> f64 {
-    let index = series.columns.iter().position(|one| one == column);
-    let windows = last_windows(&series.rows, &SteadyStop::default());
-    let values = index.zip(windows).map(|(index, windows)| {
-        windows.iter().flat_map(|rows| rows.iter().map(move |row| row[index])).collect::<Vec<f64>>()
-    });
-    values.map_or(0.0, |values| range(&values))
+    windows(series, column).map_or(0.0, |windows| range(&windows.concat()))
 }
 
 /// Whether a column is on its `way` to an end that is known: its mean goes there from window to window, in the last by more than
@@ -99,10 +105,10 @@ fn moved(series: &Series, column: &str) -> f64 {
 ///
 /// Spreading is a power law: an exponential through three windows ends long before the angle at rest.
 fn goes(series: &Series, column: &str, way: f64) -> bool {
-    let Some([first, second, third]) = means_of(series, column) else { return false };
-    let last = last_values(series, column);
+    let Some(windows) = windows(series, column) else { return false };
+    let [first, second, third] = windows.each_ref().map(|values| mean(values));
     let (before, now) = ((second - first) * way.signum(), (third - second) * way.signum());
-    before > 0.0 && now > NOISE * range(&last) && now > SLOWEST * way.abs()
+    before > 0.0 && now > NOISE * range(&windows[2]) && now > SLOWEST * way.abs()
 }
 
 /// Share of the range within a window by which its mean moves where that is no noise; a straight line moves by the whole of it.
@@ -111,27 +117,11 @@ const NOISE: f64 = 0.5;
 /// Share of the way to its end by which a quantity moves in a window; a slower one rests elsewhere, by its error.
 const SLOWEST: f64 = 0.01;
 
-/// Values of a column in the last window.
-fn last_values(series: &Series, column: &str) -> Vec<f64> {
-    let index = series.columns.iter().position(|one| one == column);
-    let last = last_windows(&series.rows, &SteadyStop::default()).map(|windows| windows[2]);
-    index.zip(last).map(|(index, rows)| rows.iter().map(|row| row[index]).collect()).unwrap_or_default()
-}
-
-/// Means of a column in the last three windows.
-fn means_of(series: &Series, column: &str) -> Option<[f64; 3]> {
-    let index = series.columns.iter().position(|one| one == column)?;
-    let windows = last_windows(&series.rows, &SteadyStop::default())?;
-    Some(windows.map(|rows| rows.iter().map(|row| row[index]).sum::<f64>() / rows.len() as f64))
-}
-
 /// What of the kinetic energy in a column is still to be lost, in its unit; 0 where it does not fall.
 fn energy_to_lose(series: &Series, column: &str) -> f64 {
     let Some(drift) = Drift::of(series, column).filter(|drift| drift.rate < 0.0) else { return 0.0 };
-    let index = series.columns.iter().position(|one| one == column);
-    let last = last_windows(&series.rows, &SteadyStop::default()).map(|windows| windows[2]);
-    let values = index.zip(last).map(|(index, rows)| rows.iter().map(move |row| row[index]));
-    drift.left.min(values.into_iter().flatten().fold(0.0, f64::max))
+    let [.., last] = windows(series, column).unwrap_or_default();
+    drift.left.min(last.into_iter().fold(0.0, f64::max))
 }
 
 /// Slope of the straight line of least squares through a column of `rows` over the time in their first column.

@@ -1,8 +1,7 @@
 //! From a checked case to its solver: the one place that knows both.
 
 use super::memory::{self, NoRoom};
-use crate::case::{Case, Model, Sph};
-use crate::case::{Facts, check_against};
+use crate::case::{Case, Facts, Model, Sph, check_against};
 use crate::geometry::Geometry;
 use crate::input::Problem;
 use crate::math::{Bounds, Vec2};

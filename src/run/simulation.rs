@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::processor_time::ProcessorTime;
 use super::schedule::{Due, Schedule};
-use super::sink::{Frame, SeriesSink, Start, UnitFile, vtk_sinks};
+use super::sink::{Frame, SeriesSink, Start, VtkFiles, write_units};
 use super::steady::is_steady;
 use super::writer::{Record, Writer};
 use crate::case::SteadyStop;
@@ -102,7 +102,7 @@ impl Records {
         pvd::rebuild(folder, &written)?;
         Ok(Self {
             series: SeriesSink::new(folder, start)?,
-            writer: Writer::start(folder, vtk_sinks(folder, written, compression), list)?,
+            writer: Writer::start(folder, VtkFiles::new(folder, written, compression), list)?,
             processor_time,
             case_hash,
             compression,
@@ -184,7 +184,7 @@ impl Simulation<'_> {
     /// Writes anew what follows from the solver whatever its state: `solid.vtp` and `units.json`.
     pub(crate) fn go_on(&mut self, folder: &Path) -> Result<(), FileError> {
         self.write_outline(folder)?;
-        UnitFile::of(folder).write(&Frame::of(self.solver))
+        write_units(folder, &Frame::of(self.solver))
     }
 
     fn write_outline(&self, folder: &Path) -> Result<(), FileError> {

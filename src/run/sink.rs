@@ -29,15 +29,6 @@ impl Frame {
     }
 }
 
-/// Something that records a frame in a file.
-pub(crate) trait Sink: Send {
-    /// Records the frame and notes in `frames` what was written. A time that was recorded before is replaced, never doubled.
-    ///
-    /// # Errors
-    /// [`FileError`] with the path and a way out.
-    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError>;
-}
-
 /// Where a run's files begin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Start {
@@ -52,10 +43,6 @@ pub(crate) enum Start {
     },
 }
 
-fn format_error(path: PathBuf) -> impl Fn(VtkError) -> FileError {
-    move |error| FileError::Format { path: path.clone(), what: error.to_string() }
-}
-
 /// What the case says of compression, as the writer of VTK files has it.
 pub(crate) fn compression(output: &Output) -> Compression {
     match output.vtk_compression {
@@ -65,118 +52,75 @@ pub(crate) fn compression(output: &Output) -> Compression {
     }
 }
 
-/// `particles.pvd` and its files.
-pub(crate) struct ParticleFiles(Collection, Compression);
-
-/// `grid.pvd` and its files, where the solver offers a grid.
-pub(crate) struct GridFiles(Collection, Compression);
-
-/// `interface.pvd` and its files, where there is an interface.
-pub(crate) struct InterfaceFiles(Collection, Compression);
-
-/// `NAME.pvd` and its files for each layer of cells that the solver offers.
-pub(crate) struct LayerFiles {
+/// The VTK files of a run: a series each of particles, grid and interface, where the solver has them, and of its layers.
+pub(crate) struct VtkFiles {
     folder: PathBuf,
     written: Vec<Written>,
     compression: Compression,
-    collections: Vec<(&'static str, Collection)>,
+    series: BTreeMap<&'static str, Collection>,
 }
 
-/// `units.json`: the unit of each field by file series and name.
-pub(crate) struct UnitFile(PathBuf);
+impl VtkFiles {
+    /// Those in the folder of a run, in which these were `written` before.
+    pub(crate) fn new(folder: &Path, written: Vec<Written>, compression: Compression) -> Self {
+        Self { folder: folder.to_path_buf(), written, compression, series: BTreeMap::new() }
+    }
 
-/// The VTK sinks of a run in whose folder these files were `written` before.
-pub(crate) fn vtk_sinks(folder: &Path, written: Vec<Written>, compression: Compression) -> Vec<Box<dyn Sink>> {
-    let collection = |name: &str, extension| Collection::new(folder, name, extension, &written);
-    vec![
-        Box::new(UnitFile::of(folder)),
-        Box::new(ParticleFiles(collection("particles", "vtu"), compression)),
-        Box::new(GridFiles(collection("grid", "vti"), compression)),
-        Box::new(InterfaceFiles(collection("interface", "vtp"), compression)),
-        Box::new(LayerFiles { folder: folder.to_path_buf(), written, compression, collections: Vec::new() }),
-    ]
-}
-
-impl Sink for ParticleFiles {
-    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
-        let snapshot = &frame.snapshot;
+    /// Records a frame and notes in `frames` what was written. A time that was recorded before is replaced, never doubled.
+    ///
+    /// # Errors
+    /// [`FileError`] with the path and a way out.
+    pub(crate) fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
+        write_units(&self.folder, frame)?;
+        let Snapshot { time, particles, grid, interface, .. } = &frame.snapshot;
+        let (time, compression) = (*time, self.compression);
         // A solver without particles has no fields of them either.
-        if snapshot.particles.fields.is_empty() && snapshot.particles.points.is_empty() {
-            return Ok(());
+        if !(particles.fields.is_empty() && particles.points.is_empty()) {
+            self.write(("particles", "vtu"), time, vtk::points(particles, time, compression), frames)?;
         }
-        let content = vtk::points(&snapshot.particles, snapshot.time, self.1).map_err(format_error(self.0.path()))?;
-        self.0.record(snapshot.time, &content, frames)
-    }
-}
-
-impl Sink for GridFiles {
-    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
-        let snapshot = &frame.snapshot;
-        let Some(grid) = &snapshot.grid else { return Ok(()) };
-        let content = vtk::grid(grid, snapshot.time, self.1).map_err(format_error(self.0.path()))?;
-        self.0.record(snapshot.time, &content, frames)
-    }
-}
-
-impl Sink for InterfaceFiles {
-    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
-        let snapshot = &frame.snapshot;
-        let Some(interface) = &snapshot.interface else { return Ok(()) };
-        let content = vtk::lines(interface, snapshot.time, self.1).map_err(format_error(self.0.path()))?;
-        self.0.record(snapshot.time, &content, frames)
-    }
-}
-
-impl Sink for LayerFiles {
-    fn record(&mut self, frame: &Frame, frames: &mut FrameList) -> Result<(), FileError> {
+        if let Some(grid) = grid {
+            self.write(("grid", "vti"), time, vtk::grid(grid, time, compression), frames)?;
+        }
+        if let Some(interface) = interface {
+            self.write(("interface", "vtp"), time, vtk::lines(interface, time, compression), frames)?;
+        }
         let time = frame.time;
-        for layer in &frame.layers {
-            let place = match self.collections.iter().position(|(name, _)| *name == layer.name) {
-                Some(place) => place,
-                None => {
-                    let files = Collection::new(&self.folder, layer.name, "vtp", &self.written);
-                    self.collections.push((layer.name, files));
-                    self.collections.len() - 1
-                }
-            };
-            let files = &mut self.collections[place].1;
-            let content = vtk::layer(layer, time, self.compression).map_err(format_error(files.path()))?;
-            files.record(time, &content, frames)?;
-        }
-        Ok(())
+        let mut layers = frame.layers.iter();
+        layers.try_for_each(|it| self.write((it.name, "vtp"), time, vtk::layer(it, time, compression), frames))
+    }
+
+    fn write(
+        &mut self,
+        (name, extension): (&'static str, &'static str),
+        time: f64,
+        content: Result<Vec<u8>, VtkError>,
+        frames: &mut FrameList,
+    ) -> Result<(), FileError> {
+        let new = || Collection::new(&self.folder, name, extension, &self.written);
+        let files = self.series.entry(name).or_insert_with(new);
+        let content = content.map_err(|error| FileError::Format { path: files.path(), what: error.to_string() })?;
+        files.record(time, &content, frames)
     }
 }
 
-impl Sink for UnitFile {
-    fn record(&mut self, frame: &Frame, _: &mut FrameList) -> Result<(), FileError> {
-        self.write(frame)
-    }
-}
-
-impl UnitFile {
-    /// The file in the folder of a run.
-    pub(crate) fn of(folder: &Path) -> Self {
-        Self(folder.join("units.json"))
-    }
-
-    /// Writes the units of a frame.
-    pub(crate) fn write(&self, frame: &Frame) -> Result<(), FileError> {
-        let snapshot = &frame.snapshot;
-        let groups = [
-            ("particles", Some(&snapshot.particles.fields).filter(|fields| !fields.is_empty())),
-            ("grid", snapshot.grid.as_ref().map(|grid| &grid.fields)),
-            ("interface", snapshot.interface.as_ref().map(|lines| &lines.fields)),
-        ];
-        let layers = frame.layers.iter().map(|layer| (layer.name, Some(&layer.fields)));
-        let units: BTreeMap<&str, BTreeMap<&str, &str>> = groups
-            .into_iter()
-            .chain(layers)
-            .filter_map(|(name, fields)| Some((name, fields?.iter().map(|field| (field.name, field.unit)).collect())))
-            .collect();
-        let text = serde_json::to_string_pretty(&units)
-            .map_err(|error| FileError::Format { path: self.0.clone(), what: error.to_string() })?;
-        atomic::write(&self.0, (text + "\n").as_bytes())
-    }
+/// Writes `units.json`: the unit of each field by file series and name.
+pub(crate) fn write_units(folder: &Path, frame: &Frame) -> Result<(), FileError> {
+    let snapshot = &frame.snapshot;
+    let groups = [
+        ("particles", Some(&snapshot.particles.fields).filter(|fields| !fields.is_empty())),
+        ("grid", snapshot.grid.as_ref().map(|grid| &grid.fields)),
+        ("interface", snapshot.interface.as_ref().map(|lines| &lines.fields)),
+    ];
+    let layers = frame.layers.iter().map(|layer| (layer.name, Some(&layer.fields)));
+    let units: BTreeMap<&str, BTreeMap<&str, &str>> = groups
+        .into_iter()
+        .chain(layers)
+        .filter_map(|(name, fields)| Some((name, fields?.iter().map(|field| (field.name, field.unit)).collect())))
+        .collect();
+    let path = folder.join("units.json");
+    let text = serde_json::to_string_pretty(&units)
+        .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
+    atomic::write(&path, (text + "\n").as_bytes())
 }
 
 /// `series.csv`.

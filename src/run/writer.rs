@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
 use super::processor_time;
-use super::sink::{Frame, Sink};
+use super::sink::{Frame, VtkFiles};
 use crate::io::FileError;
 use crate::io::frames::FrameList;
 use crate::io::restart::{self, Saved};
@@ -32,16 +32,16 @@ pub(crate) struct Writer {
 }
 
 impl Writer {
-    /// Writes frames to `sinks`, which note them in `frames`, and states to `folder`.
+    /// Writes frames to `files`, which note them in `frames`, and states to `folder`.
     ///
     /// # Errors
     /// [`FileError::Write`] where the system starts no thread.
-    pub(crate) fn start(folder: &Path, sinks: Vec<Box<dyn Sink>>, frames: FrameList) -> Result<Self, FileError> {
+    pub(crate) fn start(folder: &Path, files: VtkFiles, frames: FrameList) -> Result<Self, FileError> {
         let (sender, receiver) = sync_channel(WAITING);
         let place = folder.to_path_buf();
         let thread = std::thread::Builder::new()
             .name("output".into())
-            .spawn(move || write_all(&place, sinks, frames, &receiver))
+            .spawn(move || write_all(&place, files, frames, &receiver))
             .map_err(FileError::write(folder))?;
         Ok(Self { records: Some(sender), thread: Some(thread) })
     }
@@ -85,13 +85,13 @@ impl Drop for Writer {
 
 fn write_all(
     folder: &Path,
-    mut sinks: Vec<Box<dyn Sink>>,
+    mut files: VtkFiles,
     mut frames: FrameList,
     records: &Receiver<Record>,
 ) -> Result<(), FileError> {
     for record in records {
         match record {
-            Record::Frame(frame) => sinks.iter_mut().try_for_each(|sink| sink.record(&frame, &mut frames))?,
+            Record::Frame(frame) => files.record(&frame, &mut frames)?,
             Record::State(saved, processor_time) => {
                 processor_time::save(folder, processor_time)?;
                 restart::save(folder, &Saved { frames: frames.mark(), ..saved })?;
@@ -104,7 +104,6 @@ fn write_all(
 #[cfg(test)]
 mod tests {
     use super::super::mock::MockSolver;
-    use super::super::sink::vtk_sinks;
     use super::*;
     use crate::io::atomic;
     use crate::io::journal::Mark;
@@ -117,7 +116,7 @@ mod tests {
     }
 
     fn writer(folder: &Path) -> Writer {
-        Writer::start(folder, vtk_sinks(folder, Vec::new(), Compression::Zlib), FrameList::new(folder)).unwrap()
+        Writer::start(folder, VtkFiles::new(folder, Vec::new(), Compression::Zlib), FrameList::new(folder)).unwrap()
     }
 
     #[test]

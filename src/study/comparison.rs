@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::base_case::load;
 use super::definition::{Assignment, ComparisonPlan, Study};
-use crate::case::Case;
-use crate::case::Loaded;
+use crate::case::{Case, Loaded};
 use crate::input::{Document, InputError, Problem};
 use crate::run::compare::{self, CompareError, Of, Pair};
 

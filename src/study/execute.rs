@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use super::comparison::{self, PlannedNetwork};
+use super::engine::End;
 use super::folder::{FolderError, StudyFolder};
 use super::results::{is_complete, standing};
 use super::run::PlannedRun;
@@ -15,19 +16,6 @@ use crate::run::folder_error::FolderError as RunFolderError;
 use crate::run::report::{REPORT, Report, Status};
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
-
-/// How a run ended.
-#[derive(Debug)]
-pub(crate) enum Ending {
-    /// It was complete before.
-    WasComplete,
-    /// It is complete now.
-    Complete,
-    /// It was asked to stop, and can be taken up.
-    Interrupted,
-    /// The solver failed.
-    Failed(String),
-}
 
 /// A run that cannot be done.
 #[derive(Debug, thiserror::Error)]
@@ -52,14 +40,15 @@ pub(crate) fn run(
     folder: &StudyFolder,
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
-) -> Result<Ending, ExecuteError> {
-    let Some(_claim) = folder.claim_run(&planned.run.name, interrupt)? else { return Ok(Ending::Interrupted) };
+) -> Result<End, ExecuteError> {
+    let Some(_claim) = folder.claim_run(&planned.run.name, interrupt)? else { return Ok(End::Interrupted) };
     let path = folder.run(&planned.run.name);
     if is_complete(&path, planned) {
-        return Ok(Ending::WasComplete);
+        return Ok(End::WasComplete);
     }
     if standing(&path, &planned.resolved).report().is_none() {
-        remove_file(&path.join(REPORT))?;
+        let report = path.join(REPORT);
+        gone(&report, std::fs::remove_file(&report))?;
     }
     if saved_state(&path, planned).exists() {
         match attempt(planned, &path, Mode::Resume, interrupt, watcher) {
@@ -71,7 +60,7 @@ pub(crate) fn run(
             other => return other,
         }
     }
-    remove_folder(&path)?;
+    gone(&path, std::fs::remove_dir_all(&path))?;
     attempt(planned, &path, Mode::New, interrupt, watcher)
 }
 
@@ -81,7 +70,7 @@ fn attempt(
     mode: Mode,
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
-) -> Result<Ending, ExecuteError> {
+) -> Result<End, ExecuteError> {
     if let Some(network) = &planned.network {
         return compared(planned, network, (path, mode), interrupt, watcher);
     }
@@ -110,7 +99,7 @@ fn compared(
     (folder, mode): (&Path, Mode),
     interrupt: &AtomicBool,
     watcher: &mut dyn Watcher,
-) -> Result<Ending, ExecuteError> {
+) -> Result<End, ExecuteError> {
     let task = Task { pair: network.with(&planned.case), resolved: &network.of_direct, folder, mode };
     match compare::execute(&task, &planned.resolved, interrupt, watcher) {
         Ok(report) => Ok(ending(&report)),
@@ -127,23 +116,17 @@ fn refused(planned: &PlannedRun, error: &SetupError) -> ExecuteError {
     planned.document.refuse(error.problems()).err().unwrap_or(InputError { mistakes: Vec::new() }).into()
 }
 
-fn ending(report: &Report) -> Ending {
+fn ending(report: &Report) -> End {
     match report.status {
-        Status::Done | Status::ExpectationFailed => Ending::Complete,
-        Status::Interrupted => Ending::Interrupted,
-        Status::Failed => Ending::Failed(report.error.clone().unwrap_or_else(|| "the solver failed".to_owned())),
+        Status::Done | Status::ExpectationFailed => End::Complete,
+        Status::Interrupted => End::Interrupted,
+        Status::Failed => End::Failed(report.error.clone().unwrap_or_else(|| "the solver failed".to_owned())),
     }
 }
 
-fn remove_file(path: &Path) -> Result<(), FolderError> {
-    match std::fs::remove_file(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(FileError::write(path)(error).into()),
-        _ => Ok(()),
-    }
-}
-
-fn remove_folder(path: &Path) -> Result<(), FolderError> {
-    match std::fs::remove_dir_all(path) {
+/// What removing a file or folder gave; there may be none.
+fn gone(path: &Path, removed: std::io::Result<()>) -> Result<(), FolderError> {
+    match removed {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(FileError::write(path)(error).into()),
         _ => Ok(()),
     }

@@ -55,7 +55,7 @@ pub(crate) fn page(content: &Content<'_>) -> String {
         html += "\n</div>\n";
     }
     html += "<h2>Table</h2>\n<div class=\"wide\">\n";
-    push_table(&mut html, content.table);
+    html += &content.table.html();
     html += "</div>\n";
     if content.study.report.pictures && content.study.compare.is_some() {
         push_comparisons(&mut html, content.comparisons);
@@ -125,18 +125,7 @@ fn push_convergences(html: &mut String, convergences: &[Convergence]) {
     };
     let along = convergences.first().map_or("", |convergence| convergence.along.as_str());
     let heads = ["runs", "measure", &format!("error ({along})"), "observed order"].map(str::to_owned).to_vec();
-    push_table(html, &Table { heads, rows: convergences.iter().map(row).collect() });
-}
-
-fn push_table(html: &mut String, table: &Table) {
-    let row = |cells: &[String], tag: &str| {
-        let cells: String = cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
-        format!("<tr>{cells}</tr>\n")
-    };
-    html.push_str("<table>\n");
-    html.push_str(&row(&table.heads, "th"));
-    html.extend(table.rows.iter().map(|cells| row(cells, "td")));
-    html.push_str("</table>\n");
+    html.push_str(&Table { heads, rows: convergences.iter().map(row).collect() }.html());
 }
 
 fn push_pictures(html: &mut String, results: &[RunResult]) {

@@ -5,11 +5,10 @@ use std::collections::BTreeSet;
 
 use toml::Value;
 
-use super::comparison;
 use super::definition::{Assignment, Study, Target};
-use super::measured;
 use super::run::{Parameter, PlannedRun, Run};
 use super::values::shown;
+use super::{comparison, measured};
 use crate::input::{InputError, Mistake};
 use crate::io::checksum::fnv1a;
 

@@ -6,6 +6,7 @@ use super::results::{RunResult, measures};
 use super::values::shown;
 use super::verdict::{digits, significant};
 use crate::io::FileError;
+use crate::io::html::escaped;
 
 /// A table with its numbers as text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -14,6 +15,28 @@ pub(crate) struct Table {
     pub heads: Vec<String>,
     /// Rows, each as long as the heads.
     pub rows: Vec<Vec<String>>,
+}
+
+/// A head, and what stands below it in the row of an item.
+type Column<'c, T> = (&'c str, &'c dyn Fn(&T) -> String);
+
+impl Table {
+    /// A row for each item.
+    pub(crate) fn of<T>(items: &[T], columns: &[Column<T>]) -> Self {
+        let heads = columns.iter().map(|column| column.0.to_owned()).collect();
+        let rows = items.iter().map(|item| columns.iter().map(|column| column.1(item)).collect()).collect();
+        Self { heads, rows }
+    }
+
+    /// The table as HTML.
+    pub(crate) fn html(&self) -> String {
+        let row = |cells: &[String], tag: &str| {
+            let cells: String = cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
+            format!("<tr>{cells}</tr>\n")
+        };
+        let rows: String = self.rows.iter().map(|cells| row(cells, "td")).collect();
+        format!("<table>\n{}{rows}</table>\n", row(&self.heads, "th"))
+    }
 }
 
 /// The measures that the table shows: those asked for, or all that the runs have.

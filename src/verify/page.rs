@@ -12,15 +12,14 @@ use crate::study::table::Table;
 pub(crate) fn page(title: &str, (table, rows): (&Table, &[Row]), events: Option<(&Table, &[EventRow])>) -> String {
     let mut html = format!(
         "<h1>{}</h1>\n<p>Formula of the network and direct simulation of the same throats. The same with all digits: \
-         <a href=\"verify.csv\">verify.csv</a>.</p>\n<div class=\"wide\">\n<table>\n",
-        escaped(title)
+         <a href=\"verify.csv\">verify.csv</a>.</p>\n<div class=\"wide\">\n{}</div>\n",
+        escaped(title),
+        table.html()
     );
-    html += &lines(table);
-    html += "</table>\n</div>\n";
     if let Some((table, _)) = events {
-        html += "<p>Touches and overlaps, with all digits in <a href=\"verify_events.csv\">verify_events.csv</a>.</p>\n<div class=\"wide\">\n<table>\n";
-        html += &lines(table);
-        html += "</table>\n</div>\n";
+        html += "<p>Touches and overlaps, with all digits in <a href=\"verify_events.csv\">verify_events.csv</a>.</p>\n<div class=\"wide\">\n";
+        html += &table.html();
+        html += "</div>\n";
     }
     for row in rows {
         let chosen = &row.planned.chosen;
@@ -31,16 +30,6 @@ pub(crate) fn page(title: &str, (table, rows): (&Table, &[Row]), events: Option<
         html += &pictures(&format!("Event {}", planned.number), &planned.reason, &row.status.to_string(), &row.runs);
     }
     html::page(title, &html)
-}
-
-fn lines(table: &Table) -> String {
-    let line = |cells: &[String], tag: &str| {
-        let cells: String = cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
-        format!("<tr>{cells}</tr>\n")
-    };
-    let mut html = line(&table.heads, "th");
-    html.extend(table.rows.iter().map(|cells| line(cells, "td")));
-    html
 }
 
 fn pictures(head: &str, reason: &str, status: &str, runs: &[String]) -> String {

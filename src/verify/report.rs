@@ -2,13 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
+use super::cut_out::CutOut;
 use super::event_results::EventRow;
 use super::page::page;
 use super::results::{Direct, Row, Status};
 use super::subject::Subject;
+use super::whole_pore::WholePore;
 use crate::case::network::measured::{Measured, MeasuredThroat};
 use crate::io::{FileError, atomic};
 use crate::network::cycles::FluidPhase;
+use crate::network::graph::Throat;
 use crate::study::table::Table;
 
 /// What was written.
@@ -84,125 +87,87 @@ fn used(row: &Row) -> &'static str {
 
 /// The entry pressures of all verified throats, the measured one where it is used.
 fn pressures(rows: &[Row]) -> Table {
-    let line = |row: &Row| {
-        let value = row.pressure.filter(|_| row.is_replaced()).map_or(row.pressure_formula, |direct| direct.value);
-        vec![row.planned.chosen.number.to_string(), exact(Some(value)), used(row).to_owned()]
-    };
-    let heads = ["throat", "entry_pressure_Pa", "used"].map(str::to_owned).to_vec();
-    Table { heads, rows: rows.iter().map(line).collect() }
+    let value = |row: &Row| row.pressure.filter(|_| row.is_replaced()).map_or(row.pressure_formula, |one| one.value);
+    Table::of(
+        rows,
+        &[
+            ("throat", &|row| row.planned.chosen.number.to_string()),
+            ("entry_pressure_Pa", &|row| exact(Some(value(row)))),
+            ("used", &|row| used(row).to_owned()),
+        ],
+    )
+}
+
+fn joined(spacings: &[u32]) -> String {
+    spacings.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }
 
 /// All digits.
 fn full(subject: &Subject, rows: &[Row], spacings: &[u32]) -> Table {
-    let heads = [
-        "throat",
-        "x_m",
-        "y_m",
-        "w_m",
-        "kappa_1_per_m",
-        "kappa_2_per_m",
-        "theta_deg",
-        "pc_formula_Pa",
-        "pc_direct_Pa",
-        "pc_direct_error_Pa",
-        "pc_difference_percent",
-        "g_formula_m2",
-        "g_direct_m2",
-        "g_direct_error_m2",
-        "g_difference_percent",
-        "spacings_across",
-        "particles",
-        "wall_time_s",
-        "status",
-        "flow_status",
-        "used",
-        "touch_pressure_Pa",
-        "walls_left_out",
-        "chosen",
-    ];
-    let across: Vec<String> = spacings.iter().map(ToString::to_string).collect();
-    let line = |row: &Row| {
-        let throat = subject.throat(row.planned.chosen.throat);
-        let middle = 0.5 * (throat.contacts[0] + throat.contacts[1]);
-        let cut_out = row.planned.cut_out.as_ref().ok();
-        vec![
-            row.planned.chosen.number.to_string(),
-            exact(Some(middle.x)),
-            exact(Some(middle.y)),
-            exact(Some(throat.width)),
-            exact(Some(throat.curvatures[0])),
-            exact(Some(throat.curvatures[1])),
-            exact(cut_out.map(|cut_out| cut_out.angle.to_degrees())),
-            exact(Some(row.pressure_formula)),
-            exact(row.pressure.map(|direct| direct.value)),
-            exact(row.pressure.and_then(|direct| direct.error)),
-            exact(percent(row.pressure_difference())),
-            exact(row.planned.conductance),
-            exact(row.conductance.map(|direct| direct.value)),
-            exact(row.conductance.and_then(|direct| direct.error)),
-            exact(percent(row.conductance_difference())),
-            across.join(" "),
-            row.particles.map_or(String::new(), |count| format!("{count}")),
-            exact(Some(row.wall_time)),
-            row.status.to_string(),
-            row.flow_status.to_string(),
-            used(row).to_owned(),
-            exact(row.planned.touches.map(|curvature| subject.tension * curvature)),
-            cut_out.map_or(String::new(), |cut_out| cut_out.left_out.to_string()),
-            row.planned.chosen.reason.clone(),
-        ]
-    };
-    Table { heads: heads.map(str::to_owned).to_vec(), rows: rows.iter().map(line).collect() }
+    let across = joined(spacings);
+    let throat = |row: &Row, value: fn(&Throat) -> f64| exact(Some(value(subject.throat(row.planned.chosen.throat))));
+    let cut_out =
+        |row: &Row, text: &dyn Fn(&CutOut) -> String| row.planned.cut_out.as_ref().map_or(String::new(), text);
+    Table::of(
+        rows,
+        &[
+            ("throat", &|row| row.planned.chosen.number.to_string()),
+            ("x_m", &|row| throat(row, |throat| throat.middle().x)),
+            ("y_m", &|row| throat(row, |throat| throat.middle().y)),
+            ("w_m", &|row| throat(row, |throat| throat.width)),
+            ("kappa_1_per_m", &|row| throat(row, |throat| throat.curvatures[0])),
+            ("kappa_2_per_m", &|row| throat(row, |throat| throat.curvatures[1])),
+            ("theta_deg", &|row| cut_out(row, &|cut_out| exact(Some(cut_out.angle.to_degrees())))),
+            ("pc_formula_Pa", &|row| exact(Some(row.pressure_formula))),
+            ("pc_direct_Pa", &|row| exact(row.pressure.map(|direct| direct.value))),
+            ("pc_direct_error_Pa", &|row| exact(row.pressure.and_then(|direct| direct.error))),
+            ("pc_difference_percent", &|row| exact(percent(row.pressure_difference()))),
+            ("g_formula_m2", &|row| exact(row.planned.conductance)),
+            ("g_direct_m2", &|row| exact(row.conductance.map(|direct| direct.value))),
+            ("g_direct_error_m2", &|row| exact(row.conductance.and_then(|direct| direct.error))),
+            ("g_difference_percent", &|row| exact(percent(row.conductance_difference()))),
+            ("spacings_across", &|_| across.clone()),
+            ("particles", &|row| row.particles.map_or(String::new(), |count| format!("{count}"))),
+            ("wall_time_s", &|row| exact(Some(row.wall_time))),
+            ("status", &|row| row.status.to_string()),
+            ("flow_status", &|row| row.flow_status.to_string()),
+            ("used", &|row| used(row).to_owned()),
+            ("touch_pressure_Pa", &|row| exact(row.planned.touches.map(|curvature| subject.tension * curvature))),
+            ("walls_left_out", &|row| cut_out(row, &|cut_out| cut_out.left_out.to_string())),
+            ("chosen", &|row| row.planned.chosen.reason.clone()),
+        ],
+    )
 }
 
 /// All digits of the events.
 fn full_events(rows: &[EventRow], spacings: &[u32]) -> Table {
-    let heads = [
-        "event",
-        "kind",
-        "throat",
-        "x_m",
-        "y_m",
-        "w_m",
-        "theta_deg",
-        "pressure_formula_Pa",
-        "pressure_direct_Pa",
-        "pressure_direct_error_Pa",
-        "difference_Pa",
-        "difference_over_tension_per_width_percent",
-        "spacings_across",
-        "particles",
-        "wall_time_s",
-        "status",
-        "walls_left_out",
-        "chosen",
-    ];
-    let across: Vec<String> = spacings.iter().map(ToString::to_string).collect();
-    let line = |row: &EventRow| {
-        let planned = row.planned;
-        let cut_out = planned.cut_out.as_ref().ok();
-        vec![
-            planned.number.to_string(),
-            planned.kind.name().to_owned(),
-            planned.throat.map_or(String::new(), |throat| throat.to_string()),
-            exact(cut_out.map(|cut_out| cut_out.frame.middle.x)),
-            exact(cut_out.map(|cut_out| cut_out.frame.middle.y)),
-            exact(cut_out.map(|cut_out| cut_out.width)),
-            exact(cut_out.map(|cut_out| cut_out.angle.to_degrees())),
-            exact(Some(row.formula)),
-            exact(row.direct.map(|direct| direct.value)),
-            exact(row.direct.and_then(|direct| direct.error)),
-            exact(row.difference()),
-            exact(percent(row.relative_difference())),
-            across.join(" "),
-            row.particles.map_or(String::new(), |count| format!("{count}")),
-            exact(Some(row.wall_time)),
-            row.status.to_string(),
-            cut_out.map_or(String::new(), |cut_out| cut_out.left_out.to_string()),
-            planned.reason.clone(),
-        ]
-    };
-    Table { heads: heads.map(str::to_owned).to_vec(), rows: rows.iter().map(line).collect() }
+    let across = joined(spacings);
+    let cut_out = |row: &EventRow, value: fn(&WholePore) -> f64| exact(row.planned.cut_out.as_ref().ok().map(value));
+    Table::of(
+        rows,
+        &[
+            ("event", &|row| row.planned.number.to_string()),
+            ("kind", &|row| row.planned.kind.name().to_owned()),
+            ("throat", &|row| row.planned.throat.map_or(String::new(), |throat| throat.to_string())),
+            ("x_m", &|row| cut_out(row, |cut_out| cut_out.frame.middle.x)),
+            ("y_m", &|row| cut_out(row, |cut_out| cut_out.frame.middle.y)),
+            ("w_m", &|row| cut_out(row, |cut_out| cut_out.width)),
+            ("theta_deg", &|row| cut_out(row, |cut_out| cut_out.angle.to_degrees())),
+            ("pressure_formula_Pa", &|row| exact(Some(row.formula))),
+            ("pressure_direct_Pa", &|row| exact(row.direct.map(|direct| direct.value))),
+            ("pressure_direct_error_Pa", &|row| exact(row.direct.and_then(|direct| direct.error))),
+            ("difference_Pa", &|row| exact(row.difference())),
+            ("difference_over_tension_per_width_percent", &|row| exact(percent(row.relative_difference()))),
+            ("spacings_across", &|_| across.clone()),
+            ("particles", &|row| row.particles.map_or(String::new(), |count| format!("{count}"))),
+            ("wall_time_s", &|row| exact(Some(row.wall_time))),
+            ("status", &|row| row.status.to_string()),
+            ("walls_left_out", &|row| {
+                row.planned.cut_out.as_ref().map_or(String::new(), |cut_out| cut_out.left_out.to_string())
+            }),
+            ("chosen", &|row| row.planned.reason.clone()),
+        ],
+    )
 }
 
 const MICROMETERS: f64 = 1e6;
@@ -224,83 +189,57 @@ fn with_error(direct: Option<Direct>, scale: &dyn Fn(f64) -> String) -> String {
 
 /// The table of the events for people.
 fn short_events(rows: &[EventRow]) -> Table {
-    let heads = [
-        "event",
-        "kind",
-        "throat",
-        "width in µm",
-        "angle in deg",
-        "pressure in Pa: formula",
-        "direct",
-        "difference in Pa",
-        "in % of tension/width",
-        "particles",
-        "time in s",
-        "status",
-    ];
-    let line = |row: &EventRow| {
-        let planned = row.planned;
-        let cut_out = planned.cut_out.as_ref().ok();
-        vec![
-            planned.number.to_string(),
-            planned.kind.name().to_owned(),
-            planned.throat.map_or("–".to_owned(), |throat| throat.to_string()),
-            number(cut_out.map(|cut_out| MICROMETERS * cut_out.width), 2),
-            number(cut_out.map(|cut_out| cut_out.angle.to_degrees()), 1),
-            number(Some(row.formula), 1),
-            with_error(row.direct, &|value| format!("{value:.1}")),
-            number(row.difference(), 1),
-            number(percent(row.relative_difference()), 1),
-            number(row.particles, 0),
-            number(Some(row.wall_time), 1),
-            row.status.to_string(),
-        ]
+    let cut_out = |row: &EventRow, value: fn(&WholePore) -> f64, digits: usize| {
+        number(row.planned.cut_out.as_ref().ok().map(value), digits)
     };
-    Table { heads: heads.map(str::to_owned).to_vec(), rows: rows.iter().map(line).collect() }
+    Table::of(
+        rows,
+        &[
+            ("event", &|row| row.planned.number.to_string()),
+            ("kind", &|row| row.planned.kind.name().to_owned()),
+            ("throat", &|row| row.planned.throat.map_or("–".to_owned(), |throat| throat.to_string())),
+            ("width in µm", &|row| cut_out(row, |cut_out| MICROMETERS * cut_out.width, 2)),
+            ("angle in deg", &|row| cut_out(row, |cut_out| cut_out.angle.to_degrees(), 1)),
+            ("pressure in Pa: formula", &|row| number(Some(row.formula), 1)),
+            ("direct", &|row| with_error(row.direct, &|value| format!("{value:.1}"))),
+            ("difference in Pa", &|row| number(row.difference(), 1)),
+            ("in % of tension/width", &|row| number(percent(row.relative_difference()), 1)),
+            ("particles", &|row| number(row.particles, 0)),
+            ("time in s", &|row| number(Some(row.wall_time), 1)),
+            ("status", &|row| row.status.to_string()),
+        ],
+    )
 }
 
 /// The table for people.
 fn short(subject: &Subject, rows: &[Row]) -> Table {
-    let heads = [
-        "throat",
-        "width in µm",
-        "angle in deg",
-        "pressure in Pa: formula",
-        "direct",
-        "difference in %",
-        "conductance in m²: formula",
-        "direct",
-        "difference in %",
-        "particles",
-        "time in s",
-        "status",
-        "used",
-    ];
-    let line = |row: &Row| {
-        let width = subject.throat(row.planned.chosen.throat).width;
-        let angle = row.planned.cut_out.as_ref().ok().map(|cut_out| cut_out.angle.to_degrees());
-        let status = match (&row.status, &row.flow_status) {
-            (Status::Ok, Status::Ok) => "ok".to_owned(),
-            (Status::Ok, flow) => format!("ok; flow {flow}"),
-            (status, _) => status.to_string(),
-        };
-        vec![
-            row.planned.chosen.number.to_string(),
-            number(Some(MICROMETERS * width), 2),
-            number(angle, 1),
-            number(Some(row.pressure_formula), 1),
-            with_error(row.pressure, &|value| format!("{value:.1}")),
-            number(percent(row.pressure_difference()), 2),
-            row.planned.conductance.map_or("–".to_owned(), |value| format!("{value:.3e}")),
-            with_error(row.conductance, &|value| format!("{value:.3e}")),
-            number(percent(row.conductance_difference()), 1),
-            number(row.particles, 0),
-            number(Some(row.wall_time), 1),
-            status,
-            used(row).to_owned(),
-        ]
+    let width = |row: &Row| subject.throat(row.planned.chosen.throat).width;
+    let angle = |row: &Row| row.planned.cut_out.as_ref().ok().map(|cut_out| cut_out.angle.to_degrees());
+    let status = |row: &Row| match (&row.status, &row.flow_status) {
+        (Status::Ok, Status::Ok) => "ok".to_owned(),
+        (Status::Ok, flow) => format!("ok; flow {flow}"),
+        (status, _) => status.to_string(),
     };
-    Table { heads: heads.map(str::to_owned).to_vec(), rows: rows.iter().map(line).collect() }
+    Table::of(
+        rows,
+        &[
+            ("throat", &|row| row.planned.chosen.number.to_string()),
+            ("width in µm", &|row| number(Some(MICROMETERS * width(row)), 2)),
+            ("angle in deg", &|row| number(angle(row), 1)),
+            ("pressure in Pa: formula", &|row| number(Some(row.pressure_formula), 1)),
+            ("direct", &|row| with_error(row.pressure, &|value| format!("{value:.1}"))),
+            ("difference in %", &|row| number(percent(row.pressure_difference()), 2)),
+            ("conductance in m²: formula", &|row| {
+                row.planned.conductance.map_or("–".to_owned(), |value| format!("{value:.3e}"))
+            }),
+            ("direct", &|row| with_error(row.conductance, &|value| format!("{value:.3e}"))),
+            ("difference in %", &|row| number(percent(row.conductance_difference()), 1)),
+            ("particles", &|row| number(row.particles, 0)),
+            ("time in s", &|row| number(Some(row.wall_time), 1)),
+            ("status", &status),
+            ("used", &|row| used(row).to_owned()),
+        ],
+    )
 }
 
 /// One line for each throat that is not as it should be.

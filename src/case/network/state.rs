@@ -7,7 +7,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::case::fluid::FluidPhase;
-use crate::case::side::{Side, Sides};
+use crate::case::side::{SIDES, Side, Sides};
 use crate::geometry::Geometry;
 use crate::geometry::curve::Curve;
 use crate::geometry::spec::GeometrySpec;
@@ -211,7 +211,6 @@ impl NetworkState {
 
     /// What of these sides does not go with those of the state: the first such side and why.
     pub(crate) fn misfit_of_sides(&self, sides: &Sides) -> Option<(&'static str, String)> {
-        const NAMES: [&str; 4] = ["left", "right", "bottom", "top"];
         let given = sides.each();
         let fits = |state: Side, side: Side| match state {
             Side::Periodic => side == Side::Periodic,
@@ -219,7 +218,7 @@ impl NetworkState {
             // What was open can be closed.
             _ => side != Side::Periodic,
         };
-        let (name, state, side) = NAMES
+        let (name, state, side) = SIDES
             .into_iter()
             .zip(self.sides.into_iter().zip(given))
             .map(|(name, (state, side))| (name, state, side))

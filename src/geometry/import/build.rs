@@ -2,7 +2,7 @@
 
 use crate::geometry::body::bulged_ring;
 use crate::geometry::curve::Curve;
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Refusal, Ring, shape_of};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Refusal, Ring, shape_of};
 use crate::geometry::import::fill::{filled, without_slits};
 use crate::geometry::import::format::Format;
 use crate::geometry::import::nest::{Nested, Region, nested, regions};
@@ -51,19 +51,20 @@ struct Placed {
 
 /// The shapes of a drawing in m.
 pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Result<Imported, Refused> {
-    let (scale, unit) = options.length_of_unit(drawing.unit.as_ref(), format).map_err(|p| Refused::Keys(vec![p]))?;
+    let (scale, unit) = options.length_of_unit(&drawing, format).map_err(|p| Refused::Keys(vec![p]))?;
     let mut notes = Notes::new(unit, &drawing);
+    let Drawing { has_page, nesting, is_of_pixels, .. } = drawing;
     let mut refusals = Vec::new();
     let frame = drawing.frame.map(|frame| Bounds { min: frame.min * scale, max: frame.max * scale });
     let mut outlines = cleaned(drawing.entities, scale, &mut notes.counts, &mut refusals);
     let chip = frame::taken_out(&mut outlines, &mut notes);
     let frame = frame.or(chip);
     let mut shapes = Vec::new();
-    let regions = grouped(outlines, format, &mut notes, &mut refusals).into_iter();
+    let regions = grouped(outlines, nesting, &mut notes, &mut refusals).into_iter();
     let sound =
         regions.flat_map(|(region, place)| without_slits(region).into_iter().map(move |one| (one, place.clone())));
     for (region, place) in sound {
-        shapes.push(Placed { shape: recognized(region, format, options, &mut notes.counts), place });
+        shapes.push(Placed { shape: recognized(region, is_of_pixels, options, &mut notes.counts), place });
     }
     if !refusals.is_empty() {
         return Err(Refused::Parts(refusals));
@@ -76,7 +77,7 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let around = bounds_of_points(shapes.iter().flat_map(|placed| corners_of(&placed.shape)));
     let (domain, from) = domain(around, frame, options);
     notes.domain(domain, from);
-    if options.window.is_some() || (frame.is_some() && format.has_page()) {
+    if options.window.is_some() || (frame.is_some() && has_page) {
         let before = shapes.len();
         shapes.retain(|placed| window::reaches(&placed.shape, domain));
         notes.counts.outside = before - shapes.len();
@@ -86,7 +87,7 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     }
     notes.counts.shapes(shapes.iter().map(|placed| &placed.shape));
     let (places, shapes): (Vec<_>, Vec<_>) = shapes.into_iter().map(|placed| (placed.place, placed.shape)).unzip();
-    let solid = if options.is_inverted() && format != Format::Mask { SolidSide::Outside } else { SolidSide::Inside };
+    let solid = if options.is_inverted() && !is_of_pixels { SolidSide::Outside } else { SolidSide::Inside };
     let spec = GeometrySpec { min: domain.min.into(), max: domain.max.into(), solid, shapes };
     let problems = spec.problems();
     if problems.is_empty() {
@@ -191,16 +192,16 @@ fn cleaned(entities: Vec<Entity>, scale: f64, counts: &mut Counts, refusals: &mu
 /// The regions that the outlines fill: each entity by itself, in the order of painting, or all together in formats without fills.
 fn grouped(
     entities: Vec<Entity>,
-    format: Format,
+    nesting: Nesting,
     notes: &mut Notes,
     refusals: &mut Vec<Refusal>,
 ) -> Vec<(Region, String)> {
-    if format.nests_entities() {
+    if nesting == Nesting::OfAll {
         return nested_entities(entities, notes, refusals);
     }
     let mut found = Vec::with_capacity(entities.len());
     for Entity { outline, paint, place } in entities {
-        match regions_of(outline, format) {
+        match regions_of(outline, nesting) {
             Ok(regions) => found.push(Painted { regions, paint, place }),
             Err((found, expected)) => refusals.push(Refusal::new(place, found, expected)),
         }
@@ -209,30 +210,29 @@ fn grouped(
 }
 
 /// The regions of one outline; what was found instead, and what was expected.
-fn regions_of(outline: Outline, format: Format) -> Result<Vec<Region>, (String, &'static str)> {
-    let rings_and_rule = match outline {
+fn regions_of(outline: Outline, nesting: Nesting) -> Result<Vec<Region>, (String, &'static str)> {
+    let (rings, rule) = match outline {
         Outline::Disc { center, radius } => return Ok(vec![(circle(center, radius), Vec::new())]),
         Outline::Area { rings, rule } => (rings, rule),
     };
-    match rings_and_rule {
-        (rings, _) if rings.len() == 1 && !format.has_fill_rules() => {
-            Ok(rings.into_iter().map(|ring| (ring, Vec::new())).collect())
-        }
-        (rings, _) if format.begins_with_outer_ring() && outside(&rings).is_some() => Err((
-            outside(&rings).map_or_else(String::new, |fault| fault.to_string()),
-            "holes within the first ring of their polygon, which is its outer one; rings beside it are polygons of their own",
-        )),
-        (rings, _) if format.nests_rings() && crossing_rings(&rings).is_some() => Err((
-            crossing_rings(&rings).unwrap_or_default(),
-            "rings beside or within each other: unite or subtract them, or give each a record of its own, where they are united",
-        )),
-        (rings, _) if !format.has_fill_rules() => Ok(regions(&rings, FillRule::EvenOdd)),
-        (rings, rule) => {
+    let (fault, expected) = match nesting {
+        Nesting::ByRule => {
             let size = bounds_of_points(rings.iter().flat_map(|r| [r.bounds().min, r.bounds().max])).size().max();
-            filled(&rings, rule, DOUBLED * size)
-                .map_err(|found| (found, "outlines that do not cross: unite or subtract them in the drawing program"))
+            return filled(&rings, rule, DOUBLED * size)
+                .map_err(|found| (found, "outlines that do not cross: unite or subtract them in the drawing program"));
         }
-    }
+        _ if rings.len() == 1 => return Ok(rings.into_iter().map(|ring| (ring, Vec::new())).collect()),
+        Nesting::FirstIsOuter => (
+            outside(&rings).map(|fault| fault.to_string()),
+            "holes within the first ring of their polygon, which is its outer one; rings beside it are polygons of their own",
+        ),
+        Nesting::Apart => (
+            crossing_rings(&rings),
+            "rings beside or within each other: unite or subtract them, or give each a record of its own, where they are united",
+        ),
+        Nesting::Alternate | Nesting::OfAll => (None, ""),
+    };
+    fault.map_or_else(|| Ok(regions(&rings, FillRule::EvenOdd)), |found| Err((found, expected)))
 }
 
 /// A hole that is not within the first ring, or runs along it.
@@ -279,7 +279,7 @@ fn circle(center: Vec2, radius: f64) -> Ring {
 }
 
 /// The shape of a region: circles behind polygons and arcs behind runs of vertices are recognized where the user wants it.
-fn recognized((outer, holes): Region, format: Format, options: &Options, counts: &mut Counts) -> ShapeSpec {
+fn recognized((outer, holes): Region, is_of_pixels: bool, options: &Options, counts: &mut Counts) -> ShapeSpec {
     let is_exact_circle = |ring: &Ring| ring.vertices.len() == 2;
     let find = |ring: &Ring, counts: &mut Counts| -> Option<(Vec2, f64)> {
         if !(options.recognizes_circles() || is_exact_circle(ring)) {
@@ -299,7 +299,7 @@ fn recognized((outer, holes): Region, format: Format, options: &Options, counts:
             return circle(center, radius);
         }
         let below = options.smooth_below();
-        if !(format.samples_curves() && below > 0.0) {
+        if is_of_pixels || !(below > 0.0) {
             return ring;
         }
         match smooth::smoothed(&ring, below) {

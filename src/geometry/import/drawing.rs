@@ -77,6 +77,22 @@ pub struct Unit {
     pub meters: f64,
 }
 
+/// What the rings of a drawing are to each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Nesting {
+    /// Those of an entity are outer ones and holes in turn.
+    #[default]
+    Alternate,
+    /// The same, and they must not cross.
+    Apart,
+    /// The first one of an entity is its outer one, and all others are its holes.
+    FirstIsOuter,
+    /// They may cross: the rule of the entity says what they cover.
+    ByRule,
+    /// Rings within those of other entities are holes: there are no fills.
+    OfAll,
+}
+
 /// All that a reader finds in a file.
 #[derive(Debug, Clone, Default)]
 pub struct Drawing {
@@ -84,8 +100,16 @@ pub struct Drawing {
     pub entities: Vec<Entity>,
     /// The unit that the file names, where it names one.
     pub unit: Option<Unit>,
+    /// Whether lengths are in m where nobody says otherwise.
+    pub is_in_meters: bool,
     /// The page or domain that the file names, where it names one.
     pub frame: Option<Bounds>,
+    /// Whether the frame is a page, on which shapes are left out that nobody sees; on a domain they are mistakes.
+    pub has_page: bool,
+    /// What its rings are to each other.
+    pub nesting: Nesting,
+    /// Whether it is made of pixels: its curves are arcs, solid and pore as the options want them.
+    pub is_of_pixels: bool,
     /// The layers of the file with the number of entities on each, where the format has layers.
     pub layers: BTreeMap<String, usize>,
     /// What was read and is not used, by kind, with its number: text, hatches, open lines, other layers.
@@ -146,5 +170,24 @@ pub(crate) fn vertices(curve: &Curve) -> Vec<[f64; 3]> {
             vec![vertex(&curve.part(0.0, 0.5)), vertex(&curve.part(0.5, 1.0))]
         }
         _ => vec![vertex(curve)],
+    }
+}
+
+/// What tests of readers look at.
+#[cfg(test)]
+pub(super) mod seen {
+    use super::*;
+
+    /// The area without overlaps taken into account: of rings that do not cross, each with its own sign.
+    pub(crate) fn area(outline: &Outline) -> f64 {
+        match outline {
+            Outline::Disc { radius, .. } => std::f64::consts::PI * radius * radius,
+            Outline::Area { rings, .. } => rings.iter().map(Ring::area).sum::<f64>().abs(),
+        }
+    }
+
+    pub(crate) fn only(drawing: &Drawing) -> &Outline {
+        assert_eq!(drawing.entities.len(), 1, "{drawing:?}");
+        &drawing.entities[0].outline
     }
 }

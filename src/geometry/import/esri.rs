@@ -4,7 +4,7 @@
 //! read here and not by the crate `shapefile`, which allocates by the counts that a record declares and tells holes by direction alone.
 //! Lines, points and patches are counted and not used; z and m are left out.
 
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Paint, Refusal, Unit};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal, Unit};
 use crate::geometry::import::rings;
 
 /// Bytes of the header of the file.
@@ -32,7 +32,7 @@ pub(crate) fn read(bytes: &[u8], projection: Option<&str>) -> Result<Drawing, Ve
             "the main file (.shp) of a shapefile: a header of 100 bytes with the code 9994",
         ));
     }
-    let (mut drawing, mut bad) = (Drawing { unit, ..Drawing::default() }, Vec::new());
+    let (mut drawing, mut bad) = (Drawing { unit, nesting: Nesting::Apart, ..Drawing::default() }, Vec::new());
     let mut at = HEADER;
     let mut number = 0_usize;
     while at < bytes.len() {

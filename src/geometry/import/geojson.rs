@@ -6,7 +6,7 @@
 
 use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Paint, Refusal};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal};
 use crate::geometry::import::text::quoted;
 use crate::geometry::import::{rings, units};
 use crate::math::{Bounds, Vec2};
@@ -16,6 +16,7 @@ const EXPECTED: &str = "a FeatureCollection, a Feature or a geometry with polygo
 /// Reads GeoJSON.
 pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
     let mut reader = Reader::default();
+    reader.drawing.nesting = Nesting::FirstIsOuter;
     match text.parse::<GeoJson>() {
         Err(reason) => reader.refuse("file", quoted(text.trim()), format!("{EXPECTED} ({reason})")),
         Ok(GeoJson::Geometry(geometry)) => reader.geometry(&geometry, "geometry", None),

@@ -14,7 +14,7 @@ const EXPECTED: &str = "three numbers `x y r`, the radius above 0, separated by 
 
 /// Reads the text of a list of discs.
 pub(crate) fn read(text: &str, options: &Options) -> Result<Drawing, Vec<Refusal>> {
-    let (mut drawing, mut lines) = (Drawing::default(), Lines::default());
+    let (mut drawing, mut lines) = (Drawing { is_in_meters: true, ..Drawing::default() }, Lines::default());
     let mut header: Option<Header> = None;
     let mut may_be_header = true;
     for (line, row) in (1..).zip(text.lines()) {

@@ -1,6 +1,6 @@
 //! What a user says of a drawing beside its name: unit, window, layers, how masks and lists are read. All keys are optional.
 
-use crate::geometry::import::drawing::Unit;
+use crate::geometry::import::drawing::{Drawing, Unit};
 use crate::geometry::import::format::Format;
 use crate::geometry::import::units;
 use crate::input::Range;
@@ -73,10 +73,11 @@ impl Options {
     ///
     /// # Errors
     /// The key that is missing.
-    pub(crate) fn length_of_unit(&self, of_file: Option<&Unit>, format: Format) -> Result<(f64, String), Problem> {
-        if let Some(size) = self.pixel_size.filter(|_| format == Format::Mask) {
+    pub(crate) fn length_of_unit(&self, drawing: &Drawing, format: Format) -> Result<(f64, String), Problem> {
+        if let Some(size) = self.pixel_size {
             return Ok((size, format!("1 pixel = {size:e} m (pixel-size)")));
         }
+        let of_file: Option<&Unit> = drawing.unit.as_ref();
         let instead = |meters: f64| match of_file {
             // Names of one length differ, and lengths by rounding.
             Some(unit) if (unit.meters / meters - 1.0).abs() > 1e-9 => format!(", not {} as the file says", unit.name),
@@ -91,7 +92,7 @@ impl Options {
         if let Some(unit) = of_file {
             return Ok((unit.meters, format!("drawing unit {} ({:e} m), as the file says", unit.name, unit.meters)));
         }
-        if format.is_in_meters() {
+        if drawing.is_in_meters {
             return Ok((1.0, "drawing unit m".into()));
         }
         let message = format!("the unit of the drawing is not known: {} does not say it", format.name());

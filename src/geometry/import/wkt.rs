@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use wkt::Wkt;
 
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Paint, Refusal};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal};
 use crate::geometry::import::rings;
 use crate::geometry::import::text::{Lines, place};
 
@@ -19,7 +19,8 @@ const DEEPEST: i64 = 32;
 
 /// Reads well-known text.
 pub(crate) fn read(text: &str) -> Result<Drawing, Vec<Refusal>> {
-    let (mut drawing, mut lines) = (Drawing::default(), Lines::default());
+    let mut lines = Lines::default();
+    let mut drawing = Drawing { is_in_meters: true, nesting: Nesting::FirstIsOuter, ..Drawing::default() };
     let mut open = Chunk::default();
     for (line, row) in (1..).zip(text.lines().map(str::trim)) {
         if lines.take_comment(line, row) {

@@ -10,18 +10,8 @@ use crate::geometry::spec::{Arrangement, Array, Disc};
 pub fn array(spec: &Array) -> Result<Vec<Disc>, PackError> {
     let size = size_of(spec.region)?;
     let (radius, gap) = (spec.radius, spec.gap);
-    PackError::unless(
-        radius > 0.0 && radius.is_finite(),
-        "radius",
-        format!("{radius:e} m is no radius"),
-        "a length above 0",
-    )?;
-    PackError::unless(
-        gap > 0.0 && gap.is_finite(),
-        "gap",
-        format!("{gap:e} m is no gap"),
-        "a length above 0, so that fluid can pass",
-    )?;
+    PackError::unless_size("radius", radius)?;
+    PackError::unless_size("gap", gap)?;
     let pitch = 2.0 * radius + gap;
     let row = if spec.arrangement == Arrangement::Square { pitch } else { 0.5 * 3.0_f64.sqrt() * pitch };
     let shift = if spec.arrangement == Arrangement::Square { 0.0 } else { 0.5 * pitch };

@@ -20,6 +20,12 @@ impl PackError {
     pub(crate) fn unless(is_good: bool, key: &'static str, message: impl Into<String>, help: &str) -> Result<(), Self> {
         if is_good { Ok(()) } else { Err(Self::new(key, message, help)) }
     }
+
+    /// Refuses a radius or a gap that is none.
+    pub(crate) fn unless_size(key: &'static str, size: f64) -> Result<(), Self> {
+        let help = if key == "gap" { "a length above 0, so that fluid can pass" } else { "a length above 0" };
+        Self::unless(size > 0.0 && size.is_finite(), key, format!("{size:e} m is no {key}"), help)
+    }
 }
 
 /// Most discs of one generator: more would be a slip of a unit.

@@ -98,24 +98,14 @@ fn check(spec: &RandomPack, size: [f64; 2]) -> Result<(), PackError> {
         format!("{porosity} is no porosity"),
         "a number above 0 and below 1",
     )?;
-    PackError::unless(
-        radius > 0.0 && radius.is_finite(),
-        "radius",
-        format!("{radius:e} m is no radius"),
-        "a length above 0",
-    )?;
+    PackError::unless_size("radius", radius)?;
     PackError::unless(
         (0.0..=WIDEST).contains(&radius_deviation),
         "radius-deviation",
         format!("{radius_deviation} is out of range"),
         "standard deviation over mean, 0 to 0.35",
     )?;
-    PackError::unless(
-        gap > 0.0 && gap.is_finite(),
-        "gap",
-        format!("{gap:e} m is no gap"),
-        "a length above 0, so that fluid can pass",
-    )?;
+    PackError::unless_size("gap", gap)?;
     let count = (1.0 - porosity) * size[0] * size[1] / (std::f64::consts::PI * radius * radius);
     PackError::unless(
         count <= MOST_DISCS,

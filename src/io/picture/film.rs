@@ -2,10 +2,8 @@
 //! the picture says how much.
 
 use super::canvas::{Canvas, PictureError};
-use super::style::{
-    BAR_SHARE, BLACK, FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, TITLE_SIZE, WIDTH, length_text,
-    round_length, time_text,
-};
+use super::style::{FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, WIDTH, length_text, time_text};
+use super::view::{heading, scale_bar};
 use crate::math::Vec2;
 use crate::snapshot::Snapshot;
 
@@ -49,13 +47,9 @@ pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u
     canvas.rectangle([RIM, floor], [room as f32, WALL], SOLID);
     canvas.polyline([[RIM, floor], [RIM + room as f32, floor]].into_iter(), 1.5, OUTLINE);
     canvas.polyline(profile.iter().map(place), 3.0, INTERFACE);
-    let title = canvas.fitted(title, TITLE_SIZE, room as f32);
-    canvas.text(&title, [RIM, 44.0], TITLE_SIZE);
-    canvas.text(&time_text(snapshot.time), [RIM, 82.0], TEXT_SIZE);
-    let length = round_length(BAR_SHARE * (last.x - first.x));
+    heading(&mut canvas, title, &time_text(snapshot.time));
     let below = floor + WALL + 30.0;
-    canvas.rectangle([RIM, below - 4.0], [(across * length) as f32, 8.0], BLACK);
-    canvas.text(&length_text(length), [RIM, below + 38.0], TEXT_SIZE);
+    scale_bar(&mut canvas, across, last.x - first.x, below);
     let note = format!("highest {}, drawn {:.0} times as high as wide", length_text(rounded(highest)), up / across);
     let anchor = [WIDTH as f32 - RIM - canvas.text_width(&note, TEXT_SIZE), below + 38.0];
     canvas.text(&note, anchor, TEXT_SIZE);

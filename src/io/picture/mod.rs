@@ -5,6 +5,7 @@ mod film;
 mod mosaic;
 mod particles;
 mod style;
+mod view;
 
 pub(crate) use canvas::PictureError;
 pub(crate) use mosaic::mosaic_picture;

@@ -1,14 +1,12 @@
 //! A map of the plane: areas colored along a bar or by class, walls and lines over them, scale bar and legend.
 
 use super::canvas::{Canvas, PictureError, Rgb};
-use super::style::{
-    BAR_SHARE, BLACK, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, TITLE_SIZE, WIDTH, length_text, round_length,
-};
+use super::style::{INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, WIDTH};
+use super::view::{View, heading, scale_bar};
 use crate::diagram::{Mosaic, Tone};
 use crate::io::axes::short;
+use crate::math::{Bounds, Vec2};
 
-/// Largest height of the drawing in pixels.
-const TALLEST: f32 = 1400.0;
 /// Room below the drawing in pixels: color bar with its numbers, scale bar and legend.
 const FOOT: f32 = 190.0;
 /// Height of the color bar in pixels.
@@ -39,36 +37,14 @@ fn color_at(share: f64) -> Rgb {
     [mix(0), mix(1), mix(2)]
 }
 
-/// From meters to pixels.
-struct View {
-    min: [f64; 2],
-    scale: f64,
-    corner: [f32; 2],
-    size: [f32; 2],
-}
-
-impl View {
-    fn new([min, max]: [[f64; 2]; 2]) -> Self {
-        let size = [0, 1].map(|i| max[i] - min[i]);
-        let room = f64::from(WIDTH as f32 - 2.0 * RIM);
-        let scale = (room / size[0]).min(f64::from(TALLEST) / size[1]);
-        let pixels = size.map(|length| (scale * length) as f32);
-        Self { min, scale, corner: [0.5 * (WIDTH as f32 - pixels[0]), HEAD], size: pixels }
-    }
-
-    fn place(&self, x: [f64; 2]) -> [f32; 2] {
-        let [right, up] = [0, 1].map(|i| (self.scale * (x[i] - self.min[i])) as f32);
-        [self.corner[0] + right, self.corner[1] + self.size[1] - up]
-    }
-}
-
 /// Draws a map as a PNG file.
 pub(crate) fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, PictureError> {
-    let view = View::new(mosaic.bounds);
+    let [min, max] = mosaic.bounds.map(Vec2::from);
+    let view = View::new(Bounds { min, max });
     if !(view.scale.is_finite() && view.scale > 0.0) || mosaic.areas.is_empty() {
         return Err(PictureError::Empty);
     }
-    let bottom = view.corner[1] + view.size[1];
+    let bottom = view.bottom();
     let mut canvas = Canvas::new(WIDTH, (bottom + FOOT).ceil() as u32)?;
     canvas.rectangle(view.corner, view.size, SOLID);
     let [low, high] = mosaic.range;
@@ -77,26 +53,22 @@ pub(crate) fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, Pi
             Tone::Value(value) => color_at((value - low) / (high - low)),
             Tone::Class(class) => mosaic.classes.get(class).map_or(SOLID, |(_, color)| *color),
         };
-        canvas.polygon(area.boundary.iter().map(|&x| view.place(x)), color);
+        canvas.polygon(area.boundary.iter().map(|&x| view.place(x.into())), color);
     }
     // Thousands of grains leave no room for thick lines.
     const FEW: usize = 500;
     let thin = if mosaic.walls.len() < FEW { 1.0 } else { 0.4 };
     for wall in &mosaic.walls {
-        canvas.polyline(wall.iter().map(|&x| view.place(x)), 1.5 * thin, OUTLINE);
+        canvas.polyline(wall.iter().map(|&x| view.place(x.into())), 1.5 * thin, OUTLINE);
     }
     for line in &mosaic.lines.1 {
-        canvas.polyline(line.iter().map(|&x| view.place(x)), 3.0 * thin, INTERFACE);
+        canvas.polyline(line.iter().map(|&x| view.place(x.into())), 3.0 * thin, INTERFACE);
     }
-    canvas.wipe_outside(view.corner, view.size);
-    let ([x, y], [width, tall]) = (view.corner, view.size);
-    let corners = [[x, y], [x + width, y], [x + width, y + tall], [x, y + tall], [x, y]];
-    canvas.polyline(corners.into_iter(), 1.5, OUTLINE);
-    let title = canvas.fitted(title, TITLE_SIZE, WIDTH as f32 - 2.0 * RIM);
-    canvas.text(&title, [RIM, 44.0], TITLE_SIZE);
-    canvas.text(&mosaic.note, [RIM, 82.0], TEXT_SIZE);
+    view.frame(&mut canvas);
+    heading(&mut canvas, title, &mosaic.note);
     color_bar(&mut canvas, mosaic, bottom + 24.0);
-    scale_bar(&mut canvas, &view, bottom + 130.0);
+    let size = view.size.map(|pixels| f64::from(pixels) / view.scale);
+    scale_bar(&mut canvas, view.scale, size[0].max(0.5 * size[1]), bottom + 130.0);
     legend(&mut canvas, mosaic, bottom + 168.0);
     canvas.png()
 }
@@ -123,13 +95,6 @@ fn color_bar(canvas: &mut Canvas, mosaic: &Mosaic, top: f32) {
         let x = (from + share as f32 * length - 0.5 * wide).min(RIM + width - wide);
         canvas.text(&text, [x, top + BAR + 28.0], TEXT_SIZE);
     }
-}
-
-fn scale_bar(canvas: &mut Canvas, view: &View, y: f32) {
-    let size = view.size.map(|pixels| f64::from(pixels) / view.scale);
-    let length = round_length(BAR_SHARE * size[0].max(0.5 * size[1]));
-    canvas.rectangle([RIM, y - 4.0], [(length * view.scale) as f32, 8.0], BLACK);
-    canvas.text(&length_text(length), [RIM, y + 38.0], TEXT_SIZE);
 }
 
 /// Names what is in the drawing, from the right.

@@ -4,15 +4,11 @@
 //! every other field but `phase`; those are for ParaView.
 
 use super::canvas::{Canvas, PictureError, Rgb};
-use super::style::{
-    BAR_SHARE, BLACK, FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, TITLE_SIZE, UNRESOLVED, WIDTH,
-    length_text, round_length, time_text,
-};
+use super::style::{FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, UNRESOLVED, WIDTH, time_text};
+use super::view::{View, heading, scale_bar};
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot, Values};
 
-/// Largest height of the drawing in pixels: a tall pore must still fit on a screen.
-const TALLEST: f32 = 1400.0;
 /// Room below the drawing for scale bar and legend, in pixels.
 const FOOT: f32 = 90.0;
 /// Radius of a dot over the particle spacing: half the diagonal of a square, so that dots on a lattice leave no hole.
@@ -21,27 +17,6 @@ const COVER: f32 = 0.71;
 const CORE: f32 = 0.38;
 /// Below this radius in pixels an inner dot is only noise.
 const SMALLEST_CORE: f32 = 1.5;
-/// From meters to pixels.
-struct View {
-    bounds: Bounds,
-    scale: f64,
-    corner: [f32; 2],
-    size: [f32; 2],
-}
-
-impl View {
-    fn new(bounds: Bounds) -> Self {
-        let room = f64::from(WIDTH as f32 - 2.0 * RIM);
-        let scale = (room / bounds.size().x).min(f64::from(TALLEST) / bounds.size().y);
-        let size = [(scale * bounds.size().x) as f32, (scale * bounds.size().y) as f32];
-        Self { bounds, scale, corner: [0.5 * (WIDTH as f32 - size[0]), HEAD], size }
-    }
-
-    fn place(&self, x: Vec2) -> [f32; 2] {
-        let from = (x - self.bounds.min) * self.scale;
-        [self.corner[0] + from.x as f32, self.corner[1] + self.size[1] - from.y as f32]
-    }
-}
 
 /// Draws a snapshot and the outline of its solids as a PNG file.
 pub(super) fn particle_picture(
@@ -53,7 +28,8 @@ pub(super) fn particle_picture(
     let finite = |x: &&Vec2| x.iter().all(|c| c.is_finite());
     let tight = hull(points.iter().filter(finite)).ok_or(PictureError::Empty)?;
     let spacing = particle_spacing(snapshot, &tight);
-    let view = View::new(tight.grown(0.5 * spacing));
+    let bounds = tight.grown(0.5 * spacing);
+    let view = View::new(bounds);
     let height = (HEAD + view.size[1] + FOOT).ceil() as u32;
     let mut canvas = Canvas::new(WIDTH, height)?;
     canvas.rectangle(view.corner, view.size, SOLID);
@@ -62,11 +38,9 @@ pub(super) fn particle_picture(
     if let Some(interface) = &snapshot.interface {
         strokes(&mut canvas, &view, interface, 3.5, INTERFACE);
     }
-    frame(&mut canvas, &view);
-    let title = canvas.fitted(title, TITLE_SIZE, WIDTH as f32 - 2.0 * RIM);
-    canvas.text(&title, [RIM, 44.0], TITLE_SIZE);
-    canvas.text(&time_text(snapshot.time), [RIM, 82.0], TEXT_SIZE);
-    scale_bar(&mut canvas, &view);
+    view.frame(&mut canvas);
+    heading(&mut canvas, title, &time_text(snapshot.time));
+    scale_bar(&mut canvas, view.scale, bounds.size().x.max(0.5 * bounds.size().y), view.bottom() + 30.0);
     legend(&mut canvas, &view, snapshot);
     canvas.png()
 }
@@ -134,25 +108,9 @@ fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, width: f32, colo
     }
 }
 
-/// Wipes what reached over the drawing's edge and draws the edge.
-fn frame(canvas: &mut Canvas, view: &View) {
-    canvas.wipe_outside(view.corner, view.size);
-    let ([x, y], [width, tall]) = (view.corner, view.size);
-    let corners = [[x, y], [x + width, y], [x + width, y + tall], [x, y + tall], [x, y]];
-    canvas.polyline(corners.into_iter(), 1.5, OUTLINE);
-}
-
-fn scale_bar(canvas: &mut Canvas, view: &View) {
-    let length = round_length(BAR_SHARE * view.bounds.size().x.max(0.5 * view.bounds.size().y));
-    let pixels = (length * view.scale) as f32;
-    let y = view.corner[1] + view.size[1] + 30.0;
-    canvas.rectangle([RIM, y - 4.0], [pixels, 8.0], BLACK);
-    canvas.text(&length_text(length), [RIM, y + 38.0], TEXT_SIZE);
-}
-
 /// Names what is in the drawing, from the right.
 fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
-    let y = view.corner[1] + view.size[1] + 38.0;
+    let y = view.bottom() + 38.0;
     let present = |number| (0..snapshot.particles.points.len()).any(|a| phase_of(snapshot, a) == Some(number));
     let interface = snapshot.interface.as_ref().map(|_| ("interface", INTERFACE));
     let thin = unresolved(snapshot).next().map(|_| ("not resolved", UNRESOLVED));

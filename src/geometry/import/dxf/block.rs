@@ -9,7 +9,7 @@ use super::header::{File, Layer, Record};
 use crate::geometry::import::affine::Affine;
 use crate::geometry::import::closing::{Closed, close};
 use crate::geometry::import::contour::Piece;
-use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Outline, Paint, Refusal};
+use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal};
 use crate::geometry::import::limits::Budget;
 use crate::math::Vec2;
 
@@ -34,7 +34,7 @@ pub(crate) fn drawing(
         wide: 0,
         budget: Budget::of_file(bytes),
         inserting: Vec::new(),
-        drawing: Drawing { unit: file.unit.clone(), ..Drawing::default() },
+        drawing: Drawing { unit: file.unit.clone(), nesting: Nesting::OfAll, ..Drawing::default() },
         open: BTreeMap::new(),
         refusals: Vec::new(),
         is_over: false,

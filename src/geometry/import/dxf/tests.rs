@@ -3,8 +3,8 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::curve::Curve;
-use crate::geometry::import::drawing::{Outline, Ring};
+use crate::geometry::import::drawing::Outline;
+use crate::geometry::import::drawing::seen::{area, only};
 use crate::math::Vec2;
 
 /// Groups in short: `0 LINE; 8 walls; 10 0.5`.
@@ -25,25 +25,6 @@ fn file(blocks: &str, entities: &str) -> String {
 
 fn drawn(entities: &str) -> Drawing {
     read(file("", entities).as_bytes(), None, None).unwrap()
-}
-
-fn area_of_ring(ring: &Ring) -> f64 {
-    let point = |vertex: &[f64; 3]| Vec2::new(vertex[0], vertex[1]);
-    let next = ring.vertices.iter().cycle().skip(1);
-    let edges = ring.vertices.iter().zip(next);
-    edges.map(|(a, b)| Curve::from_bulge(point(a), point(b), a[2]).area_about(Vec2::zeros())).sum()
-}
-
-fn area(outline: &Outline) -> f64 {
-    match outline {
-        Outline::Disc { radius, .. } => PI * radius * radius,
-        Outline::Area { rings, .. } => rings.iter().map(area_of_ring).sum::<f64>().abs(),
-    }
-}
-
-fn only(drawing: &Drawing) -> &Outline {
-    assert_eq!(drawing.entities.len(), 1, "{drawing:?}");
-    &drawing.entities[0].outline
 }
 
 fn discs(drawing: &Drawing) -> Vec<[f64; 3]> {

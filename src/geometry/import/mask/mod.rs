@@ -76,6 +76,7 @@ pub fn read(bytes: &[u8], options: &MaskOptions) -> Result<Drawing, Vec<Refusal>
         entities,
         unit: options.pixel_size.map(|meters| Unit { name: "pixel".into(), meters }),
         frame: Some(Bounds { min: Vec2::zeros(), max: Vec2::new(solid.width as f64, solid.height as f64) }),
+        is_of_pixels: true,
         unused,
         notes,
         ..Drawing::default()

@@ -3,8 +3,8 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::curve::Curve;
-use crate::geometry::import::drawing::{FillRule, Outline, Paint, Ring};
+use crate::geometry::import::drawing::seen::{area, only};
+use crate::geometry::import::drawing::{FillRule, Outline, Paint};
 use crate::math::Vec2;
 
 fn page(attributes: &str, content: &str) -> String {
@@ -16,26 +16,6 @@ fn page(attributes: &str, content: &str) -> String {
 
 fn drawn(content: &str) -> Drawing {
     read(&page("viewBox=\"0 0 100 50\"", content), None).unwrap()
-}
-
-fn area_of_ring(ring: &Ring) -> f64 {
-    let point = |vertex: &[f64; 3]| Vec2::new(vertex[0], vertex[1]);
-    let next = ring.vertices.iter().cycle().skip(1);
-    let edges = ring.vertices.iter().zip(next);
-    edges.map(|(a, b)| Curve::from_bulge(point(a), point(b), a[2]).area_about(Vec2::zeros())).sum()
-}
-
-/// The area without overlaps taken into account: of rings that do not cross, each with its own sign.
-fn area(outline: &Outline) -> f64 {
-    match outline {
-        Outline::Disc { radius, .. } => PI * radius * radius,
-        Outline::Area { rings, .. } => rings.iter().map(area_of_ring).sum::<f64>().abs(),
-    }
-}
-
-fn only(drawing: &Drawing) -> &Outline {
-    assert_eq!(drawing.entities.len(), 1, "{drawing:?}");
-    &drawing.entities[0].outline
 }
 
 fn disc(drawing: &Drawing) -> (Vec2, f64) {
@@ -129,7 +109,7 @@ fn holes_follow_the_fill_rule_and_the_direction() {
         panic!()
     };
     assert_eq!((nonzero.len(), rule), (2, FillRule::NonZero));
-    assert!((area_of_ring(&nonzero[0]) + area_of_ring(&nonzero[1])).abs() - 72.0 < 1e-12, "opposite directions");
+    assert!((nonzero[0].area() + nonzero[1].area()).abs() - 72.0 < 1e-12, "opposite directions");
     for style in ["fill-rule='evenodd'", "style='fill-rule: evenodd'", "class='odd'"] {
         let sheet =
             "<style>/* .odd {fill: none} */ path.even {fill-rule: nonzero} .odd, g path {fill-rule:evenodd}</style>";

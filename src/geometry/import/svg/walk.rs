@@ -12,7 +12,7 @@ use super::placement;
 use super::shape;
 use super::style::{self, Style, StyleSheet};
 use crate::geometry::import::affine::Affine;
-use crate::geometry::import::drawing::{Drawing, Paint, Refusal};
+use crate::geometry::import::drawing::{Drawing, Nesting, Paint, Refusal};
 use crate::geometry::import::limits::Budget;
 use crate::math::Vec2;
 
@@ -72,7 +72,13 @@ pub(crate) fn drawing(
         found_layers: vec![false; layers.map_or(0, <[String]>::len)],
         budget: Budget::of_file(bytes),
         copying: Vec::new(),
-        drawing: Drawing { unit: page.unit.clone(), frame: page.frame, ..Drawing::default() },
+        drawing: Drawing {
+            unit: page.unit.clone(),
+            frame: page.frame,
+            has_page: true,
+            nesting: Nesting::ByRule,
+            ..Drawing::default()
+        },
         tally: Tally::default(),
         refusals: Vec::new(),
         is_over: false,
