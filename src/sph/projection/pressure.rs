@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::given_flow::{RESPONSE_RESIDUAL, Response};
-use super::intermediate::Predicted;
+use super::intermediate::{Predicted, Projected};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::boundary::shepard;
@@ -28,18 +28,6 @@ const DIRICHLET: u8 = 2;
 
 /// Largest relative residual of the density-error correction by shifting: what one step leaves, the next ones take.
 const CORRECTION_RESIDUAL: f64 = 0.01;
-
-/// What one pressure solve finds.
-pub(super) struct Projected {
-    /// Pressure in Pa.
-    pub(super) pressure: Vec<f64>,
-    /// What the pressure that the next step begins with has more, in Pa, see [`View::viscous_pressure`].
-    pub(super) viscous_pressure: Vec<f64>,
-    /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
-    pub(super) density_error_shift: Vec<Vec2>,
-    /// What unit gradients along the periodic sides with a given flow do.
-    pub(super) responses: Vec<Response>,
-}
 
 /// The pressure equation of a step.
 struct PressureEquation {
