@@ -7,10 +7,13 @@ use crate::interface::weighted_circle::{
     FEWEST_FROM_CONTACT, WallFrame, WeightedPoint, angle_through, fit_from_contact,
 };
 use crate::math::{Vec2, perpendicular};
+use crate::sph::bulk::BulkFields;
 use crate::sph::domain::Domain;
+use crate::sph::setting::Setting;
 use crate::sph::surface_force::contact_points::ContactPoint;
 use crate::sph::surface_force::stencils::Interface;
-use crate::sph::wetting::lines::DetectedLine;
+use crate::sph::view::View;
+use crate::sph::wetting::lines::{DetectedLine, Following, Line};
 
 /// Points nearer to the wall than this, over dx, tell the place of a line: those between its first two layers of particles, or where
 /// a moving line has parted them those above.
@@ -32,6 +35,29 @@ pub(crate) struct InterfaceLine<'a> {
     pub(super) into_wetting: Vec2,
     /// The points around it, relative to the place.
     pub(super) near: Vec<WeightedPoint>,
+}
+
+impl View<'_, BulkFields> {
+    /// The contact lines now, from those of the step before and from what is `seen` of them.
+    pub(super) fn followed(&self, seen: &[impl DetectedLine]) -> Vec<Line> {
+        let Setting { method, domain, spots, .. } = self.setting;
+        let Some(base) = method.wetting else { return Vec::new() };
+        let h = method.kernel.h;
+        // Nothing happens at a line faster than an interface of the size h moves.
+        let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
+        let following = Following {
+            domain,
+            model: &|x| spots.model(method, x).unwrap_or(base),
+            wall_velocity: &|x| spots.velocity(x),
+            tension: method.tension,
+            viscosity: method.wetting_fluid.viscosity,
+            other_viscosity: method.other_fluid.viscosity,
+            slip_length: method.no_slip.line_slip_length,
+            h,
+            mean_over,
+        };
+        following.follow(&self.state.lines, seen, self.state.last_dt)
+    }
 }
 
 impl Interface<'_> {

@@ -39,9 +39,9 @@ impl View<'_, BulkFields> {
         let moment = pressure_gradient::moment(pairs, &bulk.volume, r_ab, fluids);
         let points = interface_points(self, &color, &normal, &near);
         let resolution = Resolution { spacing: method.spacing, h: method.kernel.h };
-        let interface = Interface::new(&points, domain, resolution, &self.setting.wall)
-            .under(method.curvature_gradient())
-            .before(self.state.last_dt);
+        let at_rest =
+            Interface::new(&points, domain, resolution, &self.setting.wall).under(method.curvature_gradient());
+        let interface = Interface { step: self.state.last_dt, ..at_rest };
         let (mut lines, mut pinned) = (Vec::new(), Vec::new());
         if method.wetting.is_some() {
             let seen = interface.lines();
