@@ -4,7 +4,9 @@
 
 use std::time::Instant;
 
+use crate::math::Vec2;
 use crate::solver::{PartTime, StateError};
+use crate::sph::bulk::BulkFields;
 use crate::sph::cells::Cells;
 use crate::sph::fields::Fields;
 use crate::sph::neighborhood::Neighborhood;
@@ -13,6 +15,7 @@ use crate::sph::particles::Particles;
 use crate::sph::poisson::{PressureSolve, parts};
 use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;
+use crate::sph::surface_force::interface_fields;
 use crate::sph::view::View;
 use crate::sph::walls::WallFields;
 use crate::sph::wetting::lines::Line;
@@ -120,7 +123,9 @@ impl Flow {
         }
         neighborhood.find_anew(&state.particles.position, &setting.domain, &setting.method.kernel);
         let after = Instant::now();
-        *lines = fields.update(setting, state, neighborhood);
+        let found = View { setting, state, neighborhood, fields: &() };
+        fields.bulk = BulkFields::of(&found);
+        (fields.interface, *lines) = interface_fields(&found.with(&fields.bulk));
         self.work.seconds[0] += (after - start).as_secs_f64();
         self.work.seconds[1] += after.elapsed().as_secs_f64();
     }
@@ -152,18 +157,19 @@ impl Flow {
 
 /// Puts the fluid particles in the order of their cells.
 fn order_fluid(particles: &mut Particles, setting: &Setting) {
-    let fluids = &particles.position[..particles.fluids];
-    let order = Cells::build(fluids, &setting.domain, setting.method.kernel.support()).order().to_vec();
-    let order: Vec<usize> = order.iter().map(|&i| i as usize).chain(particles.fluids..particles.len()).collect();
-    particles.reorder(&order);
+    let order = order_of_cells(&particles.position[..particles.fluids], setting);
+    particles.reorder(&order.into_iter().chain(particles.fluids..particles.len()).collect::<Vec<usize>>());
 }
 
 /// Puts the wall particles in the order of their cells.
 fn order_walls(state: &mut FlowState, setting: &Setting) {
     let moving = state.particles.moving();
-    let walls = &state.particles.position[moving..];
-    let order = Cells::build(walls, &setting.domain, setting.method.kernel.support()).order().to_vec();
-    state.wall_depth = order.iter().map(|&i| state.wall_depth[i as usize]).collect();
-    let order: Vec<usize> = (0..moving).chain(order.iter().map(|&i| i as usize + moving)).collect();
-    state.particles.reorder(&order);
+    let order = order_of_cells(&state.particles.position[moving..], setting);
+    state.wall_depth = order.iter().map(|&i| state.wall_depth[i]).collect();
+    state.particles.reorder(&(0..moving).chain(order.iter().map(|i| i + moving)).collect::<Vec<usize>>());
+}
+
+fn order_of_cells(points: &[Vec2], setting: &Setting) -> Vec<usize> {
+    let cells = Cells::build(points, &setting.domain, setting.method.kernel.support());
+    cells.order().iter().map(|&i| i as usize).collect()
 }

@@ -32,17 +32,14 @@ impl Images {
                     let mut image = points[i];
                     image[mirror.axis] = 2.0 * mirror.at - image[mirror.axis];
                     points.push(image);
-                    let (source, via) = if i < first { (i as u32, 0) } else { images.origin_of(i) };
+                    let (source, via) =
+                        if i < first { (i as u32, 0) } else { (images.source[i - first], images.via[i - first]) };
                     images.source.push(source);
                     images.via.push(via | 1 << k);
                 }
             }
         }
         images
-    }
-
-    fn origin_of(&self, index: usize) -> (u32, u8) {
-        (self.source[index - self.first], self.via[index - self.first])
     }
 
     /// The particle that index `b` is or is the image of.

@@ -161,7 +161,8 @@ impl Packing<'_> {
     /// Adds −∇φ with −∇²φ = the density error V_0/V − 1 of the fluid.
     fn even(&self, around: &Round, solve: &mut PressureSolve, moves: &mut [Move]) {
         let Round { points, count, images, cells } = around;
-        let pairs = &Pairs::find_in(cells, points, *count, self.domain, self.kernel);
+        let pairs = &mut Pairs::default();
+        pairs.find_anew(cells, points, *count, self.domain, self.kernel);
         let (n, fluids) = (*count, moves.len());
         let mut volume = density::volume(pairs, fluids);
         volume.resize(n, self.volume);
@@ -172,6 +173,7 @@ impl Packing<'_> {
         let matrix = assemble(pairs, images, &volume, &ones, |_, _| true);
         let part = parts(pairs, images, |_, _| true);
         let unknowns = Unknowns {
+            matrix: &matrix,
             position: &points[..n],
             kind: &vec![0; n],
             part: &part,
@@ -181,7 +183,7 @@ impl Packing<'_> {
         let mut potential = vec![0.0; n];
         // What the solve leaves over, the next round takes.
         let system = System { b: &mut source, x: &mut potential, tolerance: TOLERANCE };
-        solve.solve(&matrix, &unknowns, &volume[..n], &mut [system]);
+        solve.solve(&unknowns, &volume[..n], &mut [system]);
         let down = pressure_gradient::down(pairs, &volume, &ones, &images.field(potential), fluids);
         moves.iter_mut().zip(&down).for_each(|(m, down)| m.by += down);
     }

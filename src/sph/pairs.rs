@@ -50,23 +50,12 @@ type Rows = (Vec<u32>, Vec<u32>);
 impl Pairs {
     /// Finds the neighbors of the first `count` of `points` among all of them.
     pub fn find(points: &[Vec2], count: usize, domain: &Domain, kernel: &WendlandC2) -> Self {
-        Self::find_in(&Cells::build(points, domain, kernel.support()), points, count, domain, kernel)
-    }
-
-    /// [`Pairs::find`] with the `cells` of all `points` at hand.
-    pub(in crate::sph) fn find_in(
-        cells: &Cells,
-        points: &[Vec2],
-        count: usize,
-        domain: &Domain,
-        kernel: &WendlandC2,
-    ) -> Self {
         let mut pairs = Self::default();
-        pairs.find_anew(cells, points, count, domain, kernel);
+        pairs.find_anew(&Cells::build(points, domain, kernel.support()), points, count, domain, kernel);
         pairs
     }
 
-    /// [`Pairs::find_in`] in the memory of the pairs before.
+    /// [`Pairs::find`] in the memory of the pairs before, with the `cells` of all `points` at hand.
     pub(in crate::sph) fn find_anew(
         &mut self,
         cells: &Cells,

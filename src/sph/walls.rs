@@ -28,9 +28,7 @@ impl WallFields {
     /// Whether the pressures of two particles or images are coupled: all but those of wall particles that belong to opposite sides of a thin
     /// solid, through which the pressure of one side would reach the other. `moving` particles come before the walls.
     pub(crate) fn joined(&self, moving: usize, images: &Images) -> impl Fn(usize, usize) -> bool + use<> {
-        let mut facing = vec![Vec2::zeros(); moving];
-        facing.extend_from_slice(&self.facing);
-        let facing = images.reflected_field(facing);
+        let facing = images.reflected_field([&vec![Vec2::zeros(); moving], &self.facing[..]].concat());
         move |a, b| facing[a].dot(&facing[b]) > OPPOSITE
     }
 }

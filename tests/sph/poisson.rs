@@ -1,6 +1,7 @@
 //! The pressure equation: its matrix, and that the iteration finds what a direct factorization finds.
 
 use crate::support::cloud::{Cloud, pressure_matrix, right_side};
+use meniscus::sph::conjugate_gradients::SymmetricMatrix;
 use meniscus::sph::conjugate_gradients::conjugate_gradients;
 use meniscus::sph::poisson::{Matrix, Multigrid, PressureSolve, System, Tolerance, Unknowns, parts};
 use nalgebra::{DMatrix, DVector};
@@ -88,12 +89,18 @@ fn small_systems_are_solved_directly() {
     let n = cloud.points.len();
     let (kind, part) = (vec![0; n], parts(&cloud.pairs, &cloud.images, |_, _| true));
     assert!(part.iter().all(|part| *part == 0), "one pore, one part");
-    let unknowns =
-        Unknowns { position: &cloud.points, kind: &kind, part: &part, has_dirichlet: &[], spacing: cloud.spacing };
+    let unknowns = Unknowns {
+        matrix: &matrix,
+        position: &cloud.points,
+        kind: &kind,
+        part: &part,
+        has_dirichlet: &[],
+        spacing: cloud.spacing,
+    };
     let (mut b, mut p) = (right_side(n), vec![0.0; n]);
     let wanted = direct(&matrix, &b);
     let tolerance = Tolerance { residual: 1e-6, iterations: 300 };
-    let found = solver.solve(&matrix, &unknowns, &cloud.volume, &mut [System { b: &mut b, x: &mut p, tolerance }])[0];
+    let found = solver.solve(&unknowns, &cloud.volume, &mut [System { b: &mut b, x: &mut p, tolerance }])[0];
     assert_eq!(found.iterations, 1);
     assert!(found.residual < 1e-12, "{}", found.residual);
     assert!(difference(&p, &wanted) < 1e-10);

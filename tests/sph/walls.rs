@@ -82,15 +82,15 @@ fn exchanged_phases_with_the_supplementary_angle_feel_the_same_forces() {
             flow(&liquid_on_a_wall(shape, [0.0, -9.81], angle, WALLS_BELOW_AND_ABOVE, (background, form)))
         });
         let [one, other] = &flows;
-        let forces = [volume_forces(one), volume_forces(other)];
-        let sizes = forces[0].each_ref().map(|f| f.iter().map(|f| f.norm()).fold(0.0, f64::max));
+        let [forces, [surface, line]] = [volume_forces(one), volume_forces(other)];
+        let sizes = forces.each_ref().map(|f| f.iter().map(|f| f.norm()).fold(0.0, f64::max));
         assert!(form != "csf" || sizes.iter().all(|size| *size > 0.0), "{sizes:?}");
         for a in 0..one.state.particles.fluids {
             assert_eq!(one.state.particles.position[a], other.state.particles.position[a]);
             assert!(one.state.particles.phase[a] != other.state.particles.phase[a]);
-            let change = (forces[0][0][a] - forces[1][0][a]).norm();
+            let change = (forces[0][a] - surface[a]).norm();
             assert!(change <= 1e-9 * sizes[0], "surface force of particle {a}: {:.1e}", change / sizes[0]);
-            let change = (forces[0][1][a] - forces[1][1][a]).norm();
+            let change = (forces[1][a] - line[a]).norm();
             assert!(change <= 1e-9 * sizes[1], "line force of particle {a}: {:.1e}", change / sizes[1]);
         }
         flows.iter_mut().for_each(|flow| steps(flow, 10, 2.0e-6));

@@ -28,6 +28,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::sph::conjugate_gradients::SymmetricMatrix;
 
     #[test]
     fn a_chain_between_two_given_values_is_linear() {

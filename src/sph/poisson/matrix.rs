@@ -44,16 +44,6 @@ impl Matrix {
         weighted_sum(&self.column[row.clone()], &self.coupling[row], x)
     }
 
-    /// y = M x.
-    pub(crate) fn apply(&self, x: &[f64], y: &mut [f64]) {
-        each(y, |a| self.diagonal[a] * x[a] - self.coupled(a, x));
-    }
-
-    /// r = b − M x.
-    pub fn residual(&self, b: &[f64], x: &[f64], r: &mut [f64]) {
-        each(r, |a| b[a] - self.diagonal[a] * x[a] + self.coupled(a, x));
-    }
-
     /// Bytes held, a pattern that it shares with the pairs included.
     pub(crate) fn bytes(&self) -> usize {
         self.start.len() * 8 + (self.column.len() + self.coupling.len()) * 4 + self.diagonal.len() * 8
@@ -78,10 +68,10 @@ pub fn weighted_sum<T: Unknown>(columns: &[u32], weights: &[f32], x: &[T]) -> T 
 
 impl SymmetricMatrix<f64> for Matrix {
     fn apply(&self, x: &[f64], y: &mut [f64]) {
-        self.apply(x, y);
+        each(y, |a| self.diagonal[a] * x[a] - self.coupled(a, x));
     }
 
     fn residual(&self, b: &[f64], x: &[f64], r: &mut [f64]) {
-        self.residual(b, x, r);
+        each(r, |a| b[a] - self.diagonal[a] * x[a] + self.coupled(a, x));
     }
 }

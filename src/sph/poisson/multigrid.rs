@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use crate::math::Vec2;
 use crate::sph::components::components;
+use crate::sph::conjugate_gradients::SymmetricMatrix;
 use crate::sph::parallel::total;
 use crate::sph::poisson::aggregation::{Aggregates, COARSENING};
 use crate::sph::poisson::matrix::Matrix;

@@ -1,7 +1,7 @@
 //! One pressure solve: the right side made compatible, the solver chosen by size, the result checked.
 
 use crate::math::Vec2;
-use crate::sph::conjugate_gradients::{Convergence, Tolerance, conjugate_gradients};
+use crate::sph::conjugate_gradients::{Convergence, SymmetricMatrix, Tolerance, conjugate_gradients};
 use crate::sph::parallel::total;
 use crate::sph::poisson::cholesky::SparseCholesky;
 use crate::sph::poisson::matrix::Matrix;
@@ -10,8 +10,10 @@ use crate::sph::poisson::multigrid::Multigrid;
 /// Systems up to this size are solved directly. Above it the factorization costs more than the iteration (benches/poisson.rs).
 const SMALL: usize = 300;
 
-/// The points of the unknowns, for the multigrid.
+/// The matrix of the pressure equation, and the points of its unknowns for the multigrid.
 pub struct Unknowns<'a> {
+    /// M.
+    pub matrix: &'a Matrix,
     /// Positions in m.
     pub position: &'a [Vec2],
     /// Light or heavy fluid or wall: coarse unknowns join one kind only.
@@ -47,43 +49,38 @@ impl PressureSolve {
     ///
     /// Without a given pressure b must sum to zero over each part; what is left over by the discrete divergence is spread by `volume`.
     /// Then x has mean zero over each such part.
-    pub fn solve(
-        &mut self,
-        matrix: &Matrix,
-        unknowns: &Unknowns,
-        volume: &[f64],
-        systems: &mut [System],
-    ) -> Vec<Convergence> {
+    pub fn solve(&mut self, unknowns: &Unknowns, volume: &[f64], systems: &mut [System]) -> Vec<Convergence> {
+        let matrix = unknowns.matrix;
         self.bytes[0] = matrix.coupling.len() * 4 + matrix.rows() * 8;
         systems.iter_mut().for_each(|system| subtract_mean(unknowns, volume, system.b));
         let convergence = if matrix.rows() <= SMALL {
-            systems.iter_mut().map(|system| self.solve_directly(matrix, unknowns, system)).collect()
+            systems.iter_mut().map(|system| self.solve_directly(unknowns, system)).collect()
         } else {
-            self.iterate(matrix, unknowns, systems)
+            self.iterate(unknowns, systems)
         };
         let ones = vec![1.0; volume.len()];
         systems.iter_mut().for_each(|system| subtract_mean(unknowns, &ones, system.x));
         convergence
     }
 
-    fn solve_directly(&mut self, matrix: &Matrix, unknowns: &Unknowns, system: &mut System) -> Convergence {
+    fn solve_directly(&mut self, unknowns: &Unknowns, system: &mut System) -> Convergence {
         let (b, x) = (&*system.b, &mut *system.x);
-        if self.cholesky.solve(matrix, unknowns.part, unknowns.has_dirichlet, b, x).is_err() {
-            return self.iterate(matrix, unknowns, std::slice::from_mut(system))[0];
+        if self.cholesky.solve(unknowns.matrix, unknowns.part, unknowns.has_dirichlet, b, x).is_err() {
+            return self.iterate(unknowns, std::slice::from_mut(system))[0];
         }
         let mut r = vec![0.0; b.len()];
-        matrix.residual(b, x, &mut r);
+        unknowns.matrix.residual(b, x, &mut r);
         let norm = |v: &[f64]| total(v.len(), |i| v[i] * v[i]).sqrt();
         let residual = if norm(b) > 0.0 { norm(&r) / norm(b) } else { 0.0 };
         Convergence { iterations: 1, residual }
     }
 
-    fn iterate(&mut self, matrix: &Matrix, unknowns: &Unknowns, systems: &mut [System]) -> Vec<Convergence> {
-        let multigrid = Multigrid::new(matrix, unknowns.position, unknowns.kind, unknowns.spacing);
+    fn iterate(&mut self, unknowns: &Unknowns, systems: &mut [System]) -> Vec<Convergence> {
+        let multigrid = Multigrid::new(unknowns.matrix, unknowns.position, unknowns.kind, unknowns.spacing);
         self.bytes[1] = multigrid.bytes();
         let solve = |System { b, x, tolerance }: &mut System| {
-            conjugate_gradients(matrix, b, x, *tolerance, |r, z| {
-                multigrid.precondition(matrix, r, z);
+            conjugate_gradients(unknowns.matrix, b, x, *tolerance, |r, z| {
+                multigrid.precondition(unknowns.matrix, r, z);
             })
         };
         systems.iter_mut().map(solve).collect()

@@ -1,8 +1,7 @@
 //! The corrector: the velocity at the end of a step [Huber2013, Eq. 26].
 
 use super::given_flow::{add_responses, gradient_changes};
-use super::intermediate::{Corrected, Predicted};
-use super::pressure::Projected;
+use super::intermediate::{Corrected, Predicted, Projected};
 use crate::math::Vec2;
 use crate::sph::fields::Fields;
 use crate::sph::method::PressureGradient;
@@ -13,19 +12,19 @@ use crate::sph::view::View;
 impl View<'_, Fields> {
     /// The corrector: the velocity of fluid and buffers at the end of the step [Huber2013, Eq. 26], with the given flow rates through
     /// periodic sides.
-    pub(super) fn correct(&self, predicted: &Predicted, projected: Projected) -> Corrected {
-        let Projected { mut pressure, viscous_pressure, density_error_shift, responses } = projected;
-        let acceleration = self.pressure_acceleration(&pressure);
+    pub(super) fn correct(&self, predicted: &Predicted, mut projected: Projected) -> Corrected {
+        let Projected { pressure, responses, .. } = &mut projected;
+        let acceleration = self.pressure_acceleration(pressure);
         let corrected = acceleration.iter().zip(&*predicted.velocity).map(|(a, v)| v + predicted.dt * a);
         let mut velocity: Vec<Vec2> = corrected.collect();
-        let gradient_changes = gradient_changes(self.setting, &velocity, &responses, predicted.dt);
-        add_responses(&mut velocity, &responses, &gradient_changes, predicted.dt);
+        let gradient_changes = gradient_changes(self.setting, &velocity, responses, predicted.dt);
+        add_responses(&mut velocity, responses, &gradient_changes, predicted.dt);
         for (response, change) in responses.iter().zip(&gradient_changes) {
             pressure.iter_mut().zip(&response.potential).for_each(|(p, by)| *p += change * by);
         }
         velocity.extend(std::iter::repeat_n(Vec2::zeros(), self.state.particles.open));
         predicted.interior.set_buffer_velocity(&self.state.particles, &self.setting.open.sides, &mut velocity);
-        Corrected { velocity, pressure, viscous_pressure, density_error_shift, gradient_changes, responses }
+        Corrected { velocity, gradient_changes, projected }
     }
 
     /// The acceleration of the fluid particles in m/s² by the gradient of a `pressure` (Pa), with the gravity that goes with it and the jump

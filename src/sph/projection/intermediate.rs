@@ -19,20 +19,26 @@ pub(super) struct Predicted {
     pub(super) damped: Damped,
 }
 
-/// The end of a step before the particles move [Huber2013, Eq. 26].
-pub(super) struct Corrected {
-    /// Velocity of fluid and buffers in m/s.
-    pub(super) velocity: Vec<Vec2>,
+/// What one pressure solve finds.
+pub(super) struct Projected {
     /// Pressure in Pa, without the mean gradients that drive given flows.
     pub(super) pressure: Vec<f64>,
     /// What the pressure that the next step begins with has more, in Pa; empty for nothing.
     pub(super) viscous_pressure: Vec<f64>,
     /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
     pub(super) density_error_shift: Vec<Vec2>,
+    /// What unit gradients along the periodic sides with a given flow do.
+    pub(super) responses: Vec<Response>,
+}
+
+/// The end of a step before the particles move [Huber2013, Eq. 26].
+pub(super) struct Corrected {
+    /// Velocity of fluid and buffers in m/s.
+    pub(super) velocity: Vec<Vec2>,
     /// By how much the mean gradients that drive given flows change, in Pa/m.
     pub(super) gradient_changes: Vec<f64>,
-    /// What unit gradients do.
-    pub(super) responses: Vec<Response>,
+    /// What the pressure solve found, its pressure with these changes.
+    pub(super) projected: Projected,
 }
 
 /// What comes of a viscous solve beside the acceleration; nothing of an explicit step.

@@ -14,7 +14,7 @@ mod viscous;
 
 use std::time::Instant;
 
-use self::intermediate::{Corrected, Predicted};
+use self::intermediate::{Corrected, Predicted, Projected};
 use self::motion::Motion;
 use crate::case::ViscousStep;
 use crate::solver::{SolverError, StepInfo};
@@ -87,8 +87,8 @@ impl Flow {
         state.last_dt = dt;
         state.lines = std::mem::take(&mut self.lines);
         state.gone = state.gone.or_else(|| gone(&state.lines, method.spacing));
-        let mut pressure = corrected.pressure;
-        pressure.iter_mut().zip(&corrected.viscous_pressure).for_each(|(p, by)| *p += by);
+        let Projected { mut pressure, viscous_pressure, .. } = corrected.projected;
+        pressure.iter_mut().zip(&viscous_pressure).for_each(|(p, by)| *p += by);
         self.take_up_pressure(pressure, &corrected.gradient_changes);
         if !self.setting.open.sides.is_empty() {
             let (sides, state) = (&self.setting.open.sides, &mut self.state);
@@ -103,7 +103,7 @@ impl Flow {
         for _ in 0..if self.setting.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
             let predicted = self.view().predict(until, f64::INFINITY, ViscousStep::Explicit)?;
             let corrected = self.end_of(&predicted)?;
-            self.take_up_pressure(corrected.pressure, &corrected.gradient_changes);
+            self.take_up_pressure(corrected.projected.pressure, &corrected.gradient_changes);
         }
         Ok(())
     }

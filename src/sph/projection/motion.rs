@@ -1,7 +1,7 @@
 //! The end of a step: particles move, keep their order and stay out of walls.
 
 use super::given_flow::keep_flow_rates;
-use super::intermediate::{Corrected, Predicted};
+use super::intermediate::{Corrected, Predicted, Projected};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::fields::Fields;
@@ -46,7 +46,7 @@ impl View<'_, Fields> {
     /// # Errors
     /// [`SolverError::BlowUp`] where a particle would go too far.
     pub(super) fn moved(&self, predicted: &Predicted, corrected: &Corrected) -> Result<Motion, SolverError> {
-        let Corrected { density_error_shift, responses, .. } = corrected;
+        let Projected { density_error_shift, responses, .. } = &corrected.projected;
         let (setting, old) = (self.setting, &self.state.particles.position);
         let mut velocity = corrected.velocity.clone();
         let (fluids, moving, dt) = (self.state.particles.fluids, self.state.particles.moving(), predicted.dt);

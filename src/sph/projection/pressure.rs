@@ -3,10 +3,11 @@
 use rayon::prelude::*;
 
 use super::given_flow::{RESPONSE_RESIDUAL, Response};
-use super::intermediate::Predicted;
+use super::intermediate::{Predicted, Projected};
 use crate::math::Vec2;
 use crate::solver::SolverError;
 use crate::sph::boundary::shepard;
+use crate::sph::conjugate_gradients::SymmetricMatrix;
 use crate::sph::fields::Fields;
 use crate::sph::flow::Work;
 use crate::sph::images::Field;
@@ -28,18 +29,6 @@ const DIRICHLET: u8 = 2;
 
 /// Largest relative residual of the density-error correction by shifting: what one step leaves, the next ones take.
 const CORRECTION_RESIDUAL: f64 = 0.01;
-
-/// What one pressure solve finds.
-pub(super) struct Projected {
-    /// Pressure in Pa.
-    pub(super) pressure: Vec<f64>,
-    /// What the pressure that the next step begins with has more, in Pa, see [`View::viscous_pressure`].
-    pub(super) viscous_pressure: Vec<f64>,
-    /// The way in m that each fluid particle goes for the density-error correction by shifting, empty where there is none.
-    pub(super) density_error_shift: Vec<Vec2>,
-    /// What unit gradients along the periodic sides with a given flow do.
-    pub(super) responses: Vec<Response>,
-}
 
 /// The pressure equation of a step.
 struct PressureEquation {
@@ -161,7 +150,8 @@ impl View<'_, Fields> {
         }
         impose(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
         let (Particles { position, part, .. }, spacing) = (&self.state.particles, self.setting.method.spacing);
-        let unknowns = Unknowns { position, kind: &kind, part, has_dirichlet: &has_dirichlet, spacing };
+        let unknowns =
+            Unknowns { matrix: &matrix, position, kind: &kind, part, has_dirichlet: &has_dirichlet, spacing };
         let offset = |a: usize| if has_dirichlet[part[a] as usize] { prescribed.reference } else { 0.0 };
         p.iter_mut().enumerate().for_each(|(a, p)| *p = if given(a).is_some() { 0.0 } else { *p - offset(a) });
         let volume = &self.fields.bulk.volume[..p.len()];
@@ -169,7 +159,7 @@ impl View<'_, Fields> {
         let mut systems = vec![System { b: &mut b, x: &mut p, tolerance }];
         let others = others.iter_mut().zip(&mut found);
         systems.extend(others.map(|((b, tolerance), x)| System { b, x, tolerance: *tolerance }));
-        let solved = solve.solve(&matrix, &unknowns, volume, &mut systems);
+        let solved = solve.solve(&unknowns, volume, &mut systems);
         let convergence = solved[0];
         p.iter_mut().enumerate().for_each(|(a, p)| *p = given(a).unwrap_or(*p + offset(a)));
         work.last_iterations = convergence.iterations;

@@ -16,23 +16,25 @@ impl View<'_, Fields> {
         Viscous { volume: &f.volume, density: &f.density, viscosity: &f.viscosity }
     }
 
+    /// The acceleration of the fluid particles in m/s² by friction, without the transposed part of the stress; `v_ab(a, b)` in m/s.
+    fn friction_by(&self, v_ab: impl Fn(usize, usize) -> Vec2 + Sync) -> Vec<Vec2> {
+        let (pairs, fluids) = (&self.neighborhood.pairs, self.state.particles.fluids);
+        match self.setting.method.numerics.viscous_term {
+            ViscousTerm::Morris | ViscousTerm::Stress => self.viscous().morris(pairs, v_ab, fluids),
+            ViscousTerm::Szewc => self.viscous().szewc(pairs, v_ab, fluids),
+        }
+    }
+
     /// The viscous acceleration of the fluid particles in m/s².
     pub(super) fn viscous_acceleration(&self, velocity: &Field<Vec2>) -> Vec<Vec2> {
-        let (fluids, f, viscous) = (self.state.particles.fluids, &self.fields.bulk, self.viscous());
-        let v_ab = |a: usize, b: usize| self.velocity_difference(velocity, a, b);
-        match self.setting.method.numerics.viscous_term {
-            ViscousTerm::Stress => {
-                let mut acceleration = viscous.morris(&self.neighborhood.pairs, v_ab, fluids);
-                if let Some(stress) = self.transposed_stress() {
-                    let forces = stress.force(velocity, fluids);
-                    let both = acceleration.iter_mut().zip(forces).enumerate();
-                    both.for_each(|(a, (by, force))| *by += force / (f.density[a] * f.volume[a]));
-                }
-                acceleration
-            }
-            ViscousTerm::Morris => viscous.morris(&self.neighborhood.pairs, v_ab, fluids),
-            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, fluids),
+        let f = &self.fields.bulk;
+        let mut acceleration = self.friction_by(|a, b| self.velocity_difference(velocity, a, b));
+        if let Some(stress) = self.transposed_stress() {
+            let forces = stress.force(velocity, acceleration.len());
+            let both = acceleration.iter_mut().zip(forces).enumerate();
+            both.for_each(|(a, (by, force))| *by += force / (f.density[a] * f.volume[a]));
         }
+        acceleration
     }
 
     /// The transposed part of the stress, where the method has it and the fluids differ in viscosity.
@@ -56,20 +58,15 @@ impl View<'_, Fields> {
     /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles and to the wall particles that
     /// `is_meant` takes by the index and by the place (m).
     pub fn friction(&self, is_meant: impl Fn(usize, Vec2) -> bool + Sync) -> Vec2 {
-        let (particles, f, viscous) = (&self.state.particles, &self.fields.bulk, self.viscous());
+        let (particles, f) = (&self.state.particles, &self.fields.bulk);
         let (moving, velocity) = (particles.moving(), self.velocity());
         let v_ab = |a: usize, b: usize| {
             let source = self.neighborhood.images.source(b);
             let counts = source >= moving && is_meant(a, particles.position[source]);
             if counts { self.velocity_difference(&velocity, a, b) } else { Vec2::zeros() }
         };
-        let acceleration = match self.setting.method.numerics.viscous_term {
-            // The transposed part has no force on walls.
-            ViscousTerm::Morris | ViscousTerm::Stress => {
-                viscous.morris(&self.neighborhood.pairs, v_ab, particles.fluids)
-            }
-            ViscousTerm::Szewc => viscous.szewc(&self.neighborhood.pairs, v_ab, particles.fluids),
-        };
+        // The transposed part of the stress has no force on walls.
+        let acceleration = self.friction_by(v_ab);
         -acceleration.iter().enumerate().map(|(a, by)| f.density[a] * f.volume[a] * by).sum::<Vec2>()
     }
 

@@ -7,10 +7,13 @@ use crate::interface::weighted_circle::{
     FEWEST_FROM_CONTACT, WallFrame, WeightedPoint, angle_through, fit_from_contact,
 };
 use crate::math::{Vec2, perpendicular};
+use crate::sph::bulk::BulkFields;
 use crate::sph::domain::Domain;
+use crate::sph::setting::Setting;
 use crate::sph::surface_force::contact_points::ContactPoint;
 use crate::sph::surface_force::stencils::Interface;
-use crate::sph::wetting::lines::DetectedLine;
+use crate::sph::view::View;
+use crate::sph::wetting::lines::{DetectedLine, Following, Line};
 
 /// Points nearer to the wall than this, over dx, tell the place of a line: those between its first two layers of particles, or where
 /// a moving line has parted them those above.
@@ -24,7 +27,6 @@ pub(crate) struct InterfaceLine<'a> {
     pub(super) interface: &'a Interface<'a>,
     /// About where it is, on the wall, in m.
     pub(super) place: Vec2,
-    pub(super) outward: Vec2,
     /// Wall normal.
     pub(super) normal: Vec2,
     /// 1 where ν_ns lies to the left of the wall normal, else -1.
@@ -33,6 +35,29 @@ pub(crate) struct InterfaceLine<'a> {
     pub(super) into_wetting: Vec2,
     /// The points around it, relative to the place.
     pub(super) near: Vec<WeightedPoint>,
+}
+
+impl View<'_, BulkFields> {
+    /// The contact lines now, from those of the step before and from what is `seen` of them.
+    pub(super) fn followed(&self, seen: &[impl DetectedLine]) -> Vec<Line> {
+        let Setting { method, domain, spots, .. } = self.setting;
+        let Some(base) = method.wetting else { return Vec::new() };
+        let h = method.kernel.h;
+        // Nothing happens at a line faster than an interface of the size h moves.
+        let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
+        let following = Following {
+            domain,
+            model: &|x| spots.model(method, x).unwrap_or(base),
+            wall_velocity: &|x| spots.velocity(x),
+            tension: method.tension,
+            viscosity: method.wetting_fluid.viscosity,
+            other_viscosity: method.other_fluid.viscosity,
+            slip_length: method.no_slip.line_slip_length,
+            h,
+            mean_over,
+        };
+        following.follow(&self.state.lines, seen, self.state.last_dt)
+    }
 }
 
 impl Interface<'_> {
@@ -93,14 +118,12 @@ impl Interface<'_> {
         let into_wetting: Vec2 = group.iter().map(|k| weight(k) * self.points[ends[*k].0].normal).sum();
         let into_wetting = into_wetting.try_normalize(f64::EPSILON)?;
         let side = ends[group[0]].1.side;
-        let outward = side * perpendicular(normal);
         let level = self.stencil(into_wetting, place);
         let kappa = self.circle(&level, into_wetting).and_then(|circle| circle.curvature()).unwrap_or(0.0);
         let near = self.of_one_curvature(&self.on_interface(&level, kappa), Vec2::zeros());
         (near.len() >= FEWEST_FROM_CONTACT).then_some(InterfaceLine {
             interface: self,
             place,
-            outward,
             normal,
             side,
             into_wetting,
@@ -120,14 +143,15 @@ impl DetectedLine for InterfaceLine<'_> {
     }
 
     fn outward(&self) -> Vec2 {
-        self.outward
+        self.side * perpendicular(self.normal)
     }
 
     /// Σ w v·n/Σ w ν·n: along the wall, the interface moves at the speed U where v·n = U ν·n.
     fn speed(&self) -> f64 {
+        let outward = self.outward();
         let (moved, along) = self.near.iter().fold((0.0, 0.0), |(moved, along), q| {
             let p = &self.interface.points[q.index];
-            (moved + q.weight * p.velocity.dot(&p.normal), along + q.weight * self.outward.dot(&p.normal))
+            (moved + q.weight * p.velocity.dot(&p.normal), along + q.weight * outward.dot(&p.normal))
         });
         // ν·n is −sin of the angle; where its mean vanishes the interface lies along the wall and tells no speed.
         if along < 0.0 { moved / along } else { 0.0 }
@@ -140,12 +164,12 @@ impl DetectedLine for InterfaceLine<'_> {
     }
 
     fn meets(&self, angle: f64) -> Vec2 {
-        let wall = WallFrame { outward: self.outward, normal: self.normal };
+        let wall = WallFrame { outward: self.outward(), normal: self.normal };
         let shift = fit_from_contact(&self.near, Vec2::zeros(), wall, angle);
         // A fit that runs away along the wall is no better than the straight continuation.
         let shift =
             shift.map(|(_, shift)| shift).filter(|shift| shift.abs() < ONE_LINE * self.interface.h).unwrap_or(0.0);
-        let x = self.place + shift * self.outward;
+        let x = self.place + shift * wall.outward;
         let (distance, normal) = (self.interface.wall)(x);
         x - distance * normal
     }

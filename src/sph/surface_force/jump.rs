@@ -7,7 +7,7 @@ use crate::sph::bulk::BulkFields;
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::pairs::Pairs;
-use crate::sph::parallel::{GRAIN, each, values};
+use crate::sph::parallel::{GRAIN, values};
 use crate::sph::surface_force::fit::{Fitted, Turning};
 use crate::sph::surface_force::stencils::{SMOOTHNESS, STENCIL_RADIUS};
 use crate::sph::view::View;
@@ -44,20 +44,14 @@ pub struct Jump {
     pub is_across: Vec<bool>,
 }
 
-/// The curvature of an interface.
-pub(crate) struct InterfaceCurvature<F: Fn(Vec2) -> Option<Fitted> + Sync> {
-    /// That near a place (m), none where there is no interface.
-    pub(crate) at: F,
-    /// Its gradient at rest in 1/m².
-    pub(crate) gradient: Vec2,
-}
-
 impl Jump {
-    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls.
+    /// Sides and curvatures; `color` is sharp on fluid particles and that of the fluid nearby on walls. `curvature_at` is that near a place (m), none
+    /// where there is no interface; `gradient` that at rest in 1/m².
     pub(crate) fn new(
         flow: &View<BulkFields>,
         color: &[f64],
-        interface: &InterfaceCurvature<impl Fn(Vec2) -> Option<Fitted> + Sync>,
+        gradient: Vec2,
+        curvature_at: impl Fn(Vec2) -> Option<Fitted> + Sync,
     ) -> Self {
         let (Neighborhood { pairs, images }, position) = (flow.neighborhood, &flow.state.particles.position);
         let (domain, h) = (&flow.setting.domain, flow.setting.method.kernel.h);
@@ -67,10 +61,9 @@ impl Jump {
         let fitted: Vec<Option<Fitted>> = (0..fluids)
             .into_par_iter()
             .with_min_len(GRAIN / 8)
-            .map(|a| if is_across[a] { (interface.at)(position[a]) } else { None })
+            .map(|a| if is_across[a] { curvature_at(position[a]) } else { None })
             .collect();
-        let rest =
-            |a: usize, b: usize| interface.gradient.dot(&domain.separation(position[a], position[images.source(b)]));
+        let rest = |a: usize, b: usize| gradient.dot(&domain.separation(position[a], position[images.source(b)]));
         let apart = |x: Vec2, y: Vec2| domain.separation(x, y).norm();
         let on_fluid = values(fluids, |a| {
             let Some(Fitted { curvature, turning }) = fitted[a] else { return f64::NAN };
@@ -86,11 +79,9 @@ impl Jump {
         curvature.resize(n, f64::NAN);
         // Wall particles: the mean of their fluid neighbors; deeper layers that of the layer before.
         for _ in 0..2 {
-            let known = images.field(curvature.clone());
-            each(&mut curvature[fluids..], |i| {
-                let a = fluids + i;
-                if known[a].is_nan() { average_at(a, pairs, None, |b| known[b] + rest(a, b)) } else { known[a] }
-            });
+            let known = images.field(curvature);
+            let of_wall = |a: usize| average_at(a, pairs, None, |b| known[b] + rest(a, b));
+            curvature = values(n, |a| if a >= fluids && known[a].is_nan() { of_wall(a) } else { known[a] });
         }
         Self { side, curvature: images.field(curvature), is_across }
     }
@@ -145,14 +136,9 @@ fn smoothed(
 ) -> Vec<f64> {
     let average = |mut field: Vec<f64>| {
         for _ in 0..PASSES {
-            let known = field.clone();
-            let at = |a: usize, b: usize| known.get(images.source(b)).map_or(f64::NAN, |kappa| kappa + rest(a, b));
-            each(&mut field, |a| {
-                if known[a].is_nan() {
-                    return f64::NAN;
-                }
-                average_at(a, pairs, Some(known[a]), |b| at(a, b))
-            });
+            let at = |a: usize, b: usize| field.get(images.source(b)).map_or(f64::NAN, |kappa| kappa + rest(a, b));
+            let mean = |a: usize| average_at(a, pairs, Some(field[a]), |b| at(a, b));
+            field = values(field.len(), |a| if field[a].is_nan() { f64::NAN } else { mean(a) });
         }
         field
     };

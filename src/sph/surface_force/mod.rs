@@ -13,7 +13,6 @@ pub(crate) mod continuum;
 pub(crate) mod detected_lines;
 mod fields;
 pub(crate) mod fit;
-mod follow;
 pub(crate) mod jump;
 pub(crate) mod pinned_lines;
 pub(crate) mod points;

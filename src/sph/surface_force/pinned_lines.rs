@@ -9,6 +9,7 @@ use crate::interface::weighted_circle::{WallFrame, fit_from_contact};
 use crate::math::{Vec2, perpendicular};
 use crate::sph::surface_force::contact_points::angle_pulled;
 use crate::sph::surface_force::detected_lines::InterfaceLine;
+use crate::sph::wetting::lines::DetectedLine;
 
 /// A wall bends at a line where the normals this far to both sides of it, over h, differ by more than `BENT`.
 const NEIGHBORHOOD: f64 = 1.0;
@@ -47,7 +48,7 @@ impl InterfaceLine<'_> {
     /// Where the interface meets the wall at the `angle` (rad), if the wall bends there.
     pub(crate) fn pinned(&self, angle: f64) -> Option<PinnedLine> {
         let (interface, place) = (self.interface, self.place);
-        let normal_at = |way: f64| (interface.wall)(place + way * interface.h * self.outward).1;
+        let normal_at = |way: f64| (interface.wall)(place + way * interface.h * self.outward()).1;
         if normal_at(NEIGHBORHOOD).dot(&normal_at(-NEIGHBORHOOD)) > BENT {
             return None;
         }

@@ -38,18 +38,6 @@ pub(crate) struct InterfacePoint {
     pub(crate) weight: f64,
 }
 
-/// What the search for points needs of the interface.
-pub(crate) struct PointFields<'a> {
-    /// Smoothed color.
-    pub(crate) color: &'a Field<f64>,
-    /// Consistent gradient of the smoothed color in 1/m.
-    pub(crate) gradient: &'a Field<Vec2>,
-    /// Velocity in m/s.
-    pub(crate) velocity: &'a Field<Vec2>,
-    /// Whether the smoothed color of a moving particle or of one of its neighbors is neither 0 nor 1.
-    pub(crate) near: &'a [bool],
-}
-
 /// Lengths of the discretization.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Resolution {
@@ -59,14 +47,21 @@ pub(crate) struct Resolution {
     pub(crate) h: f64,
 }
 
-/// All interface points between moving particles, with images near mirrors.
-pub(crate) fn interface_points(flow: &View<BulkFields>, fields: &PointFields) -> Vec<InterfacePoint> {
+/// All interface points between moving particles, with images near mirrors, from the smoothed color and its consistent `gradient` in 1/m; `near` are
+/// moving particles whose smoothed color, or that of one of their neighbors, is neither 0 nor 1.
+pub(crate) fn interface_points(
+    flow: &View<BulkFields>,
+    color: &Field<f64>,
+    gradient: &Field<Vec2>,
+    near: &[bool],
+) -> Vec<InterfacePoint> {
+    let velocity = flow.velocity();
     let (Neighborhood { pairs, images }, moving) = (flow.neighborhood, flow.state.particles.moving());
     let (spacing, h) = (flow.setting.method.spacing, flow.setting.method.kernel.h);
     let mut points = Vec::new();
     let link2 = (LINK * spacing).powi(2);
-    for a in (0..moving).filter(|&a| fields.near[a]) {
-        let c_a = fields.color[a] - LEVEL;
+    for a in (0..moving).filter(|&a| near[a]) {
+        let c_a = color[a] - LEVEL;
         for ab in pairs.of(a) {
             let source = images.source(ab.b);
             let is_image = source != ab.b;
@@ -74,20 +69,20 @@ pub(crate) fn interface_points(flow: &View<BulkFields>, fields: &PointFields) ->
             if source >= moving || (!is_image && ab.b < a) {
                 continue;
             }
-            let c_b = fields.color[ab.b] - LEVEL;
+            let c_b = color[ab.b] - LEVEL;
             if (c_a > 0.0) == (c_b > 0.0) {
                 continue;
             }
             let x_a = flow.state.particles.position[a];
             let r_ba = -flow.separation(a, ab.b);
             let f = c_a / (c_a - c_b);
-            let g = (1.0 - f) * fields.gradient[a] + f * fields.gradient[ab.b];
+            let g = (1.0 - f) * gradient[a] + f * gradient[ab.b];
             let closeness = 1.0 - r_ba.norm_squared() / link2;
             if closeness > 0.0 && g.norm() > SMALLEST_GRADIENT / h {
                 let (wall_distance, wall_normal) = wall_between(flow.fields, a, source, f);
-                let velocity = (1.0 - f) * fields.velocity[a] + f * fields.velocity[ab.b];
+                let velocity = (1.0 - f) * velocity[a] + f * velocity[ab.b];
                 let (x, normal) = (x_a + f * r_ba, g.normalize());
-                let touches = wall_distance.is_finite() && both_touch(flow, fields.color, a, source);
+                let touches = wall_distance.is_finite() && both_touch(flow, color, a, source);
                 let weight = closeness.powi(2);
                 points.push(InterfacePoint { x, normal, velocity, wall_distance, wall_normal, touches, weight });
             }

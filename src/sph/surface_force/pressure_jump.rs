@@ -9,8 +9,8 @@ use crate::sph::parallel::values;
 use crate::sph::setting::Setting;
 use crate::sph::surface_force::fields::{InterfaceFields, SurfaceForce};
 use crate::sph::surface_force::fit::{Fitted, InterfaceFit};
-use crate::sph::surface_force::jump::{InterfaceCurvature, Jump};
-use crate::sph::surface_force::points::{PointFields, Resolution, interface_points};
+use crate::sph::surface_force::jump::Jump;
+use crate::sph::surface_force::points::{Resolution, interface_points};
 use crate::sph::surface_force::stencils::Interface;
 use crate::sph::terms::{color, pressure_gradient};
 use crate::sph::view::View;
@@ -37,12 +37,11 @@ impl View<'_, BulkFields> {
         let normal = color::consistent_gradient(pairs, &bulk.fluid_volume, &near, &color, r_ab);
         let normal = images.reflected_field(normal);
         let moment = pressure_gradient::moment(pairs, &bulk.volume, r_ab, fluids);
-        let fields = PointFields { color: &color, gradient: &normal, velocity: &self.velocity(), near: &near };
-        let points = interface_points(self, &fields);
+        let points = interface_points(self, &color, &normal, &near);
         let resolution = Resolution { spacing: method.spacing, h: method.kernel.h };
-        let interface = Interface::new(&points, domain, resolution, &self.setting.wall)
-            .under(method.curvature_gradient())
-            .before(self.state.last_dt);
+        let at_rest =
+            Interface::new(&points, domain, resolution, &self.setting.wall).under(method.curvature_gradient());
+        let interface = Interface { step: self.state.last_dt, ..at_rest };
         let (mut lines, mut pinned) = (Vec::new(), Vec::new());
         if method.wetting.is_some() {
             let seen = interface.lines();
@@ -62,9 +61,8 @@ impl View<'_, BulkFields> {
         }
         let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
         let given = given.map(|curvature| Fitted { curvature, turning: None });
-        let curvature = InterfaceCurvature { at: |x: Vec2| given.or_else(|| fit.at(x)), gradient };
         let side = shepard::into_walls(self.neighborhood, &bulk.fluid_volume, moving, sharp.to_vec());
-        let jump = Jump::new(self, &side, &curvature);
+        let jump = Jump::new(self, &side, gradient, |x| given.or_else(|| fit.at(x)));
         let curvature = jump.curvature[..particles.len()].iter().map(|&k| if k.is_nan() { 0.0 } else { k }).collect();
         let range = |a: usize| {
             let has_wall = bulk.wall_distance[a].is_finite();

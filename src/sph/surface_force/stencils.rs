@@ -63,11 +63,6 @@ impl<'a> Interface<'a> {
         Self { gradient, ..self }
     }
 
-    /// The same interface before a step of the length `step` (s).
-    pub(crate) fn before(self, step: f64) -> Self {
-        Self { step, ..self }
-    }
-
     /// Index of the nearest point and x − x_p; all of those that are equally near, so that a mirrored flow stays mirrored.
     pub(super) fn nearest(&self, x: Vec2) -> Vec<(usize, Vec2)> {
         let mut least = (STENCIL_RADIUS * self.h).powi(2);
