@@ -66,6 +66,12 @@ impl Bounds {
         0.5 * (self.min + self.max)
     }
 
+    /// The smallest box around points, where there are any.
+    pub(crate) fn around(mut points: impl Iterator<Item = Vec2>) -> Option<Self> {
+        let first = points.next()?;
+        Some(points.fold(Self { min: first, max: first }, |b, x| Self { min: b.min.inf(&x), max: b.max.sup(&x) }))
+    }
+
     /// Whether `x` lies in the box, its sides included.
     pub fn contains(&self, x: Vec2) -> bool {
         (0..2).all(|i| self.min[i] <= x[i] && x[i] <= self.max[i])

@@ -7,7 +7,7 @@
 use super::case_text::Fluids;
 use super::events::PlannedEvent;
 use super::plan::Kind;
-use super::results::{Direct, Run, Status, runs_of};
+use super::results::{Direct, Run, Status, runs_of, unfinished};
 use crate::io::series;
 use crate::network::cycles::FluidPhase;
 use crate::study::folder::StudyFolder;
@@ -101,11 +101,8 @@ pub(crate) fn event_row<'a>(
 }
 
 fn judged(runs: &[Run], area: f64, scale: f64, invading: FluidPhase, folder: &StudyFolder) -> (Option<Direct>, Status) {
-    if let Some(why) = runs.iter().find_map(Run::failed) {
-        return (None, Status::Failed(why));
-    }
-    if runs.is_empty() || runs.iter().any(|run| !run.is_complete()) {
-        return (None, Status::Open);
+    if let Some(status) = unfinished(runs) {
+        return (None, status);
     }
     let mut found: Vec<(f64, f64)> = Vec::new();
     for run in runs {

@@ -128,6 +128,12 @@ pub(super) fn runs_of<'a>(number: usize, kind: Kind, spacings: &[u32], results: 
     found.map(|result| Run { result }).collect()
 }
 
+/// Why runs have no value yet; none where all are complete.
+pub(super) fn unfinished(runs: &[Run]) -> Option<Status> {
+    let open = || (runs.is_empty() || !runs.iter().all(Run::is_complete)).then_some(Status::Open);
+    runs.iter().find_map(Run::failed).map(Status::Failed).or_else(open)
+}
+
 /// The row of a throat; `spacings` in their order.
 pub(crate) fn row<'a>(
     planned: &'a Planned,
@@ -180,11 +186,8 @@ pub(crate) fn row<'a>(
 /// The finest value with its error, from runs in the order of their spacings, coarse to fine; `coarse` is the largest relative difference of two
 /// of them.
 fn judged(runs: &[Run], coarse: f64, value: &dyn Fn(&Run) -> Option<(f64, f64)>) -> (Option<Direct>, Status) {
-    if let Some(why) = runs.iter().find_map(Run::failed) {
-        return (None, Status::Failed(why));
-    }
-    if runs.is_empty() || runs.iter().any(|run| !run.is_complete()) {
-        return (None, Status::Open);
+    if let Some(status) = unfinished(runs) {
+        return (None, status);
     }
     let values: Vec<Option<(f64, f64)>> = runs.iter().map(value).collect();
     let Some(&Some((finest, bar))) = values.last() else {

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use super::contour::{Piece, circle_of_bulge};
 use super::drawing::Ring;
 use crate::geometry::curve::cross;
-use crate::math::Vec2;
+use crate::math::{Bounds, Vec2};
 
 /// Arcs whose centers and radii agree to this share of the radius lie on one circle: the center of a half circle moves by the
 /// square root of the rounding of its ends.
@@ -56,7 +56,8 @@ pub(crate) fn close(pieces: &[Piece], gap: f64) -> Closed {
             vertices.push([end.x, end.y, 0.0]);
         }
     }
-    let size = extent(&vertices);
+    let corners = vertices.iter().map(|vertex| Vec2::new(vertex[0], vertex[1]));
+    let size = Bounds::around(corners).map_or(0.0, |bounds| bounds.size().norm());
     merge_vertices(&mut vertices, ONE_VERTEX * size);
     if let Some((center, radius)) = one_circle(&vertices) {
         let is_clockwise = vertices.first().is_some_and(|vertex| vertex[2] < 0.0);
@@ -67,14 +68,6 @@ pub(crate) fn close(pieces: &[Piece], gap: f64) -> Closed {
     // The lobes of a figure of eight, which takes three vertices, may cancel in its area.
     let has_area = has_net_area || (ring.vertices.len() > 2 && ring.width() > ONE_VERTEX * size);
     if ring.vertices.len() < 2 || !has_area { Closed::Empty } else { Closed::Ring(ring) }
-}
-
-/// The diagonal of the box around the vertices.
-fn extent(vertices: &[[f64; 3]]) -> f64 {
-    let mut points = vertices.iter().map(|vertex| Vec2::new(vertex[0], vertex[1]));
-    let Some(first) = points.next() else { return 0.0 };
-    let (low, high) = points.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)));
-    (high - low).norm()
 }
 
 /// Leaves out each vertex that lies on the next one, also the last that lies on the first.

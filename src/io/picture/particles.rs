@@ -26,7 +26,7 @@ pub(super) fn particle_picture(
 ) -> Result<Vec<u8>, PictureError> {
     let points = &snapshot.particles.points;
     let finite = |x: &&Vec2| x.iter().all(|c| c.is_finite());
-    let tight = hull(points.iter().filter(finite)).ok_or(PictureError::Empty)?;
+    let tight = Bounds::around(points.iter().filter(finite).copied()).ok_or(PictureError::Empty)?;
     let spacing = particle_spacing(snapshot, &tight);
     let bounds = tight.grown(0.5 * spacing);
     let view = View::new(bounds);
@@ -55,11 +55,6 @@ fn particle_spacing(snapshot: &Snapshot<'_>, tight: &Bounds) -> f64 {
     };
     // Particles in a row fill no area, a single one has no extent at all: then any spacing is better than none.
     [mean.sqrt(), tight.size().max() / count].into_iter().find(|&spacing| spacing > 0.0).unwrap_or(1.0)
-}
-
-fn hull<'a>(mut points: impl Iterator<Item = &'a Vec2>) -> Option<Bounds> {
-    let first = *points.next()?;
-    Some(points.fold(Bounds { min: first, max: first }, |b, x| Bounds { min: b.min.inf(x), max: b.max.sup(x) }))
 }
 
 /// A field of whole numbers on the particles.

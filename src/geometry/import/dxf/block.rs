@@ -11,7 +11,7 @@ use crate::geometry::import::closing::{Closed, close};
 use crate::geometry::import::contour::Piece;
 use crate::geometry::import::drawing::{Drawing, Entity, FillRule, Nesting, Outline, Paint, Refusal};
 use crate::geometry::import::limits::Budget;
-use crate::math::Vec2;
+use crate::math::{Bounds, Vec2};
 
 /// Blocks within blocks.
 const DEEPEST: usize = 64;
@@ -289,8 +289,6 @@ impl Reader<'_> {
 
 /// The diagonal of the box around ends and middles of pieces.
 fn extent(pieces: &[Piece]) -> f64 {
-    let mut points = pieces.iter().flat_map(|piece| piece.ends().into_iter().chain([piece.middle()]));
-    let Some(first): Option<Vec2> = points.next() else { return 0.0 };
-    let (low, high) = points.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)));
-    (high - low).norm()
+    let points = pieces.iter().flat_map(|piece| piece.ends().into_iter().chain([piece.middle()]));
+    Bounds::around(points).map_or(0.0, |bounds| bounds.size().norm())
 }
