@@ -26,7 +26,10 @@ fn measures(s: &Subject) -> Vec<Measure> {
         period: flow.setting.domain.periods(),
     };
     let jump = laplace_jump(&samples, center(s), radius);
-    let scale = flow.setting.method.tension / radius;
+    // Between floor and lid the curvature over the depth acts too.
+    let plates = flow.setting.method.plates;
+    let curvature = plates.map_or(1.0 / radius, |plates| -plates.depth.curvature_of_drop(-1.0 / radius));
+    let scale = flow.setting.method.tension * curvature;
     let speeds = last(s.series, "max_speed_m_per_s", LAST);
     let speed = speeds.into_iter().map(|(_, speed)| speed).fold(f64::NAN, f64::max);
     let capillary = flow.setting.method.wetting_fluid.viscosity * speed / flow.setting.method.tension;

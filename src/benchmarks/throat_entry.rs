@@ -33,9 +33,12 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let distance = (b.center - a.center).norm();
     // The phase of the larger pressure is the one that invades; the angle is that through the other one.
     let angle = wetting.static_angle();
-    let [defending, sign] = if found.value < 0.0 { [PI - angle, -1.0] } else { [angle, 1.0] };
+    let depth = s.flow.setting.method.plates.map(|plates| plates.depth);
+    let in_plane = depth.map_or(found.value, |depth| depth.plane(found.value / tension));
+    let [defending, sign] = if in_plane < 0.0 { [PI - angle, -1.0] } else { [angle, 1.0] };
     let exact = entry_curvature([a.radius, b.radius], distance, defending).map(|curvature| sign * curvature);
-    let ratio = |pressure: f64| exact.map_or(f64::NAN, |exact| pressure / (tension * exact));
+    let entry = exact.map(|exact| tension * depth.map_or(exact, |depth| depth.curvature(exact)));
+    let ratio = |pressure: f64| entry.map_or(f64::NAN, |entry| pressure / entry);
     let fitted: Vec<f64> = s.seen.lines_with_angle().map(|line| -line.curvature).collect();
     let curvature = fitted.iter().sum::<f64>() / fitted.len() as f64;
     vec![
@@ -49,7 +52,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
         ),
         measure(
             "entry-curvature-ratio",
-            ratio(curvature * tension),
+            exact.map_or(f64::NAN, |exact| curvature / exact),
             "",
             None,
             "curvature of the fitted meniscus at the end over 1/r*",

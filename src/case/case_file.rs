@@ -41,6 +41,9 @@ pub struct Case {
     pub title: String,
     /// Domain and solids.
     pub geometry: GeometrySpec,
+    /// Distance of floor and lid in m; absent in the plane, where all is per meter of depth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth: Option<f64>,
     /// The model that solves it.
     pub model: Model,
     /// End of the simulation in s; of a network the most that it can displace, in pore volumes.
@@ -52,6 +55,21 @@ pub struct Case {
     pub output: Output,
     /// What the run must give.
     pub expect: Vec<Expectation>,
+}
+
+impl Case {
+    /// What its pressures, volumes and rates are those of, in a line; none of a film on a wall.
+    pub(crate) fn about_depth(&self) -> Option<String> {
+        match (&self.model, self.depth) {
+            (Model::ThinFilm(_), _) => None,
+            (_, None) => {
+                Some("plane, per meter of depth; a chip of finite depth has other pressures: geometry.depth".to_owned())
+            }
+            (_, Some(depth)) => {
+                Some(format!("{} um, with the curvature and the friction of floor and lid", 1e6 * depth))
+            }
+        }
+    }
 }
 
 /// The models.
@@ -99,6 +117,7 @@ fn raw(case: &Case) -> RawCase {
             max: Some(geometry.max),
             solid: Some(geometry.solid),
             shapes: Some(geometry.shapes.clone()),
+            depth: case.depth,
             ..RawGeometry::default()
         }),
         sph,

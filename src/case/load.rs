@@ -8,7 +8,7 @@ use super::magnitude::magnitudes;
 use super::network::RawNetwork;
 use super::network::state::Start;
 use super::shapes::{RawGeometry, RawShapeFile};
-use super::{film, network, permeability, records, relative_permeability, shapes, sph, start};
+use super::{depth, film, network, permeability, records, relative_permeability, shapes, sph, start};
 use crate::geometry::ShapeFileError;
 use crate::geometry::import::{self, Beyond, Format, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
@@ -127,7 +127,9 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     let given = if let Origin::Started(_, state) = origin { Some(*state) } else { None };
     let start = start::start(&mut checker, raw, (folder, given), geometry.as_ref(), &mut sources);
     let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
-    let model = model(&mut checker, (raw, network.as_ref()), geometry.as_ref(), start);
+    let mut model = model(&mut checker, (raw, network.as_ref()), geometry.as_ref(), start);
+    let depth = raw.geometry.as_ref().and_then(|geometry| geometry.depth);
+    depth::depth(&mut checker, depth, model.as_mut(), geometry.as_ref());
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref().and_then(Model::sides));
     permeability::permeability(&mut checker, model.as_ref(), geometry.as_ref());
     relative_permeability::relative_permeability(&mut checker, model.as_ref());
@@ -147,7 +149,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     else {
         return Err(InputError { mistakes });
     };
-    let case = Case { title, geometry, model, end, steady, output, expect };
+    let case = Case { title, geometry, depth, model, end, steady, output, expect };
     let resolved = case_file::text(&case);
     Ok(Loaded { case, resolved, sources, notes, document })
 }

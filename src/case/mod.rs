@@ -5,6 +5,7 @@
 //! way back; what each key may hold by itself stands beside the key ([`tables`](crate::input::tables)).
 
 mod case_file;
+mod depth;
 mod facts;
 pub mod film;
 mod fluid;
@@ -50,6 +51,6 @@ pub(crate) use side::{SIDES, Side, SideName};
 pub(crate) use sph::Sph;
 pub(crate) use steady::{FEWEST_ROWS, SteadyStop};
 pub use surface_force::{LineDelta, SurfaceForce};
-pub(crate) use wetting::{PatchedWall, RawWetting, WettingPatch};
+pub(crate) use wetting::{PatchedWall, RawWetting, WettingPatch, on_plates};
 #[cfg(test)]
 pub(crate) use {initial::Initial, side::Sides, sides::Walls};

@@ -2,7 +2,7 @@
 
 use super::case_file::{Case, Model, RawCase, text};
 use super::network::{RawNetwork, network};
-use super::{records, shapes};
+use super::{depth, records, shapes};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Checker, Problem};
 
@@ -10,10 +10,16 @@ use crate::input::{Checker, Problem};
 ///
 /// # Errors
 /// All problems of the keys, by the names that they have in a case file.
-pub(crate) fn quick(title: &str, geometry: GeometrySpec, raw: &RawNetwork) -> Result<(Case, String), Vec<Problem>> {
+pub(crate) fn quick(
+    title: &str,
+    geometry: GeometrySpec,
+    depth: Option<f64>,
+    raw: &RawNetwork,
+) -> Result<(Case, String), Vec<Problem>> {
     let mut checker = Checker::default();
     let raw = raw.clone().in_range(&mut checker, "network");
-    let found = network(&mut checker, &raw, Some(&geometry), None).map(|network| Model::Network(Box::new(network)));
+    let mut found = network(&mut checker, &raw, Some(&geometry), None).map(|network| Model::Network(Box::new(network)));
+    depth::depth(&mut checker, depth, found.as_mut(), Some(&geometry));
     shapes::refuse_images(&mut checker, Some(&geometry), found.as_ref().and_then(Model::sides));
     let whole = RawCase { network: Some(raw), ..RawCase::default() };
     let end = records::end(&mut checker, &whole, found.as_ref());
@@ -23,7 +29,7 @@ pub(crate) fn quick(title: &str, geometry: GeometrySpec, raw: &RawNetwork) -> Re
     };
     // An interval above the end leaves the end; it must stay above 0 where nothing is displaced.
     (output.vtk_every, output.restart_every) = (end.max(1.0), end.max(1.0));
-    let case = Case { title: title.to_owned(), geometry, model, end, steady: None, output, expect: Vec::new() };
+    let case = Case { title: title.to_owned(), geometry, depth, model, end, steady: None, output, expect: Vec::new() };
     let resolved = text(&case);
     Ok((case, resolved))
 }

@@ -63,8 +63,14 @@ tables! {
         pub solid: SolidSide,
         /// The shapes, united; not with `file`.
         pub shapes: Vec<ShapeSpec>,
+        /// Distance of floor and lid in m (default: none; everything is per meter of depth).
+        pub depth: f64 => DEPTH,
     }
 }
+
+/// Distance of floor and lid.
+pub(crate) const DEPTH: Key =
+    Key::positive("a depth in m").help("an etched or molded chip has 20e-6 to 400e-6; leave it out for a plane");
 
 /// The geometry of a shape file.
 pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<GeometrySpec> {

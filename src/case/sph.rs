@@ -24,6 +24,9 @@ tables! {
         pub spacing: f64 => Key::positive("a spacing in m").example("spacing = 2.0e-5 # m"),
         /// Smoothing length over spacing, `h/dx` (default 1.5).
         pub smoothing_ratio: f64 => Key::within("smoothing length over spacing", 1.0, 3.0),
+        /// With `geometry.depth`: factor of the profile over the depth in inertia and in the viscous stress in the plane (default: that with which a duct as wide
+        /// as the median throat has its flow, 1 in a deep and 1.2 in a shallow one).
+        pub profile_factor: f64 => Key::within("a factor", 1.0, 2.0),
         /// Length of the dimensionless numbers in m (default: the shorter of narrowest throat and root of the drop
         /// area; else the shorter side).
         pub reference_length: f64 => Key::positive("a length in m"),
@@ -63,6 +66,12 @@ pub struct Sph {
     pub non_wetting: Option<Fluid>,
     /// Interfacial tension in N/m; 0 in single-phase flow.
     pub tension: f64,
+    /// Distance of floor and lid in m; absent in the plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth: Option<f64>,
+    /// Factor of the profile over the depth in inertia and in the viscous stress in the plane, where the case gives one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile_factor: Option<f64>,
     /// Form of the surface force; absent where the tension is 0.
     pub surface_force: Option<SurfaceForce>,
     /// Wetting model; absent: no line force.
@@ -172,6 +181,8 @@ pub(super) fn sph(
             None => None,
         },
         tension: tension?,
+        depth: None,
+        profile_factor: raw.profile_factor,
         surface_force,
         wetting_model,
         wetting_patches: patches,
@@ -239,6 +250,7 @@ pub(super) fn raw(sph: &Sph) -> RawSph {
     RawSph {
         spacing: Some(sph.spacing),
         smoothing_ratio: Some(sph.smoothing_ratio),
+        profile_factor: sph.profile_factor,
         reference_length: sph.reference_length,
         gravity: Some(sph.gravity.into()),
         phases: Some(RawPhases { wetting: Some(sph.wetting.into()), non_wetting: sph.non_wetting.map(RawFluid::from) }),

@@ -18,6 +18,8 @@ tables! {
         pub shape: u32,
         /// Wall side that is the patch (default: all walls).
         pub side: SideName,
+        /// Floor or lid of a chip that has a depth (default: both have the angles of the walls).
+        pub plate: Plate,
         /// Stripes of the patch (default: the whole patch).
         pub stripes: RawStripes,
         /// Static angle in degrees (required if the model has one).
@@ -42,6 +44,14 @@ tables! {
 }
 
 words! {
+    /// What bounds a chip below and above.
+    pub enum Plate {
+        /// The floor.
+        Floor,
+        /// The lid.
+        Lid,
+    }
+
     /// An axis.
     pub(crate) enum RawAxis {
         /// The first coordinate.
@@ -72,6 +82,8 @@ pub enum PatchedWall {
     Shape(u32),
     /// The left, right, bottom or top side, 0 to 3.
     Side(u32),
+    /// Floor or lid.
+    Plate(Plate),
 }
 
 /// Stripes across an axis: where the coordinate less `start`, modulo `period`, is below `width`.
@@ -85,6 +97,17 @@ pub struct Stripes {
     pub width: f64,
     /// From one to the next in m; absent: a single stripe.
     pub period: Option<f64>,
+}
+
+/// The angles that floor and lid have by `angle`: those of all walls where no patch says otherwise.
+pub(crate) fn on_plates(model: &Wetting, patches: &[WettingPatch], angle: impl Fn(&Wetting) -> f64) -> [f64; 2] {
+    [Plate::Floor, Plate::Lid].map(|plate| {
+        let lies_there = |patch: &&WettingPatch| match patch.on {
+            PatchedWall::All => patch.stripes.is_none(),
+            on => on == PatchedWall::Plate(plate),
+        };
+        angle(patches.iter().rfind(lies_there).map_or(model, |patch| &patch.model))
+    })
 }
 
 impl Stripes {
@@ -180,13 +203,15 @@ fn patched_wall(
     sides: Option<&Sides>,
     geometry: Option<&GeometrySpec>,
 ) -> Option<PatchedWall> {
-    match (raw.shape, raw.side) {
-        (None, None) => Some(PatchedWall::All),
-        (Some(_), Some(_)) => {
-            checker.refuse(format!("{at}.side"), "`shape` and `side` are both given", "keep one of them");
+    match (raw.shape, raw.side, raw.plate) {
+        (None, None, None) => Some(PatchedWall::All),
+        (None, None, Some(_)) if raw.stripes.is_some() => {
+            let message = "floor and lid have one angle everywhere, and `stripes` are given";
+            checker.refuse(format!("{at}.stripes"), message, "leave `stripes` or `plate` out");
             None
         }
-        (Some(shape), None) => {
+        (None, None, Some(plate)) => Some(PatchedWall::Plate(plate)),
+        (Some(shape), None, None) => {
             let count = geometry.map_or(u32::MAX, |geometry| geometry.shapes.len() as u32);
             if shape >= count {
                 checker.refuse(
@@ -198,7 +223,7 @@ fn patched_wall(
             }
             Some(PatchedWall::Shape(shape))
         }
-        (None, Some(side)) => {
+        (None, Some(side), None) => {
             let (number, name) = (side.number(), SIDES[side.number()]);
             let kind = sides.map(|sides| sides.each()[number]);
             if kind.is_some_and(|kind| kind != Side::Wall) {
@@ -210,6 +235,13 @@ fn patched_wall(
                 return None;
             }
             Some(PatchedWall::Side(number as u32))
+        }
+        (shape, side, _) => {
+            let given = [("shape", shape.is_some()), ("side", side.is_some()), ("plate", raw.plate.is_some())];
+            let given: Vec<&str> = given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect();
+            let message = format!("`{}` and `{}` are both given", given[0], given[1]);
+            checker.refuse(format!("{at}.{}", given[1]), message, "keep one of them");
+            None
         }
     }
 }
@@ -237,11 +269,15 @@ fn raw_patch(patch: &WettingPatch) -> RawWettingPatch {
     RawWettingPatch {
         shape: match patch.on {
             PatchedWall::Shape(shape) => Some(shape),
-            PatchedWall::All | PatchedWall::Side(_) => None,
+            _ => None,
         },
         side: match patch.on {
             PatchedWall::Side(side) => SideName::ALL.get(side as usize).copied(),
-            PatchedWall::All | PatchedWall::Shape(_) => None,
+            _ => None,
+        },
+        plate: match patch.on {
+            PatchedWall::Plate(plate) => Some(plate),
+            _ => None,
         },
         stripes: patch.stripes.map(|stripes| RawStripes {
             along: Some(if stripes.axis == 0 { RawAxis::X } else { RawAxis::Y }),

@@ -139,6 +139,9 @@ pub(crate) struct NetworkArguments {
     /// Joins opposite sides
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,
+    /// Distance of floor and lid in m; where there is none, everything is per meter of depth
+    #[arg(long, value_name = "M")]
+    pub(crate) depth: Option<f64>,
     /// Output folder, new or empty; where there is none: out/NAME-network, out/NAME-network-2, ...
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,

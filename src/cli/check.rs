@@ -32,6 +32,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         return Ok(DONE);
     }
     say(&case.title);
+    case.about_depth().iter().for_each(|depth| say(format_args!("  depth       {depth}")));
     if let Model::Network(network) = &case.model {
         say(format_args!("  pores       {}", found.unknowns));
         if let Some(memory) = found.memory_bytes {

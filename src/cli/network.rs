@@ -40,23 +40,23 @@ fn load(arguments: &NetworkArguments) -> Result<Source, Failure> {
             &arguments.import.options(),
             arguments.periodic.map(PeriodicAxes::along).unwrap_or_default(),
         )?;
-        return quick(arguments, geometry);
+        return quick(arguments, geometry, arguments.depth);
     }
     let overrides = overrides(arguments);
     let case = source::load_case(Some(path), &[])?;
     if source::is_network(&case.case) {
         return source::load_case(Some(path), &overrides);
     }
-    quick(arguments, case.case.geometry)
+    quick(arguments, case.case.geometry, arguments.depth.or(case.case.depth))
 }
 
-fn quick(arguments: &NetworkArguments, geometry: GeometrySpec) -> Result<Source, Failure> {
+fn quick(arguments: &NetworkArguments, geometry: GeometrySpec, depth: Option<f64>) -> Result<Source, Failure> {
     let name = arguments.file.as_deref().and_then(Path::file_stem).unwrap_or_default().to_string_lossy().into_owned();
     if arguments.has_interface() && arguments.tension.is_none() {
         tell("no --tension: pressures are those of a tension of 1 N/m; multiply them by yours");
     }
     let title = format!("Network of {name}");
-    let (case, resolved) = network_case(&title, geometry, &raw(arguments)).map_err(|problems| {
+    let (case, resolved) = network_case(&title, geometry, depth, &raw(arguments)).map_err(|problems| {
         let option = |path: &str| path.trim_start_matches("network.").replace(['.', '_'], "-");
         let lines: Vec<String> = problems
             .iter()
@@ -114,6 +114,7 @@ fn overrides(arguments: &NetworkArguments) -> Vec<String> {
         ("trapping", arguments.trapping.map(|value| value.to_string())),
     ];
     let given = given.into_iter().filter_map(|(key, value)| Some(format!("network.{key}={}", value?)));
+    let given = given.chain(arguments.depth.map(|depth| format!("geometry.depth={depth}")));
     let periodic = arguments.periodic.map_or(&[][..], axes).iter();
     given.chain(periodic.map(|side| format!("network.sides.{side}=\"periodic\""))).collect()
 }

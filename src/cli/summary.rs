@@ -20,6 +20,9 @@ pub(crate) fn summary(finished: &Finished) -> String {
     push_measures(&mut text, report);
     push_expectations(&mut text, report);
     push_numbers(&mut text, report);
+    if let Some(depth) = &report.depth {
+        let _ = writeln!(text, "  {:<11} {depth}", "depth");
+    }
     for warning in &report.warnings {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {:<11} {warning}", "WARNING");

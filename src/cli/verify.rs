@@ -31,6 +31,9 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         SubjectError::Setup(misfit) => source.refused(&misfit.into()),
         other => bad(&other),
     })?;
+    if source.case.depth.is_some() {
+        tell("throats are verified in the plane: pressures and conductances are those without floor and lid");
+    }
     let choices: Vec<Choice> = parsed(&arguments.throats)?;
     let event_choices: Vec<EventChoice> = parsed(&arguments.events)?;
     let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;

@@ -11,6 +11,7 @@ pub mod cap;
 pub(crate) mod circle;
 pub mod contact;
 pub mod contour;
+pub mod depth;
 pub mod lattice;
 pub mod lengths;
 pub mod menisci;

@@ -7,9 +7,10 @@
 //!
 //! Against the exact expansion of Stokes flow in the slope H' of the walls, whose resistance is 12/h³ (1 + 6/5 H'²) per length for a
 //! channel of the width h = 2 H along a straight axis, this is 12/h³ (1 + H'²): arcs see the slope of walls, to a sixth of its effect.
-//! For parallel walls it is exact. Left out: how flows join in pores.
+//! For parallel walls it is exact. Between a floor and a lid an arc resists as a duct of its length does. Left out: how flows join in pores.
 
 use crate::geometry::curve::{Curve, cross};
+use crate::interface::depth::duct_factor;
 use crate::math::{Vec2, perpendicular};
 use crate::network::graph::WallPiece;
 
@@ -114,9 +115,12 @@ impl Arc {
         Self { chord, d, tangents, cos, sin, h, middle, direction }
     }
 
-    /// 12/h³ in 1/m3.
-    fn gradient(&self) -> f64 {
-        12.0 / (self.h * self.h * self.h)
+    /// 12/h³ in 1/m3; between floor and lid at the distance b that of a duct, 12/(h b² F(h/b)).
+    fn gradient(&self, depth: Option<f64>) -> f64 {
+        match depth {
+            None => 12.0 / (self.h * self.h * self.h),
+            Some(depth) => 12.0 / (self.h * depth * depth * duct_factor(self.h / depth)),
+        }
     }
 }
 
@@ -131,6 +135,8 @@ pub(super) struct Channel {
     pub(super) walls: [Wall; 2],
     /// The direction at right angles to the chord, into the pore.
     pub(super) along: Vec2,
+    /// Distance of floor and lid in m; none in the plane.
+    pub(super) depth: Option<f64>,
 }
 
 impl Channel {
@@ -259,7 +265,7 @@ impl Channel {
             let ahead = self.ahead(center, &before);
             let advance = after.direction.dot(&(after.middle - before.middle)).min(ahead).max(0.0);
             if advance > 0.0 {
-                *sum += advance * after.gradient();
+                *sum += advance * after.gradient(self.depth);
             }
             *places = with(high);
             if reaches {
@@ -308,9 +314,9 @@ impl Channel {
         };
         let at = |places: [Place; 2]| {
             let arc = self.arc(places);
-            Some((self.rates(places, &arc)?.ends, arc.gradient()))
+            Some((self.rates(places, &arc)?.ends, arc.gradient(self.depth)))
         };
-        let (k1, g1) = (first.ends, arc.gradient());
+        let (k1, g1) = (first.ends, arc.gradient(self.depth));
         let (k2, g2) = at(moved(&k1, 0.5))?;
         let (k3, g3) = at(moved(&k2, 0.5))?;
         let (k4, g4) = at(moved(&k3, 1.0))?;

@@ -79,5 +79,5 @@ fn resistance(network: &Network, region: usize, index: usize, [from, to]: [Vec2;
     let backwards = |piece: &WallPiece| WallPiece { curve: piece.curve.reversed(), ..*piece };
     let behind: Vec<WallPiece> = wall(&region.edges[(index + count - 1) % count]).iter().rev().map(backwards).collect();
     let walls = [Wall::new(&behind, -1.0, from, along), Wall::new(&ahead, 1.0, to, along)];
-    Channel { walls, along }.resistance(region.center)
+    Channel { walls, along, depth: network.depth }.resistance(region.center)
 }

@@ -106,6 +106,8 @@ pub struct Network {
     pub throats: Vec<Throat>,
     /// The openings at open sides.
     pub openings: Vec<Opening>,
+    /// Distance of floor and lid in m; none in the plane.
+    pub depth: Option<f64>,
 }
 
 /// Regions joined by the persistence ratio.

@@ -47,8 +47,7 @@ pub(crate) fn regions(setting: &Setting, occupation: Option<&Occupation>) -> Lay
     let Some(occupation) = occupation else { return plain_regions(setting) };
     let elements = occupation.elements;
     let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
-    let tension = setting.tension.unwrap_or(f64::NAN);
-    let pressure = |invasion: &Invasion| tension * invasion.applied;
+    let pressure = |invasion: &Invasion| setting.pressure(occupation.invading, invasion.applied);
     let invasions = || occupation.invasions.iter();
     let fields = vec![
         integer("pore", elements.iter().map(|element| pores.pore_of[element.region] as i64)),
@@ -116,9 +115,9 @@ fn throats(model: &Model) -> Layer<'static> {
         scalar("width", "m", kept(setting).map(|throat| throat.width)),
         scalar("length", "m", kept(setting).map(|throat| length(setting, throat))),
     ];
-    if let (Some(curvatures), Some(tension)) = (model.entry_curvatures(), setting.tension) {
-        let pressures = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]);
-        fields.push(scalar("entry-pressure", "Pa", pressures));
+    if let Some(pressures) = model.entry_pressures() {
+        let kept = setting.pores.throats.iter().map(|&throat| pressures[throat]);
+        fields.push(scalar("entry-pressure", "Pa", kept));
     }
     Layer { name: "throats", kind: CellKind::Lines, points: points.into(), cells, fields }
 }

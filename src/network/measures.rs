@@ -75,8 +75,8 @@ fn permeabilities(model: &Model) -> Vec<Measure> {
 
 fn entry_pressures(model: &Model) -> Vec<Measure> {
     let setting = &model.setting;
-    let (Some(curvatures), Some(tension)) = (model.entry_curvatures(), setting.tension) else { return Vec::new() };
-    let mut pressures: Vec<f64> = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]).collect();
+    let Some(all) = model.entry_pressures() else { return Vec::new() };
+    let mut pressures: Vec<f64> = setting.pores.throats.iter().map(|&throat| all[throat]).collect();
     pressures.sort_by(f64::total_cmp);
     let at = |index: Option<usize>| index.and_then(|index| pressures.get(index)).copied().unwrap_or(f64::NAN);
     let last = pressures.len().checked_sub(1);
@@ -100,7 +100,6 @@ fn replaced(model: &Model) -> Option<Measure> {
 }
 
 fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
-    let tension = setting.tension.unwrap_or(f64::NAN);
     let first = &cycles.half_cycles()[0];
     let (pressure, saturation) = cycles.outcomes()[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
     let reached = if setting.outlet.is_none() {
@@ -120,12 +119,13 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
         FluidPhase::Wetting => (1.0 - wetting, "non-wetting"),
     };
     let ending = if cycles.is_done() { "at the end" } else { "so far, the displacement goes on" };
-    let largest = cycles.history().iter().filter(|entry| entry.half_cycle == 0).map(|entry| entry.applied);
+    let largest = cycles.history().iter().filter(|entry| entry.half_cycle == 0);
+    let largest = largest.map(|entry| setting.curvature(first.invading, entry.applied));
     let largest = largest.fold(f64::NAN, |a, b| if a.abs() > b.abs() { a } else { b });
     let mut found = vec![
         measure(
             "breakthrough-pressure-Pa",
-            tension * pressure,
+            setting.pressure(first.invading, pressure),
             "Pa",
             format!("capillary pressure p_n - p_w of the first {name}, {reached}"),
         ),
@@ -155,7 +155,7 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
         ),
         measure(
             "largest-capillary-pressure-Pa",
-            tension * largest,
+            setting.tension.unwrap_or(f64::NAN) * largest,
             "Pa",
             format!("p_n - p_w applied at the end of the first {name}"),
         ),
@@ -183,7 +183,7 @@ fn hysteresis(setting: &Setting, cycles: &Cycles) -> Option<Measure> {
         // No pressure holds back what enters through openings at the beginning of either.
         let mut before = outcome.first_saturation[1];
         for entry in cycles.history().iter().filter(|entry| entry.half_cycle == half) {
-            work -= entry.applied * (entry.saturation - before);
+            work -= setting.curvature(cycles.half_cycles()[half].invading, entry.applied) * (entry.saturation - before);
             before = entry.saturation;
         }
     }

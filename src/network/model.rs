@@ -4,10 +4,11 @@ use std::cell::OnceCell;
 use std::sync::Arc;
 
 use super::conductance::conductances;
-use super::cycles::Cycles;
+use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Conditions, Displacement};
 use super::graph::{Network, Pores};
 use crate::case::Side;
+use crate::interface::depth::Depth;
 use crate::math::Bounds;
 use crate::snapshot::Lines;
 
@@ -32,6 +33,8 @@ pub struct Setting {
     pub porosity: f64,
     /// Interfacial tension in N/m.
     pub tension: Option<f64>,
+    /// Floor and lid as the non-wetting and as the wetting phase meets them where it invades; none in the plane.
+    pub depth: Option<[Depth; 2]>,
     /// Viscosities of the wetting and the non-wetting phase in Pa s, where they are given.
     pub viscosities: [Option<f64>; 2],
     /// Conditions of a drainage, for entry pressures.
@@ -40,6 +43,26 @@ pub struct Setting {
     pub geometry_hash: String,
     /// The left, right, bottom and top side.
     pub sides: [Side; 4],
+}
+
+impl Setting {
+    /// Capillary pressure p_n - p_w in Pa where a phase invades, of a meniscus with this curvature in the plane (1/m), above 0 where it bulges into the
+    /// wetting phase; NaN where no tension is given.
+    pub(crate) fn pressure(&self, invading: FluidPhase, curvature: f64) -> f64 {
+        self.tension.unwrap_or(f64::NAN) * self.curvature(invading, curvature)
+    }
+
+    /// (p_n - p_w)/σ in 1/m of such a meniscus: floor and lid curve it too.
+    pub(crate) fn curvature(&self, invading: FluidPhase, in_plane: f64) -> f64 {
+        let [drainage, imbibition] = self.depth.map_or([None; 2], |depths| depths.map(Some));
+        let depth = if invading == FluidPhase::NonWetting { drainage } else { imbibition };
+        depth.map_or(in_plane, |depth| depth.curvature(in_plane))
+    }
+
+    /// Distance of floor and lid in m; 1 in the plane, where volumes and rates are those per meter of depth.
+    pub(crate) fn thickness(&self) -> f64 {
+        self.network.depth.unwrap_or(1.0)
+    }
 }
 
 /// A network with its displacement, and what is found from it once.
@@ -79,6 +102,13 @@ impl Model {
         let displacement = Displacement::new(network, pores, formula.clone());
         let [with, without] = [conditions, &formula].map(|given| displacement.entry_curvatures(given, throats));
         with.iter().zip(&without).filter(|(with, without)| with.is_finite() && with != without).count()
+    }
+
+    /// Entry pressures in Pa of all throats of the network; none where no angle or no tension is known.
+    pub(crate) fn entry_pressures(&self) -> Option<Vec<f64>> {
+        self.setting.tension?;
+        let pressure = |&curvature: &f64| self.setting.pressure(FluidPhase::NonWetting, curvature);
+        Some(self.entry_curvatures()?.iter().map(pressure).collect())
     }
 
     /// The conductances of all throats of the network.

@@ -1,5 +1,5 @@
 //! `openpnm.csv`: the network as `openpnm.io.network_from_csv` loads it (OpenPNM 3): pore and throat columns side by side, labels as
-//! the words True and False, no units in headers, SI for a depth of 1 m.
+//! the words True and False, no units in headers, SI for the depth of the chip, or one of 1 m in the plane.
 //!
 //! Each opening of an open side is a boundary pore of volume zero with a throat to the pore behind it. Leaves out throats from a
 //! pore to itself, which connect nothing.
@@ -82,6 +82,9 @@ fn pore_columns(setting: &Setting) -> Vec<Column> {
     let width = |opening: &Opening| (opening.ends[1] - opening.ends[0]).norm();
     let walls = wall_lengths(setting);
     let zero = |_: &Opening| 0.0;
+    let (depth, plates) = (setting.thickness(), if setting.network.depth.is_some() { 2.0 } else { 0.0 });
+    let volume = |pore: usize| depth * area(pore);
+    let surface = |pore: usize| depth * walls[pore] + plates * area(pore);
     let round = |pore: usize| (4.0 * area(pore) / std::f64::consts::PI).sqrt();
     let mut columns = vec![
         all("pore.coords[0]", &|pore| center(setting, pore).x, &|opening| place(opening).x),
@@ -91,9 +94,9 @@ fn pore_columns(setting: &Setting) -> Vec<Column> {
         all("pore.inscribed_diameter", &diameter, &width),
         all("pore.equivalent_diameter", &round, &zero),
         all("pore.region_area", &area, &zero),
-        all("pore.region_volume", &area, &zero),
-        all("pore.volume", &area, &zero),
-        all("pore.surface_area", &|pore| walls[pore], &zero),
+        all("pore.region_volume", &volume, &zero),
+        all("pore.volume", &volume, &zero),
+        all("pore.surface_area", &surface, &zero),
     ];
     let label = |name, holds: &dyn Fn(&Opening) -> bool| flags(name, inner().map(|_| false).chain(outer().map(holds)));
     columns.push(label("pore.boundary", &|_| true));
@@ -108,6 +111,7 @@ fn pore_columns(setting: &Setting) -> Vec<Column> {
 
 fn throat_columns(model: &Model) -> Vec<Column> {
     let setting = &model.setting;
+    let (depth, plates) = (setting.thickness(), if setting.network.depth.is_some() { 2.0 } else { 0.0 });
     let all = connections(setting);
     let column = |name, value: &dyn Fn(&Connection<'_>) -> f64| numbers(name, all.iter().map(value));
     let end = |name, side: usize| Column { name, cells: Cells::Counts(all.iter().map(|it| it.ends[side]).collect()) };
@@ -121,8 +125,8 @@ fn throat_columns(model: &Model) -> Vec<Column> {
         column("throat.length", &direct),
         column("throat.total_length", &direct),
         column("throat.spacing", &direct),
-        column("throat.cross_sectional_area", &|it| it.width()),
-        column("throat.perimeter", &|it| 2.0 * it.width()),
+        column("throat.cross_sectional_area", &|it| depth * it.width()),
+        column("throat.perimeter", &|it| 2.0 * it.width() + plates * depth),
         column("throat.volume", &|_| 0.0),
         column("throat.curvature_1", &|it| it.of_throat(|throat| finite(throat.curvatures[0]), f64::NAN)),
         column("throat.curvature_2", &|it| it.of_throat(|throat| finite(throat.curvatures[1]), f64::NAN)),
@@ -132,13 +136,13 @@ fn throat_columns(model: &Model) -> Vec<Column> {
     let (conductances, of_openings) = (model.conductances(), opening_conductances(&setting.network));
     let viscosity = setting.viscosities[0].unwrap_or(1.0);
     columns.push(column("throat.hydraulic_conductance", &|it| match it.link {
-        Link::Throat { index, .. } => conductances[index] / viscosity,
-        Link::Opening { index, .. } => of_openings[index] / viscosity,
+        Link::Throat { index, .. } => depth * conductances[index] / viscosity,
+        Link::Opening { index, .. } => depth * of_openings[index] / viscosity,
     }));
-    if let (Some(curvatures), Some(tension)) = (model.entry_curvatures(), setting.tension) {
+    if let Some(pressures) = model.entry_pressures() {
         // The meniscus at an opening is that of a reservoir: it has no entry pressure.
         columns.push(column("throat.entry_pressure", &|it| match it.link {
-            Link::Throat { index, .. } => tension * curvatures[index],
+            Link::Throat { index, .. } => pressures[index],
             Link::Opening { .. } => 0.0,
         }));
     }

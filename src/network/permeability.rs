@@ -115,7 +115,7 @@ mod tests {
             throat([v(r, 1.0), v(1.0 - r, 1.0)], v(0.0, -1.0)),
             throat([v(1.0, 1.0 - r), v(1.0, r)], v(-1.0, 0.0)),
         ];
-        Network { regions: vec![region(v(0.5, 0.5), 0.5_f64.sqrt() - r, edges)], throats, openings: Vec::new() }
+        Network { regions: vec![region(v(0.5, 0.5), 0.5_f64.sqrt() - r, edges)], throats, ..Network::default() }
     }
 
     const UNIT: Bounds = Bounds { min: Vec2::new(0.0, 0.0), max: Vec2::new(1.0, 1.0) };
@@ -172,6 +172,7 @@ mod tests {
             regions: regions.collect(),
             throats: throats.collect(),
             openings: vec![opening(0, 0.0, 0), opening(1, length, last)],
+            depth: None,
         }
     }
 

@@ -1,6 +1,6 @@
 //! The capillary pressure curve and the maps of a network, as data.
 
-use super::cycles::{Cycles, FluidPhase};
+use super::cycles::{Cycles, Entry, FluidPhase};
 use super::model::{Model, Setting};
 use super::occupation::Occupation;
 use super::tables::{kept, radius};
@@ -25,8 +25,9 @@ pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
 /// Capillary pressure over the saturation of the wetting phase, a line for each half cycle: the pressure rises at constant saturation
 /// and the saturation changes at constant pressure.
 fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
-    let tension = setting.tension?;
-    let applied = cycles.history().iter().map(|entry| (tension * entry.applied).abs());
+    setting.tension?;
+    let pressure_at = |entry: &Entry| setting.pressure(cycles.half_cycles()[entry.half_cycle].invading, entry.applied);
+    let applied = cycles.history().iter().map(|entry| pressure_at(entry).abs());
     let (label, unit) = if applied.fold(0.0, f64::max) > KILO {
         ("capillary pressure p_n - p_w in kPa", 1.0e-3)
     } else {
@@ -38,7 +39,7 @@ fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
         let mut saturation = outcome.first_saturation[1];
         let mut points: Vec<[f64; 2]> = Vec::new();
         for entry in entries {
-            let pressure = unit * tension * entry.applied;
+            let pressure = unit * pressure_at(entry);
             points.push([saturation, pressure]);
             points.push([entry.saturation, pressure]);
             saturation = entry.saturation;

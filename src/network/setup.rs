@@ -8,7 +8,7 @@ use super::ExtractError;
 use super::cycles::{Cycles, End, FluidPhase, HalfCycle};
 use super::displacement::{Beginning, Conditions, Displacement, Element, Events, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
-use super::dynamic::{self, Dynamic, Terms};
+use super::dynamic::{self, Drive, Dynamic, Terms};
 use super::graph::{Network, Pores};
 use super::model::Setting;
 use super::solver::NetworkSolver;
@@ -16,8 +16,9 @@ use super::state;
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
 use crate::case::network::{NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop, Trapping};
-use crate::case::{Case, PatchedWall, SIDES, Side};
+use crate::case::{Case, PatchedWall, SIDES, Side, on_plates};
 use crate::geometry::{Geometry, GeometryError};
+use crate::interface::depth::Depth;
 use crate::solver::Solver;
 use crate::wetting::Wetting;
 
@@ -111,7 +112,7 @@ pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, S
     let geometry = geometry(case, wanted)?;
     let sides = wanted.sides.each();
     let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
-    let network = super::extract(&geometry, open)?;
+    let network = Network { depth: case.depth, ..super::extract(&geometry, open)? };
     if network.regions.is_empty() {
         return Err(SetupError::NoPore);
     }
@@ -164,7 +165,7 @@ fn beginning(
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) => {
-            half_cycles(displacement, interface, wanted.sides.each(), (walls, &measured(wanted)))
+            half_cycles(displacement, interface, wanted.sides.each(), (walls, network.depth, &measured(wanted)))
         }
         _ => Vec::new(),
     };
@@ -201,7 +202,7 @@ pub(crate) fn assemble(
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) if displacement.dynamic.is_none() => {
-            half_cycles(displacement, interface, wanted.sides.each(), (walls, &measured(wanted)))
+            half_cycles(displacement, interface, wanted.sides.each(), (walls, network.depth, &measured(wanted)))
         }
         _ => Vec::new(),
     };
@@ -224,6 +225,9 @@ pub(crate) fn assemble(
         outline: geometry.outline_within(OUTLINE_ERROR * geometry.bounds().size().max()),
         porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / geometry.bounds().area(),
         tension: wanted.interface.as_ref().map(|interface| interface.tension),
+        depth: network.depth.zip(wanted.interface.as_ref()).map(|(depth, interface)| {
+            [FluidPhase::NonWetting, FluidPhase::Wetting].map(|invading| met_by(invading, depth, interface))
+        }),
         viscosities: [wanted.wetting, wanted.non_wetting].map(|fluid| fluid.map(|fluid| fluid.viscosity)),
         entry,
         geometry_hash: format!("{:016x}", geometry.hash()),
@@ -255,10 +259,16 @@ fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Flui
     let terms = Terms {
         viscosity: if invading == FluidPhase::Wetting { [wetting, non_wetting] } else { [non_wetting, wetting] },
         tension: interface.tension,
-        drive: driven.drive,
+        drive: match driven.drive {
+            Drive::Rate(rate) => Drive::Rate(rate / setting.thickness()),
+            pressure @ Drive::PressureDrop(_) => pressure,
+        },
         largest_step: driven.largest_step,
         inlet,
         outlet,
+        depth: setting.depth.map(|[drainage, imbibition]| {
+            (invading, if invading == FluidPhase::Wetting { imbibition } else { drainage })
+        }),
     };
     let start = Displacement::new(&setting.network, &setting.pores, conditions);
     let end = dynamic::solver::End {
@@ -276,11 +286,15 @@ fn half_cycles(
     displacement: &NetworkDisplacement,
     interface: &NetworkInterface,
     sides: [Side; 4],
-    (walls, measured): (usize, &[MeasuredBurst]),
+    (walls, depth, measured): (usize, Option<f64>, &[MeasuredBurst]),
 ) -> Vec<HalfCycle> {
     let open = |kind: Side| sides.map(|side| side == kind);
     let half = |invading: FluidPhase, [from, to]: [Side; 2], stop: Stop| {
         let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
+        let in_plane = |pressure: f64| {
+            let curvature = pressure / interface.tension;
+            depth.map_or(curvature, |depth| met_by(invading, depth, interface).plane(curvature))
+        };
         HalfCycle {
             invading,
             conditions: Conditions {
@@ -289,9 +303,7 @@ fn half_cycles(
                 outlet: open(to),
                 trapping: displacement.trapping,
                 events: displacement.events,
-                largest_curvature: stop
-                    .capillary_pressure
-                    .map_or(f64::INFINITY, |pressure| sign * pressure / interface.tension),
+                largest_curvature: stop.capillary_pressure.map_or(f64::INFINITY, |pressure| sign * in_plane(pressure)),
                 measured: measured.to_vec(),
             },
             end: End {
@@ -319,6 +331,14 @@ fn half_cycles(
     }
 }
 
+/// Floor and lid as a phase that invades meets them: on them the wetting phase recedes or advances.
+fn met_by(invading: FluidPhase, depth: f64, interface: &NetworkInterface) -> Depth {
+    let end = usize::from(invading == FluidPhase::Wetting);
+    let angle = |model: &Wetting| model.hysteresis_range()[end];
+    let plates = on_plates(&interface.wetting_model, &interface.patches, angle);
+    Depth::new(depth, angle(&interface.wetting_model), plates)
+}
+
 /// Contact angle of each wall through the defending phase in rad: where the non-wetting phase invades, the wetting one recedes.
 fn angles(interface: &NetworkInterface, walls: usize, invading: FluidPhase) -> Vec<f64> {
     let through_defending = |model: &Wetting| match invading {
@@ -336,6 +356,7 @@ fn angles(interface: &NetworkInterface, walls: usize, invading: FluidPhase) -> V
             }
             PatchedWall::Shape(shape) => shape as usize,
             PatchedWall::Side(side) => first_side + side as usize,
+            PatchedWall::Plate(_) => continue,
         };
         if let Some(known) = angles.get_mut(wall) {
             *known = angle;

@@ -110,12 +110,12 @@ impl Solver for NetworkSolver {
         let sample = |name, value| Sample { name, value };
         let mut row = vec![sample("displaced_pore_volumes", self.clock), sample("step", self.steps() as f64)];
         if let Some(cycles) = &self.model.cycles {
-            let tension = self.model.setting.tension.unwrap_or(f64::NAN);
+            let pressure = |applied| self.model.setting.pressure(cycles.half_cycle().invading, applied);
             let invaded = summary::invaded_pores(&self.model.setting, &cycles.occupation());
             row.extend([
                 sample("half_cycle", (cycles.half_cycle_index() + 1) as f64),
                 sample("saturation", cycles.saturation()),
-                sample("capillary_pressure_Pa", cycles.applied().map_or(f64::NAN, |applied| tension * applied)),
+                sample("capillary_pressure_Pa", cycles.applied().map_or(f64::NAN, pressure)),
                 sample("trapped_saturation", cycles.trapped_saturation()),
                 sample("invaded_pores", invaded as f64),
                 sample("bursts", self.count(EventKind::Burst)),

@@ -42,7 +42,6 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
         if half.invading == FluidPhase::Wetting { 180.0 - angle.to_degrees() } else { angle.to_degrees() }
     };
     let angles = || half.conditions.angle.iter().map(angle);
-    let tension = setting.tension.unwrap_or(f64::NAN);
     NetworkState {
         format: FORMAT,
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -53,9 +52,9 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
         invading: half.invading,
         half_cycle: moment.half_cycle + 1,
         events: moment.events,
-        tension_n_per_m: tension,
+        tension_n_per_m: setting.tension.unwrap_or(f64::NAN),
         applied_curvature_per_m: applied,
-        capillary_pressure_pa: tension * applied,
+        capillary_pressure_pa: setting.pressure(half.invading, applied),
         largest_applied_curvature_per_m: moment.applied,
         contact_angles_deg: [angles().fold(f64::INFINITY, f64::min), angles().fold(f64::NEG_INFINITY, f64::max)],
         saturation: moment.saturation,

@@ -1,6 +1,6 @@
 //! `pores.csv`, `throats.csv` and `events.csv`: SI units, one row each for a pore, a throat, an event.
 
-use super::cycles::{Cycles, Invasion};
+use super::cycles::{Cycles, Entry, FluidPhase, Invasion};
 use super::graph::{Opening, Throat};
 use super::model::{Model, Setting};
 use super::occupation::Occupation;
@@ -116,22 +116,27 @@ fn pores(setting: &Setting, occupation: Option<&Occupation>) -> Table {
         flags("inlet", opens_at(setting, setting.inlet)),
         flags("outlet", opens_at(setting, setting.outlet)),
     ];
+    if let Some(depth) = setting.network.depth {
+        columns.insert(5, numbers("volume_m3", setting.pores.area.iter().map(|area| depth * area)));
+    }
     if let Some(occupation) = occupation {
         let states = PoreStates::new(setting, occupation).0;
-        columns.extend(state_columns(setting, &states));
+        columns.extend(state_columns(setting, occupation.invading, &states));
     }
     Table { name: "pores", columns }
 }
 
-fn state_columns(setting: &Setting, states: &[PoreState]) -> [Column; 5] {
-    let tension = setting.tension.unwrap_or(f64::NAN);
+fn state_columns(setting: &Setting, invading: FluidPhase, states: &[PoreState]) -> [Column; 5] {
     let of =
         |value: fn(&Invasion) -> f64| states.iter().map(move |state| state.invasion.as_ref().map_or(f64::NAN, value));
     [
         words("phase", states.iter().map(|state| state.fluid.name())),
         places("sequence", states.iter().map(|state| state.invasion.map(|invasion| invasion.sequence))),
         flags("trapped", states.iter().map(|state| state.is_trapped)),
-        numbers("invasion_capillary_pressure_Pa", of(|invasion| invasion.applied).map(|applied| tension * applied)),
+        numbers(
+            "invasion_capillary_pressure_Pa",
+            of(|invasion| invasion.applied).map(|applied| setting.pressure(invading, applied)),
+        ),
         numbers("displaced_saturation_at_invasion", of(|invasion| invasion.displaced)),
     ]
 }
@@ -157,10 +162,13 @@ fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
         numbers("wall_curvature_2_per_m", of(|throat| finite(throat.curvatures[1]))),
     ];
     let conductances = model.conductances();
-    columns.push(numbers("conductance_m2", setting.pores.throats.iter().map(|&throat| conductances[throat])));
-    if let (Some(curvatures), Some(tension)) = (model.entry_curvatures(), setting.tension) {
-        let pressures = setting.pores.throats.iter().map(|&throat| tension * curvatures[throat]);
-        columns.push(numbers("entry_pressure_Pa", pressures));
+    let of_kept = |factor: f64| setting.pores.throats.iter().map(move |&throat| factor * conductances[throat]);
+    columns.push(numbers("conductance_m2", of_kept(1.0)));
+    if let Some(depth) = setting.network.depth {
+        columns.push(numbers("conductance_m3", of_kept(depth)));
+    }
+    if let Some(pressures) = model.entry_pressures() {
+        columns.push(numbers("entry_pressure_Pa", setting.pores.throats.iter().map(|&throat| pressures[throat])));
     }
     if let Some(occupation) = occupation {
         columns.push(places("sequence", sequences(setting, occupation)));
@@ -193,7 +201,6 @@ pub(super) fn numbers_of_throats(setting: &Setting) -> Vec<Option<usize>> {
 
 /// `events.csv` of a quasi-static displacement.
 pub(crate) fn events(setting: &Setting, cycles: &Cycles) -> Table {
-    let tension = setting.tension.unwrap_or(f64::NAN);
     let number_of = numbers_of_throats(setting);
     let history = cycles.history();
     let mut sequence = 0;
@@ -205,6 +212,9 @@ pub(crate) fn events(setting: &Setting, cycles: &Cycles) -> Table {
         sequence
     });
     let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].name();
+    let pressures = |of: fn(&Entry) -> f64| {
+        history.iter().map(move |entry| setting.pressure(cycles.half_cycles()[entry.half_cycle].invading, of(entry)))
+    };
     Table {
         name: "events",
         columns: vec![
@@ -213,8 +223,8 @@ pub(crate) fn events(setting: &Setting, cycles: &Cycles) -> Table {
             counts("sequence", sequences),
             words("event", history.iter().map(|entry| entry.kind.name())),
             places("throat", history.iter().map(|entry| entry.throat.and_then(|throat| number_of[throat]))),
-            numbers("meniscus_pressure_Pa", history.iter().map(|entry| tension * entry.curvature)),
-            numbers("capillary_pressure_Pa", history.iter().map(|entry| tension * entry.applied)),
+            numbers("meniscus_pressure_Pa", pressures(|entry| entry.curvature)),
+            numbers("capillary_pressure_Pa", pressures(|entry| entry.applied)),
             numbers("saturation", history.iter().map(|entry| entry.saturation)),
         ],
     }

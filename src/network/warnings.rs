@@ -12,7 +12,7 @@ pub(crate) fn warnings(setting: &Setting) -> Vec<String> {
     let names: Vec<&str> =
         (0..2).filter(|&axis| drive(setting, axis).is_some()).map(|axis| PERMEABILITIES[axis]).collect();
     let loose = || loose(setting).filter(|_| !names.is_empty()).map(|note| format!("{}: {note}", names.join(", ")));
-    disconnected(setting).or_else(loose).into_iter().collect()
+    disconnected(setting).or_else(loose).into_iter().chain(odd_depth(setting)).collect()
 }
 
 /// What the permeability along an axis, if there is one, does not tell.
@@ -49,6 +49,24 @@ fn open_beside(setting: &Setting, axis: usize) -> Option<String> {
             open.join(" and ")
         )
     })
+}
+
+/// A depth that makes all throats slits between floor and lid, or between their walls.
+fn odd_depth(setting: &Setting) -> Option<String> {
+    const MOST: f64 = 1e3;
+    let depth = setting.network.depth?;
+    let widths = || setting.network.throats.iter().map(|throat| throat.width);
+    let (narrowest, widest) = (widths().reduce(f64::min)?, widths().reduce(f64::max)?);
+    let advice = "is it in m? An etched or molded chip has 20e-6 to 400e-6";
+    match () {
+        () if depth > MOST * widest => Some(format!(
+            "the depth of {depth:e} m is more than {MOST} times the widest throat, {widest:.3e} m, so that all is as without a depth; {advice}"
+        )),
+        () if depth * MOST < narrowest => Some(format!(
+            "the depth of {depth:e} m is less than the narrowest throat, {narrowest:.3e} m, over {MOST}, so that floor and lid alone decide pressures and flows; {advice}"
+        )),
+        () => None,
+    }
 }
 
 /// Whether the pore space leads from the inlet to the outlet.

@@ -97,14 +97,14 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
     let applied = history[target].applied;
     let first = history.iter().position(|entry| entry.applied == applied).unwrap_or(target);
     let events = history[first..].iter().take_while(|entry| entry.applied == applied).count();
-    let tension = solver.setting().tension.ok_or(AvalancheError::NoNetwork)?;
+    solver.setting().tension.ok_or(AvalancheError::NoNetwork)?;
     let earlier = first.checked_sub(1).map(|index| history[index]);
     let direction = if state.invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let rest = earlier.map_or(applied - direction * applied.abs(), |entry| 0.5 * (entry.applied + applied));
     Ok(Avalanche {
         invading: state.invading,
-        pressure_pa: tension * applied,
-        rest_pressure_pa: tension * rest,
+        pressure_pa: solver.setting().pressure(state.invading, applied),
+        rest_pressure_pa: solver.setting().pressure(state.invading, rest),
         saturation: [earlier.map_or(before, |entry| entry.saturation), history[first + events - 1].saturation],
         events,
         inlet: solver.setting().inlet.ok_or(AvalancheError::NoNetwork)?,

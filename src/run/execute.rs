@@ -166,6 +166,7 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
         expectations,
         numbers: numbers::numbers(job.case, length, fastest),
         length_of_numbers: length,
+        depth: job.case.about_depth(),
         case: job.case.clone(),
         resolved_case: job.resolved.to_owned(),
         machine: Machine::present(),

@@ -159,6 +159,8 @@ pub(crate) fn case() -> Case {
         spacing: 1.0 / 6.0,
         reference_length: None,
         smoothing_ratio: 1.5,
+        depth: None,
+        profile_factor: None,
         wetting,
         non_wetting: None,
         tension: 0.0,
@@ -195,6 +197,7 @@ pub(crate) fn case() -> Case {
     Case {
         title: "Particles on circles".into(),
         geometry: GeometrySpec { min: [0.0; 2], max: [1.0; 2], solid: SolidSide::Inside, shapes: Vec::new() },
+        depth: None,
         model: Model::Sph(Box::new(sph)),
         end: 1.0,
         steady: None,

@@ -137,6 +137,8 @@ pub struct Report {
     pub numbers: Vec<Number>,
     /// The length L in them.
     pub length_of_numbers: Length,
+    /// What pressures, volumes and rates are those of; absent for a film on a wall.
+    pub depth: Option<String>,
     /// The case, every value present, in SI units.
     pub case: Case,
     /// The case file with all that was filled in, as TOML.

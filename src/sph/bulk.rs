@@ -16,9 +16,9 @@ pub struct BulkFields {
     pub volume: Field<f64>,
     /// V_a on fluid, 0 on walls.
     pub fluid_volume: Field<f64>,
-    /// ρ_a in kg/m³; on walls that of the fluid nearby.
+    /// ρ_a in kg/m³; on walls that of the fluid nearby. Between floor and lid that of inertia.
     pub density: Field<f64>,
-    /// Dynamic viscosity in Pa s, 0 on walls.
+    /// Dynamic viscosity in Pa s, 0 on walls. Between floor and lid that of the stress in the plane.
     pub viscosity: Field<f64>,
     /// Distance to the wall in m: of fluid and buffer particles with a wall in reach, else infinite.
     pub wall_distance: Vec<f64>,
@@ -37,10 +37,13 @@ impl BulkFields {
         volume.resize(n, method.volume);
         let fluid_volume = images.field(volume[..moving].to_vec());
 
-        let mass = |a: usize| method.fluid(particles.phase[a]).density * method.volume;
-        let density = (0..n).map(|a| if a < moving { mass(a) / volume[a] } else { method.mean_density() }).collect();
+        let profile = method.profile();
+        let mass = |a: usize| profile * (method.fluid(particles.phase[a]).density * method.volume);
+        let density =
+            (0..n).map(|a| if a < moving { mass(a) / volume[a] } else { profile * method.mean_density() }).collect();
         let density = shepard::into_walls(neighborhood, &fluid_volume, moving, density);
-        let viscosity = particles.phase[..moving].iter().map(|&phase| method.fluid(phase).viscosity).collect();
+        let viscosity =
+            particles.phase[..moving].iter().map(|&phase| profile * method.fluid(phase).viscosity).collect();
 
         let nearest = values(moving, |a| {
             let has_wall = pairs.of(a).any(|ab| images.source(ab.b) >= moving);

@@ -1,6 +1,7 @@
 //! The constants of a run: fluids, forces and parameters of the discretization.
 
 use crate::case::{Fluid, Numerics, SurfaceForce};
+use crate::interface::depth::Depth;
 use crate::math::Vec2;
 use crate::sph::boundary::no_slip::NoSlip;
 use crate::sph::kernel::WendlandC2;
@@ -53,13 +54,31 @@ pub struct Method {
     pub gravity: Vec2,
     /// How walls hold the fluid next to them.
     pub no_slip: NoSlip,
+    /// Floor and lid; none in the plane.
+    pub plates: Option<Plates>,
     /// Forms, strengths and tolerances.
     pub numerics: Numerics,
     /// Pressure solve.
     pub tolerance: Tolerance,
 }
 
+/// What floor and lid do to a flow that is averaged over its depth b [Gondret1997].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plates {
+    /// Factor α of the profile over the depth in inertia and in the viscous stress in the plane.
+    pub profile: f64,
+    /// 12/b² in 1/m²: the friction is that times viscosity and velocity.
+    pub friction: f64,
+    /// What they add to the curvature of the interface.
+    pub depth: Depth,
+}
+
 impl Method {
+    /// The factor on inertia and on the viscous stress in the plane, 1 without floor and lid.
+    pub(crate) fn profile(&self) -> f64 {
+        self.plates.map_or(1.0, |plates| plates.profile)
+    }
+
     /// The fluid of a phase; walls count as wetting.
     pub fn fluid(&self, phase: Phase) -> &Fluid {
         if phase == Phase::NonWetting { &self.other_fluid } else { &self.wetting_fluid }

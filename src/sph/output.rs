@@ -71,13 +71,14 @@ fn particles(flow: &Flow, thin: &ThinParts) -> Cloud<'static> {
     let [surface_force, line_force] = volume_forces(flow);
     let (driving, from) = (flow.view().driving_gradient(), flow.setting.domain.bounds.min);
     let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from))).collect();
+    let profile = flow.setting.method.profile();
     let fields = vec![
         integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
         integer("below-resolution", below_resolution(flow, thin)),
         integer("phase", p.phase.iter().map(|phase| phase.number()).collect()),
         vector("velocity", "m/s", p.velocity.clone()),
         scalar("pressure", "Pa", pressure),
-        scalar("density", "kg/m^3", f.bulk.density[..n].to_vec()),
+        scalar("density", "kg/m^3", f.bulk.density[..n].iter().map(|density| density / profile).collect()),
         scalar("volume", "m^2", f.bulk.volume[..n].to_vec()),
         scalar("color", "", f.interface.color[..n].to_vec()),
         vector("normal", "1/m", f.interface.normal[..n].to_vec()),

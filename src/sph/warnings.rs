@@ -35,15 +35,30 @@ const ROUNDING: f64 = 1e-9;
 /// The warnings that a flow asks for now.
 pub(crate) fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<String> {
     if flow.setting.method.tension == 0.0 {
-        return Vec::new();
+        return thin_layer(flow).into_iter().collect();
     }
     let found = [
+        thin_layer(flow),
         pieces_and_films(flow, seen, series),
         low_drop(flow, seen),
         limiting_angle(flow),
         parasitic_currents(flow, seen, series),
     ];
     found.into_iter().flatten().collect()
+}
+
+/// The layer beside walls in which the flow between floor and lid slows down, b √(α/12), where it is thinner than the spacing.
+fn thin_layer(flow: &Flow) -> Option<String> {
+    let method = &flow.setting.method;
+    let plates = method.plates?;
+    let layer = (plates.profile / plates.friction).sqrt();
+    (layer < method.spacing).then(|| {
+        format!(
+            "the layer beside walls in which the flow between floor and lid slows down is {layer:.2e} m thick, less than the spacing of {:.2e} m: in a channel ten times \
+             as wide as deep with 20 spacings across the permeability is 2 % too large",
+            method.spacing
+        )
+    })
 }
 
 /// Pieces and films below the resolution, now or at any record before.

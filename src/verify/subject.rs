@@ -48,11 +48,11 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// The network of a case, displaced once.
+    /// The network of a case in the plane, displaced once: floor and lid add what they add to every throat.
     pub fn new(case: &Case) -> Result<Self, SubjectError> {
         let Model::Network(wanted) = &case.model else { return Err(SubjectError::NoNetwork) };
         let Some(interface) = &wanted.interface else { return Err(SubjectError::NoInterface) };
-        let solver = build_still(case, wanted)?;
+        let solver = build_still(&Case { depth: None, ..case.clone() }, wanted)?;
         let half = solver.cycles().map(|cycles| cycles.half_cycles()[0].clone());
         let invading = half.as_ref().map_or(FluidPhase::NonWetting, |half| half.invading);
         let conditions = half.map(|half| half.conditions).or_else(|| solver.setting().entry.clone());

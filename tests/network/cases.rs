@@ -21,15 +21,15 @@ fn cases() -> Vec<PathBuf> {
     files
 }
 
-fn named(name: &str) -> PathBuf {
+pub fn named(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/network/{name}.toml"))
 }
 
-fn loaded(path: &Path, set: &[&str]) -> Loaded {
+pub fn loaded(path: &Path, set: &[&str]) -> Loaded {
     load(path, &Overrides::parse(set).unwrap()).unwrap_or_else(|error| panic!("{}", error.render()))
 }
 
-fn to_the_end(case: &Loaded) -> Box<dyn Solver> {
+pub fn to_the_end(case: &Loaded) -> Box<dyn Solver> {
     let mut solver = setup::build(&case.case).unwrap();
     while !solver.is_done() {
         solver.step(f64::INFINITY).unwrap();
@@ -37,11 +37,11 @@ fn to_the_end(case: &Loaded) -> Box<dyn Solver> {
     solver
 }
 
-fn measures(solver: &dyn Solver) -> BTreeMap<String, f64> {
+pub fn measures(solver: &dyn Solver) -> BTreeMap<String, f64> {
     solver.measures(&Series::default()).into_iter().map(|measure| (measure.name, measure.value)).collect()
 }
 
-fn run(case: &Loaded, folder: &Path, mode: Mode, interrupt: &AtomicBool, watcher: &mut dyn Watcher) -> Finished {
+pub fn run(case: &Loaded, folder: &Path, mode: Mode, interrupt: &AtomicBool, watcher: &mut dyn Watcher) -> Finished {
     let mut solver = setup::build(&case.case).unwrap();
     let job = Job { case: &case.case, resolved: &case.resolved, folder: folder.to_path_buf(), mode };
     execute(&job, solver.as_mut(), interrupt, watcher).unwrap()

@@ -55,7 +55,7 @@ impl Pack {
     }
 
     fn dynamic(&self, angle_deg: f64, viscosity: [f64; 2], drive: Drive, largest_step: f64) -> Dynamic {
-        let terms = Terms { viscosity, tension: TENSION, drive, largest_step, inlet: LEFT, outlet: RIGHT };
+        let terms = Terms { viscosity, tension: TENSION, drive, largest_step, inlet: LEFT, outlet: RIGHT, depth: None };
         Dynamic::new(Arc::clone(&self.network), self.displacement(angle_deg, LEFT, false), terms)
     }
 
@@ -86,6 +86,7 @@ fn one_fluid_flows_as_the_permeability_of_the_network_says() {
             largest_step: 1.0,
             inlet: LEFT,
             outlet: RIGHT,
+            depth: None,
         };
         // Nothing comes in where the displacement knows no inlet: all is one phase.
         let displacement = pack.displacement(40.0, [false; 4], false);

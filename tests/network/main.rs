@@ -8,6 +8,7 @@ mod cases;
 mod channels;
 mod corners;
 mod dead_ends;
+mod depth;
 mod displacement;
 mod dynamic;
 mod generated;

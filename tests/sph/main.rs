@@ -6,6 +6,7 @@ mod support;
 mod analysis;
 mod contact_angles;
 mod counted_work;
+mod depth;
 mod error_bars;
 mod fitted_interface;
 mod fitted_walls;

@@ -60,7 +60,7 @@ tables! {
 
     /// What drives a displacement in time: a rate or a pressure drop.
     pub(crate) struct RawDynamic {
-        /// Injected area of the invading phase per time in m²/s (required without `pressure-drop`).
+        /// Injected area of the invading phase per time in m²/s, with `geometry.depth` the volume in m³/s (required without `pressure-drop`).
         pub rate: f64 => Key::positive("a rate in m2/s"),
         /// Pressure at the inlet minus that at the outlet in Pa (required without `rate`).
         pub pressure_drop: f64 => Key::positive("a pressure drop in Pa"),

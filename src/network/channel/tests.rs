@@ -13,7 +13,7 @@ fn resistance([below, above]: [f64; 2], w: f64, center: Vec2) -> f64 {
         let pieces = [WallPiece { curve, whole: Curve::circle(disc, radius), shape: 0 }];
         Wall::new(if radius > 0.0 { &pieces } else { &[] }, side, begin, Vec2::x())
     };
-    Channel { walls: [wall(below, -1.0), wall(above, 1.0)], along: Vec2::x() }.resistance(center)
+    Channel { walls: [wall(below, -1.0), wall(above, 1.0)], along: Vec2::x(), depth: None }.resistance(center)
 }
 
 /// The same up to the arc of a given t = tan(σ/2), with the middle of that arc, in bipolar coordinates, in which walls and arcs are
@@ -65,7 +65,7 @@ fn no_channel_takes_many_steps_wherever_its_walls_end() {
                 let piece = WallPiece { curve, whole: Curve::circle(center, 1.0), shape: 0 };
                 Wall::new(&[piece], side, Vec2::new(0.0, 0.04 * side), Vec2::x())
             };
-            let channel = Channel { walls: [wall(-1.0, sweep), wall(1.0, 1.6)], along: Vec2::x() };
+            let channel = Channel { walls: [wall(-1.0, sweep), wall(1.0, 1.6)], along: Vec2::x(), depth: None };
             let (resistance, steps) = channel.integral(Vec2::new(0.03 * f64::from(j), 0.1));
             assert!(resistance > 0.0 && steps < 200, "{sweep}, {j}: {steps} steps");
         }
@@ -90,7 +90,8 @@ fn a_slit_in_a_thin_screen_resists_as_stokes_flow_through_it() {
         let curve = Curve::Segment { a: v(0.0, sign * 0.5), b: v(0.0, sign * 1e4) };
         Wall::new(&[WallPiece { curve, whole: curve, shape: 0 }], sign, v(0.0, sign * 0.5), v(1.0, 0.0))
     };
-    let resistance = 2.0 * Channel { walls: [side(-1.0), side(1.0)], along: Vec2::x() }.resistance(v(1e3, 0.0));
+    let resistance =
+        2.0 * Channel { walls: [side(-1.0), side(1.0)], along: Vec2::x(), depth: None }.resistance(v(1e3, 0.0));
     let share = PI / 32.0 * resistance;
     assert!((share - 1.0).abs() < 0.1, "{share}");
 }
@@ -106,7 +107,7 @@ fn a_round_pore_behind_a_slit_resists_as_its_arcs_say() {
         let piece = WallPiece { curve, whole: curve, shape: 0 };
         Wall::new(&[piece], side, curve.point(0.0), Vec2::x())
     };
-    let found = Channel { walls: [wall(-1.0), wall(1.0)], along: Vec2::x() }.resistance(Vec2::zeros());
+    let found = Channel { walls: [wall(-1.0), wall(1.0)], along: Vec2::x(), depth: None }.resistance(Vec2::zeros());
     let count = 100_000;
     let sum = |from: f64, to: f64, f: &dyn Fn(f64) -> f64| -> f64 {
         let step = (to - from) / f64::from(count);
@@ -136,7 +137,9 @@ fn a_channel_with_many_small_bends_resists_as_a_round_one() {
     };
     let round = resistance([radius; 2], 2.0 * half, v(1.2, 0.0));
     let errors: Vec<f64> = [8, 32]
-        .map(|count| (Channel { walls: walls(count), along: Vec2::x() }.resistance(v(1.2, 0.0)) / round - 1.0).abs())
+        .map(|count| {
+            (Channel { walls: walls(count), along: Vec2::x(), depth: None }.resistance(v(1.2, 0.0)) / round - 1.0).abs()
+        })
         .into();
     // Vertices on the wall: second order.
     assert!(errors[1] < 1e-3 && errors[1] < 0.2 * errors[0], "{errors:?}");

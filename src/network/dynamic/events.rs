@@ -150,7 +150,7 @@ impl Dynamic {
         let waiting: Vec<(FrontId, f64)> = self
             .entering(element)
             .filter_map(|(front, meniscus)| {
-                Some((front, self.rises[front.0][front.1].as_ref()?.curvature(meniscus.area).0))
+                Some((front, self.rises[front.0][front.1].as_ref()?.curvature(meniscus.area)))
             })
             .collect();
         let to_come = self
@@ -197,7 +197,7 @@ impl Dynamic {
         ahead
             .filter_map(|front| {
                 let (passage, own) = self.displacement.front_to_come(front);
-                Some((front, Rise::new(&passage, own, self.gates[front.0].width)?))
+                Some((front, self.rise(front, &passage, own)?))
             })
             .collect()
     }

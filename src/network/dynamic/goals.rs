@@ -184,7 +184,10 @@ impl Dynamic {
             full,
             passes: false,
             first: first.map(|_| places[places.len() - 1].0),
-            rise: Arc::new(Rise::of_body(&places, 1.0 / (CLOSED * own * own.sqrt()))),
+            rise: Arc::new(
+                Rise::of_body(&places, 1.0 / (CLOSED * own * own.sqrt()))
+                    .between(|curvature| self.terms.with_depth(curvature)),
+            ),
         }
     }
 
@@ -202,7 +205,7 @@ impl Dynamic {
         at: &Areas<F, B>,
     ) -> f64 {
         let rise = |front: FrontId| self.rises[front.0][front.1].as_ref();
-        let curvature = |front: FrontId| rise(front).map_or(f64::NEG_INFINITY, |it| it.curvature((at.front)(front)).0);
+        let curvature = |front: FrontId| rise(front).map_or(f64::NEG_INFINITY, |it| it.curvature((at.front)(front)));
         let element_area = |element: usize| self.displacement.elements()[element].area;
         match goal {
             Goal::Own(_, front) => {
@@ -239,7 +242,7 @@ impl Dynamic {
                         let (body, area) = (&bodies[index], (at.body)(index));
                         let own = element_area(body.element);
                         missing = missing.max((body.full - area) / own);
-                        (body.rise.curvature(area).0, own.sqrt())
+                        (body.rise.curvature(area), own.sqrt())
                     }
                 };
                 let [(one, width), (other, _)] = [side(&sides[0]), side(&sides[1])];

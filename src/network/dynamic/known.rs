@@ -88,7 +88,12 @@ impl Dynamic {
             let rate = self.filling_rate(graph, &body, resistance);
             let is_quick = rate * self.state.last_steps[0] * QUICK > body.full - body.area;
             let passes = is_quick && only == Some(element);
-            let constant = || Arc::new(Rise::constant(body.rise.curvature(body.area).0));
+            let constant = || {
+                Arc::new(
+                    Rise::constant(body.rise.curvature(body.area))
+                        .between(|curvature| self.terms.with_depth(curvature)),
+                )
+            };
             Some(Body { passes, rise: if passes { Arc::clone(&body.rise) } else { constant() }, ..body })
         };
         graph.links.iter().zip(drops).filter_map(with_link).collect()
@@ -130,7 +135,7 @@ impl Dynamic {
 
     /// Area per time in m²/s at which menisci that have burst into an element would fill it by their curvature at the event.
     fn filling_rate(&self, graph: &Graph, body: &Body, resistance: f64) -> f64 {
-        let now = body.rise.curvature(body.area).0;
+        let now = body.rise.curvature(body.area);
         let rate = |&(gate, end): &FrontId| {
             self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst)?;
             let own = self.drop_without_rise(&graph.links[graph.link_of[gate]?]).0;

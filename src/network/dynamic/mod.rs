@@ -39,10 +39,12 @@ use serde::{Deserialize, Serialize};
 use self::graph::Graph;
 use self::rise::Rise;
 use super::conductance::{opening_resistances, resistances};
-use super::cycles::Invasion;
+use super::cycles::{FluidPhase, Invasion};
 use super::displacement::{Advance, Displacement, EventKind, FrontId, GateFacts, Phase};
 use super::graph::Network;
 pub use crate::case::network::Drive;
+use crate::interface::depth::Depth;
+use crate::interface::menisci::Passage;
 
 /// Fluids and drive of a dynamic displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,6 +61,17 @@ pub struct Terms {
     pub inlet: [bool; 4],
     /// Sides at which both phases leave.
     pub outlet: [bool; 4],
+    /// The phase that invades, and floor and lid as it meets them; none in the plane.
+    pub depth: Option<(FluidPhase, Depth)>,
+}
+
+impl Terms {
+    /// The pressure of the invading phase less that of the defending one, over the tension, at a meniscus of this curvature in the plane; both in 1/m.
+    pub(super) fn with_depth(&self, curvature: f64) -> f64 {
+        self.depth.map_or(curvature, |(invading, depth)| {
+            invading.towards_wetting(depth.curvature(invading.towards_wetting(curvature)))
+        })
+    }
 }
 
 /// A meniscus in a gate.
@@ -256,7 +269,11 @@ impl Dynamic {
 
     fn rise_of(&self, front: FrontId) -> Option<Rise> {
         let (passage, own) = self.displacement.front(front)?;
-        Rise::new(passage, own, self.gates[front.0].width)
+        self.rise(front, passage, own)
+    }
+
+    fn rise(&self, front: FrontId, passage: &Passage, own: f64) -> Option<Rise> {
+        Some(Rise::new(passage, own, self.gates[front.0].width)?.between(|curvature| self.terms.with_depth(curvature)))
     }
 
     /// Elements, gates, and the phases of the elements that are full.
@@ -349,7 +366,7 @@ impl Dynamic {
             let meniscus = self.state.menisci[front.0][front.1].filter(|meniscus| !meniscus.has_burst)?;
             let rise = self.rises[front.0][front.1].as_ref()?;
             let (passage, own) = self.displacement.front(front)?;
-            passage.at(rise.curvature(meniscus.area).0.min(own))
+            passage.at(rise.curvature(meniscus.area).min(own))
         })
     }
 

@@ -158,7 +158,7 @@ impl Dynamic {
         let flow = factored.solve(&jumps, &known.sources)?;
         let mut changes = vec![0.0; jumps.len()];
         for (law, &about) in known.laws.iter().zip(about) {
-            changes[law.link] = -self.terms.tension * law.rise.curvature(about).1 * flow.through[law.link];
+            changes[law.link] = -self.terms.tension * law.rise.resistance(about).1 * flow.through[law.link];
         }
         let rates = factored.solve(&changes, &vec![0.0; graph.nodes])?;
         // Where a curvature resists much, flows say little about it, and where a throat resists little, pressures say little about the flow.
@@ -212,7 +212,7 @@ impl Dynamic {
         let tension = self.terms.tension;
         let area = |law: usize| known.laws[law].area + path.passed(known.laws[law].link, dt);
         let matches = |(index, law): (usize, &Law)| {
-            let curvature = law.rise.curvature(area(index)).0;
+            let curvature = law.rise.resistance(area(index)).0;
             let taken = known.drops[law.link].0 * path.passed(law.link, dt) / dt + tension * curvature;
             (taken - path.drop(law.link, dt)).abs() <= MATCHED * tension * law.scale
         };

@@ -18,6 +18,8 @@ pub(crate) struct Rise {
     area: Vec<f64>,
     /// Curvature in 1/m, rising.
     curvature: Vec<f64>,
+    /// The same with that by floor and lid: what resists, over the tension.
+    total: Vec<f64>,
     /// Change of curvature with area in 1/m³ before the first point.
     closed: f64,
 }
@@ -46,22 +48,42 @@ impl Rise {
         if let Some(last) = curvature.last_mut() {
             *last = event;
         }
-        (!area.is_empty()).then(|| Self { area, curvature, closed: 1.0 / (CLOSED * width.powi(3)) })
+        (!area.is_empty()).then(|| Self {
+            area,
+            total: curvature.clone(),
+            curvature,
+            closed: 1.0 / (CLOSED * width.powi(3)),
+        })
     }
 
-    /// Curvature in 1/m at a swept area in m², and its change with the area in 1/m³.
-    pub(crate) fn curvature(&self, area: f64) -> (f64, f64) {
+    /// The same where floor and lid curve menisci too: by their `total` curvature (1/m) for one in the plane.
+    pub(crate) fn between(mut self, total: impl Fn(f64) -> f64) -> Self {
+        self.total.iter_mut().for_each(|curvature| *curvature = total(*curvature));
+        self
+    }
+
+    /// Curvature in the plane in 1/m at a swept area in m².
+    pub(crate) fn curvature(&self, area: f64) -> f64 {
+        self.at(&self.curvature, area).0
+    }
+
+    /// What resists over the tension in 1/m at a swept area in m², and its change with the area in 1/m³.
+    pub(crate) fn resistance(&self, area: f64) -> (f64, f64) {
+        self.at(&self.total, area)
+    }
+
+    fn at(&self, curvature: &[f64], area: f64) -> (f64, f64) {
         if self.area.len() < 2 || area < self.area[0] {
-            return (self.curvature[0] + self.closed * (area - self.area[0]), self.closed);
+            return (curvature[0] + self.closed * (area - self.area[0]), self.closed);
         }
         let end = self.area.partition_point(|&a| a <= area).clamp(1, self.area.len() - 1);
-        let slope = self.slope(end);
-        (self.curvature[end] + slope * (area - self.area[end]), slope)
+        let slope = self.slope(curvature, end);
+        (curvature[end] + slope * (area - self.area[end]), slope)
     }
 
-    /// The swept area v in m² at which c (v − `from`) + k(v) = `drive`, with c in 1/m³ and the drive in 1/m.
+    /// The swept area v in m² at which c (v − `from`) and what resists sum to `drive`, with c in 1/m³ and the drive in 1/m.
     pub(crate) fn standing(&self, from: f64, c: f64, drive: f64) -> f64 {
-        let need = |point: usize| c * (self.area[point] - from) + self.curvature[point];
+        let need = |point: usize| c * (self.area[point] - from) + self.total[point];
         let (mut low, mut high) = (0, self.area.len());
         while low < high {
             let middle = (low + high) / 2;
@@ -74,13 +96,13 @@ impl Rise {
         let (point, slope) = match low {
             0 => (0, self.closed),
             _ if self.area.len() < 2 => (0, self.closed),
-            _ => (low.min(self.area.len() - 1), self.slope(low.min(self.area.len() - 1))),
+            _ => (low.min(self.area.len() - 1), self.slope(&self.total, low.min(self.area.len() - 1))),
         };
         self.area[point] + (drive - need(point)) / (c + slope)
     }
 
-    fn slope(&self, end: usize) -> f64 {
-        (self.curvature[end] - self.curvature[end - 1]) / (self.area[end] - self.area[end - 1])
+    fn slope(&self, curvature: &[f64], end: usize) -> f64 {
+        (curvature[end] - curvature[end - 1]) / (self.area[end] - self.area[end - 1])
     }
 
     /// Swept area in m² at a curvature in 1/m, at most that at the event.
@@ -91,7 +113,7 @@ impl Rise {
         } else if end == 0 {
             self.area[0] + (curvature - self.curvature[0]) / self.closed
         } else {
-            self.area[end] + (curvature - self.curvature[end]) / self.slope(end)
+            self.area[end] + (curvature - self.curvature[end]) / self.slope(&self.curvature, end)
         }
     }
 
@@ -114,12 +136,12 @@ impl Rise {
             area.push(a + 1.0 / last);
             curvature.push(k + 1.0);
         }
-        Self { area, curvature, closed: 0.0 }
+        Self { area, total: curvature.clone(), curvature, closed: 0.0 }
     }
 
     /// That of a body of a constant curvature in 1/m.
     pub(crate) fn constant(curvature: f64) -> Self {
-        Self { area: vec![0.0], curvature: vec![curvature], closed: 0.0 }
+        Self { area: vec![0.0], curvature: vec![curvature], total: vec![curvature], closed: 0.0 }
     }
 
     /// The area in m² that errors of areas are compared with.

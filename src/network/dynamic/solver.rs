@@ -116,13 +116,17 @@ impl Solver for DynamicSolver {
         let wetting = if self.model.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
         let (pressure, inflow) = self.model.dynamic.drive_now();
         let fingers = self.model.dynamic.fingers(&self.model.still.setting);
+        let depth = self.model.still.setting.network.depth;
         vec![
             sample("time_s", self.time()),
             sample("step", self.steps() as f64),
             sample("injected_pore_volumes", self.model.injected()),
             sample("saturation", wetting),
             sample("pressure_difference_Pa", pressure),
-            sample("inflow_m2_per_s", inflow),
+            match depth {
+                Some(depth) => sample("inflow_m3_per_s", depth * inflow),
+                None => sample("inflow_m2_per_s", inflow),
+            },
             sample("capillary_number", self.model.capillary_number()),
             sample("interface_length_m", self.model.dynamic.interface_length()),
             sample("finger_width_m", fingers.width),
@@ -143,6 +147,7 @@ impl Solver for DynamicSolver {
         if self.is_closed {
             found.push("the injected phase has no way out any more: the displacement ended there".to_owned());
         }
+        found.extend(measures::films_left(&self.model));
         found
     }
 

@@ -94,6 +94,8 @@ impl Dynamic {
         let resistance = self.viscosity(a) * link.halves[0] + self.viscosity(b) * link.halves[1];
         let drop = match (link.way, self.terms.drive) {
             (Way::Inlet, Drive::PressureDrop(pressure)) => pressure,
+            // What lies beyond the outlet is as deep, and menisci there are flat in the plane.
+            (Way::Outlet, _) if self.is_invaded(a) => self.terms.tension * self.terms.with_depth(0.0),
             _ => 0.0,
         };
         (resistance, drop)
@@ -105,7 +107,7 @@ impl Dynamic {
         let mut conductances: Vec<f64> = known.drops.iter().map(|(resistance, _)| 1.0 / resistance).collect();
         let mut jumps: Vec<f64> = known.drops.iter().map(|(_, drop)| -drop).collect();
         for (law, &from) in known.laws.iter().zip(about) {
-            let (curvature, slope) = law.rise.curvature(from);
+            let (curvature, slope) = law.rise.resistance(from);
             conductances[law.link] = 1.0 / (known.drops[law.link].0 + tension * slope * dt);
             jumps[law.link] = -tension * (curvature + slope * (law.area - from));
         }
@@ -156,9 +158,9 @@ impl Dynamic {
             }
             let matches = known.laws.iter().zip(&about).all(|(law, &about)| {
                 let area = area(law, &flow.through);
-                let (curvature, slope) = law.rise.curvature(about);
+                let (curvature, slope) = law.rise.resistance(about);
                 let taken = curvature + slope * (area - about);
-                (law.rise.curvature(area).0 - taken).abs() <= MATCHED * law.scale
+                (law.rise.resistance(area).0 - taken).abs() <= MATCHED * law.scale
             });
             if (share == 1.0 && matches) || round >= ROUNDS {
                 break flow;
@@ -182,7 +184,7 @@ impl Dynamic {
                 .enumerate()
                 .map(|(index, (resistance, drop))| (resistance * flow(index) + drop) * (to[index] - from[index]));
             let rising = known.laws.iter().map(|law| {
-                let curvature = law.rise.curvature(law.area + flow(law.link) * dt).0;
+                let curvature = law.rise.resistance(law.area + flow(law.link) * dt).0;
                 tension * curvature * (to[law.link] - from[law.link])
             });
             fixed.sum::<f64>() + rising.sum::<f64>()

@@ -86,6 +86,7 @@ fn report(task: &Task<'_>, resolved: &str, found: Option<&Comparison>) -> Report
         expectations: Vec::new(),
         numbers: numbers::numbers(pair.direct, length, speed),
         length_of_numbers: length,
+        depth: pair.direct.about_depth(),
         case: pair.direct.clone(),
         resolved_case: resolved.to_owned(),
         machine: Machine::present(),

@@ -50,14 +50,15 @@ pub(crate) fn track(solver: &mut NetworkSolver, grid: &Grid) -> Result<Track, Co
 }
 
 fn record(solver: &NetworkSolver, grid: &Grid) -> Record {
-    let tension = solver.setting().tension.unwrap_or(f64::NAN);
     let Some(cycles) = solver.cycles() else {
         return Record { saturation: f64::NAN, pressure: f64::NAN, invaded: Vec::new() };
     };
     let holds = |element: usize| cycles.displacement().phase(element) == Phase::Invading;
     Record {
         saturation: cycles.saturation(),
-        pressure: cycles.applied().map_or(f64::NAN, |applied| tension * applied),
+        pressure: cycles
+            .applied()
+            .map_or(f64::NAN, |applied| solver.setting().pressure(cycles.half_cycle().invading, applied)),
         invaded: grid.cells.iter().map(|&(_, element)| holds(element)).collect(),
     }
 }

@@ -6,8 +6,8 @@ use super::comparison::{AtSaturation, Comparison, Side};
 use super::pair::{CompareError, Pair, Task};
 use super::track::{Grid, Record, Track};
 use super::{direct, network, picture, rank};
-use crate::case::Model;
 use crate::case::network::state::NetworkState;
+use crate::case::{Case, Model};
 use crate::geometry::elements::Elements;
 use crate::network::solver::NetworkSolver;
 use crate::run::setup::{self, SetupError};
@@ -55,6 +55,11 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
     let solver = crate::network::setup::build_still(pair.network, wanted).map_err(SetupError::from)?;
     let state = network::state(&solver).ok_or(CompareError::NoNetwork)?;
     if let Some(misfit) = state.misfit(&pair.direct.geometry) {
+        return Err(CompareError::OtherGeometry(misfit));
+    }
+    if pair.network.depth != pair.direct.depth {
+        let told = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
+        let misfit = format!("the network has {}, and the direct simulation {}", told(pair.network), told(pair.direct));
         return Err(CompareError::OtherGeometry(misfit));
     }
     if let Some((side, misfit)) = state.misfit_of_sides(&sph.sides) {

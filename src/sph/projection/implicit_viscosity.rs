@@ -52,6 +52,7 @@ impl View<'_, Fields> {
         let (pairs, images, fluids, f) =
             (&self.neighborhood.pairs, &self.neighborhood.images, self.state.particles.fluids, &self.fields.bulk);
         let viscous = self.viscous();
+        let has_plates = self.setting.method.plates.is_some();
         let is_central = self.setting.method.numerics.viscous_term == ViscousTerm::Szewc;
         let transposed = self.transposed_stress();
         let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
@@ -103,6 +104,9 @@ impl View<'_, Fields> {
                 }
                 *diagonal += Mat2::from_diagonal_element(between);
                 *diagonal /= root_mass[a] * root_mass[a];
+                if has_plates {
+                    *diagonal += Mat2::from_diagonal_element(self.plate_rate(a));
+                }
             }
         });
         let rate = |a: usize| 2.0 * diagonal[a].symmetric_eigenvalues().max();

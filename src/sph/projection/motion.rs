@@ -89,7 +89,7 @@ impl View<'_, Fields> {
                 fluid_volume: &f.fluid_volume,
                 wall_distance: &f.wall_distance,
                 wall_normal: &f.wall_normal,
-                weight: (m.wetting_fluid.density - m.other_fluid.density) / m.mean_density() * m.gravity,
+                weight: (m.wetting_fluid.density - m.other_fluid.density) / m.mean_density() * m.gravity / m.profile(),
                 wall_hysteresis,
             };
             sharpening.displace(&self.neighborhood.pairs, m.kernel.h, m.capillary_speed(), dt, &mut by);

@@ -51,7 +51,7 @@ impl View<'_, Fields> {
         let step = landing(step, self.state.time, until);
         let fastest = relative_speed(&particles.velocity[..fluids]);
         let background = self.background_acceleration();
-        let body = self.setting.method.gravity - self.setting.balanced_gravity();
+        let body = (self.setting.method.gravity - self.setting.balanced_gravity()) / self.setting.method.profile();
         let driving = if self.gradient_in_pressure() { Vec2::zeros() } else { self.driving_gradient() };
         let mut acceleration = values(fluids, |a| {
             let forces = (force.on(a) + driving) / f.density[a];

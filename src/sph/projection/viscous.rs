@@ -34,13 +34,22 @@ impl View<'_, Fields> {
             let both = acceleration.iter_mut().zip(forces).enumerate();
             both.for_each(|(a, (by, force))| *by += force / (f.density[a] * f.volume[a]));
         }
+        if self.setting.method.plates.is_some() {
+            acceleration.iter_mut().enumerate().for_each(|(a, by)| *by -= self.plate_rate(a) * velocity[a]);
+        }
         acceleration
+    }
+
+    /// 12 μ/(ρ b²) in 1/s: the rate at which floor and lid slow a particle, 0 without them.
+    pub(super) fn plate_rate(&self, a: usize) -> f64 {
+        let (method, f) = (&self.setting.method, &self.fields.bulk);
+        method.plates.map_or(0.0, |plates| plates.friction / plates.profile * f.viscosity[a] / f.density[a])
     }
 
     /// The transposed part of the stress, where the method has it and the fluids differ in viscosity.
     pub(super) fn transposed_stress(&self) -> Option<TransposedStress<'_>> {
         let (method, f) = (&self.setting.method, &self.fields.bulk);
-        let viscosities = [method.wetting_fluid.viscosity, method.other_fluid.viscosity];
+        let viscosities = [method.wetting_fluid, method.other_fluid].map(|fluid| method.profile() * fluid.viscosity);
         if method.numerics.viscous_term != ViscousTerm::Stress {
             return None;
         }
@@ -52,7 +61,7 @@ impl View<'_, Fields> {
     pub fn viscous_rate(&self) -> f64 {
         let rate =
             self.viscous().rate(&self.neighborhood.pairs, |a, b| self.stretch(a, b), self.state.particles.fluids);
-        rate.iter().fold(0.0, |m: f64, r| m.max(*r))
+        rate.iter().enumerate().fold(0.0, |m: f64, (a, r)| m.max(r + 0.5 * self.plate_rate(a)))
     }
 
     /// The viscous force in N per m of depth that fluid exerts on walls, from the fluid particles and to the wall particles that

@@ -34,7 +34,7 @@ impl Ground {
         let bounds = geometry.bounds();
         let sides = sph.sides.each();
         let lattice = Lattice::fitting(bounds, sph.spacing);
-        let method = method(sph, &lattice);
+        let method = method(sph, geometry, &lattice);
         Self { lattice, method, domain: Domain::new(bounds, geometry.periodic(), mirrors(bounds, sides)) }
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::case::FluidPhase;
 use crate::case::network::state::{ElementState, NetworkState, Start};
 use crate::geometry::elements::Elements;
+use crate::interface::depth::Depth;
 use crate::math::Vec2;
 use crate::sph::particles::{Particles, Phase};
 use crate::sph::solver::HandBack;
@@ -14,19 +15,19 @@ const NOTE: &str = "phases by area share of a direct simulation: of each element
                     trapped are for the network to find; SI units";
 
 /// `at-end.json` of a direct run that began with `start`: made from its particles and its capillary pressure p_n - p_w in Pa.
-pub(super) fn hand_back(start: &Start, tension: f64) -> HandBack {
+pub(super) fn hand_back(start: &Start, tension: f64, depth: Option<Depth>) -> HandBack {
     let start = Arc::clone(&start.state);
     Box::new(move |particles: &Particles, pressure| {
         let fluid = (0..particles.fluids).map(|a| (particles.position[a], particles.phase[a]));
         // Numbers, texts and lists of them can always be written.
-        let text = serde_json::to_string(&state(&start, tension, fluid, pressure)).unwrap_or_default();
+        let text = serde_json::to_string(&state(&start, (tension, depth), fluid, pressure)).unwrap_or_default();
         Document { name: "at-end.json", text: text + "\n" }
     })
 }
 
 fn state(
     start: &NetworkState,
-    tension: f64,
+    (tension, depth): (f64, Option<Depth>),
     fluid: impl Iterator<Item = (Vec2, Phase)>,
     pressure: f64,
 ) -> NetworkState {
@@ -48,13 +49,14 @@ fn state(
     };
     let saturation = area(&|element| element.phase == FluidPhase::Wetting) / area(&|_| true);
     let pressure = if pressure.is_finite() { pressure } else { start.capillary_pressure_pa };
+    let applied = depth.map_or(pressure / tension, |depth| depth.plane(pressure / tension));
     NetworkState {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         note: NOTE.to_owned(),
         tension_n_per_m: tension,
-        applied_curvature_per_m: pressure / tension,
+        applied_curvature_per_m: applied,
         capillary_pressure_pa: pressure,
-        largest_applied_curvature_per_m: Some(pressure / tension),
+        largest_applied_curvature_per_m: Some(applied),
         saturation,
         saturation_with_menisci: None,
         elements,
@@ -109,7 +111,7 @@ mod tests {
         let at = |x: f64, phase| (Vec2::new(x, 0.5), phase);
         let (wet, dry) = (Phase::Wetting, Phase::NonWetting);
         let fluid = [at(0.2, wet), at(0.4, wet), at(0.6, dry), at(1.2, dry), at(1.4, dry), at(1.6, wet)];
-        let state = state(&start(), 2.0, fluid.into_iter(), 6.0);
+        let state = state(&start(), (2.0, None), fluid.into_iter(), 6.0);
         let phases: Vec<FluidPhase> = state.elements.iter().map(|element| element.phase).collect();
         assert_eq!(phases, [FluidPhase::Wetting, FluidPhase::NonWetting]);
         assert!(state.elements.iter().all(|element| !element.trapped));
@@ -118,7 +120,7 @@ mod tests {
 
     #[test]
     fn an_element_without_particles_keeps_its_phase() {
-        let state = state(&start(), 1.0, std::iter::empty(), f64::NAN);
+        let state = state(&start(), (1.0, None), std::iter::empty(), f64::NAN);
         assert_eq!(state.elements[0].phase, FluidPhase::NonWetting);
         assert_eq!(state.elements[1].phase, FluidPhase::Wetting);
     }

@@ -7,6 +7,7 @@ use crate::case::network::state::{NetworkState, Start};
 use crate::case::{Case, Side, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::curve::Curve;
+use crate::interface::depth::Depth;
 use crate::math::{Bounds, Vec2};
 use crate::sph::fill::Region;
 use crate::sph::open::Open;
@@ -47,13 +48,19 @@ fn led_on(curve: &Curve, length: f64) -> Curve {
 
 /// Sets the pressures of the fluid particles: one for each phase, the non-wetting one above the wetting one by tension times applied curvature,
 /// and for what is trapped that of its own menisci. At a side with a given pressure the phase there has that one.
-pub(super) fn set_pressures(particles: &mut Particles, sph: &Sph, open: &Open, start: &Start) {
+pub(super) fn set_pressures(
+    particles: &mut Particles,
+    (sph, depth): (&Sph, Option<Depth>),
+    open: &Open,
+    start: &Start,
+) {
     let state = &start.state;
-    let jump = sph.tension * state.applied_curvature_per_m;
+    let jump_at = |curvature: f64| sph.tension * depth.map_or(curvature, |depth| depth.curvature(curvature));
+    let jump = jump_at(state.applied_curvature_per_m);
     let of_phase = |phase: Phase| if phase == Phase::NonWetting { jump } else { 0.0 };
     let given = open.sides.iter().find_map(|side| Some(side.given_pressure()? - of_phase(side.main)));
     let base = given.unwrap_or(0.0);
-    let clusters = Clusters::new(state, sph.tension, jump);
+    let clusters = Clusters::new(state, jump_at, jump);
     for a in 0..particles.fluids {
         let phase = particles.phase[a];
         let own = clusters.pressure(phase, particles.position[a]);
@@ -69,7 +76,7 @@ struct Clusters {
 
 impl Clusters {
     /// Pressures in Pa above that of the wetting phase that is joined to a side; `jump` is that of the non-wetting one.
-    fn new(state: &NetworkState, tension: f64, jump: f64) -> Self {
+    fn new(state: &NetworkState, jump_at: impl Fn(f64) -> f64, jump: f64) -> Self {
         let (phase, invading, sign) = match state.invading {
             FluidPhase::NonWetting => (Phase::Wetting, jump, -1.0),
             FluidPhase::Wetting => (Phase::NonWetting, 0.0, 1.0),
@@ -78,7 +85,7 @@ impl Clusters {
         let elements = trapped.filter_map(|(element, curvature)| {
             let curves = NetworkState::curves(&element.boundary);
             let bounds = curves.iter().map(Curve::bounds).reduce(|a, b| a.united(&b))?;
-            Some((bounds, curves, invading + sign * tension * curvature))
+            Some((bounds, curves, invading + sign * jump_at(curvature)))
         });
         Self { phase, elements: elements.collect() }
     }

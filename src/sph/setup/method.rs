@@ -1,16 +1,22 @@
 //! The constants of the method.
 
-use crate::case::{LineDelta, Sph, SurfaceForce};
+use std::f64::consts::FRAC_PI_2;
+
+use crate::case::{LineDelta, Sph, SurfaceForce, on_plates};
+use crate::geometry::Geometry;
+use crate::geometry::throats::throats;
+use crate::interface::depth::{Depth, profile_factor};
 use crate::sph::boundary::no_slip::NoSlip;
 use crate::sph::fill::Lattice;
 use crate::sph::kernel::WendlandC2;
-use crate::sph::method::Method;
+use crate::sph::method::{Method, Plates};
 use crate::sph::poisson::Tolerance;
+use crate::wetting::Wetting;
 
 /// Most iterations of a pressure solve; a healthy one takes about ten.
 const ITERATIONS: usize = 300;
 
-pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
+pub(super) fn method(sph: &Sph, geometry: &Geometry, lattice: &Lattice) -> Method {
     let kernel = lattice.consistent(WendlandC2::new(sph.smoothing_ratio * sph.spacing));
     let numerics = &sph.numerics;
     Method {
@@ -30,7 +36,24 @@ pub(super) fn method(sph: &Sph, lattice: &Lattice) -> Method {
             slip_length: sph.walls.slip_length,
             line_slip_length: sph.walls.line_slip_length,
         },
+        plates: sph.depth.map(|depth| plates(sph, geometry, lattice, depth)),
         numerics: *numerics,
         tolerance: Tolerance { residual: numerics.pressure_tolerance, iterations: ITERATIONS },
     }
+}
+
+/// Floor and lid at the distance `depth` (m). The profile is that of a duct as wide as the median throat, or as the largest circle in the pore where there is
+/// none; moving lines leave the angles of floor and lid at rest.
+fn plates(sph: &Sph, geometry: &Geometry, lattice: &Lattice, depth: f64) -> Plates {
+    let all = throats(geometry);
+    let largest = || lattice.inside().map(|x| 2.0 * geometry.signed_distance(x)).fold(0.0, f64::max);
+    let width = all.get(all.len() / 2).map_or_else(largest, |throat| throat.width);
+    let at_rest = match &sph.wetting_model {
+        Some(model) => {
+            Depth::new(depth, model.static_angle(), on_plates(model, &sph.wetting_patches, Wetting::static_angle))
+        }
+        None => Depth::new(depth, FRAC_PI_2, [FRAC_PI_2; 2]),
+    };
+    let profile = sph.profile_factor.unwrap_or_else(|| profile_factor(width / depth));
+    Plates { profile, friction: 12.0 / (depth * depth), depth: at_rest }
 }

@@ -109,10 +109,11 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
     open::fill(&mut particles, &mut depth, &open.sides, &around);
     initial::set(&mut particles, sph, &open, &inside, bounds);
     if let Some(start) = &sph.initial.network {
-        handed_over::set_pressures(&mut particles, sph, &open, start);
+        let depth = method.plates.map(|plates| plates.depth);
+        handed_over::set_pressures(&mut particles, (sph, depth), &open, start);
     }
     let viscous_time = viscous_time(&method, &lattice, &domain, |x| geometry.signed_distance(x));
-    let surroundings = surroundings(case, sph, &geometry);
+    let surroundings = surroundings(case, sph, &geometry, &method);
     let spots = wall_spots(sph, &geometry).unwrap_or_default();
     let wall: WallQuery = Box::new(move |x| {
         let wall = geometry.wall(inside(x));
@@ -130,7 +131,7 @@ fn beside_frozen_interface(case: &Case, sph: &Sph, packed: &mut dyn FnMut(f64)) 
     let one_fluid = frozen::with_one_fluid(sph);
     let ground = Ground::new(&geometry, &one_fluid)?;
     let (particles, depth) = filled(sph, &geometry, (&ground, &region), Some(packed))?;
-    let surroundings = surroundings(case, sph, &geometry);
+    let surroundings = surroundings(case, sph, &geometry, &ground.method);
     let pore = Pore { geometry, region: Arc::new(region), sph: Arc::new(one_fluid) };
     Ok(SphSolver::beside(frozen::frozen(&pore, &particles, &depth)?, surroundings))
 }

@@ -10,11 +10,12 @@ use crate::math::{Bounds, Vec2};
 use crate::snapshot::Lines;
 use crate::sph::frozen::FLOWS;
 use crate::sph::measures::DiscOf;
+use crate::sph::method::Method;
 use crate::sph::solver::Surroundings;
 use crate::sph::stages::Stages;
 
 /// The surroundings of the flow of a case.
-pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surroundings {
+pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry, method: &Method) -> Surroundings {
     let outline = geometry.outline();
     Surroundings {
         wall_samples: wall_samples(&polylines(&outline), 0.5 * sph.spacing),
@@ -27,7 +28,7 @@ pub(super) fn surroundings(case: &Case, sph: &Sph, geometry: &Geometry) -> Surro
         grid_spacing: case.output.grid_ratio * sph.spacing,
         // A frozen interface leaves the state as it was.
         hand_back: (sph.initial.network.as_ref().filter(|_| !sph.measure.relative_permeability))
-            .map(|start| hand_back(start, sph.tension)),
+            .map(|start| hand_back(start, sph.tension, method.plates.map(|plates| plates.depth))),
     }
 }
 

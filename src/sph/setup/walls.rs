@@ -43,6 +43,7 @@ pub(super) fn wall_spots(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallSpot
                 PatchedWall::All => true,
                 PatchedWall::Shape(shape) => wall.shape == shape,
                 PatchedWall::Side(number) => side == Some(number),
+                PatchedWall::Plate(_) => false,
             };
             on && wall.distance.is_finite() && patch.stripes.is_none_or(|stripes| stripes.contains(closest))
         };

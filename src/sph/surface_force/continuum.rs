@@ -21,7 +21,8 @@ impl View<'_, BulkFields> {
         let normal = images.reflected_field(normal);
         let mut curvature = curvature::curvature(pairs, &bulk.fluid_volume, &unit_normal, moving);
         curvature.resize(self.state.particles.len(), 0.0);
-        let weight: Vec<f64> = bulk.density[..fluids].iter().map(|&rho| method.force_weight(rho)).collect();
+        let profile = method.profile();
+        let weight: Vec<f64> = bulk.density[..fluids].iter().map(|&rho| method.force_weight(rho / profile)).collect();
         let mut lines = Vec::new();
         let [surface, line] = self.volume_forces([&normal, &unit_normal], &curvature, &weight, delta, |seen| {
             lines = self.followed(seen);
@@ -42,6 +43,9 @@ impl View<'_, BulkFields> {
         angles: impl FnOnce(&[MeanLine]) -> Vec<f64>,
     ) -> [Vec<Vec2>; 2] {
         let (particles, method, bulk) = (&self.state.particles, &self.setting.method, self.fields);
+        let with_plates: Option<Vec<f64>> =
+            method.plates.map(|plates| curvature.iter().map(|&k| -plates.depth.curvature(-k)).collect());
+        let curvature = with_plates.as_deref().unwrap_or(curvature);
         let surface = surface_tension::surface_force(method.tension, curvature, normal, weight);
         let mut line = vec![Vec2::zeros(); particles.fluids];
         if method.wetting.is_some() {

@@ -2,8 +2,10 @@
 
 use rayon::prelude::*;
 
+use crate::interface::depth::Depth;
 use crate::math::{LINE_MOMENT, Vec2};
 use crate::sph::bulk::BulkFields;
+use crate::sph::components::components;
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::pairs::Pairs;
@@ -42,6 +44,8 @@ pub struct Jump {
     pub curvature: Field<f64>,
     /// Whether a particle has a neighbor on the other side.
     pub is_across: Vec<bool>,
+    /// Floor and lid, and the particles whose interface they alone bound; none in the plane.
+    pub(crate) plates: Option<(Depth, Field<bool>)>,
 }
 
 impl Jump {
@@ -83,7 +87,12 @@ impl Jump {
             let of_wall = |a: usize| average_at(a, pairs, None, |b| known[b] + rest(a, b));
             curvature = values(n, |a| if a >= fluids && known[a].is_nan() { of_wall(a) } else { known[a] });
         }
-        Self { side, curvature: images.field(curvature), is_across }
+        Self {
+            side,
+            curvature: images.field(curvature),
+            is_across,
+            plates: flow.setting.method.plates.map(|plates| (plates.depth, drops(flow))),
+        }
     }
 
     /// J_ab in units of the tension: κ̄_ab (c_b − c_a) in 1/m, κ̄ the mean of the curvatures that exist.
@@ -103,8 +112,30 @@ impl Jump {
             (true, false) => k_b,
             (true, true) => 0.0,
         };
+        // The curvature is above 0 where the wetting phase is convex, and that of a meniscus where it bulges into it.
+        let kappa = match &self.plates {
+            None => kappa,
+            Some((depth, is_drop)) if is_drop[a] || is_drop[b] => -depth.curvature_of_drop(-kappa),
+            Some((depth, _)) => -depth.curvature(-kappa),
+        };
         kappa * step
     }
+}
+
+/// The particles of drops and bubbles: of parts of a phase that no wall is near to.
+fn drops(flow: &View<BulkFields>) -> Field<bool> {
+    let (Neighborhood { pairs, images }, particles) = (flow.neighborhood, &flow.state.particles);
+    let (phase, moving) = (&particles.phase, particles.moving());
+    let part = components(moving, |a| {
+        let same = move |&b: &usize| b < moving && phase[b] == phase[a];
+        pairs.of(a).map(|ab| images.source(ab.b)).filter(same)
+    });
+    let mut is_drop = vec![true; moving];
+    for a in (0..moving).filter(|&a| flow.fields.wall_distance[a].is_finite()) {
+        is_drop[part[a] as usize] = false;
+    }
+    let of_particle = (0..particles.len()).map(|a| a < moving && is_drop[part[a] as usize]);
+    images.field(of_particle.collect())
 }
 
 /// What the curvature in 1/m is greater by at the end of a way from the wall than the mean of the way: s dκ̄/ds, with the slope of a linear

@@ -1,0 +1,244 @@
+//! Menisci between a floor and a lid: what the depth of a chip adds to the curvature in the plane.
+//!
+//! Floor and lid at the distance b with the angles θ_f and θ_l add (cos θ_f + cos θ_l)/b to the curvature of every meniscus. Where a wall and a
+//! plate meet at angles that sum to less than 90 degrees, the wetting phase stays in the corner, and the curvature is that at which the energy balances as
+//! the meniscus of a duct advances ([`Depth::curvature`]).
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// A uniform depth with the contact angles of walls, floor and lid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Depth {
+    /// Distance of floor and lid in m.
+    depth: f64,
+    /// Sum of the cosines of floor and lid over their distance, in 1/m.
+    transverse: f64,
+    /// What the films in the corners of a duct take, over its depth and twice the cosine of its walls, in 1/m; 0 without films.
+    corners: f64,
+    /// Share of the curvature in the plane that acts on an interface which meets floor and lid only.
+    share: f64,
+}
+
+impl Depth {
+    /// A depth in m with the contact angles in rad of walls, floor and lid through the wetting phase.
+    pub fn new(depth: f64, wall: f64, plates: [f64; 2]) -> Self {
+        let corners: f64 = plates.iter().map(|&plate| 2.0 * corner_area(wall, plate)).sum();
+        let corners = if corners > 0.0 { corners / (2.0 * wall.cos() * depth) } else { 0.0 };
+        let transverse = plates.iter().map(|plate| plate.cos()).sum::<f64>() / depth;
+        Self { depth, transverse, corners, share: share(plates) }
+    }
+
+    /// The distance of floor and lid in m.
+    pub fn depth(&self) -> f64 {
+        self.depth
+    }
+
+    /// (p_n - p_w)/σ in 1/m of a meniscus between walls whose curvature in the plane is `plane` (1/m), above 0 where it bulges into the wetting phase.
+    ///
+    /// Without films the sum of both curvatures. With films that of the duct whose plane meniscus has this curvature, w = 2 cos θ/κ, by the balance of
+    /// Mayer and Stowe (1965) and Princen (1969, 1970): with perimeter and area of the cross-section, A p² - (Σ l cos θ) p + T = 0, where T is what the films
+    /// in its corners take. A meniscus that bulges the other way in the plane has no films. It grows with `plane`, so that one depth changes no order.
+    pub fn curvature(&self, plane: f64) -> f64 {
+        let both = plane + self.transverse;
+        if plane <= 0.0 || self.corners == 0.0 {
+            return both;
+        }
+        0.5 * (both + (both * both - 4.0 * self.corners * plane).max(0.0).sqrt())
+    }
+
+    /// The same of an interface that meets floor and lid only: that of a flat drop or bubble.
+    ///
+    /// Over the depth it is an arc, whose tilted parts are curved less in the plane, κ times the cosine of the tilt: at 0 degrees π/4 of it acts [Park1984].
+    /// That holds where the drop is flat; as the curvature in the plane exceeds 1/b, all of it acts.
+    pub fn curvature_of_drop(&self, plane: f64) -> f64 {
+        let flat = 1.0 / (1.0 + (plane * self.depth).powi(4));
+        plane + self.transverse - (1.0 - self.share) * flat * plane
+    }
+
+    /// How [`curvature`](Self::curvature) changes with that in the plane.
+    pub fn slope(&self, plane: f64) -> f64 {
+        let both = plane + self.transverse;
+        if plane <= 0.0 || self.corners == 0.0 {
+            return 1.0;
+        }
+        0.5 * (1.0 + (both - 2.0 * self.corners) / (both * both - 4.0 * self.corners * plane).sqrt())
+    }
+
+    /// The curvature in the plane of a meniscus for which (p_n - p_w)/σ is `curvature` (1/m).
+    pub fn plane(&self, curvature: f64) -> f64 {
+        if curvature <= self.transverse || self.corners == 0.0 {
+            return curvature - self.transverse;
+        }
+        curvature * (curvature - self.transverse) / (curvature - self.corners)
+    }
+}
+
+/// The mean cosine of the tilt of a circular arc between plates that it meets at these angles (rad):
+/// (π - θ_f - θ_l + sin θ_f cos θ_f + sin θ_l cos θ_l)/(2 (cos θ_f + cos θ_l)).
+fn share([floor, lid]: [f64; 2]) -> f64 {
+    /// Below, the arc is straight.
+    const STRAIGHT: f64 = 1e-6;
+    let cosines = floor.cos() + lid.cos();
+    if cosines.abs() < STRAIGHT {
+        return floor.sin();
+    }
+    (PI - floor - lid + floor.sin() * floor.cos() + lid.sin() * lid.cos()) / (2.0 * cosines)
+}
+
+/// Cross-section of the film in a right corner between surfaces with two contact angles (rad), over the squared radius of its surface; 0 where there is none.
+/// For equal angles cos θ (cos θ - sin θ) - (π/4 - θ). It is also what the film takes from the balance of a duct: the wetted lengths l cos θ less the
+/// arc and the cross-section, over the radius.
+pub fn corner_area(one: f64, other: f64) -> f64 {
+    let arc = FRAC_PI_2 - one - other;
+    if arc <= 0.0 {
+        return 0.0;
+    }
+    let ((sin1, cos1), (sin2, cos2)) = (one.sin_cos(), other.sin_cos());
+    cos1 * cos2 - 0.5 * (sin1 * cos1 + sin2 * cos2 + arc)
+}
+
+/// Share of the flow between two plates at the distance b that is left in a duct of the width `ratio` b: with Q = F b³ w/(12 μ) dp/dx,
+/// F = 1 - 192/(π⁵ x) Σ tanh(n π x/2)/n⁵ over odd n [White, Viscous Fluid Flow, section 3-3.3]; x² for a narrow one.
+pub fn duct_factor(ratio: f64) -> f64 {
+    /// Σ 1/n⁵ over odd n, 31/32 ζ(5).
+    const ALL: f64 = 1.004_523_762_795_139_6;
+    /// Terms of the rest, which falls as e^(-n π).
+    const TERMS: [f64; 6] = [1.0, 3.0, 5.0, 7.0, 9.0, 11.0];
+    if ratio < 1.0 {
+        // The same duct, turned.
+        return ratio * ratio * duct_factor(1.0 / ratio);
+    }
+    let rest: f64 = TERMS.iter().map(|n| 2.0 / (((n * PI * ratio).exp() + 1.0) * n.powi(5))).sum();
+    1.0 - 192.0 / (PI.powi(5) * ratio) * (ALL - rest)
+}
+
+/// The factor α on inertia and on the viscous stress in the plane with which the depth-averaged flow through a duct of the width `ratio` b is that of its
+/// series: 1 - tanh z/z = F with z² = 3 x²/α. It goes from 1 for a deep duct to 1.19 for a wide one, where a parabolic profile gives 6/5.
+pub fn profile_factor(ratio: f64) -> f64 {
+    /// A double has 53 bits.
+    const HALVINGS: usize = 53;
+    /// Beyond, the difference between both flows is rounding.
+    const RATIOS: [f64; 2] = [1e-3, 1e3];
+    let ratio = ratio.clamp(RATIOS[0], RATIOS[1]);
+    let exact = duct_factor(ratio);
+    let (mut low, mut high) = (1.0, 1.5);
+    for _ in 0..HALVINGS {
+        let middle: f64 = 0.5 * (low + high);
+        let z = ratio * (3.0 / middle).sqrt();
+        if 1.0 - z.tanh() / z > exact { low = middle } else { high = middle }
+    }
+    low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const B: f64 = 50e-6;
+
+    fn with_one_angle(deg: f64) -> Depth {
+        Depth::new(B, f64::to_radians(deg), [f64::to_radians(deg); 2])
+    }
+
+    #[test]
+    fn ducts_carry_the_flow_of_their_series() {
+        let known = [
+            (0.25, 0.052652),
+            (0.5, 0.171511),
+            (1.0, 0.421731),
+            (2.0, 0.686045),
+            (3.0, 0.789951),
+            (5.0, 0.873950),
+            (10.0, 0.936975),
+            (20.0, 0.968488),
+        ];
+        for (ratio, factor) in known {
+            assert!((duct_factor(ratio) - factor).abs() < 6e-7, "{ratio}: {}", duct_factor(ratio));
+        }
+        // A deep one is plane: F = x² (1 - .63 x + ...).
+        assert!((duct_factor(1e-3) / 1e-6 - 1.0).abs() < 7e-4);
+        assert!((duct_factor(1.0 - 1e-9) - duct_factor(1.0 + 1e-9)).abs() < 1e-8);
+    }
+
+    #[test]
+    fn the_profile_factor_gives_a_duct_its_flow() {
+        for ratio in [0.25, 0.5, 1.0, 2.0, 5.0, 20.0] {
+            let (alpha, exact) = (profile_factor(ratio), duct_factor(ratio));
+            let z = ratio * (3.0 / alpha).sqrt();
+            assert!(
+                ((1.0 - z.tanh() / z) / exact - 1.0).abs() < 1e-9 && (1.0..1.2).contains(&alpha),
+                "{ratio}: {alpha}"
+            );
+        }
+        assert!((profile_factor(1e-2) - 1.0).abs() < 0.01 && (profile_factor(1e4) - 1.19).abs() < 0.005);
+    }
+
+    #[test]
+    fn ducts_are_entered_at_the_pressure_of_mayer_stowe_and_princen() {
+        let known = [
+            (1.0, 0.0, 3.772454),
+            (1.0, 20.0, 3.620335),
+            (1.0, 30.0, 3.399159),
+            (1.0, 40.0, 3.054811),
+            (1.0, 45.0, 2.828427),
+            (1.0, 60.0, 2.0),
+            (2.0, 0.0, 2.849369),
+            (2.0, 30.0, 2.554874),
+            (2.0, 60.0, 1.5),
+        ];
+        for (ratio, deg, entry) in known {
+            let plane = 2.0 * f64::to_radians(deg).cos() / (ratio * B);
+            let found = with_one_angle(deg).curvature(plane) * B;
+            assert!((found - entry).abs() < 6e-7, "{ratio} {deg}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_flat_bubble_has_the_pressure_of_the_exact_surface_of_revolution() {
+        // Integrated numerically: angle, radius of the contact line over the depth, and p b/sigma.
+        let known = [
+            (30.0, 2.0, 2.120400),
+            (30.0, 5.0, 1.896311),
+            (30.0, 10.0, 1.815805),
+            (60.0, 2.0, 1.457683),
+            (60.0, 5.0, 1.187928),
+            (60.0, 10.0, 1.094804),
+        ];
+        for (deg, radius, pressure) in known {
+            // The mean over the depth lies a segment of the arc over b farther out than the contact line.
+            let (half, arc) = (f64::to_radians(90.0 - deg), 0.5 / f64::to_radians(deg).cos());
+            let mean = radius + arc * arc * (half - half.sin() * half.cos());
+            let found = with_one_angle(deg).curvature_of_drop(1.0 / (mean * B)) * B;
+            assert!((found / pressure - 1.0).abs() < 2e-3, "{deg} {radius}: {found}");
+        }
+        assert!((share([0.0; 2]) - 0.25 * PI).abs() < 1e-15 && (share([FRAC_PI_2; 2]) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_plane_comes_back_as_the_depth_grows_and_at_the_angle_without_films() {
+        for deg in [0.0, 30.0, 44.999_999, 45.0, 60.0, 120.0, 180.0] {
+            let angle = f64::to_radians(deg);
+            let deep = Depth::new(1.0, angle, [angle; 2]);
+            for plane in [-1e5, 1e5] {
+                assert!((deep.curvature(plane) / plane - 1.0).abs() < 5e-5, "{deg}");
+            }
+            let chip = with_one_angle(deg);
+            for plane in [-1e5, -1.0, 1.0, 1e3, 1e5] {
+                assert!((chip.plane(chip.curvature(plane)) / plane - 1.0).abs() < 1e-9, "{deg} {plane}");
+                let step = 1e-4 * plane;
+                let slope = (chip.curvature(plane + step) - chip.curvature(plane - step)) / (2.0 * step);
+                assert!((chip.slope(plane) / slope - 1.0).abs() < 1e-6 && slope > 0.0, "{deg} {plane}");
+            }
+        }
+    }
+
+    #[test]
+    fn films_of_unequal_corners_end_where_both_angles_sum_to_a_right_one() {
+        let angle = |deg: f64| deg.to_radians();
+        assert!(corner_area(angle(30.0), angle(59.9)) < 1e-5 && corner_area(angle(30.0), angle(60.1)) == 0.0);
+        let (one, other) = (corner_area(angle(10.0), angle(40.0)), corner_area(angle(40.0), angle(10.0)));
+        assert!((one - other).abs() < 1e-15);
+        let (sin, cos) = angle(20.0).sin_cos();
+        assert!((corner_area(angle(20.0), angle(20.0)) - (cos * (cos - sin) - angle(25.0))).abs() < 1e-15);
+    }
+}
