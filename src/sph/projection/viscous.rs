@@ -41,9 +41,13 @@ impl View<'_, Fields> {
     }
 
     /// 12 μ/(ρ b²) in 1/s: the rate at which floor and lid slow a particle, 0 without them.
+    ///
+    /// μ is the mean by the smoothed color, which resists as layers across the flow do. With that of each phase particles of the thinner one would pass those
+    /// of the thicker one, whose pressure gradient a kernel does not tell from theirs.
     pub(super) fn plate_rate(&self, a: usize) -> f64 {
-        let (method, f) = (&self.setting.method, &self.fields.bulk);
-        method.plates.map_or(0.0, |plates| plates.friction / plates.profile * f.viscosity[a] / f.density[a])
+        let (method, color) = (&self.setting.method, self.fields.interface.color[a]);
+        let viscosity = color * method.wetting_fluid.viscosity + (1.0 - color) * method.other_fluid.viscosity;
+        method.plates.map_or(0.0, |plates| plates.friction * viscosity / self.fields.bulk.density[a])
     }
 
     /// The transposed part of the stress, where the method has it and the fluids differ in viscosity.
