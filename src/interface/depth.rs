@@ -48,7 +48,7 @@ impl Depth {
 
     /// The same of an interface that meets floor and lid only: that of a flat drop or bubble.
     ///
-    /// Over the depth it is an arc, whose tilted parts are curved less in the plane, κ times the cosine of the tilt: at 0 degrees π/4 of it acts [Park1984].
+    /// Over the depth it is an arc, whose tilted parts are curved less in the plane, κ times the cosine of the tilt: at 0 degrees π/4 of it acts (Park and Homsy 1984).
     /// That holds where the drop is flat; as the curvature in the plane exceeds 1/b, all of it acts.
     pub fn curvature_of_drop(&self, plane: f64) -> f64 {
         let flat = 1.0 / (1.0 + (plane * self.depth).powi(4));

@@ -62,7 +62,7 @@ pub struct Method {
     pub tolerance: Tolerance,
 }
 
-/// What floor and lid do to a flow that is averaged over its depth b [Gondret1997].
+/// What floor and lid do to a flow that is averaged over its depth b (Gondret and Rabaud 1997).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plates {
     /// Factor α of the profile over the depth in inertia and in the viscous stress in the plane.

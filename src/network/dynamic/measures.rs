@@ -111,7 +111,7 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
 }
 
 /// A warning where menisci are so fast that they leave films of the wetting phase on floor and lid, which the network has not: where no angle holds a
-/// receding line, 9 Ca ln(x/l) > θ³ with the receding angle θ [Cox1986; Voinov1976].
+/// receding line, 9 Ca ln(x/l) > θ³ with the receding angle θ (Cox 1986; Voinov 1976).
 pub(crate) fn films_left(model: &DynamicModel) -> Option<String> {
     /// Logarithm of a depth over a molecular length.
     const LOGARITHM: f64 = 9.0;
