@@ -66,7 +66,9 @@ impl Case {
                 Some("plane, per meter of depth; a chip of finite depth has other pressures: geometry.depth".to_owned())
             }
             (_, Some(depth)) => {
-                Some(format!("{} um, with the curvature and the friction of floor and lid", 1e6 * depth))
+                // To the nanometer: products of decimals end in nines.
+                let um = (1e9 * depth).round() / 1e3;
+                Some(format!("{um} um, with the curvature and the friction of floor and lid"))
             }
         }
     }

@@ -28,11 +28,6 @@ impl Depth {
         Self { depth, transverse, corners, share: share(plates) }
     }
 
-    /// The distance of floor and lid in m.
-    pub fn depth(&self) -> f64 {
-        self.depth
-    }
-
     /// (p_n - p_w)/σ in 1/m of a meniscus between walls whose curvature in the plane is `plane` (1/m), above 0 where it bulges into the wetting phase.
     ///
     /// Without films the sum of both curvatures. With films that of the duct whose plane meniscus has this curvature, w = 2 cos θ/κ, by the balance of
@@ -53,15 +48,6 @@ impl Depth {
     pub fn curvature_of_drop(&self, plane: f64) -> f64 {
         let flat = 1.0 / (1.0 + (plane * self.depth).powi(4));
         plane + self.transverse - (1.0 - self.share) * flat * plane
-    }
-
-    /// How [`curvature`](Self::curvature) changes with that in the plane.
-    pub fn slope(&self, plane: f64) -> f64 {
-        let both = plane + self.transverse;
-        if plane <= 0.0 || self.corners == 0.0 {
-            return 1.0;
-        }
-        0.5 * (1.0 + (both - 2.0 * self.corners) / (both * both - 4.0 * self.corners * plane).sqrt())
     }
 
     /// The curvature in the plane of a meniscus for which (p_n - p_w)/σ is `curvature` (1/m).
@@ -227,7 +213,7 @@ mod tests {
                 assert!((chip.plane(chip.curvature(plane)) / plane - 1.0).abs() < 1e-9, "{deg} {plane}");
                 let step = 1e-4 * plane;
                 let slope = (chip.curvature(plane + step) - chip.curvature(plane - step)) / (2.0 * step);
-                assert!((chip.slope(plane) / slope - 1.0).abs() < 1e-6 && slope > 0.0, "{deg} {plane}");
+                assert!(slope > 0.0, "{deg} {plane}");
             }
         }
     }

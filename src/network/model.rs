@@ -54,9 +54,12 @@ impl Setting {
 
     /// (p_n - p_w)/σ in 1/m of such a meniscus: floor and lid curve it too.
     pub(crate) fn curvature(&self, invading: FluidPhase, in_plane: f64) -> f64 {
-        let [drainage, imbibition] = self.depth.map_or([None; 2], |depths| depths.map(Some));
-        let depth = if invading == FluidPhase::NonWetting { drainage } else { imbibition };
-        depth.map_or(in_plane, |depth| depth.curvature(in_plane))
+        self.depth_met_by(invading).map_or(in_plane, |depth| depth.curvature(in_plane))
+    }
+
+    /// Floor and lid as a phase that invades meets them; none in the plane.
+    pub(crate) fn depth_met_by(&self, invading: FluidPhase) -> Option<Depth> {
+        self.depth.map(|[drainage, imbibition]| if invading == FluidPhase::Wetting { imbibition } else { drainage })
     }
 
     /// Distance of floor and lid in m; 1 in the plane, where volumes and rates are those per meter of depth.

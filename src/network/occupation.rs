@@ -1,5 +1,7 @@
 //! What output sees of a displacement at one moment, whether it is quasi-static or one in time.
 
+use std::borrow::Cow;
+
 use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::displacement::{Element, Phase};
 use crate::math::Vec2;
@@ -15,8 +17,8 @@ pub(crate) struct Occupation<'a> {
     pub(crate) share: Vec<f64>,
     /// Whether an element holds the other phase without a way to the outlet.
     pub(crate) trapped: Vec<bool>,
-    /// When elements were invaded in this displacement or half cycle.
-    pub(crate) invasions: &'a [Option<Invasion>],
+    /// When elements were invaded in this displacement or half cycle, with the curvature in the plane towards the wetting phase.
+    pub(crate) invasions: Cow<'a, [Option<Invasion>]>,
     /// The events of this displacement or half cycle in their order: the throat that was passed.
     pub(crate) passed: Vec<Option<usize>>,
     /// The menisci, each a polyline in m.
@@ -48,7 +50,7 @@ impl Cycles {
             invading: self.half_cycle().invading,
             share: (0..elements.len()).map(|e| f64::from(u8::from(displacement.phase(e) == Phase::Invading))).collect(),
             trapped: (0..elements.len()).map(|e| displacement.is_trapped(e)).collect(),
-            invasions: self.invasions(),
+            invasions: self.invasions().into(),
             passed: present.map(|entry| entry.throat).collect(),
             menisci: self.menisci(),
             note: format!(

@@ -71,6 +71,11 @@ pub(crate) fn table(model: &Model) -> Table {
     Table { name: "openpnm", columns }
 }
 
+/// How many of floor and lid bound the flow: both, or none in the plane.
+fn plates(setting: &Setting) -> f64 {
+    if setting.network.depth.is_some() { 2.0 } else { 0.0 }
+}
+
 fn pore_columns(setting: &Setting) -> Vec<Column> {
     let inner = || 0..setting.pores.main_region.len();
     let outer = || setting.network.openings.iter();
@@ -82,7 +87,7 @@ fn pore_columns(setting: &Setting) -> Vec<Column> {
     let width = |opening: &Opening| (opening.ends[1] - opening.ends[0]).norm();
     let walls = wall_lengths(setting);
     let zero = |_: &Opening| 0.0;
-    let (depth, plates) = (setting.thickness(), if setting.network.depth.is_some() { 2.0 } else { 0.0 });
+    let (depth, plates) = (setting.thickness(), plates(setting));
     let volume = |pore: usize| depth * area(pore);
     let surface = |pore: usize| depth * walls[pore] + plates * area(pore);
     let round = |pore: usize| (4.0 * area(pore) / std::f64::consts::PI).sqrt();
@@ -111,7 +116,7 @@ fn pore_columns(setting: &Setting) -> Vec<Column> {
 
 fn throat_columns(model: &Model) -> Vec<Column> {
     let setting = &model.setting;
-    let (depth, plates) = (setting.thickness(), if setting.network.depth.is_some() { 2.0 } else { 0.0 });
+    let (depth, plates) = (setting.thickness(), plates(setting));
     let all = connections(setting);
     let column = |name, value: &dyn Fn(&Connection<'_>) -> f64| numbers(name, all.iter().map(value));
     let end = |name, side: usize| Column { name, cells: Cells::Counts(all.iter().map(|it| it.ends[side]).collect()) };

@@ -266,9 +266,7 @@ fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Flui
         largest_step: driven.largest_step,
         inlet,
         outlet,
-        depth: setting.depth.map(|[drainage, imbibition]| {
-            (invading, if invading == FluidPhase::Wetting { imbibition } else { drainage })
-        }),
+        depth: setting.depth_met_by(invading).map(|depth| (invading, depth)),
     };
     let start = Displacement::new(&setting.network, &setting.pores, conditions);
     let end = dynamic::solver::End {

@@ -52,19 +52,26 @@ fn arrays_of_posts_have_the_permeability_of_the_averaged_flow() {
     }
 }
 
-/// Throat, capillary pressure and saturation of each event of a case.
-fn events(case: &Loaded) -> Vec<(String, f64, f64)> {
+/// Columns of a table that a run leaves.
+fn columns<const N: usize>(case: &Loaded, table: &str, names: [&str; N]) -> Vec<[String; N]> {
     let folder = tempfile::tempdir().unwrap();
     run(case, folder.path(), Mode::New, &AtomicBool::new(false), &mut Unwatched);
-    let text = std::fs::read_to_string(folder.path().join("events.csv")).unwrap();
+    let text = std::fs::read_to_string(folder.path().join(table)).unwrap();
     let head: Vec<&str> = text.lines().next().unwrap().split(',').collect();
-    let place = |name: &str| head.iter().position(|column| *column == name).unwrap();
-    let [throat, pressure, saturation] = ["throat", "capillary_pressure_Pa", "saturation"].map(place);
+    let places = names.map(|name| head.iter().position(|column| *column == name).unwrap());
     let row = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();
-        (cells[throat].to_owned(), cells[pressure].parse().unwrap(), cells[saturation].parse().unwrap())
+        places.map(|place| cells[place].to_owned())
     };
     text.lines().skip(1).map(row).collect()
+}
+
+/// Throat, capillary pressure and saturation of each event of a case.
+fn events(case: &Loaded) -> Vec<(String, f64, f64)> {
+    let rows = columns(case, "events.csv", ["throat", "capillary_pressure_Pa", "saturation"]);
+    let event =
+        |[throat, pressure, saturation]: [String; 3]| (throat, pressure.parse().unwrap(), saturation.parse().unwrap());
+    rows.into_iter().map(event).collect()
 }
 
 #[test]
@@ -134,5 +141,29 @@ fn a_displacement_in_time_is_that_of_the_plane_where_the_chip_is_deep() {
     // The constant is 2 cos 60°/m: .07 Pa.
     for name in ["breakthrough-time-s", "breakthrough-pressure-difference-Pa", "final-wetting-saturation"] {
         assert!((chip[name] / plane[name] - 1.0).abs() < 1e-3, "{name}: {} {}", chip[name], plane[name]);
+    }
+}
+
+#[test]
+fn in_time_pores_are_invaded_at_the_pressures_of_events() {
+    for process in ["drainage", "imbibition"] {
+        let process = format!("network.process={process:?}");
+        for (depth, rate) in
+            [("", "network.dynamic.rate=1.0e-8"), ("geometry.depth=50e-6", "network.dynamic.rate=5.0e-13")]
+        {
+            let set = [
+                "network.wetting={young={contact-angle-deg=60.0}}",
+                "expect=[]",
+                "time.end=20.0",
+                &process,
+                rate,
+                depth,
+            ];
+            let case = loaded(&named("dynamic"), if depth.is_empty() { &set[..5] } else { &set });
+            let events = columns(&case, "events.csv", ["meniscus_pressure_Pa"]);
+            let pores = columns(&case, "pores.csv", ["invasion_capillary_pressure_Pa"]);
+            let known: Vec<[String; 1]> = pores.into_iter().filter(|[pressure]| !pressure.is_empty()).collect();
+            assert!(known.len() > 5 && known.iter().all(|pressure| events.contains(pressure)), "{process} {depth}");
+        }
     }
 }

@@ -132,7 +132,7 @@ pub(crate) fn films_left(model: &DynamicModel) -> Option<String> {
 
 /// `events.csv`.
 pub(crate) fn events(model: &DynamicModel) -> Table {
-    let tension = model.invading.towards_wetting(model.dynamic.terms().tension);
+    let pressure = |curvature| model.still.setting.pressure(model.invading, model.invading.towards_wetting(curvature));
     let number_of = numbers_of_throats(&model.still.setting);
     let history = model.dynamic.history();
     let wetting = |invading: f64| if model.invading == FluidPhase::Wetting { invading } else { 1.0 - invading };
@@ -143,7 +143,7 @@ pub(crate) fn events(model: &DynamicModel) -> Table {
             numbers("time_s", history.iter().map(|event| event.time)),
             words("event", history.iter().map(|event| event.kind.name())),
             places("throat", history.iter().map(|event| event.throat.and_then(|throat| number_of[throat]))),
-            numbers("meniscus_pressure_Pa", history.iter().map(|event| tension * event.curvature)),
+            numbers("meniscus_pressure_Pa", history.iter().map(|event| pressure(event.curvature))),
             numbers("pressure_difference_Pa", history.iter().map(|event| event.pressure)),
             numbers("saturation", history.iter().map(|event| wetting(event.saturation))),
         ],

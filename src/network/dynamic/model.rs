@@ -1,7 +1,7 @@
 //! A displacement in time as its writers read it.
 
 use super::Dynamic;
-use crate::network::cycles::FluidPhase;
+use crate::network::cycles::{FluidPhase, Invasion};
 use crate::network::model::Model;
 use crate::network::occupation::Occupation;
 
@@ -42,12 +42,14 @@ impl DynamicModel {
             FluidPhase::NonWetting => "drainage",
             FluidPhase::Wetting => "imbibition",
         };
+        let towards_wetting =
+            |invasion: Invasion| Invasion { applied: self.invading.towards_wetting(invasion.applied), ..invasion };
         Occupation {
             elements,
             invading: self.invading,
             share: (0..elements.len()).map(|element| self.dynamic.share(element)).collect(),
             trapped: self.dynamic.trapped(),
-            invasions: self.dynamic.invasions(),
+            invasions: self.dynamic.invasions().iter().map(|invasion| invasion.map(towards_wetting)).collect(),
             passed: self.dynamic.history().iter().map(|event| event.throat).collect(),
             menisci: self.dynamic.menisci(),
             note: format!(
