@@ -51,7 +51,9 @@ pub(super) fn depth(
         return;
     };
     let size = geometry.map_or(depth, |it| (it.max[0] - it.min[0]).max(it.max[1] - it.min[1]));
-    if depth > MOST * size || depth * MOST < size {
+    // The command line gives any number.
+    let is_of_it = depth <= MOST * size && depth * MOST >= size;
+    if !is_of_it {
         let message = format!("the depth of {depth:e} m is none of a domain of {size:e} m");
         checker.refuse(KEY, message, "give it in m: 50 um are 50e-6; leave it out for a plane");
     }
