@@ -57,7 +57,8 @@ fn quick(arguments: &NetworkArguments, geometry: GeometrySpec, depth: Option<f64
     }
     let title = format!("Network of {name}");
     let (case, resolved) = network_case(&title, geometry, depth, &raw(arguments)).map_err(|problems| {
-        let option = |path: &str| path.trim_start_matches("network.").trim_start_matches("geometry.").replace(['.', '_'], "-");
+        let option =
+            |path: &str| path.trim_start_matches("network.").trim_start_matches("geometry.").replace(['.', '_'], "-");
         let lines: Vec<String> = problems
             .iter()
             .map(|problem| format!("{}: {}; {}", option(&problem.path), problem.message, problem.help))
