@@ -2,9 +2,9 @@
 
 Usage: duct_pressures.py DIR [--from SECONDS]
 
-Each slope is that of a line through the particles of a fluid that lie at least a width of the duct from the meniscus and
-the ends; the jump is the difference of both lines at the mean place of the meniscus. Means over the times from the given
-one on, with their standard errors.
+Each slope is that of a line through the particles of a fluid that lie at least a width of the duct from the meniscus
+and the ends; the jump is the difference of both lines at the mean place of the meniscus. Means over the times from the
+given one on, with their standard errors.
 """
 
 import argparse

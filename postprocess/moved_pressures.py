@@ -1,4 +1,4 @@
-"""Events of two runs of one network: whether they are the same, and by how much the capillary pressure of each has moved.
+"""Events of two runs of one network: whether they are the same, and how far their capillary pressures have moved.
 
 Usage: moved_pressures.py DIR DIR
 """
