@@ -13,7 +13,7 @@ import numpy as np
 import pyvista as pv
 
 
-def measure(block: pv.DataSet) -> tuple[float, float, float]:
+def of(block: pv.DataSet) -> tuple[float, float, float]:
     """Slope (Pa/m) on the left and on the right, and jump from left to right (Pa)."""
     fluid = block["phase"] <= 1
     points, phase, pressure = block.points[fluid], block["phase"][fluid], block["pressure"][fluid]
@@ -25,21 +25,26 @@ def measure(block: pv.DataSet) -> tuple[float, float, float]:
     return float(left[0]), float(right[0]), float(right[1] - left[1])
 
 
+def measure(path: str, start: float = 0.0) -> dict:
+    """Means and standard errors of both slopes (Pa/m) and of the jump (Pa), from a time (s) on."""
+    reader = pv.get_reader(f"{path}/particles.pvd")
+    found = []
+    for time in reader.time_values:
+        if time >= start:
+            reader.set_active_time_value(time)
+            found.append(of(reader.read()[0]))
+    means, errors = np.mean(found, axis=0), np.std(found, axis=0) / np.sqrt(len(found))
+    names = ["slope on the left in Pa/m", "slope on the right in Pa/m", "jump in Pa"]
+    return {name: (float(mean), float(error)) for name, mean, error in zip(names, means, errors, strict=True)}
+
+
 def main() -> None:
     """Print both slopes and the jump."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("path")
     parser.add_argument("--from", dest="start", type=float, default=0.0)
     arguments = parser.parse_args()
-    reader = pv.get_reader(f"{arguments.path}/particles.pvd")
-    found = []
-    for time in reader.time_values:
-        if time >= arguments.start:
-            reader.set_active_time_value(time)
-            found.append(measure(reader.read()[0]))
-    means, errors = np.mean(found, axis=0), np.std(found, axis=0) / np.sqrt(len(found))
-    names = ["slope on the left in Pa/m", "slope on the right in Pa/m", "jump in Pa"]
-    for name, mean, error in zip(names, means, errors, strict=True):
+    for name, (mean, error) in measure(arguments.path, arguments.start).items():
         print(f"{name:27} {mean:10.2f} +- {error:.2f}")
 
 
