@@ -3,6 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use super::case_file::RawCase;
+use super::load::load_starter;
+use crate::input::InputError;
 use crate::wetting::laws;
 
 /// Tables that hold exactly one of some tables or keys, each an alternative: the type, and the keys that are none.
@@ -83,4 +85,14 @@ fn without_null(schema: &mut Value) {
 /// A case file with a comment on every key.
 pub fn starter_case() -> &'static str {
     include_str!("starter.toml")
+}
+
+/// The same of a chip with a depth in m.
+///
+/// # Errors
+/// Why there can be no such depth.
+pub(crate) fn starter_of_chip(depth: f64) -> Result<String, InputError> {
+    const MAX: &str = "max = [1.0e-3, 1.0e-3] # m\n";
+    let text = starter_case().replace(MAX, &format!("{MAX}depth = {depth:?} # m, from the floor to the lid\n"));
+    load_starter(&text).map(|_| text)
 }
