@@ -1,6 +1,7 @@
 //! `depth` of `[geometry]`: which models know one, and what belongs to it.
 
 use super::case_file::Model;
+use super::network::refuse_films;
 use super::wetting::PatchedWall;
 use crate::geometry::spec::GeometrySpec;
 use crate::input::{Checker, Problem};
@@ -31,6 +32,7 @@ pub(super) fn depth(
             ("sph", &sph.wetting_patches[..])
         }
         Some(Model::Network(network)) => {
+            refuse_films(checker, network, depth);
             ("network", network.interface.as_ref().map_or(&[][..], |interface| &interface.patches))
         }
         Some(Model::ThinFilm(_)) if depth.is_some() => {

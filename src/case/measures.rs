@@ -71,6 +71,8 @@ const NETWORK_QUASI_STATIC: &[&str] = &[
     "measured-entry-pressures",
     "breakthrough-pressure-Pa",
     "residual-saturation",
+    "film-saturation",
+    "snap-offs",
     "largest-capillary-pressure-Pa",
     "hysteresis-work-J-per-m3",
 ];

@@ -49,10 +49,10 @@ pub(crate) use output::{Compression, Expectation, Output};
 pub(crate) use quick::quick;
 pub(crate) use schema::starter_of_chip;
 pub use schema::{schema, starter_case};
-pub(crate) use side::{SIDES, Side, SideName};
+pub(crate) use side::{SIDES, Side, SideName, Sides};
 pub(crate) use sph::Sph;
 pub(crate) use steady::{FEWEST_ROWS, SteadyStop};
 pub use surface_force::{LineDelta, SurfaceForce};
 pub(crate) use wetting::{PatchedWall, RawWetting, WettingPatch, on_plates};
 #[cfg(test)]
-pub(crate) use {initial::Initial, side::Sides, sides::Walls};
+pub(crate) use {initial::Initial, sides::Walls};

@@ -92,7 +92,9 @@ pub fn starter_case() -> &'static str {
 /// # Errors
 /// Why there can be no such depth.
 pub(crate) fn starter_of_chip(depth: f64) -> Result<String, InputError> {
-    const MAX: &str = "max = [1.0e-3, 1.0e-3] # m\n";
-    let text = starter_case().replace(MAX, &format!("{MAX}depth = {depth:?} # m, from the floor to the lid\n"));
+    /// What follows the geometry, with the line between both.
+    const NEXT: &str = "\n[sph]";
+    let key = format!("depth = {depth:?} # m, from the floor to the lid\n{NEXT}");
+    let text = starter_case().replacen(NEXT, &key, 1);
     load_starter(&text).map(|_| text)
 }

@@ -238,6 +238,7 @@ fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
         ("sph.wetting", raw.wetting.is_some()),
         ("sph.initial.background", initial.is_some_and(|initial| initial.background.is_some())),
         ("sph.initial.wetting", initial.is_some_and(|initial| initial.wetting.is_some())),
+        ("sph.initial.non-wetting", initial.is_some_and(|initial| initial.non_wetting.is_some())),
         ("sph.initial.network", initial.is_some_and(|initial| initial.network.is_some())),
     ];
     for (path, _) in given.into_iter().filter(|(_, given)| *given) {

@@ -8,6 +8,7 @@ use super::run::built;
 use super::source;
 use crate::case::{Case, Model};
 use crate::run::advice::{self, Advice};
+use crate::run::description::{description, doubts};
 use crate::run::execute::Mode;
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
@@ -23,7 +24,8 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let case = &source.case;
     let mut solver = built(&source, Mode::New)?;
     // Those with which a run begins: they do not depend on how many steps are tried.
-    let warnings = setup::warnings(case, solver.as_ref(), &Series::default());
+    let mut warnings = setup::warnings(case, solver.as_ref(), &Series::default());
+    warnings.extend(doubts(case));
     let found = tried(case, solver.as_mut())?;
     let advice = advice::advice(case, Some(&found));
     if arguments.json {
@@ -33,6 +35,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     }
     say(&case.title);
     case.about_depth().iter().for_each(|depth| say(format_args!("  depth       {depth}")));
+    description(case).iter().for_each(|(name, text)| say(format_args!("  {name:<11} {text}")));
     if let Model::Network(network) = &case.model {
         say(format_args!("  pores       {}", found.unknowns));
         if let Some(memory) = found.memory_bytes {
@@ -46,7 +49,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
             }
         }
         advice.iter().for_each(tell_advice);
-        tell_warnings(&warnings);
+        warnings.iter().for_each(say_warning);
         return Ok(DONE);
     }
     let spacing = spacing(case);
@@ -94,14 +97,12 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         ));
     }
     advice.iter().for_each(tell_advice);
-    tell_warnings(&warnings);
+    warnings.iter().for_each(say_warning);
     Ok(DONE)
 }
 
-fn tell_warnings(warnings: &[String]) {
-    for warning in warnings {
-        say(format_args!("  WARNING     {warning}"));
-    }
+fn say_warning(warning: &String) {
+    say(format_args!("  WARNING     {warning}"));
 }
 
 /// What `--json` tells.

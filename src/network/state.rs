@@ -68,6 +68,7 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
         }),
         elements: elements(half, moment, &interfaces.trapped),
         menisci: interfaces.menisci.iter().map(|standing| meniscus(half, standing)).collect(),
+        snapped_throats: displacement.closed_throats(),
         invading_outline: interfaces.outline.iter().map(Curve::numbers).collect(),
     }
 }
@@ -115,5 +116,6 @@ pub(crate) fn beginning(state: &NetworkState, invading: FluidPhase) -> Beginning
         invaded: state.elements.iter().map(|element| element.phase == invading).collect(),
         applied: largest.filter(|_| is_same).unwrap_or(f64::NEG_INFINITY),
         held: state.elements.iter().map(held).collect(),
+        closed: state.snapped_throats.clone(),
     }
 }

@@ -9,7 +9,7 @@ use meniscus::geometry::Geometry;
 use meniscus::input::Overrides;
 use meniscus::math::Vec2;
 use meniscus::network::conductance::conductances;
-use meniscus::network::displacement::{Conditions, Displacement, EventKind, Events, Trapping};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, EventKind, Events, Trapping};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 use meniscus::study;
@@ -69,6 +69,7 @@ fn own_throat(cut_out: &CutOut) -> (f64, f64) {
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
+        films: CornerFilms::Absent,
     };
     let displacement = Displacement::new(&network, &pores, conditions);
     let burst = |to| displacement.passage_through(middle, to).unwrap().0.burst().unwrap().curvature;
@@ -221,6 +222,7 @@ fn has_event(cut_out: &WholePore) -> bool {
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
+        films: CornerFilms::Absent,
     };
     let is_it = |curvature: f64| (curvature - cut_out.curvature).abs() < 1e-7 / cut_out.width;
     Displacement::new(&network, &Pores::merged(&network, 1.0), conditions)

@@ -129,6 +129,20 @@ fn floor_and_lid_may_have_angles_of_their_own() {
 }
 
 #[test]
+fn relative_permeabilities_are_those_of_ducts() {
+    let of = |depth: &str| {
+        let set = ["network.wetting={young={contact-angle-deg=60.0}}", "network.stop={breakthrough=true}", "expect=[]"];
+        let set: Vec<&str> = set.into_iter().chain((!depth.is_empty()).then_some(depth)).collect();
+        measures(to_the_end(&loaded(&named("drainage"), &set)).as_ref())
+    };
+    let [plane, deep, shallow] = ["", "geometry.depth=1.0", "geometry.depth=5e-6"].map(of);
+    const NAME: &str = "relative-permeability-non-wetting";
+    // Wide throats conduct less between close plates than the third power of their width says.
+    assert!(plane[NAME] > 0.0 && (deep[NAME] / plane[NAME] - 1.0).abs() < 1e-3, "{plane:?} {deep:?}");
+    assert!((shallow[NAME] / plane[NAME] - 1.0).abs() > 0.01, "{plane:?} {shallow:?}");
+}
+
+#[test]
 fn a_displacement_in_time_is_that_of_the_plane_where_the_chip_is_deep() {
     // So deep that it is plane.
     let set = ["network.wetting={young={contact-angle-deg=60.0}}", "expect=[]"];

@@ -60,6 +60,9 @@ pub struct NetworkState {
     pub elements: Vec<ElementState>,
     /// All menisci.
     pub menisci: Vec<MeniscusState>,
+    /// Throats of the network before the merge that films have closed; they hold no volume. Absent where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub snapped_throats: Vec<usize>,
     /// The boundary of the invading phase along walls and menisci, the phase on its left: numbers of segments and arcs.
     pub invading_outline: Vec<Vec<f64>>,
 }
@@ -131,6 +134,7 @@ impl NetworkState {
             saturation_with_menisci: None,
             elements: Vec::new(),
             menisci: Vec::new(),
+            snapped_throats: Vec::new(),
             invading_outline: Vec::new(),
         }
     }
