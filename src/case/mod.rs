@@ -35,6 +35,7 @@ mod surface_force;
 mod wetting;
 
 pub use case_file::{Case, Model};
+pub(crate) use depth::none_of;
 pub use facts::{Facts, check_against};
 pub use fluid::{Fluid, FluidPhase, RawFluid, RawInterface, RawPhases};
 pub(crate) use initial::InitialVelocity;
@@ -46,6 +47,7 @@ pub use numerics::{Numerics, ViscousStep, ViscousTerm};
 pub(crate) use open::{Drive, PressureSteps, Profile};
 pub(crate) use output::{Compression, Expectation, Output};
 pub(crate) use quick::quick;
+pub(crate) use schema::starter_of_chip;
 pub use schema::{schema, starter_case};
 pub(crate) use side::{SIDES, Side, SideName, Sides};
 pub(crate) use sph::Sph;

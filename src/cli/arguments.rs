@@ -90,6 +90,9 @@ pub(crate) struct GeometryArguments {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) import: ImportArguments,
+    /// Distance of floor and lid in m; where there is none, that of the file, or everything is per meter of depth
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    pub(crate) depth: Option<f64>,
     /// Sides of a shape file that are joined; none where it is not given
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,
@@ -150,8 +153,8 @@ pub(crate) struct NetworkArguments {
     /// Joins opposite sides
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,
-    /// Distance of floor and lid in m; where there is none, everything is per meter of depth
-    #[arg(long, value_name = "M")]
+    /// Distance of floor and lid in m; where there is none, that of the file, or everything is per meter of depth
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
     pub(crate) depth: Option<f64>,
     /// Output folder, new or empty; where there is none: out/NAME-network, out/NAME-network-2, ...
     #[arg(long, value_name = "DIR")]
@@ -201,6 +204,9 @@ impl PeriodicAxes {
 pub(crate) struct NewArguments {
     /// File to write, which must not exist; case.toml, or pack.toml with --pack, where there is none
     pub(crate) file: Option<PathBuf>,
+    /// Distance of floor and lid in m, which the file then has
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    pub(crate) depth: Option<f64>,
     #[command(flatten)]
     pub(crate) pack: PackArguments,
 }

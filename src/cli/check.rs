@@ -128,6 +128,14 @@ impl Told<'_> {
 fn tell_advice(advice: &Advice) {
     let Advice { pores, throats, network_s, .. } = advice;
     say(format_args!("  network     {pores} pores and {throats} throats, found in {}", duration(*network_s)));
+    if let Some([narrowest, median]) = advice.widths_over_depth {
+        say(format_args!(
+            "  w/b         {} in the narrowest throat, {} in the median one: width over depth; a spacing of up to b/sqrt(12) = {} m resolves floor and lid",
+            readable(narrowest),
+            readable(median),
+            readable(advice.narrowest_throat_m / narrowest / 12.0_f64.sqrt())
+        ));
+    }
     let took = advice.steps.zip(advice.hours);
     let took =
         took.map_or(String::new(), |(steps, hours)| format!(", {steps} steps, about {}", duration(3600.0 * hours)));

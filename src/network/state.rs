@@ -12,6 +12,10 @@ use crate::table::Document;
 const NOTE: &str = "SI units; curvatures above 0 where an interface bulges into the wetting phase: tension times curvature is p_n - p_w; \
                     curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
 
+/// The same of a chip.
+const NOTE_OF_CHIP: &str = "SI units; curvatures are those in the plane, above 0 where an interface bulges into the wetting phase: floor and lid add to p_n - p_w; \
+                            curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
+
 /// The states at the first breakthrough and at the present moment.
 pub(crate) fn documents(model: &Model) -> Vec<Document> {
     let Some(cycles) = &model.cycles else { return Vec::new() };
@@ -45,7 +49,7 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
     NetworkState {
         format: FORMAT,
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        note: NOTE.to_owned(),
+        note: if setting.depth.is_some() { NOTE_OF_CHIP } else { NOTE }.to_owned(),
         geometry_hash: setting.geometry_hash.clone(),
         domain_m: [setting.bounds.min.into(), setting.bounds.max.into()],
         sides: setting.sides,

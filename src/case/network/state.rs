@@ -46,7 +46,7 @@ pub struct NetworkState {
     pub tension_n_per_m: f64,
     /// The applied curvature, at which all menisci rest but those around what is trapped. In the middle of an avalanche it is that of the next event.
     pub applied_curvature_per_m: f64,
-    /// Tension times that.
+    /// Tension times that; in a chip with a depth what floor and lid add comes to it.
     pub capillary_pressure_pa: f64,
     /// The largest curvature that was applied so far; absent before the first event.
     pub largest_applied_curvature_per_m: Option<f64>,
