@@ -3,19 +3,19 @@
 use super::numbers::{Length, numbers};
 use crate::case::{Case, Fluid, Model, SIDES, Side, Sides, Sph};
 use crate::math::Vec2;
-use crate::wetting::Wetting;
 
 /// The parts of a case by name: its phases, its interface and its sides; those that it has.
 pub(crate) fn description(case: &Case) -> Vec<(&'static str, String)> {
     let (fluids, interface, sides) = match &case.model {
         Model::Sph(sph) => {
-            let law = sph.wetting_model.as_ref();
+            let law = sph.wetting_model.map(|law| (law.hysteresis_range(), law.table().key));
             let interface = (sph.tension > 0.0).then_some((sph.tension, law, sph.wetting_patches.len()));
             ([Some(sph.wetting), sph.non_wetting], interface, &sph.sides)
         }
         Model::Network(network) => {
             let interface = network.interface.as_ref();
-            let interface = interface.map(|it| (it.tension, Some(&it.wetting_model), it.patches.len()));
+            let law = interface.map(|it| (it.wetting_model.hysteresis_range(), it.wetting_model.table().key));
+            let interface = interface.map(|it| (it.tension, law, it.patches.len()));
             ([network.wetting, network.non_wetting], interface, &network.sides)
         }
         Model::ThinFilm(_) => return Vec::new(),
@@ -51,10 +51,10 @@ pub(crate) fn doubts(case: &Case) -> Vec<String> {
     const SHARPEST: f64 = 3.2;
     let mut doubts = Vec::new();
     let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
-    let (tension, law) = match &case.model {
-        Model::Sph(sph) => (sph.tension, sph.wetting_model.as_ref()),
+    let (tension, range) = match &case.model {
+        Model::Sph(sph) => (sph.tension, sph.wetting_model.map(|law| law.hysteresis_range())),
         Model::Network(network) => {
-            network.interface.as_ref().map_or((0.0, None), |it| (it.tension, Some(&it.wetting_model)))
+            network.interface.as_ref().map_or((0.0, None), |it| (it.tension, Some(it.wetting_model.hysteresis_range())))
         }
         Model::ThinFilm(_) => return doubts,
     };
@@ -67,7 +67,7 @@ pub(crate) fn doubts(case: &Case) -> Vec<String> {
     if tension > STRONGEST {
         doubts.push(format!("the tension is {} N/m: water has 0.0728 against air, 72.8 mN/m", rounded(tension)));
     }
-    let [least, most] = law.map_or([90.0; 2], |law| law.hysteresis_range().map(f64::to_degrees));
+    let [least, most] = range.map_or([90.0; 2], |range| range.map(f64::to_degrees));
     if least > 0.0 && most < SHARPEST {
         doubts.push(format!("the contact angle is {} degrees: angles are in degrees, not in radians", rounded(most)));
     }
@@ -116,9 +116,9 @@ fn in_words(fluid: Fluid) -> String {
     format!("{} kg/m3, {} mPa s", rounded(fluid.density), rounded(1e3 * fluid.viscosity))
 }
 
-fn angle(law: &Wetting) -> String {
-    let [receding, advancing] = law.hysteresis_range().map(f64::to_degrees);
-    let name = law.table().key;
+/// The angles in rad between which a line can rest, with the key of their law.
+fn angle((range, name): ([f64; 2], String)) -> String {
+    let [receding, advancing] = range.map(f64::to_degrees);
     if receding == advancing {
         return format!(", {} degrees through the wetting phase ({name})", rounded(receding));
     }
