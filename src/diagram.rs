@@ -84,6 +84,9 @@ pub struct Area {
     pub tone: Tone,
 }
 
+/// A line and its width, both in m.
+pub(crate) type Strip = (Vec<[f64; 2]>, f64);
+
 /// A map of the plane: areas colored by a number, with lines over them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mosaic {
@@ -106,5 +109,5 @@ pub struct Mosaic {
     /// Colored lines with their name in the legend: menisci, throats.
     pub lines: (&'static str, Vec<Vec<[f64; 2]>>),
     /// Lines of a width in m with their name in the legend, below the others: films.
-    pub strips: (&'static str, Vec<(Vec<[f64; 2]>, f64)>),
+    pub strips: (&'static str, Vec<Strip>),
 }
