@@ -117,6 +117,8 @@ const COMPARISON: &[&str] = &[
     "direct-breakthrough-pressure-Pa",
     "network-saturation-at-breakthrough",
     "direct-saturation-at-breakthrough",
+    "network-breakthrough-time-s",
+    "direct-breakthrough-time-s",
     "network-permeability-m2",
     "direct-permeability-m2",
     "network-pores",

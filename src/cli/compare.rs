@@ -78,7 +78,11 @@ fn summary(found: &Comparison) {
         say(format_args!("  {name:<24} network {network:<16} direct {direct}"))
     };
     let sides = [&found.network, &found.direct];
-    both("breakthrough pressure", sides.map(|side| told(side.breakthrough_pressure_pa, "Pa")));
+    if found.is_in_time {
+        both("breakthrough time", sides.map(|side| told(side.breakthrough_time_s, "s")));
+    } else {
+        both("breakthrough pressure", sides.map(|side| told(side.breakthrough_pressure_pa, "Pa")));
+    }
     both("saturation then", sides.map(|side| told(side.saturation_at_breakthrough, "")));
     both("wall time", sides.map(|side| duration(side.wall_time_s)));
     let processor = |side: &Side| side.processor_time_s.map_or("not measured".to_owned(), duration);

@@ -16,7 +16,7 @@ use super::solver::NetworkSolver;
 use super::state;
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
-use crate::case::network::{NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop, Trapping};
+use crate::case::network::{DynamicDrive, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop, Trapping};
 use crate::case::{Case, PatchedWall, SIDES, Side, on_plates};
 use crate::geometry::{Geometry, GeometryError};
 use crate::interface::depth::Depth;
@@ -62,6 +62,17 @@ pub enum SetupError {
         /// What is different.
         why: &'static str,
     },
+    /// A displacement in time begins with more of the invading phase than its pores at the inlet hold.
+    #[error(
+        "at the beginning the invading phase would hold {asked:.4} of the pore space (network.dynamic.initial-saturation), and the pores that are open at \
+         the inlet are {found:.4} of it; take a share from 0 to that, or leave the key out: these pores are full then"
+    )]
+    InletTooSmall {
+        /// Share that is asked for.
+        asked: f64,
+        /// That of the pores at the inlet.
+        found: f64,
+    },
     /// An open side is closed by solids.
     #[error(
         "no pore opens at the side `{side}`, which is the {role} (network.{role}): solids close all of it; choose another side, or \
@@ -83,6 +94,7 @@ impl SetupError {
             Self::Geometry(_) | Self::Extract(_) | Self::NoPore => "geometry".to_owned(),
             Self::OtherGeometry { .. } => "network.measured".to_owned(),
             Self::OtherState { .. } => "network.initial".to_owned(),
+            Self::InletTooSmall { .. } => "network.dynamic.initial-saturation".to_owned(),
             Self::NoOpening { role, .. } => format!("network.{role}"),
         }
     }
@@ -102,10 +114,17 @@ pub(crate) fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, S
 /// The solver of a case with nothing displaced yet.
 pub(crate) fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
     let still = build_still(case, wanted)?;
-    Ok(match in_time(wanted, &still) {
+    Ok(match in_time(wanted, &still)? {
         Some((dynamic, invading, end)) => Box::new(DynamicSolver::new(still, dynamic, invading, end)),
         None => Box::new(still),
     })
+}
+
+/// The solver of a displacement in time with nothing displaced yet; none where the case asks for none.
+pub(crate) fn build_in_time(case: &Case, wanted: &PoreNetwork) -> Result<Option<DynamicSolver>, SetupError> {
+    let still = build_still(case, wanted)?;
+    let found = in_time(wanted, &still)?;
+    Ok(found.map(|(dynamic, invading, end)| DynamicSolver::new(still, dynamic, invading, end)))
 }
 
 /// The same as a quasi-static displacement; without one where the case asks for a displacement in time.
@@ -239,20 +258,23 @@ pub(crate) fn assemble(
     NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles, initial))
 }
 
+/// A displacement in time with the phase that invades and its end.
+type InTime = (Dynamic, FluidPhase, dynamic::solver::End);
+
 /// The displacement in time that a case asks for.
-fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, FluidPhase, dynamic::solver::End)> {
-    let displacement = wanted.displacement.as_ref()?;
-    let (interface, driven) = (wanted.interface.as_ref()?, displacement.dynamic?);
+fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Result<Option<InTime>, SetupError> {
+    let Some((displacement, interface, driven, viscosities)) = asked_in_time(wanted) else { return Ok(None) };
     let setting = still.setting();
     let invading =
         if displacement.process == Process::Imbibition { FluidPhase::Wetting } else { FluidPhase::NonWetting };
-    let [wetting, non_wetting] = [wanted.wetting?.viscosity, wanted.non_wetting?.viscosity];
+    let [wetting, non_wetting] = viscosities;
     let sides = wanted.sides.each();
     let [inlet, outlet] = [Side::Inlet, Side::Outlet].map(|kind| sides.map(|side| side == kind));
     let walls = setting.entry.as_ref().map_or(SIDES.len(), |entry| entry.angle.len());
     let conditions = Conditions {
         angle: angles(interface, walls, invading),
-        inlet,
+        // Pores at the inlet that are not full yet are displaced like others.
+        inlet: if driven.initial_saturation.is_some() { [false; 4] } else { inlet },
         outlet,
         trapping: Trapping::None,
         events: Events::All,
@@ -281,7 +303,19 @@ fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Flui
         }),
         at_injected: displacement.stop.injected,
     };
-    Some((Dynamic::new(Arc::clone(&setting.network), start, terms), invading, end))
+    let mut dynamic = Dynamic::new(Arc::clone(&setting.network), start, terms);
+    if let Some(wetting) = driven.initial_saturation {
+        let asked = if invading == FluidPhase::Wetting { wetting } else { 1.0 - wetting };
+        dynamic = dynamic.beginning_with(asked).map_err(|found| SetupError::InletTooSmall { asked, found })?;
+    }
+    Ok(Some((dynamic, invading, end)))
+}
+
+/// What a displacement in time is made of: fluids, drive, viscosities in Pa s of the wetting and the non-wetting phase.
+fn asked_in_time(wanted: &PoreNetwork) -> Option<(&NetworkDisplacement, &NetworkInterface, DynamicDrive, [f64; 2])> {
+    let displacement = wanted.displacement.as_ref()?;
+    let viscosities = [wanted.wetting?.viscosity, wanted.non_wetting?.viscosity];
+    Some((displacement, wanted.interface.as_ref()?, displacement.dynamic?, viscosities))
 }
 
 fn half_cycles(

@@ -254,3 +254,57 @@ fn a_pressure_below_all_entry_pressures_comes_to_rest() {
     assert!(dynamic.history().is_empty());
     assert!(dynamic.drive_now().1.abs() < 1e-18, "{:e} m2/s", dynamic.drive_now().1);
 }
+
+/// A pack that begins with a share of what its pores at the inlet hold.
+fn beginning_with(pack: &Pack, part: f64, rate: Drive, viscosity: [f64; 2]) -> (Dynamic, f64) {
+    let terms =
+        Terms { viscosity, tension: TENSION, drive: rate, largest_step: 0.01, inlet: LEFT, outlet: RIGHT, depth: None };
+    let empty = || Dynamic::new(Arc::clone(&pack.network), pack.displacement(40.0, [false; 4], false), terms);
+    let most = empty().beginning_with(1.0).unwrap_err();
+    (empty().beginning_with(part * most).unwrap(), most)
+}
+
+#[test]
+fn what_pores_at_the_inlet_lack_at_the_beginning_comes_in_first() {
+    for seed in 0..4 {
+        let (pack, viscosity, number) = (Pack::new(seed), [1e-3, 1e-3], 1e-9);
+        let rate = Pack::rate(number, viscosity[0]);
+        let mut full = pack.dynamic(40.0, viscosity, Drive::Rate(rate), 0.01);
+        until_breakthrough(&mut full);
+        for part in [0.0, 0.5] {
+            let (mut dynamic, most) = beginning_with(&pack, part, Drive::Rate(rate), viscosity);
+            assert!((dynamic.invading_area() / dynamic.pore_area() - part * most).abs() < 1e-12);
+            until_breakthrough(&mut dynamic);
+            let kinds = |dynamic: &Dynamic| dynamic.history().iter().map(|it| (it.kind, it.throat)).collect::<Vec<_>>();
+            assert_eq!(kinds(&dynamic), kinds(&full), "seed {seed}, {part}");
+            // All that comes in stays until breakthrough, so that each has the same area then, within what menisci hold.
+            let [one, other] = [&dynamic, &full].map(|it| it.breakthrough().unwrap().saturation);
+            assert!((one - other).abs() < 2e-3, "seed {seed}, {part}: {one} {other}");
+            let came = dynamic.breakthrough().unwrap().time * rate / dynamic.pore_area();
+            assert!((part * most + came - one).abs() < 1e-9, "seed {seed}, {part}: {came} came in");
+        }
+    }
+}
+
+#[test]
+fn the_invading_phase_leaves_when_it_touches_the_outlet() {
+    for seed in 0..6 {
+        let pack = Pack::new(seed);
+        let viscosity = [1e-3, 1e-3];
+        let mut dynamic = pack.dynamic(40.0, viscosity, Drive::Rate(Pack::rate(1e-6, viscosity[0])), 0.01);
+        let mut entered = None;
+        while dynamic.breakthrough().is_none() {
+            dynamic.advance(f64::INFINITY).unwrap();
+            let is_outlet =
+                |e: &usize| dynamic.displacement().elements()[*e].outline.iter().any(|x| x.x > SIZE[0] * (1.0 - 1e-9));
+            let mut at_outlet = (0..dynamic.displacement().elements().len()).filter(is_outlet);
+            if entered.is_none() && at_outlet.any(|e| dynamic.invasions()[e].is_some()) {
+                entered = Some(dynamic.invading_area());
+            }
+        }
+        // Between the last throat and the outlet it needs an area of its own.
+        let area = dynamic.breakthrough().unwrap().saturation * dynamic.pore_area();
+        assert!(entered.is_some_and(|entered| area > entered), "seed {seed}: {entered:?} {area}");
+        assert!(dynamic.balance_error().abs() < 1e-10);
+    }
+}

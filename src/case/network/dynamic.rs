@@ -10,6 +10,8 @@ pub struct DynamicDrive {
     pub drive: Drive,
     /// Most pore volumes that pass the inlet in one step.
     pub largest_step: f64,
+    /// Saturation of the wetting phase at the beginning; none where the pores at the inlet are full.
+    pub initial_saturation: Option<f64>,
 }
 
 /// By what a displacement in time is driven.
@@ -88,7 +90,8 @@ pub(super) fn drive(
         );
     }
     let largest_step = dynamic.largest_step.unwrap_or(DEFAULT_LARGEST_STEP);
-    (checker.problems.len() == before).then_some(DynamicDrive { drive: drive?, largest_step })
+    let initial_saturation = dynamic.initial_saturation;
+    (checker.problems.len() == before).then_some(DynamicDrive { drive: drive?, largest_step, initial_saturation })
 }
 
 /// The table of a drive.
@@ -97,5 +100,10 @@ pub(super) fn raw_dynamic(dynamic: DynamicDrive) -> RawDynamic {
         Drive::Rate(rate) => (Some(rate), None),
         Drive::PressureDrop(pressure) => (None, Some(pressure)),
     };
-    RawDynamic { rate, pressure_drop, largest_step: Some(dynamic.largest_step) }
+    RawDynamic {
+        rate,
+        pressure_drop,
+        largest_step: Some(dynamic.largest_step),
+        initial_saturation: dynamic.initial_saturation,
+    }
 }

@@ -69,6 +69,9 @@ tables! {
         pub pressure_drop: f64 => Key::positive("a pressure drop in Pa"),
         /// Largest inflow in one step, in pore volumes; at most half of the mean area of an element flows in (default 0.01).
         pub largest_step: f64 => Key::within("a share of the pore volume", 1.0e-6, 1.0),
+        /// Saturation of the wetting phase at the beginning: the invading phase holds part of the pores that are open at the inlet and fills them first
+        /// (these pores are full).
+        pub initial_saturation: f64 => Key::within("a saturation", 0.0, 1.0),
     }
 
     /// Measured entry pressures.

@@ -70,6 +70,26 @@ impl Meniscus {
         0.25 * self.chord().powi(2) * shape
     }
 
+    /// The arc between the same contacts that touches a line ahead through `point` with the normal `inwards`; none where this one does already.
+    ///
+    /// With the half chord a, its middle at the distance D from the line, the advance at the angle of cosine ν to the way there, and the center s
+    /// ahead of the chord: a² + s² = (D − s ν)².
+    pub(super) fn grown_to(&self, point: Vec2, inwards: Vec2) -> Option<Self> {
+        let (p, q) = (self.left.point, self.right.point);
+        let half = 0.5 * self.chord();
+        let distance = (0.5 * (p + q) - point).dot(&inwards);
+        let ahead = -perpendicular((q - p).try_normalize(0.0)?).dot(&inwards);
+        let square = distance * distance - half * half * (1.0 - ahead * ahead);
+        let below = distance * ahead + square.max(0.0).sqrt();
+        if !(distance > 0.0 && square > 0.0 && below > 0.0) {
+            return None;
+        }
+        let center = (distance * distance - half * half) / below;
+        let radius = half.hypot(center);
+        let bend = (-center / radius).acos();
+        (bend > self.bend).then(|| Self { curvature: 1.0 / radius, bend, ..*self })
+    }
+
     /// The same, but for a point where the meniscus itself stands behind its throat.
     pub(super) fn touches_ahead(&self, curve: &Curve) -> bool {
         meetings(&self.curve(), curve).into_iter().flatten().any(|x| !self.stands_behind_at(x))

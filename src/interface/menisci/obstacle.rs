@@ -29,8 +29,13 @@ impl Obstacle {
 
     /// The curvature at the first touch along a leg.
     pub(crate) fn first_touch(&self, walls: &Walls, leg: &Leg) -> Option<f64> {
+        self.first_place(walls, leg).map(|(_, k)| k)
+    }
+
+    /// Where a meniscus first touches along a leg, and its curvature.
+    pub(crate) fn first_place(&self, walls: &Walls, leg: &Leg) -> Option<(Place, f64)> {
         let boxed = swept_box(walls, leg);
-        let mut first: Option<(f64, f64)> = None;
+        let mut first: Option<(f64, Place, f64)> = None;
         for (curve, bounds) in &self.curves {
             if (0..2).any(|i| bounds.max[i] < boxed.min[i] || boxed.max[i] < bounds.min[i]) {
                 continue;
@@ -51,14 +56,14 @@ impl Obstacle {
                     };
                     if point.is_some_and(|point| meniscus.holds(point) && !meniscus.stands_behind_at(point)) {
                         let order = order_on(leg, &place);
-                        if first.is_none_or(|(earliest, _)| order < earliest) {
-                            first = Some((order, circle.k));
+                        if first.is_none_or(|(earliest, ..)| order < earliest) {
+                            first = Some((order, place, circle.k));
                         }
                     }
                 }
             }
         }
-        first.map(|(_, k)| k)
+        first.map(|(_, place, k)| (place, k))
     }
 }
 

@@ -25,6 +25,8 @@ pub struct Passage {
     scale: f64,
     /// The stable part of the path: along the largest rise of the curvature, up to the burst.
     path: Vec<Leg>,
+    /// The rest of it: menisci of a given area, which no given pressure holds.
+    beyond: Vec<Leg>,
     lowest: Option<Station>,
     highest: Option<Station>,
 }
@@ -43,8 +45,8 @@ impl Passage {
         let (left_pieces, left_chord) = pieces(&left, Hand::Left, origin, scale);
         let (right_pieces, right_chord) = pieces(&right, Hand::Right, origin, scale);
         let walls = Walls { left: left_pieces, right: right_pieces };
-        let (lowest, highest, path) = stable_part(walls.path((left_chord, right_chord)));
-        Self { left, right, walls, origin, scale, path, lowest, highest }
+        let (lowest, highest, path, beyond) = stable_part(walls.path((left_chord, right_chord)));
+        Self { left, right, walls, origin, scale, path, beyond, lowest, highest }
     }
 
     /// The left wall.
@@ -102,6 +104,19 @@ impl Passage {
             }
         }
         None
+    }
+
+    /// The meniscus that first touches a line ahead as more and more area comes through the throat, beyond the burst too: along the walls as far
+    /// as it meets both under their angles, then with its contacts where it stood last. The line is an open side with the pore on its right.
+    pub(crate) fn reach(&self, line: &Curve) -> Option<Meniscus> {
+        let obstacle = Obstacle::new(&[*line], self.origin, self.scale);
+        let mut legs = self.path.iter().chain(&self.beyond);
+        if let Some((place, k)) = legs.find_map(|leg| obstacle.first_place(&self.walls, leg)) {
+            return Some(self.meniscus(&Station { curvature: k, ..self.walls.station(place) }));
+        }
+        let last = self.beyond.last().or(self.path.last()).map(|leg| leg.end).or(self.highest)?;
+        let last = self.meniscus(&last);
+        last.grown_to(line.point(0.0), line.normal(0.5)).or(Some(last))
     }
 
     /// Whether a point lies ahead of the line through the chord of the throat.
@@ -223,10 +238,10 @@ fn chord_end(wall: &Wall, hand: Hand) -> Option<Vec2> {
     ahead.or_else(|| wall.parts.last().map(|part| part.curve.point(1.0 - begin)))
 }
 
-/// The ends of the largest rise of the curvature along the path, and the legs in between. Behind the throat curvatures fall, and ahead of it they do so
+/// The ends of the largest rise of the curvature along the path, the legs in between, and those beyond. Behind the throat curvatures fall, and ahead of it they do so
 /// again: what is larger far behind is no part of the way through.
-fn stable_part(mut path: Vec<Leg>) -> (Option<Station>, Option<Station>, Vec<Leg>) {
-    let Some(start) = path.first().map(|leg| leg.start) else { return (None, None, path) };
+fn stable_part(mut path: Vec<Leg>) -> (Option<Station>, Option<Station>, Vec<Leg>, Vec<Leg>) {
+    let Some(start) = path.first().map(|leg| leg.start) else { return (None, None, path, Vec::new()) };
     // Each end with the number of legs before it.
     let mut low = (start, 0);
     let (mut lowest, mut highest) = (low, low);
@@ -239,10 +254,11 @@ fn stable_part(mut path: Vec<Leg>) -> (Option<Station>, Option<Station>, Vec<Leg
             (lowest, highest) = (low, end);
         }
     }
-    path.truncate(highest.1);
+    let beyond = path.split_off(highest.1);
     path.drain(..lowest.1);
-    (Some(lowest.0), Some(highest.0), path)
+    (Some(lowest.0), Some(highest.0), path, beyond)
 }
+
 /// What tests compare with.
 #[cfg(test)]
 impl Passage {

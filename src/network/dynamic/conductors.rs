@@ -26,7 +26,9 @@ impl BodyNode {
     fn join(&mut self, halves: &mut [f64; 2]) {
         halves[1] *= 0.5;
         self.conductance += 1.0 / halves[1];
-        self.least = self.least.min(LEAST_BODY * halves[0]);
+        if halves[0] > 0.0 {
+            self.least = self.least.min(LEAST_BODY * halves[0]);
+        }
     }
 
     /// In 1/m².
@@ -81,15 +83,12 @@ impl Dynamic {
                     body.join(&mut halves);
                 }
                 links.push(Link { way: Way::Meniscus((index, end)), elements: [from, to], halves });
-                edges.push(Edge { ends: (node_of[from], Some(end_node)), is_good: has_burst });
+                let is_good = has_burst && self.on_its_way((index, end)).is_none();
+                edges.push(Edge { ends: (node_of[from], Some(end_node)), is_good });
             } else if gate.throat.is_some() && self.is_invaded(a) == self.is_invaded(b) && node_of[a] != node_of[b] {
                 links.push(Link { way: Way::Open, elements: [a, b], halves });
                 edges.push(Edge { ends: (node_of[a], Some(node_of[b])), is_good: true });
             }
-        }
-        for (&element, body) in &bodies {
-            links.push(Link { way: Way::Body(element), elements: [element; 2], halves: [0.0, body.resistance()] });
-            edges.push(Edge { ends: (body.node, Some(node_of[element])), is_good: false });
         }
         for &(opening, element) in &self.openings {
             let side = self.network.openings[opening].side;
@@ -98,9 +97,20 @@ impl Dynamic {
                 () if self.terms.outlet[side] => Way::Outlet,
                 () => continue,
             };
-            links.push(Link { way, elements: [element; 2], halves: [self.opening_resistances[opening], 0.0] });
+            // Into a body the flow is against the link.
+            let mut halves = [0.0, self.opening_resistances[opening]];
+            let mut node = node_of[element];
+            if let Some(body) = bodies.get_mut(&element).filter(|_| way == Way::Inlet) {
+                node = body.node;
+                body.join(&mut halves);
+            }
             let to = if way == Way::Inlet { inlet } else { None };
-            edges.push(Edge { ends: (node_of[element], to), is_good: to.is_some() });
+            links.push(Link { way, elements: [element; 2], halves: [halves[1], halves[0]] });
+            edges.push(Edge { ends: (node, to), is_good: to.is_some() });
+        }
+        for (&element, body) in &bodies {
+            links.push(Link { way: Way::Body(element), elements: [element; 2], halves: [0.0, body.resistance()] });
+            edges.push(Edge { ends: (body.node, Some(node_of[element])), is_good: false });
         }
         Ok(Graph { laplacian: Laplacian::new(nodes, edges)?, links, nodes, inlet, link_of })
     }
@@ -110,7 +120,8 @@ impl Dynamic {
         // Elements between two menisci that have met around a grain are filled once those ahead of them let the phase in.
         let enters = |&(gate, end): &FrontId| self.state.menisci[gate][end].is_some_and(|meniscus| meniscus.has_burst);
         let is_entered = |&e: &usize| {
-            self.state.filling[e].is_some() && !self.is_outlet[e] && self.displacement.gates_of(e).iter().any(enters)
+            let has_way_in = self.is_inlet[e] || self.displacement.gates_of(e).iter().any(enters);
+            self.state.filling[e].is_some() && !self.is_outlet[e] && has_way_in
         };
         let filling = (0..self.state.filling.len()).filter(is_entered);
         let mut next = || {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::goals::{Areas, Goal, REACHED};
 use super::rise::Rise;
-use super::{Breakthrough, Dynamic, Filling, Meniscus, Occurrence};
+use super::{Dynamic, Filling, Meniscus, Occurrence};
 use crate::network::cycles::Invasion;
 use crate::network::displacement::{Advance, EventKind, FrontId, Phase};
 
@@ -70,7 +70,8 @@ impl Dynamic {
             .map(|(front, rise)| {
                 let into = self.ahead_of(*front);
                 let held = self.state.filling[into].as_ref().map_or(0.0, |filling| filling.area)
-                    + self.entering(into).map(|(_, meniscus)| meniscus.area.max(0.0)).sum::<f64>();
+                    + self.entering(into).map(|(_, meniscus)| meniscus.area.max(0.0)).sum::<f64>()
+                    + self.passed_in_outlet(into);
                 let free = (self.displacement.elements()[into].area - held).max(0.0);
                 ToCome { front: *front, rise, free }
             })
@@ -125,6 +126,7 @@ impl Dynamic {
                 Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.pass(advance),
                 Goal::Covered { element, .. } => self.cover(element),
                 Goal::Full { element, .. } => self.complete(element),
+                Goal::Leaves(front) => self.leave(front),
                 // These end a step and are events of what waits then.
                 Goal::Beyond(_) | Goal::ToMeet(..) => return has_fired,
             }
@@ -182,10 +184,9 @@ impl Dynamic {
         [Some(front), partner].into_iter().flatten().for_each(|front| self.burst(front));
     }
 
-    fn begin_filling(&mut self, element: usize, event: f64, is_joined: bool) {
+    pub(super) fn begin_filling(&mut self, element: usize, event: f64, is_joined: bool) {
         self.ahead[element] = self.menisci_ahead(element);
-        // Beyond the outlet no wall bends it.
-        let curvature = if self.is_outlet[element] { 0.0 } else { self.body_curvature(element).min(event) };
+        let curvature = self.body_curvature(element).min(event);
         self.state.filling[element] = Some(Filling { area: 0.0, curvature, is_joined });
         self.graph = None;
     }
@@ -222,22 +223,11 @@ impl Dynamic {
             (&mut self.state.menisci[front.0][front.1], &mut self.state.filling[element])
             && !std::mem::replace(&mut meniscus.has_burst, true)
         {
-            if self.is_outlet[element] {
-                // It lies beyond the outlet.
-                self.state.passed[1] += meniscus.area;
-                self.state.passed[2] -= meniscus.area;
-            } else {
+            if !self.is_outlet[element] {
                 filling.area += meniscus.area;
             }
         }
         self.graph = None;
-        if self.is_outlet[element] && self.state.breakthrough.is_none() {
-            self.state.breakthrough = Some(Breakthrough {
-                time: self.state.time,
-                saturation: self.invading_area() / self.pore_area,
-                pressure: self.state.pressure,
-            });
-        }
     }
 
     /// An element is full: menisci wait in its gates, with the same area of the invading phase as before.
@@ -276,7 +266,7 @@ impl Dynamic {
             if first.is_some_and(|(_, first)| first == front) {
                 area += std::mem::take(&mut left);
             }
-            self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false });
+            self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false, has_left: false });
             self.rises[front.0][front.1] = Some(Arc::new(rise));
             if self.state.filling[self.ahead_of(front)].as_ref().is_some_and(|filling| filling.is_joined) {
                 self.burst(front);

@@ -26,6 +26,8 @@ pub(super) enum Goal {
         /// Area in m² of the invading phase when it is full, in the element and in the menisci that then wait in its gates.
         target: f64,
     },
+    /// A meniscus in an element at the outlet touches the side.
+    Leaves(FrontId),
     /// An element is full, or, where that is quick, the first of the menisci that will wait ahead of it reaches its event: number of the body.
     Beyond(usize),
     /// A meniscus that will wait ahead of an element meets another one, both by the number of the body or the front, at a curvature in 1/m.
@@ -109,7 +111,7 @@ impl Dynamic {
             }
             let bulges = self.bulges(element);
             if fronts.len() + bulges.len() > 1 || self.state.filling[element].is_some() {
-                let held = bulges.iter().map(|(_, area)| area).sum();
+                let held = bulges.iter().map(|(_, area)| area).sum::<f64>() + self.passed_in_outlet(element);
                 goals.push(Goal::Covered { element, fronts, held });
             }
         }
@@ -119,6 +121,7 @@ impl Dynamic {
             let target = self.target(element, filling) - bulges;
             goals.push(Goal::Full { element, target });
         }
+        goals.extend(self.all_on_their_way().into_iter().map(Goal::Leaves));
         goals
     }
 
@@ -225,6 +228,7 @@ impl Dynamic {
                 let waiting: f64 = self.entering(*element).map(|(front, _)| (at.front)(front).max(0.0)).sum();
                 (target - filled - waiting) / self.scale_of_filling(*element)
             }
+            Goal::Leaves(front) => self.missing_to_outlet(*front, &at.front) / element_area(self.ahead_of(*front)),
             Goal::Beyond(index) => {
                 let Body { element, full, first, passes, .. } = &bodies[*index];
                 match first.filter(|_| *passes) {

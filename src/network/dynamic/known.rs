@@ -103,8 +103,13 @@ impl Dynamic {
     fn law(&self, bodies: &[Body], index: usize, link: &Link) -> Option<Law> {
         match link.way {
             Way::Meniscus((gate, end)) => {
-                let meniscus = self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
-                let rise = Arc::clone(self.rises[gate][end].as_ref()?);
+                let (meniscus, rise) = match self.on_its_way((gate, end)) {
+                    Some((meniscus, reach)) => (meniscus, Arc::clone(&reach.rise)),
+                    None => {
+                        let waiting = self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
+                        (waiting, Arc::clone(self.rises[gate][end].as_ref()?))
+                    }
+                };
                 Some(Law {
                     link: index,
                     area: meniscus.area,

@@ -16,7 +16,7 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
     let breakthrough = dynamic.breakthrough();
     let of = |value: fn(&super::Breakthrough) -> f64| breakthrough.as_ref().map_or(f64::NAN, value);
     let reached = if breakthrough.is_some() {
-        "when the first meniscus passed into the pores that are open at the outlet"
+        "when the first meniscus touched the outlet"
     } else {
         "the invading phase did not reach the outlet"
     };

@@ -14,8 +14,8 @@
 //!
 //! After the moving capacitors of Primkulov et al. (2019, 2021) with the events of Cieplak and Robbins (1988, 1990).
 //!
-//! An element that is open at the outlet belongs to what lies beyond: what comes into it leaves, and it never closes the way of the phase
-//! that is displaced.
+//! An element that is open at the outlet never closes the way of the phase that is displaced: what comes into it leaves once it touches the
+//! side (`open.rs`).
 //!
 //! Left out: an element that is full stays so (no snap-off, no way back through a throat), films, inertia, the speed's effect on angles.
 
@@ -27,6 +27,7 @@ mod graph;
 mod known;
 mod measures;
 mod model;
+mod open;
 mod path;
 mod rise;
 pub(crate) mod solver;
@@ -37,6 +38,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use self::graph::Graph;
+use self::open::Reach;
 use self::rise::Rise;
 use super::conductance::{opening_resistances, resistances};
 use super::cycles::{FluidPhase, Invasion};
@@ -79,8 +81,10 @@ impl Terms {
 struct Meniscus {
     /// Area in m² that it has swept since the chord of the gate.
     area: f64,
-    /// Whether it has passed its event; its area is then that of the element ahead.
+    /// Whether it has passed its event; its area is then that of the element ahead, but for one at the outlet.
     has_burst: bool,
+    /// Whether it has touched the outlet: what it gains leaves.
+    has_left: bool,
 }
 
 /// An element that is being filled.
@@ -182,6 +186,10 @@ pub struct Dynamic {
     meetings_to_come: Vec<Advance>,
     /// By element: whether it is open at the outlet and not at the inlet.
     is_outlet: Vec<bool>,
+    /// By element: whether it is open at the inlet and was not full at the beginning.
+    is_inlet: Vec<bool>,
+    /// By gate and end: where menisci touch the outlet.
+    reaches: Vec<[Option<Reach>; 2]>,
     state: State,
     graph: Option<Graph>,
 }
@@ -203,6 +211,8 @@ impl Dynamic {
             advances: Vec::new(),
             meetings_to_come: Vec::new(),
             is_outlet: Vec::new(),
+            is_inlet: vec![false; elements],
+            reaches: Vec::new(),
             state: State {
                 menisci: vec![[None; 2]; gates.len()],
                 filling: vec![None; elements],
@@ -215,11 +225,8 @@ impl Dynamic {
             network,
             terms,
         };
-        dynamic.is_outlet = vec![false; elements];
-        for &(opening, element) in &dynamic.openings {
-            let opens = terms.outlet[dynamic.network.openings[opening].side];
-            dynamic.is_outlet[element] |= opens && !dynamic.is_invaded(element);
-        }
+        dynamic.is_outlet = dynamic.defending_at(terms.outlet);
+        dynamic.reaches = dynamic.reaches();
         dynamic.begin();
         dynamic
     }
@@ -229,7 +236,7 @@ impl Dynamic {
         for front in self.displacement.waiting().collect::<Vec<_>>() {
             if let Some(rise) = self.rise_of(front) {
                 let area = rise.area(0.0_f64.max(rise.start().1));
-                self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false });
+                self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false, has_left: false });
                 self.rises[front.0][front.1] = Some(Arc::new(rise));
             }
         }
@@ -335,7 +342,7 @@ impl Dynamic {
         let area = self.displacement.elements()[element].area;
         let came = self.state.filling[element].as_ref().map_or(0.0, |filling| filling.area);
         let waiting: f64 = self.entering(element).map(|(_, meniscus)| meniscus.area).sum();
-        ((came + waiting) / area).clamp(0.0, 1.0)
+        ((came + waiting + self.passed_in_outlet(element)) / area).clamp(0.0, 1.0)
     }
 
     /// Area in m² that the invading phase holds.
@@ -344,7 +351,8 @@ impl Dynamic {
         let full: f64 = elements.filter(|(index, _)| self.is_invaded(*index)).map(|(_, element)| element.area).sum();
         let filling: f64 = self.state.filling.iter().flatten().map(|filling| filling.area).sum();
         let menisci = self.state.menisci.iter().flatten().flatten().filter(|meniscus| !meniscus.has_burst);
-        full + filling + menisci.map(|meniscus| meniscus.area).sum::<f64>() + self.state.excess
+        let outlet: f64 = (0..self.is_outlet.len()).map(|element| self.passed_in_outlet(element)).sum();
+        full + filling + menisci.map(|meniscus| meniscus.area).sum::<f64>() + outlet + self.state.excess
     }
 
     /// What the invading phase gained less what flowed in and out, over what it holds: an error of the program.

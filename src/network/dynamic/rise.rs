@@ -139,6 +139,13 @@ impl Rise {
         Self { area, total: curvature.clone(), curvature, closed: 0.0 }
     }
 
+    /// A constant curvature in 1/m between two areas in m², of a meniscus that has passed between walls `width` (m) apart: drawn back to the first area it
+    /// stays there.
+    pub(crate) fn level(area: [f64; 2], curvature: f64, width: f64) -> Self {
+        let curvature = vec![curvature; 2];
+        Self { area: area.to_vec(), total: curvature.clone(), curvature, closed: 1.0 / (CLOSED * width.powi(3)) }
+    }
+
     /// That of a body of a constant curvature in 1/m.
     pub(crate) fn constant(curvature: f64) -> Self {
         Self { area: vec![0.0], curvature: vec![curvature], total: vec![curvature], closed: 0.0 }

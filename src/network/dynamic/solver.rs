@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::measures;
 use super::model::DynamicModel;
-use super::{Drive, Dynamic, StepEnd};
+use super::{Breakthrough, Drive, Dynamic, StepEnd};
 use crate::diagram::Diagram;
 use crate::math::Vec2;
 use crate::network::cycles::FluidPhase;
@@ -43,6 +43,21 @@ impl DynamicSolver {
     pub(crate) fn new(still: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
         let NetworkSolver { model: still, seconds, .. } = still;
         Self { model: DynamicModel { still, dynamic, invading }, end, is_closed: false, steps_before: 0, seconds }
+    }
+
+    /// By element: the share of it that the invading phase holds.
+    pub(crate) fn shares(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.model.dynamic.displacement().elements().len()).map(|element| self.model.dynamic.share(element))
+    }
+
+    /// When the invading phase reached the outlet.
+    pub(crate) fn breakthrough(&self) -> Option<Breakthrough> {
+        self.model.dynamic.breakthrough()
+    }
+
+    /// The phase that comes in.
+    pub(crate) fn invading(&self) -> FluidPhase {
+        self.model.invading
     }
 
     fn count(&self, kind: EventKind) -> f64 {

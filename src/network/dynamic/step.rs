@@ -263,7 +263,13 @@ impl Dynamic {
         for (link, &through) in graph.links.iter().zip(&trial.flow.through) {
             match link.way {
                 Way::Open | Way::Body(_) => {}
-                Way::Inlet => inflow -= through,
+                Way::Inlet => {
+                    inflow -= through;
+                    let element = link.elements[0];
+                    if let Some(filling) = self.state.filling[element].as_mut().filter(|_| self.is_inlet[element]) {
+                        filling.area -= through * dt;
+                    }
+                }
                 Way::Outlet => {
                     let phase = if self.is_invaded(link.elements[0]) { 1 } else { 2 };
                     self.state.passed[phase] += through * dt;
@@ -271,7 +277,7 @@ impl Dynamic {
                 Way::Meniscus((gate, end)) => {
                     let Some(meniscus) = &mut self.state.menisci[gate][end] else { continue };
                     let ahead = link.elements[1];
-                    if !meniscus.has_burst {
+                    if !meniscus.has_burst || (self.is_outlet[ahead] && !meniscus.has_left) {
                         meniscus.area += through * dt;
                     } else if self.is_outlet[ahead] {
                         self.state.passed[1] += through * dt;

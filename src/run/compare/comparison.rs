@@ -9,6 +9,15 @@ pub(crate) struct Side {
     pub saturation: Vec<f64>,
     /// Capillary pressures p_n - p_w in Pa at them; none where there is no pressure.
     pub capillary_pressure_pa: Vec<Option<f64>>,
+    /// Of displacements in time: times in s of these saturations.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub time_s: Vec<f64>,
+    /// Of displacements in time: pressures at the inlet less those at the outlet in Pa.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pressure_difference_pa: Vec<Option<f64>>,
+    /// Of displacements in time: when the invading phase reached the outlet, in s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub breakthrough_time_s: Option<f64>,
     /// The largest capillary pressure until the invading phase reached the outlet, in Pa, where it did.
     pub breakthrough_pressure_pa: Option<f64>,
     /// Saturation then.
@@ -48,6 +57,9 @@ pub(crate) struct Comparison {
     pub(crate) network: Side,
     /// The direct simulation.
     pub(crate) direct: Side,
+    /// Whether both go in time.
+    #[serde(skip)]
+    pub(crate) is_in_time: bool,
     /// Spearman's rank correlation of the order in which elements were filled that both filled after the beginning; none for fewer than three.
     pub(crate) rank_correlation: Option<f64>,
     /// Number of these elements.

@@ -17,7 +17,7 @@ use crate::run::setup;
 use crate::run::simulation::{Progress, Watcher};
 use crate::snapshot::{Snapshot, Values};
 use crate::solver::Solver;
-use crate::sph::measures::open::PRESSURE_DIFFERENCE;
+use crate::sph::measures::open::{DRIVING_PRESSURE, PRESSURE_DIFFERENCE};
 
 /// Number of the non-wetting phase in the field `phase`; the wetting one is 0.
 const NON_WETTING: i64 = 1;
@@ -44,7 +44,8 @@ pub(crate) fn track(
             (setup::build_to_resume(&case)?, states)
         }
     };
-    let mut recorder = Recorder { watcher, states, grid, invading: state.invading };
+    let drive = if task.pair.is_in_time() { DRIVING_PRESSURE } else { PRESSURE_DIFFERENCE };
+    let mut recorder = Recorder { watcher, states, grid, invading: state.invading, drive };
     let job = Job { case: &case, resolved: task.resolved, folder, mode: task.mode };
     let report = execute(&job, solver.as_mut(), interrupt, &mut recorder)?.report;
     match report.status {
@@ -52,7 +53,16 @@ pub(crate) fn track(
         Status::Failed => return Err(CompareError::Failed(report.error.unwrap_or_default())),
         Status::Done | Status::ExpectationFailed => {}
     }
-    Ok(Track::of(recorder.states.records(), &report, state.elements.len(), grid))
+    let mut track = Track::of(recorder.states.records(), &report, state.elements.len(), grid);
+    track.breakthrough = task.pair.is_in_time().then(|| breakthrough(&report, state.invading)).flatten();
+    Ok(track)
+}
+
+/// When the invading phase reached the outlet, in s, and the saturation of the wetting phase then.
+fn breakthrough(report: &Report, invading: FluidPhase) -> Option<[f64; 2]> {
+    let value = |name: &str| report.measures.get(name).and_then(|reading| reading.value);
+    let (time, saturation) = (value("breakthrough-time-s")?, value("saturation-at-breakthrough")?);
+    Some([time, if invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation }])
 }
 
 /// The case with so many records of its series: each is a state that is compared.
@@ -68,6 +78,8 @@ struct Recorder<'a> {
     states: States,
     grid: &'a Grid,
     invading: FluidPhase,
+    /// Column of the pressure that drives, where the case has it.
+    drive: &'static str,
 }
 
 impl Watcher for Recorder<'_> {
@@ -76,7 +88,7 @@ impl Watcher for Recorder<'_> {
     }
 
     fn recorded(&mut self, solver: &dyn Solver) -> Result<(), FileError> {
-        self.states.add(solver.time(), as_record(solver, self.grid, self.invading))
+        self.states.add(solver.time(), as_record(solver, self.grid, (self.invading, self.drive)))
     }
 }
 
@@ -91,6 +103,7 @@ impl Track {
             unknowns: report.solver.unknowns,
             steps: report.steps,
             permeability,
+            breakthrough: None,
             warnings: report.warnings.clone(),
         };
         records.into_iter().for_each(|record| track.add(record, grid));
@@ -113,13 +126,14 @@ impl Track {
     }
 }
 
-fn as_record(solver: &dyn Solver, grid: &Grid, invading: FluidPhase) -> Record {
+fn as_record(solver: &dyn Solver, grid: &Grid, (invading, drive): (FluidPhase, &str)) -> Record {
     let sample = solver.sample();
     let value = |name: &str| sample.iter().find(|it| it.name == name).map_or(f64::NAN, |it| it.value);
     // Where the pressure rises in steps, it is the one given, of the invading phase less the other.
-    let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
-    let given = Some(sign * value(PRESSURE_DIFFERENCE)).filter(|pressure| pressure.is_finite());
+    let sign = if invading == FluidPhase::NonWetting || drive == DRIVING_PRESSURE { 1.0 } else { -1.0 };
+    let given = Some(sign * value(drive)).filter(|pressure| pressure.is_finite());
     Record {
+        time: solver.time(),
         saturation: value("saturation"),
         pressure: given.unwrap_or_else(|| value("capillary_pressure_Pa")),
         invaded: invaded(&solver.snapshot(), grid, invading),

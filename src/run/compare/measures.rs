@@ -7,6 +7,7 @@ use crate::solver::{self, Measure};
 pub(crate) fn measures(found: &Comparison) -> Vec<Measure> {
     let Comparison { network, direct, .. } = found;
     let threshold = "largest capillary pressure until an element at the outlet was filled";
+    let reached = "when the invading phase reached the outlet, of displacements in time";
     let largest = |side: &Side| side.breakthrough_pressure_pa;
     let saturation = |side: &Side| side.saturation_at_breakthrough;
     vec![
@@ -27,6 +28,8 @@ pub(crate) fn measures(found: &Comparison) -> Vec<Measure> {
         measure("direct-breakthrough-pressure-Pa", largest(direct), "Pa", threshold),
         measure("network-saturation-at-breakthrough", saturation(network), "", "of the wetting phase"),
         measure("direct-saturation-at-breakthrough", saturation(direct), "", "of the wetting phase"),
+        measure("network-breakthrough-time-s", network.breakthrough_time_s, "s", reached),
+        measure("direct-breakthrough-time-s", direct.breakthrough_time_s, "s", reached),
         measure("network-permeability-m2", network.permeability_m2, "m2", "along x, of the network"),
         measure("direct-permeability-m2", direct.permeability_m2, "m2", "along x, where the case measures it"),
         measure("network-pores", Some(network.unknowns as f64), "", "pores of the network"),

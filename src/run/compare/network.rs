@@ -2,13 +2,17 @@
 
 use super::pair::CompareError;
 use super::track::{Grid, Record, Track};
-use crate::case::Side;
+use crate::case::network::PoreNetwork;
 use crate::case::network::state::NetworkState;
+use crate::case::{Case, FluidPhase, Side};
 use crate::geometry::curve::Curve;
 use crate::math::Vec2;
 use crate::network::displacement::Phase;
+use crate::network::dynamic::solver::DynamicSolver;
+use crate::network::setup;
 use crate::network::solver::NetworkSolver;
 use crate::network::state;
+use crate::run::setup::SetupError;
 use crate::solver::{Series, Solver};
 
 /// The present state; none where nothing is displaced.
@@ -31,30 +35,81 @@ pub(crate) fn track(solver: &mut NetworkSolver, grid: &Grid) -> Result<Track, Co
             note_filled(solver, records.len() - 1, &mut filled);
         }
     }
+    Ok(Track { records, filled, ..totals(solver) })
+}
+
+/// What a network took, its permeability and its warnings.
+fn totals(solver: &dyn Solver) -> Track {
     let statistics = solver.statistics();
     let wall_time_s = statistics.parts.iter().map(|part| part.seconds).sum();
     let measures = solver.measures(&Series::default());
     let permeability = measures.iter().find(|it| it.name == "permeability-x-m2").map(|it| it.value);
     let permeability = permeability.filter(|value| value.is_finite());
-    Ok(Track {
-        records,
-        filled,
+    Track {
+        records: Vec::new(),
+        filled: Vec::new(),
         wall_time_s,
         // One thread does it all.
         processor_time_s: Some(wall_time_s),
         unknowns: statistics.unknowns,
         steps: statistics.steps,
         permeability,
+        breakthrough: None,
         warnings: solver.warnings(&Series::default()),
-    })
+    }
+}
+
+/// Runs a displacement in time with `records` states until the time `end` in s, or to its own end.
+pub(crate) fn track_in_time(
+    (case, wanted): (&Case, &PoreNetwork),
+    grid: &Grid,
+    (end, records): (f64, usize),
+) -> Result<Track, CompareError> {
+    let solver = setup::build_in_time(case, wanted).map_err(SetupError::from)?;
+    let mut solver = solver.ok_or(CompareError::NoNetwork)?;
+    let mut found = vec![record_in_time(&solver, grid)];
+    let mut filled: Vec<Option<usize>> = solver.shares().map(|share| (share > 0.5).then_some(0)).collect();
+    for number in 1..=records {
+        let until = end * number as f64 / records as f64;
+        while !solver.is_done() && solver.time() < until {
+            solver.step(until)?;
+        }
+        found.push(record_in_time(&solver, grid));
+        for (filled, _) in filled.iter_mut().zip(solver.shares()).filter(|(_, share)| *share > 0.5) {
+            filled.get_or_insert(number);
+        }
+        if solver.is_done() {
+            break;
+        }
+    }
+    let breakthrough = solver.breakthrough().map(|it| {
+        let is_wetting = solver.invading() == FluidPhase::Wetting;
+        [it.time, if is_wetting { it.saturation } else { 1.0 - it.saturation }]
+    });
+    Ok(Track { records: found, filled, breakthrough, ..totals(&solver) })
+}
+
+fn record_in_time(solver: &DynamicSolver, grid: &Grid) -> Record {
+    let sample = solver.sample();
+    let value = |name: &str| sample.iter().find(|it| it.name == name).map_or(f64::NAN, |it| it.value);
+    let shares: Vec<f64> = solver.shares().collect();
+    // Nothing has flowed yet at the beginning.
+    let pressure = if solver.steps() > 0 { value("pressure_difference_Pa") } else { f64::NAN };
+    Record {
+        time: solver.time(),
+        saturation: value("saturation"),
+        pressure,
+        invaded: grid.cells.iter().map(|&(_, element)| shares[element] > 0.5).collect(),
+    }
 }
 
 fn record(solver: &NetworkSolver, grid: &Grid) -> Record {
     let Some(cycles) = solver.cycles() else {
-        return Record { saturation: f64::NAN, pressure: f64::NAN, invaded: Vec::new() };
+        return Record { time: f64::NAN, saturation: f64::NAN, pressure: f64::NAN, invaded: Vec::new() };
     };
     let holds = |element: usize| cycles.displacement().phase(element) == Phase::Invading;
     Record {
+        time: f64::NAN,
         saturation: cycles.saturation(),
         pressure: cycles
             .applied()

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::comparison::{Comparison, Side};
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
-use crate::io::diagram::{self, DiagramError};
+use crate::io::diagram;
 use crate::io::html::{self, escaped};
 
 /// The page as HTML.
@@ -14,11 +14,13 @@ pub(crate) fn page(comparison: &Comparison) -> String {
         format!("<h1>Network and direct simulation</h1>\n<p>Network: {network}.<br>Direct simulation: {direct}.</p>\n");
     html += &table(comparison);
     html += &warnings(comparison);
-    html += "<h2>Capillary pressure over saturation</h2>\n";
-    html += &match curves(comparison) {
-        Ok(svg) => svg.unwrap_or_else(|| "<p>There is no pressure to show.</p>".to_owned()),
-        Err(error) => format!("<p>{}</p>", escaped(&error.to_string())),
-    };
+    for diagram in diagrams(comparison) {
+        let _ = writeln!(html, "<h2>{}</h2>", diagram.title);
+        html += &match diagram::svg(&diagram) {
+            Ok(svg) => svg.unwrap_or_else(|| "<p>There is no pressure to show.</p>".to_owned()),
+            Err(error) => format!("<p>{}</p>", escaped(&error.to_string())),
+        };
+    }
     html += "\n<h2>At equal saturation</h2>\n<p>Network on the left, direct simulation on the right; the invading phase is light.</p>\n";
     for at in &comparison.at_equal_saturation {
         let [one, other] = at.saturation;
@@ -41,8 +43,12 @@ fn table(comparison: &Comparison) -> String {
         format!("<tr><th>{name}</th><td>{}</td><td>{}</td></tr>\n", cells[0], cells[1])
     };
     let of = |value: &dyn Fn(&Side) -> String| both.map(value);
+    let first = match comparison.is_in_time {
+        true => row("breakthrough time in s", of(&|side| number(side.breakthrough_time_s))),
+        false => row("breakthrough pressure in Pa", of(&|side| number(side.breakthrough_pressure_pa))),
+    };
     let rows = [
-        row("breakthrough pressure in Pa", of(&|side| number(side.breakthrough_pressure_pa))),
+        first,
         row("saturation at breakthrough", of(&|side| share(side.saturation_at_breakthrough))),
         row("permeability along x in m&sup2;", of(&|side| number(side.permeability_m2))),
         row("pores; particles", of(&|side| side.unknowns.to_string())),
@@ -69,25 +75,64 @@ fn warnings(comparison: &Comparison) -> String {
     if all.is_empty() { all } else { format!("<h2>Warnings</h2>\n<ul>\n{all}</ul>\n") }
 }
 
-/// Both curves on one pair of axes as SVG; none where no pressure is known.
-pub(crate) fn curves(comparison: &Comparison) -> Result<Option<String>, DiagramError> {
-    let known = |side: &Side| -> Vec<[f64; 2]> {
-        let pairs = side.saturation.iter().zip(&side.capillary_pressure_pa);
-        pairs.filter_map(|(saturation, pressure)| Some([*saturation, (*pressure)?])).collect()
-    };
+/// Both curves on one pair of axes each: capillary pressure over saturation; of displacements in time saturation over time, and the pressure difference over
+/// time and over saturation.
+pub(crate) fn diagrams(comparison: &Comparison) -> Vec<Diagram> {
+    if comparison.is_in_time { in_time(comparison) } else { vec![quasi_static(comparison)] }
+}
+
+fn trace(name: &str, points: Vec<[f64; 2]>) -> Trace {
+    Trace { name: name.to_owned(), stroke: Stroke::Full, points }
+}
+
+/// Pairs where there is a pressure.
+fn known(over: &[f64], pressures: &[Option<f64>]) -> Vec<[f64; 2]> {
+    over.iter().zip(pressures).filter_map(|(over, pressure)| Some([*over, (*pressure)?])).collect()
+}
+
+const SATURATION: &str = "saturation of the wetting phase";
+
+fn quasi_static(comparison: &Comparison) -> Diagram {
+    let points = |side: &Side| known(&side.saturation, &side.capillary_pressure_pa);
     // Of the network the pressure rises at constant saturation, and the saturation changes at constant pressure.
-    let network = known(&comparison.network);
+    let network = points(&comparison.network);
     let first = comparison.network.saturation.first().copied();
     let before = first.into_iter().chain(network.iter().map(|point| point[0]));
     let stairs = network.iter().zip(before).flat_map(|(point, before)| [[before, point[1]], *point]).collect();
-    let trace = |name: &str, points| Trace { name: name.to_owned(), stroke: Stroke::Full, points };
-    let diagram = Diagram {
+    Diagram {
         name: "compare",
         title: "Capillary pressure over saturation",
-        x: Axis { label: "saturation of the wetting phase", logarithmic: false },
+        x: Axis { label: SATURATION, logarithmic: false },
         y: Axis { label: "capillary pressure p_n - p_w in Pa", logarithmic: false },
         map: None,
-        traces: vec![trace("network", stairs), trace("direct simulation", known(&comparison.direct))],
+        traces: vec![trace("network", stairs), trace("direct simulation", points(&comparison.direct))],
+    }
+}
+
+fn in_time(comparison: &Comparison) -> Vec<Diagram> {
+    let (time, pressure) = ("time in s", "pressure at the inlet less that at the outlet in Pa");
+    let both = |points: &dyn Fn(&Side) -> Vec<[f64; 2]>| {
+        vec![trace("network", points(&comparison.network)), trace("direct simulation", points(&comparison.direct))]
     };
-    diagram::svg(&diagram)
+    let diagram = |(name, title), [x, y]: [&'static str; 2], traces| {
+        let axis = |label| Axis { label, logarithmic: false };
+        Diagram { name, title, x: axis(x), y: axis(y), map: None, traces }
+    };
+    vec![
+        diagram(
+            ("compare", "Pressure difference over saturation"),
+            [SATURATION, pressure],
+            both(&|side| known(&side.saturation, &side.pressure_difference_pa)),
+        ),
+        diagram(
+            ("compare-saturation", "Saturation over time"),
+            [time, SATURATION],
+            both(&|side| side.time_s.iter().zip(&side.saturation).map(|(time, s)| [*time, *s]).collect()),
+        ),
+        diagram(
+            ("compare-pressure", "Pressure difference over time"),
+            [time, pressure],
+            both(&|side| known(&side.time_s, &side.pressure_difference_pa)),
+        ),
+    ]
 }

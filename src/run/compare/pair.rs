@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::case::Case;
+use crate::case::network::NetworkDisplacement;
+use crate::case::{Case, Model};
 use crate::input::Problem;
 use crate::run::execute::{Mode, RunError};
 use crate::run::setup::SetupError;
@@ -17,6 +18,21 @@ pub(crate) struct Pair<'a> {
     pub direct: &'a Case,
     /// Number of compared states of the direct simulation.
     pub records: usize,
+}
+
+impl Pair<'_> {
+    /// Whether the network goes in time.
+    pub(crate) fn is_in_time(&self) -> bool {
+        self.displacement().is_some_and(|displacement| displacement.dynamic.is_some())
+    }
+
+    /// What the network is to displace.
+    pub(crate) fn displacement(&self) -> Option<&NetworkDisplacement> {
+        match &self.network.model {
+            Model::Network(network) => network.displacement.as_ref(),
+            _ => None,
+        }
+    }
 }
 
 /// A comparison in a folder.

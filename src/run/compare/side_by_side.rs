@@ -6,6 +6,7 @@ use super::comparison::{AtSaturation, Comparison, Side};
 use super::pair::{CompareError, Pair, Task};
 use super::track::{Grid, Record, Track};
 use super::{direct, network, picture, rank};
+use crate::case::network::PoreNetwork;
 use crate::case::network::state::NetworkState;
 use crate::case::{Case, Model};
 use crate::geometry::elements::Elements;
@@ -34,13 +35,19 @@ pub(crate) fn compare(
     let elements = Elements::new(boundaries, state.images());
     let bounds = setup::geometry(pair.network)?.bounds();
     let grid = Grid::new(bounds, &elements);
-    let by_network = network::track(&mut solver, &grid)?;
+    let by_network = match &pair.network.model {
+        Model::Network(wanted) if pair.is_in_time() => {
+            network::track_in_time((pair.network, wanted), &grid, (pair.direct.end, pair.records))?
+        }
+        _ => network::track(&mut solver, &grid)?,
+    };
     let by_direct = direct::track(task, (&state, &grid), interrupt, watcher)?;
     let outlet = network::outlet_elements(&state);
     Ok(Comparison {
         titles: [pair.network.title.clone(), pair.direct.title.clone()],
-        network: side(&by_network, &outlet),
-        direct: side(&by_direct, &outlet),
+        network: side(&by_network, &outlet, pair.is_in_time()),
+        direct: side(&by_direct, &outlet, pair.is_in_time()),
+        is_in_time: pair.is_in_time(),
         ..compared(&by_network, &by_direct, &grid)
     })
 }
@@ -52,7 +59,7 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
     if sph.non_wetting.is_none() {
         return Err(CompareError::NoDirect);
     }
-    let solver = crate::network::setup::build_still(pair.network, wanted).map_err(SetupError::from)?;
+    let solver = crate::network::setup::build_still(pair.network, &without_time(wanted)).map_err(SetupError::from)?;
     let state = network::state(&solver).ok_or(CompareError::NoNetwork)?;
     if let Some(misfit) = state.misfit(&pair.direct.geometry) {
         return Err(CompareError::OtherGeometry(misfit));
@@ -68,21 +75,45 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
     Ok((solver, state))
 }
 
-fn side(track: &Track, outlet: &[usize]) -> Side {
-    let through = outlet.iter().filter_map(|&element| track.filled[element]).min().filter(|&record| record > 0);
-    let pressures = through.map(|record| track.records[..=record].iter().map(|it| it.pressure));
-    let largest = pressures.map(|pressures| pressures.fold(f64::NAN, f64::max)).filter(|pressure| pressure.is_finite());
-    Side {
+/// The same network without a displacement in time: it has the same elements.
+fn without_time(wanted: &PoreNetwork) -> PoreNetwork {
+    let mut wanted = wanted.clone();
+    if let Some(displacement) = &mut wanted.displacement {
+        displacement.dynamic = None;
+    }
+    wanted
+}
+
+fn side(track: &Track, outlet: &[usize], is_in_time: bool) -> Side {
+    let pressures: Vec<Option<f64>> =
+        track.records.iter().map(|it| Some(it.pressure).filter(|p| p.is_finite())).collect();
+    let common = Side {
         saturation: track.records.iter().map(|record| record.saturation).collect(),
-        capillary_pressure_pa: track.records.iter().map(|it| Some(it.pressure).filter(|p| p.is_finite())).collect(),
-        breakthrough_pressure_pa: largest,
-        saturation_at_breakthrough: through.map(|record| track.records[record].saturation),
         permeability_m2: track.permeability,
         wall_time_s: track.wall_time_s,
         processor_time_s: track.processor_time_s,
         unknowns: track.unknowns,
         steps: track.steps,
         warnings: track.warnings.clone(),
+        ..Side::default()
+    };
+    if is_in_time {
+        return Side {
+            time_s: track.records.iter().map(|record| record.time).collect(),
+            pressure_difference_pa: pressures,
+            breakthrough_time_s: track.breakthrough.map(|[time, _]| time),
+            saturation_at_breakthrough: track.breakthrough.map(|[_, saturation]| saturation),
+            ..common
+        };
+    }
+    let through = outlet.iter().filter_map(|&element| track.filled[element]).min().filter(|&record| record > 0);
+    let until = through.map(|record| track.records[..=record].iter().map(|it| it.pressure));
+    let largest = until.map(|pressures| pressures.fold(f64::NAN, f64::max)).filter(|pressure| pressure.is_finite());
+    Side {
+        capillary_pressure_pa: pressures,
+        breakthrough_pressure_pa: largest,
+        saturation_at_breakthrough: through.map(|record| track.records[record].saturation),
+        ..common
     }
 }
 
@@ -131,6 +162,7 @@ fn compared(network: &Track, direct: &Track, grid: &Grid) -> Comparison {
         titles: Default::default(),
         network: Side::default(),
         direct: Side::default(),
+        is_in_time: false,
         rank_correlation: rank::correlation(&both),
         elements_in_both: both.len(),
         mean_overlap: (!overlaps.is_empty()).then(|| overlaps.iter().sum::<f64>() / overlaps.len() as f64),

@@ -73,7 +73,7 @@ impl States {
 
     /// All of them in order.
     pub(crate) fn records(self) -> Vec<Record> {
-        self.records.into_iter().map(|(_, record)| record).collect()
+        self.records.into_iter().map(|(time, record)| Record { time, ..record }).collect()
     }
 }
 
@@ -103,7 +103,7 @@ impl Line {
         }
         let invaded = self.runs.iter().enumerate().flat_map(|(k, &run)| std::iter::repeat_n(k % 2 == 1, run)).collect();
         let value = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        Ok(Record { saturation: value(self.saturation), pressure: value(self.pressure_pa), invaded })
+        Ok(Record { time: self.time_s, saturation: value(self.saturation), pressure: value(self.pressure_pa), invaded })
     }
 }
 
@@ -122,7 +122,7 @@ mod tests {
     }
 
     fn record(saturation: f64, invaded: [bool; 4]) -> Record {
-        Record { saturation, pressure: f64::NAN, invaded: invaded.to_vec() }
+        Record { time: f64::NAN, saturation, pressure: f64::NAN, invaded: invaded.to_vec() }
     }
 
     #[test]

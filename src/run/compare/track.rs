@@ -9,9 +9,11 @@ const CELLS: f64 = 240.0;
 /// A state of one of both: where the curve stands, and which cells hold the invading phase.
 #[derive(Debug, Clone)]
 pub(crate) struct Record {
+    /// Time in s; NaN where there is none.
+    pub(crate) time: f64,
     /// Saturation of the wetting phase.
     pub(crate) saturation: f64,
-    /// Capillary pressure p_n - p_w in Pa; NaN where there is none.
+    /// Capillary pressure p_n - p_w in Pa, of displacements in time the pressure at the inlet less that at the outlet; NaN where there is none.
     pub(crate) pressure: f64,
     /// For each cell of the pore whether it holds the invading phase.
     pub(crate) invaded: Vec<bool>,
@@ -28,6 +30,8 @@ pub(crate) struct Track {
     pub(crate) unknowns: usize,
     pub(crate) steps: u64,
     pub(crate) permeability: Option<f64>,
+    /// Of a displacement in time: when the invading phase reached the outlet, in s, and the saturation of the wetting phase then.
+    pub(crate) breakthrough: Option<[f64; 2]>,
     pub(crate) warnings: Vec<String>,
 }
 

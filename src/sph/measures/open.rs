@@ -13,6 +13,9 @@ fn is_open(flow: &Flow) -> bool {
 /// Column of the pressure at a side where it rises in steps less that at the opposite side, in Pa.
 pub(crate) const PRESSURE_DIFFERENCE: &str = "pressure_difference_Pa";
 
+/// Column of the mean pressure at the sides with a given velocity less that given at the others, in Pa.
+pub(crate) const DRIVING_PRESSURE: &str = "driving_pressure_Pa";
+
 /// Column of the area in m² of the phase that comes in that has left through another side: with a pressure that rises in steps, of the phase
 /// at that side through the opposite one.
 pub(crate) const PASSED: &str = "passed_m2";
@@ -65,12 +68,29 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
         let others = (0..flow.state.ledger.left.len()).filter(|number| *number != entry);
         columns.push((PASSED, area(others.map(|number| flow.state.ledger.left[number][phase]).sum())));
     }
+    if let Some(pressure) = driving_pressure(flow) {
+        columns.push((DRIVING_PRESSURE, pressure));
+    }
     for (side, given) in flow.view().given_flows() {
         let (rate, gradient) = names[side.axis()];
         let sign = side.inwards();
         columns.extend([(rate, sign * given.rate), (gradient, sign * given.gradient)]);
     }
     columns
+}
+
+/// Mean pressure in Pa of what lies within some spacings of the sides where a velocity is given, as far beyond as inside, less that given at the others.
+fn driving_pressure(flow: &Flow) -> Option<f64> {
+    /// Depth over the distance of rows.
+    const DEPTH: f64 = 2.0;
+    let sides = &flow.setting.open.sides;
+    let outlet = sides.iter().find_map(OpenSide::given_pressure)?;
+    let particles = &flow.state.particles;
+    let lies_at = |side: &OpenSide, a: usize| side.beyond(particles.position[a]).abs() < DEPTH * side.row_spacing;
+    let driven: Vec<&OpenSide> = sides.iter().filter(|side| side.given_pressure().is_none()).collect();
+    let there = (0..particles.moving()).filter(|&a| driven.iter().any(|side| lies_at(side, a)));
+    let (sum, count) = there.fold((0.0, 0_usize), |(sum, count), a| (sum + particles.pressure[a], count + 1));
+    (count > 0).then(|| sum / count as f64 - outlet)
 }
 
 /// Areas in m² of the wetting and the non-wetting phase that came in less those that left.

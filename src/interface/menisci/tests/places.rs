@@ -2,7 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::{Cell, Random, polyline, relative};
+use super::{Cell, Random, discs, polyline, relative};
+use crate::geometry::curve::Curve;
 use crate::interface::menisci::{Hand, Meniscus, Passage, Wall};
 use crate::math::Vec2;
 
@@ -113,4 +114,38 @@ fn walls_without_parts_hold_nothing() {
     assert!(empty.burst().is_none() && empty.at(0.0).is_none() && empty.touch(&[], 1.0).is_none());
     let left = polyline(&[[0.0, 0.0], [0.0, 1.0]], 7, FRAC_PI_2, Hand::Left);
     assert!(Passage::new(left, Wall::default()).burst().is_none());
+}
+
+/// A level line above both walls, the pore below it.
+fn line(y: f64) -> Curve {
+    Curve::Segment { a: Vec2::new(-9.0, y), b: Vec2::new(9.0, y) }
+}
+
+#[test]
+fn beyond_its_burst_a_meniscus_goes_along_the_walls_until_it_touches_a_line() {
+    let (radius, distance, theta) = (1.0, 2.8, 40.0_f64.to_radians());
+    let passage = discs([radius; 2], distance, [theta; 2]);
+    let burst = passage.burst().unwrap();
+    let mut before = (passage.swept_area(&burst), burst.curvature);
+    for y in [1.2, 1.6, 2.0] {
+        let meniscus = passage.reach(&line(y)).unwrap();
+        let (center, r) = (meniscus.center().unwrap(), 1.0 / meniscus.curvature);
+        assert!(relative(center.y + r, y) < 1e-9, "{y}: {meniscus:?}");
+        // It meets both discs under the angle.
+        let square = radius * radius + r * r + 2.0 * radius * r * theta.cos();
+        assert!(relative(center.norm_squared(), square) < 1e-9, "{y}: {meniscus:?}");
+        let now = (passage.swept_area(&meniscus), meniscus.curvature);
+        assert!(now.0 > before.0 && now.1 < before.1, "{y}: {now:?} after {before:?}");
+        before = now;
+    }
+}
+
+#[test]
+fn where_walls_end_a_meniscus_grows_from_their_ends_until_it_touches_a_line() {
+    let wall = |x: f64, hand| polyline(&[[x, -1.0], [x, 0.0], [x, 0.5]], 1, FRAC_PI_2, hand);
+    let passage = Passage::new(wall(0.0, Hand::Left), wall(1.0, Hand::Right));
+    let meniscus = passage.reach(&line(1.0)).unwrap();
+    // Half a circle of the radius 0.5 on the slit of the length 0.5.
+    assert!((meniscus.left.point - Vec2::new(0.0, 0.5)).norm() < 1e-12 && (meniscus.bend - FRAC_PI_2).abs() < 1e-9);
+    assert!(relative(passage.swept_area(&meniscus), 0.5 + PI / 8.0) < 1e-9);
 }

@@ -1,0 +1,152 @@
+//! Pores at open sides: those at the inlet that are being filled, and the invading phase on its way through those at the outlet.
+//!
+//! A meniscus that has passed its event into a pore at the outlet goes on along its walls until it touches the side, and there the invading
+//! phase leaves. Until then it resists with the curvature at which it touches.
+
+use std::sync::Arc;
+
+use super::rise::Rise;
+use super::{Breakthrough, Dynamic, Meniscus};
+use crate::geometry::curve::Curve;
+use crate::math::{Vec2, perpendicular};
+use crate::network::cycles::Invasion;
+use crate::network::displacement::FrontId;
+
+/// Where a meniscus that enters a pore at the outlet touches the side.
+#[derive(Debug, Clone)]
+pub(super) struct Reach {
+    /// Area in m² that it has swept since the chord of its gate.
+    area: f64,
+    /// What resists until then.
+    pub(super) rise: Arc<Rise>,
+}
+
+impl Dynamic {
+    /// Elements that hold the defending phase and are open at given sides.
+    pub(super) fn defending_at(&self, sides: [bool; 4]) -> Vec<bool> {
+        let mut found = vec![false; self.displacement.elements().len()];
+        for &(opening, element) in &self.openings {
+            found[element] |= sides[self.network.openings[opening].side] && !self.is_invaded(element);
+        }
+        found
+    }
+
+    /// By gate and end, for gates into elements that are open at the outlet and not at the inlet.
+    pub(super) fn reaches(&self) -> Vec<[Option<Reach>; 2]> {
+        let of = |gate: usize| {
+            [0, 1]
+                .map(|end| if self.is_outlet[self.gates[gate].elements[end]] { self.reach((gate, end)) } else { None })
+        };
+        (0..self.gates.len()).map(of).collect()
+    }
+
+    fn reach(&self, front: FrontId) -> Option<Reach> {
+        let element = self.ahead_of(front);
+        let (passage, own) = self.displacement.front_to_come(front);
+        let event = self.rise(front, &passage, own)?.end().0;
+        let lines =
+            self.openings.iter().filter(|(_, at)| *at == element).filter_map(|(opening, _)| self.side(*opening));
+        let touches =
+            lines.filter_map(|line| passage.reach(&line)).map(|found| (passage.swept_area(&found), found.curvature));
+        let (area, curvature) = touches.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        // More than the element holds is never swept in it.
+        let most = self.displacement.elements()[element].area.max(event);
+        let rise = Rise::level([event, event + most], curvature.min(own), self.gates[front.0].width);
+        Some(Reach { area, rise: Arc::new(rise.between(|curvature| self.terms.with_depth(curvature))) })
+    }
+
+    /// An opening of the outlet as a line with the pore on its right.
+    fn side(&self, opening: usize) -> Option<Curve> {
+        let opening = &self.network.openings[opening];
+        let [a, b] = opening.ends;
+        let mut inwards = Vec2::zeros();
+        inwards[opening.side / 2] = if opening.side % 2 == 0 { 1.0 } else { -1.0 };
+        let is_forward = (b - a).dot(&perpendicular(inwards)) > 0.0;
+        self.terms.outlet[opening.side].then_some(if is_forward {
+            Curve::Segment { a, b }
+        } else {
+            Curve::Segment { a: b, b: a }
+        })
+    }
+
+    /// What resists a meniscus that is on its way to the outlet.
+    pub(super) fn on_its_way(&self, (gate, end): FrontId) -> Option<(Meniscus, &Reach)> {
+        let meniscus = self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst && !meniscus.has_left)?;
+        Some((meniscus, self.reaches[gate][end].as_ref()?))
+    }
+
+    /// The menisci on their way through an element at the outlet.
+    pub(super) fn all_on_their_way(&self) -> Vec<FrontId> {
+        let gates = (0..self.gates.len()).flat_map(|gate| [(gate, 0), (gate, 1)]);
+        gates.filter(|&front| self.on_its_way(front).is_some()).collect()
+    }
+
+    /// Area in m² that is missing until a meniscus touches the outlet, or until the invading phase has all of the element, with areas by front.
+    pub(super) fn missing_to_outlet(&self, front: FrontId, area: impl Fn(FrontId) -> f64) -> f64 {
+        let element = self.ahead_of(front);
+        let reach = self.reaches[front.0][front.1].as_ref().map_or(0.0, |reach| reach.area);
+        let room = self.displacement.elements()[element].area - self.in_outlet(element, &area);
+        room.min(reach - area(front))
+    }
+
+    /// Area in m² of the invading phase in an element at the outlet, with areas by front.
+    fn in_outlet(&self, element: usize, area: impl Fn(FrontId) -> f64) -> f64 {
+        let gates = self.displacement.gates_of(element).iter();
+        gates.filter(|(gate, end)| self.state.menisci[*gate][*end].is_some()).map(|&front| area(front)).sum()
+    }
+
+    /// Area in m² of menisci that have passed their events in an element at the outlet.
+    pub(super) fn passed_in_outlet(&self, element: usize) -> f64 {
+        if !self.is_outlet[element] {
+            return 0.0;
+        }
+        let menisci =
+            self.displacement.gates_of(element).iter().filter_map(|&(gate, end)| self.state.menisci[gate][end]);
+        menisci.filter(|meniscus| meniscus.has_burst).map(|meniscus| meniscus.area).sum()
+    }
+
+    /// A meniscus touches the outlet: what it gains from now on leaves.
+    pub(super) fn leave(&mut self, (gate, end): FrontId) {
+        if let Some(meniscus) = &mut self.state.menisci[gate][end] {
+            meniscus.has_left = true;
+        }
+        self.graph = None;
+        if self.state.breakthrough.is_none() {
+            self.state.breakthrough = Some(Breakthrough {
+                time: self.state.time,
+                saturation: self.invading_area() / self.pore_area,
+                pressure: self.state.pressure,
+            });
+        }
+    }
+
+    /// The same displacement with a share of the pore space that the invading phase holds at the beginning, in the elements that are open at the inlet
+    /// and by the same part of each; the displacement must have begun without them.
+    ///
+    /// # Errors
+    /// Their share of the pore space where it is less.
+    pub fn beginning_with(mut self, share: f64) -> Result<Self, f64> {
+        self.is_inlet = self.defending_at(self.terms.inlet);
+        let elements: Vec<usize> = (0..self.is_inlet.len()).filter(|&element| self.is_inlet[element]).collect();
+        let area_of = |element: usize| self.displacement.elements()[element].area;
+        let most = elements.iter().map(|&element| area_of(element)).sum::<f64>() / self.pore_area;
+        // NaN where no pore is open.
+        if !(share <= most) {
+            return Err(most);
+        }
+        let areas: Vec<(usize, f64)> =
+            elements.iter().map(|&element| (element, share / most * area_of(element))).collect();
+        for (element, area) in areas {
+            self.begin_filling(element, f64::INFINITY, false);
+            if let Some(filling) = &mut self.state.filling[element] {
+                filling.area = area;
+            }
+            self.is_outlet[element] = false;
+        }
+        self.first_area = self.invading_area();
+        for element in elements {
+            self.state.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced: share });
+        }
+        Ok(self)
+    }
+}
