@@ -1,6 +1,6 @@
 //! Drawings that the program writes come back through its readers of drawings.
 
-use meniscus::geometry::export::{Format, write};
+use meniscus::geometry::export::{Beside, Format, write};
 use meniscus::geometry::import::Options;
 use meniscus::geometry::spec::{Capsule, Disc, GeometrySpec, Rectangle, ShapeSpec, SolidSide};
 use meniscus::geometry::{Geometry, load};
@@ -31,7 +31,7 @@ fn every_drawing_comes_back_with_its_discs_and_its_solid_area() {
     {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
-        std::fs::write(&path, write(&shapes(), format, None).unwrap()).unwrap();
+        std::fs::write(&path, write(&shapes(), format, Beside::default()).unwrap()).unwrap();
         let unit = matches!(format, Format::GeoJson).then(|| "m".to_owned());
         let back = load(&path, &Options { unit, ..Options::default() }).unwrap().spec;
         assert_eq!(back.shapes.iter().filter(|s| matches!(s, ShapeSpec::Disc(_))).count(), 2, "{name}");
@@ -52,7 +52,7 @@ fn shapes_that_overlap_or_lie_in_others_come_back_united() {
     let folder = tempfile::tempdir().unwrap();
     for (name, format) in [("a.dxf", Format::Dxf), ("a.svg", Format::Svg)] {
         let path = folder.path().join(name);
-        std::fs::write(&path, write(&spec, format, None).unwrap()).unwrap();
+        std::fs::write(&path, write(&spec, format, Beside::default()).unwrap()).unwrap();
         let back = load(&path, &Options::default()).unwrap().spec;
         let [found, expected] = [&back, &spec].map(|spec| Geometry::new(spec).unwrap().porosity().value);
         assert!((found - expected).abs() < 1e-9, "{name}: {found} {expected}");

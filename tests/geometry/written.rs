@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use meniscus::geometry::Geometry;
-use meniscus::geometry::export::{ExportError, Format, write};
+use meniscus::geometry::export::{Beside, ExportError, Format, write};
 use meniscus::geometry::import::Options;
 use meniscus::geometry::import::drawing::Outline;
 use meniscus::geometry::import::mask::{MaskOptions, read};
@@ -58,27 +58,27 @@ fn read_back(bytes: &[u8], name: &str) -> GeometrySpec {
 #[test]
 fn a_list_of_discs_comes_back_to_rounding() {
     let spec = discs();
-    let back = read_back(&write(&spec, Format::Discs, None).unwrap(), "a.xyr");
+    let back = read_back(&write(&spec, Format::Discs, Beside::default()).unwrap(), "a.xyr");
     assert_eq!((back.min, back.max, back.shapes.len()), (spec.min, spec.max, spec.shapes.len()));
     for pair in back.shapes.iter().zip(&spec.shapes) {
         let (ShapeSpec::Disc(found), ShapeSpec::Disc(disc)) = pair else { panic!("{pair:?}") };
         let offset = (found.center[0] - disc.center[0]).hypot(found.center[1] - disc.center[1]);
         assert!(offset.max((found.radius - disc.radius).abs()) < 1e-15 * (spec.max[0] - spec.min[0]), "{pair:?}");
     }
-    let refused = write(&shapes(), Format::Discs, None).unwrap_err();
+    let refused = write(&shapes(), Format::Discs, Beside::default()).unwrap_err();
     assert!(matches!(refused, ExportError::NoDisc { others: 3, all: 5 }), "{refused}");
 }
 
 #[test]
 fn a_shape_file_comes_back_bit_by_bit() {
-    let text = String::from_utf8(write(&shapes(), Format::Toml, None).unwrap()).unwrap();
+    let text = String::from_utf8(write(&shapes(), Format::Toml, Beside::default()).unwrap()).unwrap();
     let rest = text.strip_prefix("format = 1\n").unwrap();
     assert_eq!(toml::from_str::<GeometrySpec>(rest).unwrap(), shapes());
 }
 
 #[test]
 fn well_known_text_keeps_domain_and_area() {
-    let back = read_back(&write(&shapes(), Format::Wkt, None).unwrap(), "a.wkt");
+    let back = read_back(&write(&shapes(), Format::Wkt, Beside::default()).unwrap(), "a.wkt");
     assert_eq!((back.min, back.max, back.shapes.len()), (shapes().min, shapes().max, 5));
     // 100 chords take 6.6e-4 of a disc's area.
     assert!((porosity(&back) - porosity(&shapes())).abs() < 7e-4 * (1.0 - porosity(&shapes())));
@@ -87,13 +87,13 @@ fn well_known_text_keeps_domain_and_area() {
 #[test]
 fn a_pore_between_shapes_is_written_as_the_solid_around_it() {
     let spec = GeometrySpec { solid: SolidSide::Outside, ..discs() };
-    let back = read_back(&write(&spec, Format::Wkt, None).unwrap(), "a.wkt");
+    let back = read_back(&write(&spec, Format::Wkt, Beside::default()).unwrap(), "a.wkt");
     assert!((porosity(&back) - porosity(&spec)).abs() < 7e-4, "{} {}", porosity(&back), porosity(&spec));
 }
 
 #[test]
 fn geojson_tells_its_unit_and_holds_every_ring() {
-    let bytes = write(&shapes(), Format::GeoJson, None).unwrap();
+    let bytes = write(&shapes(), Format::GeoJson, Beside::default()).unwrap();
     let value: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
     assert_eq!(value["unit"], "m");
     let features = value["features"].as_array().unwrap();
@@ -103,7 +103,7 @@ fn geojson_tells_its_unit_and_holds_every_ring() {
 
 #[test]
 fn svg_holds_circles_and_arcs_with_their_radii_in_mm() {
-    let text = String::from_utf8(write(&shapes(), Format::Svg, None).unwrap()).unwrap();
+    let text = String::from_utf8(write(&shapes(), Format::Svg, Beside::default()).unwrap()).unwrap();
     assert_eq!(text.matches("<circle").count(), 2);
     assert_eq!(text.matches("<path").count(), 3);
     let radii: Vec<f64> = text.split(" A").skip(1).map(|arc| arc.split(' ').next().unwrap().parse().unwrap()).collect();
@@ -116,7 +116,7 @@ fn svg_holds_circles_and_arcs_with_their_radii_in_mm() {
 
 #[test]
 fn dxf_holds_circles_and_bulges_in_mm() {
-    let bytes = write(&shapes(), Format::Dxf, None).unwrap();
+    let bytes = write(&shapes(), Format::Dxf, Beside::default()).unwrap();
     let drawing = dxf::Drawing::load(&mut &bytes[..]).unwrap();
     assert_eq!(drawing.header.default_drawing_units, dxf::enums::Units::Millimeters);
     let (mut radii, mut bulges) = (Vec::new(), 0);
@@ -138,7 +138,7 @@ fn dxf_holds_circles_and_bulges_in_mm() {
 fn a_mask_holds_the_share_of_solid_of_every_pixel() {
     let spec = shapes();
     let pixel = 1e-5;
-    let bytes = write(&spec, Format::Png, Some(pixel)).unwrap();
+    let bytes = write(&spec, Format::Png, Beside { pixel: Some(pixel), ..Beside::default() }).unwrap();
     let image = image::load_from_memory(&bytes).unwrap().to_luma8();
     assert_eq!(image.dimensions(), (400, 300));
     let solid: f64 = image.pixels().map(|p| 1.0 - f64::from(p[0]) / 255.0).sum::<f64>() / 120_000.0;
@@ -158,5 +158,5 @@ fn a_mask_holds_the_share_of_solid_of_every_pixel() {
 fn endings_that_name_no_format_are_refused() {
     assert!(matches!(Format::of("a.DXF".as_ref()), Ok(Format::Dxf)));
     assert!(Format::of("a.pdf".as_ref()).unwrap_err().to_string().contains(".svg"));
-    assert!(write(&discs(), Format::Png, Some(1.0)).is_err());
+    assert!(write(&discs(), Format::Png, Beside { pixel: Some(1.0), ..Beside::default() }).is_err());
 }
