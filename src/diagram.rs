@@ -105,4 +105,6 @@ pub struct Mosaic {
     pub walls: Vec<Vec<[f64; 2]>>,
     /// Colored lines with their name in the legend: menisci, throats.
     pub lines: (&'static str, Vec<Vec<[f64; 2]>>),
+    /// Lines of a width in m with their name in the legend, below the others: films.
+    pub strips: (&'static str, Vec<(Vec<[f64; 2]>, f64)>),
 }

@@ -107,8 +107,8 @@ pub use math::{Bounds, Vec2};
 /// The pore network of a geometry, and the events of a displacement in it:
 ///
 /// ```
-/// use meniscus::{Conditions, Disc, Displacement, EventKind, Events, Geometry, GeometrySpec, Network, Phase, Pores};
-/// use meniscus::{ShapeSpec, SolidSide, Trapping, extract};
+/// use meniscus::{Conditions, CornerFilms, Disc, Displacement, EventKind, Events, Geometry, GeometrySpec, Network, Phase};
+/// use meniscus::{Pores, ShapeSpec, SolidSide, Trapping, extract};
 ///
 /// // Two discs; open on the left and on the right.
 /// let shapes = [-1e-3, 1e-3].map(|y| ShapeSpec::Disc(Disc { center: [0.0, y], radius: 0.9e-3 })).to_vec();
@@ -127,6 +127,7 @@ pub use math::{Bounds, Vec2};
 ///     events: Events::All,
 ///     largest_curvature: f64::INFINITY,
 ///     measured: Vec::new(),
+///     films: CornerFilms::Absent,
 /// };
 /// let mut events = Displacement::new(&network, &Pores::merged(&network, 1.0), conditions);
 /// let burst = events.find(|event| event.throat == Some(0)).expect("the gas passes the throat");
@@ -136,7 +137,7 @@ pub use math::{Bounds, Vec2};
 /// ```
 pub use network::{
     ExtractError,
-    displacement::{Conditions, Displacement, Event, EventKind, Events, Phase, Trapping},
+    displacement::{Conditions, CornerFilms, Displacement, Event, EventKind, Events, Phase, Trapping},
     extract,
     graph::{Network, Opening, Pores, Region, Throat},
 };

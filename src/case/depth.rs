@@ -1,12 +1,15 @@
 //! `depth` of `[geometry]`: which models know one, and what belongs to it.
 
 use super::case_file::Model;
+use super::network::refuse_films;
 use super::wetting::PatchedWall;
 use crate::geometry::spec::GeometrySpec;
-use crate::input::Checker;
+use crate::input::{Checker, Problem};
 
 /// Largest size of a domain over the depth, and of the depth over the domain.
 const MOST: f64 = 1e6;
+
+const KEY: &str = "geometry.depth";
 
 /// Gives the model its depth; refuses one that it does not know or that is none of the geometry, and floors and lids without one.
 pub(super) fn depth(
@@ -15,7 +18,6 @@ pub(super) fn depth(
     model: Option<&mut Model>,
     geometry: Option<&GeometrySpec>,
 ) {
-    const KEY: &str = "geometry.depth";
     let (table, patches) = match model {
         Some(Model::Sph(sph)) => {
             sph.depth = depth;
@@ -30,6 +32,7 @@ pub(super) fn depth(
             ("sph", &sph.wetting_patches[..])
         }
         Some(Model::Network(network)) => {
+            refuse_films(checker, network, depth);
             ("network", network.interface.as_ref().map_or(&[][..], |interface| &interface.patches))
         }
         Some(Model::ThinFilm(_)) if depth.is_some() => {
@@ -50,11 +53,14 @@ pub(super) fn depth(
         }
         return;
     };
-    let size = geometry.map_or(depth, |it| (it.max[0] - it.min[0]).max(it.max[1] - it.min[1]));
+    checker.problems.extend(geometry.and_then(|geometry| none_of(depth, geometry)));
+}
+
+/// What is wrong with a depth in m that is none of a geometry.
+pub(crate) fn none_of(depth: f64, geometry: &GeometrySpec) -> Option<Problem> {
+    let size = (geometry.max[0] - geometry.min[0]).max(geometry.max[1] - geometry.min[1]);
     // The command line gives any number.
     let is_of_it = depth <= MOST * size && depth * MOST >= size;
-    if !is_of_it {
-        let message = format!("the depth of {depth:e} m is none of a domain of {size:e} m");
-        checker.refuse(KEY, message, "give it in m: 50 um are 50e-6; leave it out for a plane");
-    }
+    let message = format!("the depth of {depth:e} m is none of a domain of {size:e} m");
+    (!is_of_it).then(|| Problem::new(KEY, message, "give it in m: 50 um are 50e-6; leave it out for a plane"))
 }

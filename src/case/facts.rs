@@ -18,7 +18,7 @@ pub struct Facts<'a> {
     pub throat: Option<(f64, Vec2)>,
     /// Distance to the nearest wall in m, above 0 in the pore.
     pub wall_distance: &'a dyn Fn(Vec2) -> f64,
-    /// Whether a point lies in the initial shape of the given index (`sph.initial.wetting[index]`).
+    /// Whether a point lies in the initial shape of the given index (`sph.initial.wetting[index]`, or that of `non-wetting`).
     pub in_initial_shape: &'a dyn Fn(usize, Vec2) -> bool,
 }
 
@@ -67,7 +67,7 @@ fn regions(case: &Case, sph: &Sph, facts: &Facts) -> Vec<Problem> {
     }
     let lost = (0..count).filter(|index| !in_pore[*index]);
     lost.map(|index| Problem {
-        path: format!("sph.initial.wetting[{index}]"),
+        path: format!("{}[{index}]", sph.initial.key),
         message: if in_domain[index] {
             "the initial shape lies wholly inside the solid".to_owned()
         } else {

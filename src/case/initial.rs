@@ -16,10 +16,12 @@ tables! {
     pub(crate) struct RawInitial {
         /// Phase outside of the shapes (default `non-wetting`).
         pub background: FluidPhase,
-        /// Shapes filled with the phase that is not the background; each holds a particle of the pore (required with
-        /// two fluids).
+        /// Shapes filled with the wetting phase (with `background = "wetting"`, with the other one); each holds a particle of the
+        /// pore (this or `non-wetting` is required with two fluids).
         pub wetting: Vec<ShapeSpec>,
-        /// File with the state of a network of the same geometry, in place of `background` and `wetting`.
+        /// Shapes filled with the non-wetting phase, in place of `background` and `wetting`: the wetting phase fills the rest.
+        pub non_wetting: Vec<ShapeSpec>,
+        /// File with the state of a network of the same geometry, in place of these.
         pub network: PathBuf,
         /// Initial velocity: at most one field (default `rest`).
         pub velocity: RawVelocity,
@@ -42,13 +44,20 @@ tables! {
     }
 }
 
+/// The keys of shapes that say which phase is where.
+const WETTING: &str = "sph.initial.wetting";
+const NON_WETTING: &str = "sph.initial.non-wetting";
+
 /// Initial state.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Initial {
     /// The wetting phase is the union of these shapes (`[[sph.initial.wetting]]`) ...
     pub wetting: Vec<ShapeSpec>,
-    /// ... or, where true, all that is outside of them (`sph.initial.background = "wetting"`).
+    /// ... or, where true, all that is outside of them (`[[sph.initial.non-wetting]]`, or `sph.initial.background = "wetting"`).
     pub wetting_is_background: bool,
+    /// The key under which they stand.
+    #[serde(skip)]
+    pub key: &'static str,
     /// The state of a network that says it instead (`sph.initial.network`).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub network: Option<Start>,
@@ -75,20 +84,30 @@ pub(super) fn initial(
     two_phases: bool,
     geometry: Option<&GeometrySpec>,
 ) -> Option<Initial> {
-    let wetting = raw.wetting.clone().unwrap_or_default();
+    let others = [("background", raw.background.is_some()), ("wetting", raw.wetting.is_some())];
+    let is_of_non_wetting = raw.non_wetting.is_some();
+    for (key, _) in others.into_iter().filter(|(_, given)| *given && is_of_non_wetting) {
+        checker.refuse(
+            format!("sph.initial.{key}"),
+            format!("`non-wetting` says which phase is where, and `{key}` is given too"),
+            "keep one of them",
+        );
+    }
+    let (key, shapes) = if is_of_non_wetting { (NON_WETTING, &raw.non_wetting) } else { (WETTING, &raw.wetting) };
+    let wetting = shapes.clone().unwrap_or_default();
     for (index, shape) in wetting.iter().enumerate() {
-        checker.problems.extend(shape_problems(&format!("sph.initial.wetting[{index}]"), shape, geometry));
+        checker.problems.extend(shape_problems(&format!("{key}[{index}]"), shape, geometry));
     }
     if two_phases && wetting.is_empty() {
         checker.refuse(
-            "sph.initial.wetting",
+            key,
             "there are two phases, and no shape says where they are",
             "add [[sph.initial.wetting]] with a shape, such as disc = { center = [0.0, 0.0], radius = 1.0e-3 }",
         );
     }
     let velocity = velocity(checker, raw);
-    let wetting_is_background = !two_phases || raw.background == Some(FluidPhase::Wetting);
-    Some(Initial { wetting, wetting_is_background, network: None, velocity: velocity? })
+    let wetting_is_background = !two_phases || is_of_non_wetting || raw.background == Some(FluidPhase::Wetting);
+    Some(Initial { wetting, wetting_is_background, key, network: None, velocity: velocity? })
 }
 
 /// The state at time zero by that of a network.
@@ -100,7 +119,11 @@ pub(super) fn from_network(
     start: Option<Start>,
 ) -> Option<Initial> {
     const PATH: &str = "sph.initial.network";
-    let others = [("background", raw.background.is_some()), ("wetting", raw.wetting.is_some())];
+    let others = [
+        ("background", raw.background.is_some()),
+        ("wetting", raw.wetting.is_some()),
+        ("non-wetting", raw.non_wetting.is_some()),
+    ];
     for (key, _) in others.into_iter().filter(|(_, given)| *given && two_phases) {
         checker.refuse(
             format!("sph.initial.{key}"),
@@ -127,7 +150,8 @@ pub(super) fn from_network(
         return None;
     }
     let wetting_is_background = start.state.invading == FluidPhase::NonWetting;
-    Some(Initial { wetting: Vec::new(), wetting_is_background, network: Some(start), velocity: velocity? })
+    let velocity = velocity?;
+    Some(Initial { wetting: Vec::new(), wetting_is_background, key: WETTING, network: Some(start), velocity })
 }
 
 fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> {
@@ -153,10 +177,12 @@ fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> 
 /// The table of an initial state; `two_phases` where it says which phase is where.
 pub(super) fn raw_initial(initial: &Initial, two_phases: bool) -> RawInitial {
     let by_shapes = two_phases && initial.network.is_none();
+    let [of_wetting, of_other] = [WETTING, NON_WETTING].map(|key| by_shapes && initial.key == key);
     let background = if initial.wetting_is_background { FluidPhase::Wetting } else { FluidPhase::NonWetting };
     RawInitial {
-        background: by_shapes.then_some(background),
-        wetting: by_shapes.then(|| initial.wetting.clone()),
+        background: of_wetting.then_some(background),
+        wetting: of_wetting.then(|| initial.wetting.clone()),
+        non_wetting: of_other.then(|| initial.wetting.clone()),
         network: initial.network.as_ref().map(|start| start.file.clone()),
         velocity: Some(raw_velocity(&initial.velocity)),
     }

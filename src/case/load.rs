@@ -98,6 +98,14 @@ pub fn load_default(overrides: &Overrides) -> Result<Loaded, InputError> {
     load_text(DEFAULT_CASE, DEFAULT_CASE_TEXT, overrides, &Origin::BuiltIn)
 }
 
+/// Loads the text of a starter case, which names no file.
+///
+/// # Errors
+/// All its mistakes.
+pub(super) fn load_starter(text: &str) -> Result<Loaded, InputError> {
+    load_text("the starter case", text, &Overrides::default(), &Origin::BuiltIn)
+}
+
 fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> Result<Loaded, InputError> {
     let document = Document::parse(name, text, overrides)?.with_renamed(&RENAMED);
     document.refuse(other_than_a_case(text).into_iter().collect())?;
@@ -113,7 +121,8 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
         .geometry
         .as_ref()
         .and_then(|raw| read_geometry(&mut checker, raw, origin, &mut sources, &mut elsewhere));
-    let (geometry, mut notes) = geometry.map_or((None, Vec::new()), |read| (Some(read.spec), read.notes));
+    let (geometry, of_file, mut notes) =
+        geometry.map_or((None, None, Vec::new()), |read| (Some(read.spec), read.depth, read.notes));
     notes.extend(document.notes_on_renamed());
     let geometry = geometry.and_then(|spec| {
         let has_window = raw.geometry.as_ref().is_some_and(|geometry| geometry.window.is_some());
@@ -128,7 +137,7 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     let start = start::start(&mut checker, raw, (folder, given), geometry.as_ref(), &mut sources);
     let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
     let mut model = model(&mut checker, (raw, network.as_ref()), geometry.as_ref(), start);
-    let depth = raw.geometry.as_ref().and_then(|geometry| geometry.depth);
+    let depth = raw.geometry.as_ref().and_then(|geometry| geometry.depth).or(of_file);
     depth::depth(&mut checker, depth, model.as_mut(), geometry.as_ref());
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref().and_then(Model::sides));
     permeability::permeability(&mut checker, model.as_ref(), geometry.as_ref());
@@ -227,7 +236,7 @@ fn read_geometry(
 ) -> Option<Imported> {
     let Some(file) = &raw.file else {
         shapes::refuse_keys_of_import(checker, raw);
-        return shapes::inline(checker, "geometry", raw).map(|spec| Imported { spec, notes: Vec::new() });
+        return shapes::inline(checker, "geometry", raw).map(|spec| Imported { spec, depth: None, notes: Vec::new() });
     };
     shapes::refuse_keys_of_file(checker, raw);
     let options = shapes::options(raw);
@@ -248,7 +257,7 @@ fn read_geometry(
                 // The case says the domain itself.
                 notes.retain(|note| !note.starts_with("domain "));
             }
-            Some(Imported { spec, notes })
+            Some(Imported { spec, depth: read.depth, notes })
         }
         Err(NotRead::Keys(problems)) => {
             for problem in problems {
@@ -348,10 +357,11 @@ fn shape_text(name: &str, text: &str, options: &Options) -> Result<Imported, Not
     let document = Document::parse(name, text, &Overrides::default())?;
     let mut reading = document.read::<RawShapeFile>();
     let mut checker = Checker::default();
-    let spec = shapes::shape_file(&mut checker, std::mem::take(&mut reading.value));
+    let found = shapes::shape_file(&mut checker, std::mem::take(&mut reading.value));
     let mistakes = reading.refuse(checker.problems);
-    let Some(spec) = spec.filter(|_| mistakes.is_empty()) else { return Err(InputError { mistakes }.into()) };
-    import::windowed(spec, options).map_err(NotRead::Keys)
+    let Some((spec, depth)) = found.filter(|_| mistakes.is_empty()) else { return Err(InputError { mistakes }.into()) };
+    let read = import::windowed(spec, options).map_err(NotRead::Keys)?;
+    Ok(Imported { depth, ..read })
 }
 
 /// The text of a file; `help` tells where the user should look when there is none.

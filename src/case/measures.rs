@@ -33,6 +33,12 @@ const OPEN_SIDES: &[&str] = &["balance-error", "open-area-drift", "inflow-m2-per
 const BREAKTHROUGH: &[&str] = &["breakthrough-time-s", "saturation-at-breakthrough"];
 /// Those of one with a given velocity or flow rate, at an inlet or through periodic sides.
 const GIVEN_FLOW: &[&str] = &["asked-inflow-m2-per-s", "inflow-ratio"];
+/// Those of a chip with a depth between open sides.
+const INFLOW_OF_CHIP: &[&str] = &["inflow-m3-per-s"];
+/// Those of one with a given velocity or flow rate.
+const GIVEN_FLOW_OF_CHIP: &[&str] = &["asked-inflow-m3-per-s"];
+/// Those of a drop that moves in one.
+const FORCES_OF_CHIP: &[&str] = &["retention-N", "wall-retention-N", "stream-drag-N", "net-drag-N"];
 /// Those of one with a given flow through periodic sides.
 const PERIODIC_FLOW: &[&str] = &["largest-flow-rate-error", "driving-pressure-drop-Pa"];
 /// That of one with a pressure that rises in steps.
@@ -65,6 +71,8 @@ const NETWORK_QUASI_STATIC: &[&str] = &[
     "measured-entry-pressures",
     "breakthrough-pressure-Pa",
     "residual-saturation",
+    "film-saturation",
+    "snap-offs",
     "largest-capillary-pressure-Pa",
     "hysteresis-work-J-per-m3",
 ];
@@ -160,12 +168,13 @@ fn of_flow(sph: &Sph, has_shapes: bool) -> [Offer; 4] {
 }
 
 /// The measures of what passes through the sides.
-fn of_open_sides(sph: &Sph) -> [Offer; 5] {
+fn of_open_sides(sph: &Sph) -> [Offer; 8] {
     let sides = sph.sides.each();
     let open = || sides.iter().zip(&sph.open).filter_map(|(side, open)| Some((*side, (*open)?)));
     let is_given = open().any(|(_, open)| !matches!(open.drive, Drive::Pressure(_)));
     let has_steps = open().any(|(_, open)| open.pressure_steps.is_some());
     let is_periodic = open().any(|(side, _)| side == Side::Periodic);
+    let has_depth = sph.depth.is_some();
     let is_displaced = sph.tension > 0.0 && open().any(|(side, _)| side != Side::Periodic);
     [
         Offer::new(OPEN_SIDES, "open sides or a given flow through periodic ones", open().next().is_some()),
@@ -173,6 +182,17 @@ fn of_open_sides(sph: &Sph) -> [Offer; 5] {
         Offer::new(GIVEN_FLOW, "a velocity or a flow-rate in [sph.sides.open]", is_given),
         Offer::new(PERIODIC_FLOW, "a given flow through periodic sides", is_periodic),
         Offer::new(PRESSURE_STEPS, "pressure-steps in [sph.sides.open]", has_steps),
+        Offer::new(INFLOW_OF_CHIP, "open sides and geometry.depth", has_depth && open().next().is_some()),
+        Offer::new(
+            GIVEN_FLOW_OF_CHIP,
+            "a velocity or a flow-rate in [sph.sides.open] and geometry.depth",
+            has_depth && is_given,
+        ),
+        Offer::new(
+            FORCES_OF_CHIP,
+            "[sph.measure.moving-drop] and geometry.depth",
+            has_depth && sph.measure.moving_drop,
+        ),
     ]
 }
 

@@ -35,6 +35,7 @@ mod surface_force;
 mod wetting;
 
 pub use case_file::{Case, Model};
+pub(crate) use depth::none_of;
 pub use facts::{Facts, check_against};
 pub use fluid::{Fluid, FluidPhase, RawFluid, RawInterface, RawPhases};
 pub(crate) use initial::InitialVelocity;
@@ -46,11 +47,12 @@ pub use numerics::{Numerics, ViscousStep, ViscousTerm};
 pub(crate) use open::{Drive, PressureSteps, Profile};
 pub(crate) use output::{Compression, Expectation, Output};
 pub(crate) use quick::quick;
+pub(crate) use schema::starter_of_chip;
 pub use schema::{schema, starter_case};
-pub(crate) use side::{SIDES, Side, SideName};
+pub(crate) use side::{SIDES, Side, SideName, Sides};
 pub(crate) use sph::Sph;
 pub(crate) use steady::{FEWEST_ROWS, SteadyStop};
 pub use surface_force::{LineDelta, SurfaceForce};
 pub(crate) use wetting::{PatchedWall, RawWetting, WettingPatch, on_plates};
 #[cfg(test)]
-pub(crate) use {initial::Initial, side::Sides, sides::Walls};
+pub(crate) use {initial::Initial, sides::Walls};

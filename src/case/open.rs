@@ -26,8 +26,8 @@ tables! {
         pub pressure_steps: RawPressureSteps,
         /// Mean inward velocity over the opening in m/s.
         pub velocity: f64 => Key::positive("a mean velocity inwards in m/s"),
-        /// Inward flow rate per depth in m²/s.
-        pub flow_rate: f64 => Key::positive("a flow rate inwards in m2/s"),
+        /// Inward flow rate per meter of depth in m²/s, with `geometry.depth` that of the chip in m³/s.
+        pub flow_rate: f64 => Key::positive("a flow rate inwards in m2/s, or in m3/s with geometry.depth"),
         /// Velocity profile over the opening; at periodic sides the initial one (default `plug`).
         pub profile: Profile,
         /// Phase that enters (default: the phase there at time zero).
@@ -74,7 +74,7 @@ pub enum Drive {
     Pressure(f64),
     /// The mean velocity inwards in m/s.
     Velocity(f64, Profile),
-    /// The area that comes in per time in m²/s.
+    /// The area that comes in per time in m²/s, in a chip with a depth the volume in m³/s.
     FlowRate(f64, Profile),
 }
 
@@ -126,9 +126,11 @@ fn side(checker: &mut Checker, (name, kind): (&str, Side), raw: Option<&RawOpenS
         [raw.pressure.is_some(), is_given("velocity", raw.velocity), is_given("flow-rate", raw.flow_rate)]
     });
     let (allowed, example): ([bool; 3], &str) = match kind {
-        Side::Inlet => ([true; 3], "velocity in m/s, flow-rate in m2/s or pressure in Pa"),
+        Side::Inlet => {
+            ([true; 3], "velocity in m/s, flow-rate in m2/s (in m3/s with geometry.depth) or pressure in Pa")
+        }
         Side::Outlet => ([true, false, false], "pressure in Pa"),
-        Side::Periodic => ([false, true, true], "velocity in m/s or flow-rate in m2/s"),
+        Side::Periodic => ([false, true, true], "velocity in m/s or flow-rate in m2/s (in m3/s with geometry.depth)"),
         _ => {
             if raw.is_some() {
                 checker.refuse(

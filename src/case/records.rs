@@ -3,6 +3,7 @@
 use super::case_file::{Model, RawCase};
 use super::measure_groups::Offer;
 use super::measures::{offers, unmeasured};
+use super::network::NetworkDisplacement;
 use super::output::{Compression, Expectation, Output, RawEvery, RawExpectation};
 use super::steady::{FEWEST_ROWS, SteadyStop, WINDOWS};
 use crate::geometry::spec::GeometrySpec;
@@ -35,9 +36,12 @@ pub(super) fn end(checker: &mut Checker, raw: &RawCase, model: Option<&Model>) -
             );
         }
         let Some(Model::Network(network)) = model else { return None };
+        // Films go on to the last pressure when all is displaced.
+        const BEYOND: f64 = 1e-9;
         // No half cycle can displace more than the whole pore space.
-        let half_cycles = network.displacement.as_ref().map_or(0, |displacement| displacement.process.half_cycles());
-        return Some(f64::from(half_cycles));
+        let end =
+            |it: &NetworkDisplacement| f64::from(it.process.half_cycles()) * if it.films { 1.0 + BEYOND } else { 1.0 };
+        return Some(network.displacement.as_ref().map_or(0.0, end));
     }
     let end = raw.time.as_ref().and_then(|time| time.end);
     checker.require("time.end", end, "end = 0.01 # s")

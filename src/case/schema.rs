@@ -3,6 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use super::case_file::RawCase;
+use super::load::load_starter;
+use crate::input::InputError;
 use crate::wetting::laws;
 
 /// Tables that hold exactly one of some tables or keys, each an alternative: the type, and the keys that are none.
@@ -83,4 +85,16 @@ fn without_null(schema: &mut Value) {
 /// A case file with a comment on every key.
 pub fn starter_case() -> &'static str {
     include_str!("starter.toml")
+}
+
+/// The same of a chip with a depth in m.
+///
+/// # Errors
+/// Why there can be no such depth.
+pub(crate) fn starter_of_chip(depth: f64) -> Result<String, InputError> {
+    /// What follows the geometry, with the line between both.
+    const NEXT: &str = "\n[sph]";
+    let key = format!("depth = {depth:?} # m, from the floor to the lid\n{NEXT}");
+    let text = starter_case().replacen(NEXT, &key, 1);
+    load_starter(&text).map(|_| text)
 }

@@ -23,6 +23,8 @@ tables! {
         pub solid: SolidSide,
         /// The shapes; overlaps are united.
         pub shapes: Vec<ShapeSpec>,
+        /// Distance of floor and lid in m (default: none); that of a case comes before it.
+        pub depth: f64 => DEPTH,
     }
 
     /// Domain and solids of a case.
@@ -63,7 +65,7 @@ tables! {
         pub solid: SolidSide,
         /// The shapes, united; not with `file`.
         pub shapes: Vec<ShapeSpec>,
-        /// Distance of floor and lid in m (default: none; everything is per meter of depth).
+        /// Distance of floor and lid in m (default: that of a TOML shape file; without one everything is per meter of depth).
         pub depth: f64 => DEPTH,
     }
 }
@@ -72,13 +74,13 @@ tables! {
 pub(crate) const DEPTH: Key =
     Key::positive("a depth in m").help("an etched or molded chip has 20e-6 to 400e-6; leave it out for a plane");
 
-/// The geometry of a shape file.
-pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<GeometrySpec> {
+/// The geometry of a shape file, and its depth in m where it has one.
+pub(super) fn shape_file(checker: &mut Checker, raw: RawShapeFile) -> Option<(GeometrySpec, Option<f64>)> {
     let raw = raw.in_range(checker, "");
     checker.format(raw.format);
-    let RawShapeFile { format: _, min, max, solid, shapes } = raw;
+    let RawShapeFile { format: _, min, max, solid, shapes, depth } = raw;
     let keys = RawGeometry { min, max, solid, shapes, ..RawGeometry::default() };
-    inline(checker, "", &keys)
+    inline(checker, "", &keys).map(|spec| (spec, depth))
 }
 
 /// The geometry written at the key path `at` (`geometry`, or empty in a shape file).

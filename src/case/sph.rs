@@ -104,6 +104,11 @@ impl Sph {
         if self.measure.relative_permeability { 0.0 } else { self.tension }
     }
 
+    /// Distance of floor and lid in m; 1 in the plane, where rates are those per meter of depth.
+    pub(crate) fn thickness(&self) -> f64 {
+        self.depth.unwrap_or(1.0)
+    }
+
     /// Whether contact lines slip by a spacing, with an angle that does not make up for it.
     pub(crate) fn has_lines_that_slip_by_a_spacing(&self) -> bool {
         let law = self.wetting_model.filter(|law| !matches!(law, Wetting::Cox(_) | Wetting::CoxVoinov(_)));
@@ -233,6 +238,7 @@ fn refuse_single_phase_keys(checker: &mut Checker, raw: &RawSph) {
         ("sph.wetting", raw.wetting.is_some()),
         ("sph.initial.background", initial.is_some_and(|initial| initial.background.is_some())),
         ("sph.initial.wetting", initial.is_some_and(|initial| initial.wetting.is_some())),
+        ("sph.initial.non-wetting", initial.is_some_and(|initial| initial.non_wetting.is_some())),
         ("sph.initial.network", initial.is_some_and(|initial| initial.network.is_some())),
     ];
     for (path, _) in given.into_iter().filter(|(_, given)| *given) {

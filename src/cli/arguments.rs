@@ -30,6 +30,9 @@ pub(crate) struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
+    /// Print results and errors only: no progress, notes or warnings
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
 }
 
 /// The commands.
@@ -49,6 +52,8 @@ pub(crate) enum Command {
     Schema(SchemaArguments),
     /// Print a completion script for a shell
     Completions(CompletionArguments),
+    /// Print the manual page, or write those of all commands
+    Man(ManArguments),
     /// Extract pores and throats of a shape file, and displace one fluid by another in them
     #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
     Network(NetworkArguments),
@@ -72,6 +77,9 @@ pub(crate) struct CheckArguments {
     /// Tell what a run would take as JSON, for other programs
     #[arg(long)]
     pub(crate) json: bool,
+    /// Number of threads; all cores where there is none
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<std::num::NonZeroUsize>,
 }
 
 /// `geometry`.
@@ -82,9 +90,15 @@ pub(crate) struct GeometryArguments {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) import: ImportArguments,
+    /// Distance of floor and lid in m; where there is none, that of the file, or everything is per meter of depth
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    pub(crate) depth: Option<f64>,
     /// Sides of a shape file that are joined; none where it is not given
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,
+    /// Number of threads; all cores where there is none
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<std::num::NonZeroUsize>,
     /// Folder for outline, signed distance and picture; nothing is written where there is none
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
@@ -139,8 +153,8 @@ pub(crate) struct NetworkArguments {
     /// Joins opposite sides
     #[arg(long, value_enum, value_name = "AXES")]
     pub(crate) periodic: Option<PeriodicAxes>,
-    /// Distance of floor and lid in m; where there is none, everything is per meter of depth
-    #[arg(long, value_name = "M")]
+    /// Distance of floor and lid in m; where there is none, that of the file, or everything is per meter of depth
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
     pub(crate) depth: Option<f64>,
     /// Output folder, new or empty; where there is none: out/NAME-network, out/NAME-network-2, ...
     #[arg(long, value_name = "DIR")]
@@ -190,6 +204,9 @@ impl PeriodicAxes {
 pub(crate) struct NewArguments {
     /// File to write, which must not exist; case.toml, or pack.toml with --pack, where there is none
     pub(crate) file: Option<PathBuf>,
+    /// Distance of floor and lid in m, which the file then has
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    pub(crate) depth: Option<f64>,
     #[command(flatten)]
     pub(crate) pack: PackArguments,
 }
@@ -257,6 +274,14 @@ pub(crate) struct SchemaArguments {
     /// Print that of a study file
     #[arg(long)]
     pub(crate) study: bool,
+}
+
+/// `man`.
+#[derive(Debug, Args)]
+pub(crate) struct ManArguments {
+    /// Folder for the pages of all commands: meniscus.1, meniscus-run.1, ...
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
 }
 
 /// `completions`.

@@ -8,6 +8,7 @@ use super::run::built;
 use super::source;
 use crate::case::{Case, Model};
 use crate::run::advice::{self, Advice};
+use crate::run::description::{description, doubts};
 use crate::run::execute::Mode;
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
@@ -23,7 +24,8 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let case = &source.case;
     let mut solver = built(&source, Mode::New)?;
     // Those with which a run begins: they do not depend on how many steps are tried.
-    let warnings = setup::warnings(case, solver.as_ref(), &Series::default());
+    let mut warnings = setup::warnings(case, solver.as_ref(), &Series::default());
+    warnings.extend(doubts(case));
     let found = tried(case, solver.as_mut())?;
     let advice = advice::advice(case, Some(&found));
     if arguments.json {
@@ -33,6 +35,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     }
     say(&case.title);
     case.about_depth().iter().for_each(|depth| say(format_args!("  depth       {depth}")));
+    description(case).iter().for_each(|(name, text)| say(format_args!("  {name:<11} {text}")));
     if let Model::Network(network) = &case.model {
         say(format_args!("  pores       {}", found.unknowns));
         if let Some(memory) = found.memory_bytes {
@@ -46,6 +49,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
             }
         }
         advice.iter().for_each(tell_advice);
+        warnings.iter().for_each(say_warning);
         return Ok(DONE);
     }
     let spacing = spacing(case);
@@ -93,10 +97,12 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
         ));
     }
     advice.iter().for_each(tell_advice);
-    for warning in warnings {
-        say(format_args!("  WARNING     {warning}"));
-    }
+    warnings.iter().for_each(say_warning);
     Ok(DONE)
+}
+
+fn say_warning(warning: &String) {
+    say(format_args!("  WARNING     {warning}"));
 }
 
 /// What `--json` tells.
@@ -122,6 +128,14 @@ impl Told<'_> {
 fn tell_advice(advice: &Advice) {
     let Advice { pores, throats, network_s, .. } = advice;
     say(format_args!("  network     {pores} pores and {throats} throats, found in {}", duration(*network_s)));
+    if let Some([narrowest, median]) = advice.widths_over_depth {
+        say(format_args!(
+            "  w/b         {} in the narrowest throat, {} in the median one: width over depth; a spacing of up to b/sqrt(12) = {} m resolves floor and lid",
+            readable(narrowest),
+            readable(median),
+            readable(advice.narrowest_throat_m / narrowest / 12.0_f64.sqrt())
+        ));
+    }
     let took = advice.steps.zip(advice.hours);
     let took =
         took.map_or(String::new(), |(steps, hours)| format!(", {steps} steps, about {}", duration(3600.0 * hours)));

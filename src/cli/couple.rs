@@ -10,7 +10,7 @@ use super::output::{readable, say, tell};
 use super::run::{finish, new_folder};
 use super::source::{self, Source};
 use crate::case::network::state::NetworkState;
-use crate::case::{Drive, Model, SIDES, Side};
+use crate::case::{Case, Drive, Model, SIDES, Side};
 use crate::io::{FileError, atomic};
 use crate::run::avalanche::{Avalanche, AvalancheError, Wanted, find, state_at_end};
 use crate::run::execute::Mode;
@@ -27,7 +27,7 @@ pub(crate) struct CoupleArguments {
     /// The avalanche of the direct simulation, by its first event of a kind: breakthrough, overlap (two menisci meet), or pore:N (the pore of this number in pores.csv is entered)
     #[arg(long, value_name = "WHICH", default_value = "breakthrough", value_parser = wanted)]
     pub(crate) event: Wanted,
-    /// Pressure beyond that of the event, as a share of it
+    /// Pressure beyond that of the event, as a share of it; with a depth, of what the curvature in the plane has in it
     #[arg(long, value_name = "SHARE", default_value = "0.02", value_parser = share)]
     pub(crate) excess: f64,
     /// Output folder, new or empty; where there is none: out/NAME-couple, out/NAME-couple-2, ..., NAME being that of the direct case
@@ -73,13 +73,19 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     let avalanche = find(&network.case, arguments.event).map_err(|error| failure(&network, &error))?;
     let name = arguments.direct.file_stem().map_or_else(|| "direct".into(), |stem| stem.to_string_lossy().into_owned());
     let direction = if avalanche.invading == crate::case::FluidPhase::NonWetting { 1.0 } else { -1.0 };
-    let beyond = |share: f64| avalanche.pressure_pa + direction * share * avalanche.pressure_pa.abs();
+    let beyond = |share: f64| avalanche.pressure_pa + direction * share * avalanche.in_plane_pa;
     let driving = beyond(arguments.excess);
     let stop = |pressure: f64| format!("network.stop.capillary-pressure={pressure:?}");
     // Both cases are checked before anything runs.
     let rest = source::load_case(Some(&arguments.network), &[stop(avalanche.rest_pressure_pa)])?;
     let start = state_at_end(&rest.case).map_err(|error| failure(&rest, &error))?;
     let direct = source::load_started(&arguments.direct, &[], &start)?;
+    if direct.case.depth != network.case.depth {
+        let told = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
+        let message =
+            format!("the network has {}, and the direct simulation {}", told(&network.case), told(&direct.case));
+        return Err(direct.refused_at("geometry.depth", &message, "give both the same"));
+    }
     let inlet = inlet_pressure(&direct, avalanche.inlet, direction * driving)?;
     source::load_started(&arguments.direct, std::slice::from_ref(&inlet), &start)?;
     let out = new_folder(arguments.out.as_deref(), &format!("{name}-couple"), Mode::New);

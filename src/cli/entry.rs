@@ -7,8 +7,9 @@ use clap::{CommandFactory, Parser};
 
 use super::arguments::{Arguments, Command};
 use super::exit::{BUG, DONE, Failure, USAGE};
-use super::output::{say, tell};
-use super::{check, compare, couple, geometry, list, network, new, output, run, source, study, threads};
+use super::output::{complain, say};
+use super::threads::pool;
+use super::{check, compare, couple, geometry, list, man, network, new, output, run, source, study, threads};
 
 /// Reads the command line and does what it says.
 pub fn main() -> ExitCode {
@@ -18,14 +19,17 @@ pub fn main() -> ExitCode {
         let what =
             payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
         let what = what.unwrap_or("no message");
-        tell(format_args!("bug in meniscus: {what}{place}. Please report this line together with the case file."));
+        complain(format_args!("bug in meniscus: {what}{place}. Please report this line together with the case file."));
         std::process::exit(i32::from(BUG));
     }));
     let code = match Arguments::try_parse() {
         Ok(arguments) => {
             threads::bound_environment();
+            if arguments.quiet {
+                output::be_quiet();
+            }
             dispatch(arguments.command).unwrap_or_else(|failure| {
-                tell(failure.message.trim_end());
+                complain(failure.message.trim_end());
                 failure.code
             })
         }
@@ -45,7 +49,7 @@ pub fn main() -> ExitCode {
 fn all_printed(code: u8) -> u8 {
     let Some(error) = output::not_printed() else { return code };
     let what = format!("cannot print the results: {error}; print them to another place");
-    tell(Failure::new(USAGE, &what).message);
+    complain(Failure::new(USAGE, &what).message);
     if code == DONE { USAGE } else { code }
 }
 
@@ -53,8 +57,8 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
     match command {
         None => run::run(&run::RunArguments::default()),
         Some(Command::Run(arguments)) => run::run(&arguments),
-        Some(Command::Check(arguments)) => check::check(&arguments),
-        Some(Command::Geometry(arguments)) => geometry::geometry(&arguments),
+        Some(Command::Check(arguments)) => pool(arguments.threads)?.install(|| check::check(&arguments)),
+        Some(Command::Geometry(arguments)) => pool(arguments.threads)?.install(|| geometry::geometry(&arguments)),
         Some(Command::New(arguments)) => new::new(&arguments),
         Some(Command::List) => {
             list::list();
@@ -71,6 +75,7 @@ fn dispatch(command: Option<Command>) -> Result<u8, Failure> {
             say(String::from_utf8_lossy(&script).trim_end());
             Ok(DONE)
         }
+        Some(Command::Man(arguments)) => man::man(&arguments),
         Some(Command::Network(arguments)) => network::network(&arguments),
         Some(Command::Compare(arguments)) => compare::compare(&arguments),
         Some(Command::Couple(arguments)) => couple::couple(&arguments),

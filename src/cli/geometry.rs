@@ -22,7 +22,10 @@ pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
     let count = if arguments.out.is_some() { STAGES + WRITING_STAGES } else { STAGES };
     let stages = Stages::of(count);
     let periodic = arguments.periodic.map(PeriodicAxes::along);
-    let shapes = source::load_shapes(&arguments.file, &arguments.import.options(), periodic, |stage| stages.at(stage))?;
+    let shapes =
+        source::load_shapes(&arguments.file, &arguments.import.options(), (periodic, arguments.depth), |stage| {
+            stages.at(stage)
+        })?;
     let width = shapes.measures.iter().map(|measure| measure.name.len()).max().unwrap_or(0);
     for measure in &shapes.measures {
         let value = format!("{} {}", readable(measure.value), measure.unit);
@@ -37,7 +40,7 @@ pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
         drop(stages);
         say(format_args!("wrote solid.vtu, distance.vtu and picture.png to {}", folder.display()));
     }
-    write_shapes(&arguments.drawings, formats, &shapes.spec)?;
+    write_shapes(&arguments.drawings, formats, &shapes)?;
     Ok(DONE)
 }
 
@@ -88,7 +91,7 @@ mod tests {
             solid: Default::default(),
             shapes: Vec::new(),
         };
-        let shapes = Shapes { outline, distance, measures: Vec::new(), sides: None, spec };
+        let shapes = Shapes { outline, distance, measures: Vec::new(), sides: None, spec, depth: None };
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), &shapes, "half a plane").unwrap();
         let mut names: Vec<_> =

@@ -13,6 +13,7 @@ mod geometry;
 pub(crate) mod import_arguments;
 mod interrupt;
 mod list;
+mod man;
 mod network;
 mod new;
 mod new_pack;

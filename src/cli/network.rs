@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::arguments::{NetworkArguments, PeriodicAxes};
-use super::exit::{BAD_INPUT, Failure};
+use super::exit::Failure;
 use super::output::tell;
 use super::run::{finish, new_folder};
 use super::source::{self, Source};
@@ -35,12 +35,12 @@ fn load(arguments: &NetworkArguments) -> Result<Source, Failure> {
     // The command line asks for it.
     let path = arguments.file.as_deref().unwrap_or(Path::new(""));
     if !source::is_case_file(path) {
-        let geometry = source::geometry_of_file(
+        let read = source::geometry_of_file(
             path,
             &arguments.import.options(),
             arguments.periodic.map(PeriodicAxes::along).unwrap_or_default(),
         )?;
-        return quick(arguments, geometry, arguments.depth);
+        return quick(arguments, read.spec, arguments.depth.or(read.depth));
     }
     let overrides = overrides(arguments);
     let case = source::load_case(Some(path), &[])?;
@@ -56,16 +56,8 @@ fn quick(arguments: &NetworkArguments, geometry: GeometrySpec, depth: Option<f64
         tell("no --tension: pressures are those of a tension of 1 N/m; multiply them by yours");
     }
     let title = format!("Network of {name}");
-    let (case, resolved) = network_case(&title, geometry, depth, &raw(arguments)).map_err(|problems| {
-        let option =
-            |path: &str| path.trim_start_matches("network.").trim_start_matches("geometry.").replace(['.', '_'], "-");
-        let lines: Vec<String> = problems
-            .iter()
-            .map(|problem| format!("{}: {}; {}", option(&problem.path), problem.message, problem.help))
-            .map(|line| line.trim_end_matches("; ").to_owned())
-            .collect();
-        Failure::new(BAD_INPUT, &lines.join("\n"))
-    })?;
+    let (case, resolved) =
+        network_case(&title, geometry, depth, &raw(arguments)).map_err(|problems| source::of_options(&problems))?;
     Ok(Source { case, resolved, name: format!("{name}-network"), notes: Vec::new(), document: None })
 }
 

@@ -16,9 +16,10 @@ pub(crate) fn new(arguments: &NewArguments) -> Result<u8, Failure> {
         return Err(Failure::new(USAGE, &format_args!("{} exists; name another file", file.display())));
     }
     if let Some(kind) = arguments.pack.pack {
-        return new_pack::new_pack(kind, &arguments.pack, &file);
+        return new_pack::new_pack(kind, arguments, &file);
     }
-    atomic::write(&file, source::starter_case().as_bytes()).map_err(|error| Failure::new(USAGE, &error))?;
+    let text = source::starter_case(arguments.depth)?;
+    atomic::write(&file, text.as_bytes()).map_err(|error| Failure::new(USAGE, &error))?;
     say(format_args!("wrote {0}; try: meniscus check {0}, then: meniscus run {0}", file.display()));
     Ok(DONE)
 }

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use super::arguments::{PackArguments, PackKind, PackPeriodic};
+use super::arguments::{NewArguments, PackArguments, PackKind, PackPeriodic};
 use super::exit::{BAD_INPUT, DONE, Failure, USAGE};
 use super::output::{readable, say};
+use super::source::sound_depth;
 use crate::geometry::Geometry;
-use crate::geometry::export::{self, Format};
+use crate::geometry::export::{self, Beside, Format};
 use crate::geometry::pack::{Micromodel, array, micromodel, random_pack, smallest_gap};
 use crate::geometry::spec::{
     Arrangement, Array, Disc, GeometrySpec, PackAxes, RandomPack, ShapeSpec, SolidSide, ThroatCosine,
@@ -22,16 +23,20 @@ const THROAT_WALLS: f64 = 0.8;
 const THROAT_LENGTH: f64 = 0.5;
 
 /// Makes the grains, writes them, and tells porosity, smallest gap and whether fluid can pass.
-pub(crate) fn new_pack(kind: PackKind, arguments: &PackArguments, file: &Path) -> Result<u8, Failure> {
+pub(crate) fn new_pack(kind: PackKind, arguments: &NewArguments, file: &Path) -> Result<u8, Failure> {
+    let (depth, arguments) = (arguments.depth, &arguments.pack);
     let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
     // The command line asks for two numbers.
     let size = [arguments.size.first().copied().unwrap_or(0.0), arguments.size.get(1).copied().unwrap_or(0.0)];
     let region = [[0.0; 2], size];
     let (spec, discs, periodic) = shapes(kind, arguments, region).map_err(|error| bad(&error))?;
     let geometry = Geometry::new(&spec).map_err(|error| bad(&error))?.with_periodic(periodic);
+    sound_depth(depth, &spec)?;
     let comment = format!("# {}\n", std::env::args().skip(1).collect::<Vec<_>>().join(" "));
     let mut text = comment.into_bytes();
-    text.extend(export::write(&spec, Format::Toml, None).map_err(|error| bad(&error))?);
+    text.extend(
+        export::write(&spec, Format::Toml, Beside { depth, ..Beside::default() }).map_err(|error| bad(&error))?,
+    );
     atomic::write(file, &text).map_err(|error| Failure::new(USAGE, &error))?;
     say(format_args!("wrote {} with {} discs, {} shapes", file.display(), discs.len(), spec.shapes.len()));
     say(format_args!("porosity      {}", readable(geometry.porosity().value)));

@@ -3,9 +3,23 @@
 use std::fmt::Display;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Why results could not be printed, the first time.
 static NOT_PRINTED: OnceLock<io::Error> = OnceLock::new();
+
+/// Whether progress, notes and warnings are left out.
+static IS_QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on only errors go to standard error.
+pub(crate) fn be_quiet() {
+    IS_QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Whether progress, notes and warnings are left out.
+pub(crate) fn is_quiet() -> bool {
+    IS_QUIET.load(Ordering::Relaxed)
+}
 
 /// A line of results, on standard output.
 pub(crate) fn say(line: impl Display) {
@@ -27,8 +41,15 @@ pub(crate) fn not_printed() -> Option<&'static io::Error> {
     NOT_PRINTED.get()
 }
 
-/// A line of progress or an error, on standard error.
+/// A line of progress, a note or a warning, on standard error.
 pub(crate) fn tell(line: impl Display) {
+    if !is_quiet() {
+        complain(line);
+    }
+}
+
+/// An error, on standard error.
+pub(crate) fn complain(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 

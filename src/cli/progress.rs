@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::output::{duration, readable, tell};
+use super::output::{duration, is_quiet, readable, tell};
 use crate::run::simulation::{Progress, Watcher};
 use crate::solver::Clock;
 
@@ -74,7 +74,7 @@ impl ProgressDisplay {
 
 fn console_bar() -> Option<ProgressBar> {
     use std::io::IsTerminal;
-    if !std::io::stderr().is_terminal() {
+    if is_quiet() || !std::io::stderr().is_terminal() {
         return None;
     }
     let bar = ProgressBar::with_draw_target(Some(LENGTH), ProgressDrawTarget::stderr());

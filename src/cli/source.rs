@@ -5,14 +5,14 @@ use std::path::Path;
 use super::exit::{BAD_INPUT, Failure, USAGE};
 use super::output::tell;
 use crate::case::{self, Case, Loaded, Model};
-use crate::geometry::import::{self, Beyond, Options};
+use crate::geometry::import::{self, Beyond, Imported, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
 use crate::geometry::{Geometry, GeometryError};
 use crate::input::{Document, InputError, Overrides, Problem, file};
 use crate::run::setup::{self, SetupError};
 use crate::snapshot::{Grid, Lines};
-use crate::solver::Measure;
+use crate::solver::{Measure, measure};
 
 /// Name of the output folder of the built-in case.
 const DEFAULT_NAME: &str = "four-discs";
@@ -74,6 +74,8 @@ pub(crate) struct Shapes {
     pub(crate) sides: Option<String>,
     /// The shapes as they were read.
     pub(crate) spec: GeometrySpec,
+    /// Distance of floor and lid in m.
+    pub(crate) depth: Option<f64>,
 }
 
 /// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
@@ -118,7 +120,7 @@ pub(crate) fn is_network(case: &Case) -> bool {
 }
 
 /// Loads a shape file.
-pub(crate) fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> Result<GeometrySpec, Failure> {
+pub(crate) fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> Result<Imported, Failure> {
     let mut read = case::load_shapes(path, options).map_err(Failure::input)?;
     if options.window.is_some() {
         let [x, y] = periodic;
@@ -126,14 +128,31 @@ pub(crate) fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 
         import::cut_at_sides(&mut read.spec, [x, x, y, y].map(beyond));
     }
     read.notes.iter().for_each(tell);
-    Ok(read.spec)
+    Ok(read)
 }
 
-/// Loads and measures a shape file, or the geometry of a case with the case's sides; `at` is told what is being done.
+/// Problems of keys that options of the command line stand for.
+pub(crate) fn of_options(problems: &[Problem]) -> Failure {
+    let option =
+        |path: &str| path.trim_start_matches("network.").trim_start_matches("geometry.").replace(['.', '_'], "-");
+    let lines: Vec<String> = problems
+        .iter()
+        .map(|problem| format!("{}: {}; {}", option(&problem.path), problem.message, problem.help))
+        .map(|line| line.trim_end_matches("; ").to_owned())
+        .collect();
+    Failure::new(BAD_INPUT, &lines.join("\n"))
+}
+
+/// Refuses a depth in m that is none of these shapes.
+pub(crate) fn sound_depth(depth: Option<f64>, spec: &GeometrySpec) -> Result<(), Failure> {
+    depth.and_then(|depth| case::none_of(depth, spec)).map_or(Ok(()), |problem| Err(of_options(&[problem])))
+}
+
+/// Loads and measures a shape file, or the geometry of a case with the case's sides, of a `depth` in m where that is given; `at` is told what is being done.
 pub(crate) fn load_shapes(
     path: &Path,
     options: &Options,
-    periodic: Option<[bool; 2]>,
+    (periodic, depth): (Option<[bool; 2]>, Option<f64>),
     at: impl Fn(&'static str),
 ) -> Result<Shapes, Failure> {
     at("reading and checking the shapes");
@@ -142,41 +161,44 @@ pub(crate) fn load_shapes(
         let message = "a case says itself how its drawing is read: set the keys of its [geometry]";
         return Err(Failure::new(USAGE, &message));
     }
-    let (geometry, spec) = match (is_case, periodic) {
+    let (geometry, spec, depth) = match (is_case, periodic) {
         (true, Some(_)) => {
             let message = "a case says itself which of its sides are periodic: leave out --periodic";
             return Err(Failure::new(USAGE, &message));
         }
         (true, None) => {
-            let loaded = load(Some(path), &[]).map_err(Failure::input)?;
+            let set: Vec<String> = depth.iter().map(|depth| format!("geometry.depth={depth:?}")).collect();
+            let loaded = load(Some(path), &set).map_err(Failure::input)?;
             loaded.notes.iter().for_each(tell);
             at("uniting the shapes");
             let geometry = setup::geometry(&loaded.case);
             let refused = |error: SetupError| {
                 loaded.refuse(error.problems()).err().map_or_else(|| Failure::new(BAD_INPUT, &error), Failure::input)
             };
-            (geometry.map_err(refused)?, loaded.case.geometry)
+            (geometry.map_err(refused)?, loaded.case.geometry, loaded.case.depth)
         }
         (false, periodic) => {
-            let spec = geometry_of_file(path, options, periodic.unwrap_or_default())?;
+            let Imported { spec, depth: of_file, .. } = geometry_of_file(path, options, periodic.unwrap_or_default())?;
+            let depth = depth.or(of_file);
+            sound_depth(depth, &spec)?;
             at("uniting the shapes");
             let problems = spec.periodic_problems(periodic.unwrap_or_default());
             if !problems.is_empty() {
                 return Err(Failure::new(BAD_INPUT, &GeometryError::Invalid(problems)));
             }
             let geometry = Geometry::new(&spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
-            (geometry.with_sides(periodic.unwrap_or_default(), [false; 4]), spec)
+            (geometry.with_sides(periodic.unwrap_or_default(), [false; 4]), spec, depth)
         }
     };
     let sides = (is_case || periodic.is_some()).then(|| told_sides(&geometry));
     at("measuring porosity, walls and throats");
-    let measures = measures(&geometry);
+    let measures = measures(&geometry, depth);
     at("drawing the outline");
     let longer = geometry.bounds().size().max();
     let outline = geometry.outline_within(OUTLINE_ERROR * longer);
     at("computing the signed distance on a grid");
     let distance = geometry.distance_grid(longer / GRID_NODES);
-    Ok(Shapes { outline, distance, measures, sides, spec })
+    Ok(Shapes { outline, distance, measures, sides, spec, depth })
 }
 
 /// What stands at each side, as far as the geometry sees it.
@@ -191,16 +213,8 @@ fn told_sides(geometry: &Geometry) -> String {
     told.collect::<Vec<_>>().join(", ")
 }
 
-fn measures(geometry: &Geometry) -> Vec<Measure> {
+fn measures(geometry: &Geometry, depth: Option<f64>) -> Vec<Measure> {
     let porosity = geometry.porosity();
-    let measure = |name: &str, value: f64, unit: &str, method: &str| Measure {
-        name: name.into(),
-        value,
-        unit: unit.into(),
-        uncertainty: None,
-        method: method.into(),
-        moves_with: None,
-    };
     let mut found = vec![
         Measure {
             uncertainty: Some(porosity.uncertainty),
@@ -213,18 +227,37 @@ fn measures(geometry: &Geometry) -> Vec<Measure> {
             "wall length over the area of the domain",
         ),
     ];
+    found.extend(depth.into_iter().flat_map(|depth| of_chip(geometry, depth)));
     for (number, throat) in throats(geometry).iter().take(THROATS).enumerate() {
         // Adding zero turns minus zero into zero.
         let (c, name) = (throat.center.map(|v| v + 0.0), format!("throat-{}-width-m", number + 1));
         let method = format!("shortest way from wall to wall, middle at ({:.4e}, {:.4e}) m", c.x, c.y);
         found.push(measure(&name, throat.width, "m", &method));
+        if let Some(depth) = depth {
+            let name = format!("throat-{}-width-over-depth", number + 1);
+            found.push(measure(&name, throat.width / depth, "", "the same over the depth"));
+        }
     }
     found
 }
 
-/// The commented starter case.
-pub(crate) fn starter_case() -> &'static str {
-    case::starter_case()
+/// What of a geometry needs its `depth` in m.
+fn of_chip(geometry: &Geometry, depth: f64) -> [Measure; 4] {
+    let (porosity, area) = (geometry.porosity().value, geometry.bounds().area());
+    let with_plates = geometry.specific_surface() + 2.0 * porosity / depth;
+    let walls = "area of walls, floor and lid over the volume of the domain";
+    let bound = "porosity times depth squared over 12: no permeability of the flow averaged over the depth is larger";
+    [
+        measure("depth-m", depth, "m", "distance of floor and lid"),
+        measure("pore-volume-m3", porosity * area * depth, "m3", "area of the pore times the depth"),
+        measure("specific-surface-with-plates-per-m", with_plates, "1/m", walls),
+        measure("permeability-bound-m2", porosity * depth * depth / 12.0, "m2", bound),
+    ]
+}
+
+/// The commented starter case, of a chip where there is a `depth` in m.
+pub(crate) fn starter_case(depth: Option<f64>) -> Result<String, Failure> {
+    depth.map_or_else(|| Ok(case::starter_case().to_owned()), case::starter_of_chip).map_err(Failure::input)
 }
 
 /// The JSON schema of a case file.

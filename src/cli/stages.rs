@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::output::{duration, tell};
+use super::output::{duration, is_quiet, tell};
 
 /// Nothing is told before: most files are measured sooner.
 const SILENT: Duration = Duration::from_secs(2);
@@ -89,7 +89,7 @@ impl Drop for Stages {
 
 fn terminal() -> Option<ProgressBar> {
     use std::io::IsTerminal;
-    if !std::io::stderr().is_terminal() {
+    if is_quiet() || !std::io::stderr().is_terminal() {
         return None;
     }
     let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());

@@ -12,11 +12,11 @@ use crate::study::folder::StudyFolder;
 use crate::study::load::load;
 use crate::study::results::{RunResult, results};
 use crate::study::runs::plan as plan_runs;
-use crate::verify::case_text::Fluids;
 use crate::verify::choose::{Choice, choose};
 use crate::verify::cut_out::Impossible;
 use crate::verify::event_results::{EventRow, event_row};
 use crate::verify::events::{EventChoice, choose_events};
+use crate::verify::fluids::Fluids;
 use crate::verify::plan::{self, Plan, Planned, RUNS};
 use crate::verify::report;
 use crate::verify::results::{Row, Status, row};
@@ -31,16 +31,13 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         SubjectError::Setup(misfit) => source.refused(&misfit.into()),
         other => bad(&other),
     })?;
-    if source.case.depth.is_some() {
-        tell("throats are verified in the plane: pressures and conductances are those without floor and lid");
-    }
     let choices: Vec<Choice> = parsed(&arguments.throats)?;
     let event_choices: Vec<EventChoice> = parsed(&arguments.events)?;
     let chosen = choose(&subject, &choices, arguments.seed).map_err(|error| usage(&error))?;
     let mut planned: Vec<Planned> = chosen.into_iter().map(|one| Planned::new(&subject, one)).collect();
     let mut events = choose_events(&subject, &event_choices, arguments.seed).map_err(|error| usage(&error))?;
     let given = if arguments.alike { [None; 2] } else { subject.fluids };
-    let fluids = Fluids { given, tension: subject.tension, invading: subject.invading };
+    let fluids = Fluids { given, tension: subject.tension, invading: subject.invading, chip: subject.chip };
     let spacings: Vec<u32> = arguments.spacings.iter().map(|across| across.get()).collect();
     let folder = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}-verify", source.name)));
     let name = arguments.case.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -82,13 +79,13 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
         tell("the same command goes on, and tells what came out");
         return Ok(code);
     }
-    let rows: Vec<Row> = planned.iter().map(|one| row(one, subject.tension, &fluids, &spacings, &found)).collect();
+    let rows: Vec<Row> = planned.iter().map(|one| row(one, &fluids, &spacings, &found)).collect();
     let study_folder = StudyFolder::new(&runs_in);
     let event_rows: Vec<EventRow> =
         events.iter().map(|one| event_row(one, &fluids, &spacings, &found, &study_folder)).collect();
     let title = format!("Throats of {name} by direct simulation");
-    let written =
-        report::write(&folder, &subject, &rows, &event_rows, &spacings, &title).map_err(|error| usage(&error))?;
+    let written = report::write(&folder, &subject, &rows, &event_rows, (&spacings, &fluids), &title)
+        .map_err(|error| usage(&error))?;
     say(&title);
     if !rows.is_empty() {
         say(written.table.markdown().trim_end());
@@ -96,9 +93,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     if let Some(table) = &written.events {
         say(table.markdown().trim_end());
     }
-    report::notes(&rows, subject.tension, subject.invading)
-        .iter()
-        .for_each(|note| say(format_args!("  note        {note}")));
+    report::notes(&rows, &fluids, &spacings).iter().for_each(|note| say(format_args!("  note        {note}")));
     let times = rows.iter().map(|row| row.wall_time).chain(event_rows.iter().map(|row| row.wall_time));
     let time = times.sum::<f64>();
     say(format_args!("  all runs    {}", duration(time)));

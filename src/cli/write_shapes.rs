@@ -3,9 +3,9 @@
 use super::arguments::WriteArguments;
 use super::exit::{BAD_INPUT, BUG, Failure, USAGE};
 use super::output::say;
+use super::source::Shapes;
 use crate::geometry::Geometry;
-use crate::geometry::export::{self, Format};
-use crate::geometry::spec::GeometrySpec;
+use crate::geometry::export::{self, Beside, Format};
 use crate::io::{atomic, vtk};
 
 /// The formats of the drawings that were asked for; none for the outline as VTK.
@@ -19,15 +19,14 @@ pub(crate) fn formats(arguments: &WriteArguments) -> Result<Vec<Option<Format>>,
 pub(crate) fn write_shapes(
     arguments: &WriteArguments,
     formats: Vec<Option<Format>>,
-    spec: &GeometrySpec,
+    shapes: &Shapes,
 ) -> Result<(), Failure> {
+    let beside = Beside { pixel: arguments.mask_pixel, depth: shapes.depth };
     for (path, format) in arguments.write.iter().zip(formats) {
         let bytes = match format {
-            Some(format) => {
-                export::write(spec, format, arguments.mask_pixel).map_err(|error| Failure::new(USAGE, &error))?
-            }
+            Some(format) => export::write(&shapes.spec, format, beside).map_err(|error| Failure::new(USAGE, &error))?,
             None => {
-                let geometry = Geometry::new(spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
+                let geometry = Geometry::new(&shapes.spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
                 vtk::lines(&geometry.outline(), vtk::Compression::default())
                     .map_err(|error| Failure::new(BUG, &error))?
             }

@@ -17,7 +17,12 @@ pub struct Depth {
     corners: f64,
     /// Share of the curvature in the plane that acts on an interface which meets floor and lid only.
     share: f64,
+    /// The smaller angle of floor and lid in rad.
+    wettest: f64,
 }
+
+/// Depths of more throats than this, or of fewer than one in it, are told.
+const MOST: f64 = 1e3;
 
 impl Depth {
     /// A depth in m with the contact angles in rad of walls, floor and lid through the wetting phase.
@@ -25,7 +30,34 @@ impl Depth {
         let corners: f64 = plates.iter().map(|&plate| 2.0 * corner_area(wall, plate)).sum();
         let corners = if corners > 0.0 { corners / (2.0 * wall.cos() * depth) } else { 0.0 };
         let transverse = plates.iter().map(|plate| plate.cos()).sum::<f64>() / depth;
-        Self { depth, transverse, corners, share: share(plates) }
+        let wettest = plates[0].min(plates[1]);
+        Self { depth, transverse, corners, share: share(plates), wettest }
+    }
+
+    /// Distance of floor and lid in m.
+    pub fn distance(&self) -> f64 {
+        self.depth
+    }
+
+    /// The smaller angle of floor and lid in rad.
+    pub(crate) fn wettest(&self) -> f64 {
+        self.wettest
+    }
+
+    /// Thickness, over the depth, of each of the films that menisci leave on floor and lid as the wetting phase recedes from these at a capillary number of
+    /// that phase (Bretherton 1961, 1.34 Ca^(2/3) of half the depth); none where their angles hold a receding line, 9 Ca ln(x/l) < θ³ (Cox 1986; Voinov 1976).
+    pub fn film_left(&self, capillary_number: f64) -> Option<f64> {
+        /// Logarithm of a depth over a molecular length.
+        const LOGARITHM: f64 = 9.0;
+        let leaves = 9.0 * capillary_number * LOGARITHM > self.wettest.powi(3);
+        (leaves && capillary_number > 0.0).then(|| 0.67 * capillary_number.powf(2.0 / 3.0))
+    }
+
+    /// Whether the films in its corners are those of another depth of the same distance.
+    pub(crate) fn has_films_of(&self, other: &Self) -> bool {
+        /// Angles are written in degrees.
+        const SAME: f64 = 1e-9;
+        (self.corners - other.corners).abs() <= SAME * self.corners.abs().max(other.corners.abs())
     }
 
     /// (p_n - p_w)/σ in 1/m of a meniscus between walls whose curvature in the plane is `plane` (1/m), above 0 where it bulges into the wetting phase.
@@ -57,6 +89,26 @@ impl Depth {
         }
         curvature * (curvature - self.transverse) / (curvature - self.corners)
     }
+}
+
+/// What to say of a depth that makes all throats slits between floor and lid, or between their walls; all in m.
+pub(crate) fn odd(depth: f64, narrowest: f64, widest: f64) -> Option<String> {
+    let advice = "is it in m? An etched or molded chip has 20e-6 to 400e-6";
+    match () {
+        () if depth > MOST * widest => Some(format!(
+            "the depth of {depth:e} m is more than {MOST} times the widest throat, {widest:.3e} m, so that all is as without a depth; {advice}"
+        )),
+        () if depth * MOST < narrowest => Some(format!(
+            "the depth of {depth:e} m is less than the narrowest throat, {narrowest:.3e} m, over {MOST}, so that floor and lid alone decide pressures and flows; {advice}"
+        )),
+        () => None,
+    }
+}
+
+/// The depth-averaged flow of a duct of the width `ratio` b with the factor `profile`, over that of its series, less 1.
+pub(crate) fn duct_error(ratio: f64, profile: f64) -> f64 {
+    let z = ratio * (3.0 / profile).sqrt();
+    (1.0 - z.tanh() / z) / duct_factor(ratio) - 1.0
 }
 
 /// The mean cosine of the tilt of a circular arc between plates that it meets at these angles (rad):
@@ -216,6 +268,15 @@ mod tests {
                 assert!(slope > 0.0, "{deg} {plane}");
             }
         }
+    }
+
+    #[test]
+    fn menisci_leave_films_where_no_angle_holds_their_lines() {
+        let film = |deg: f64, number: f64| with_one_angle(deg).film_left(number);
+        assert!(film(0.0, 0.0).is_none() && film(30.0, 1e-3).is_none() && film(60.0, 1e-2).is_none());
+        // 1.34 Ca^(2/3) of half the depth.
+        assert!((film(0.0, 1e-3).unwrap() - 0.0067).abs() < 1e-12 && film(10.0, 1e-3).is_some());
+        assert!(Depth::new(B, 1.5, [0.0, 1.5]).film_left(1e-4).is_some());
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! [`lengths`] of interface and wetted wall. Shapes: the [`circle`] and the [`arc`] of Young and Laplace through ordered points with standard errors, the
 //! [`weighted_circle`] through a stencil of points, free or held to an angle at a wall, the [`cap`] of a drop on a flat wall.
 //! Contact lines: [`contact`] has their angles with error bars, [`meniscus_ends`] those of interfaces that move under a body force.
-//! [`menisci`] between two walls: place, burst, touch, overlap.
+//! [`menisci`] between two walls: place, burst, touch, overlap. A chip: its [`depth`], and the [`films`] in its corners.
 
 pub(crate) mod arc;
 pub mod cap;
@@ -12,6 +12,7 @@ pub(crate) mod circle;
 pub mod contact;
 pub mod contour;
 pub mod depth;
+pub mod films;
 pub mod lattice;
 pub mod lengths;
 pub mod menisci;

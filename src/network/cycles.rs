@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::displacement::{Beginning, Conditions, Displacement, EventKind, Phase};
+use super::films::{CurvePoint, FilmTerms, Films};
 use super::graph::{Network, Pores};
 use super::moment::Moment;
 pub(crate) use crate::case::FluidPhase;
@@ -55,6 +56,8 @@ pub struct HalfCycle {
     pub conditions: Conditions,
     /// Where it ends early.
     pub end: End,
+    /// The films in corners, where there are any.
+    pub(crate) films: Option<FilmTerms>,
 }
 
 impl HalfCycle {
@@ -88,6 +91,8 @@ pub struct Entry {
     pub applied: f64,
     /// Saturation of the wetting phase afterwards.
     pub saturation: f64,
+    /// Share of the pore space that films in corners hold afterwards, part of the saturation.
+    pub film_saturation: f64,
 }
 
 /// When an element was filled in the present half cycle.
@@ -110,6 +115,8 @@ pub(crate) struct Outcome {
     pub(crate) breakthrough: Option<(f64, f64)>,
     /// Saturation of the wetting phase at its beginning, before and after what is open at the inlet is filled.
     pub(crate) first_saturation: [f64; 2],
+    /// Curvature in the plane in 1/m that was applied at last, after all events, where films follow it.
+    pub(crate) last: Option<f64>,
 }
 
 /// A displacement through its half cycles.
@@ -119,25 +126,29 @@ pub struct Cycles {
     pores: Arc<Pores>,
     half_cycles: Vec<HalfCycle>,
     initial: Option<Arc<Beginning>>,
-    displacement: Displacement,
+    pub(super) displacement: Displacement,
     breakthrough: Option<Arc<Moment>>,
-    pore_area: f64,
-    half_cycle: usize,
+    pub(super) pore_area: f64,
+    pub(super) half_cycle: usize,
     is_done: bool,
     steps: u64,
-    wetting_area: f64,
+    pub(super) wetting_area: f64,
     displaced_area: f64,
     history: Vec<Entry>,
     invasions: Vec<Option<Invasion>>,
-    outcomes: Vec<Outcome>,
+    pub(super) outcomes: Vec<Outcome>,
     /// Displaced area at the beginning of the present half cycle.
     displaced_before: f64,
+    /// The films in corners, and their volume over the depth in m².
+    pub(super) films: Option<Films>,
+    pub(super) film_area: f64,
+    pub(super) curve: Vec<CurvePoint>,
 }
 
 /// A saturation this near to 0 or 1 differs from it by the rounding of a sum of areas.
 const ROUNDING: f64 = 1.0e-12;
 
-fn tidy(saturation: f64) -> f64 {
+pub(super) fn tidy(saturation: f64) -> f64 {
     if saturation < ROUNDING {
         0.0
     } else if saturation > 1.0 - ROUNDING {
@@ -171,7 +182,12 @@ impl Cycles {
             if first.invading == FluidPhase::Wetting { invading_area } else { pore_area - invading_area };
         let before: Vec<Phase> =
             (0..elements).map(|element| if is_held(element) { Phase::Invading } else { Phase::Defending }).collect();
+        let films = first.films.clone().map(|terms| Films::new(&displacement, first.invading, terms));
+        let films = films.map(|films| films.begun(first.invading, initial.as_deref()));
         let mut cycles = Self {
+            films,
+            film_area: 0.0,
+            curve: Vec::new(),
             network,
             pores,
             initial,
@@ -208,6 +224,7 @@ impl Cycles {
         for element in filled {
             self.invasions[element] = Some(Invasion { sequence: 0, applied: f64::NAN, displaced });
         }
+        self.follow_films();
         let first_saturation = [saturation, self.saturation()];
         // No pressure holds back what enters through an opening, so that there is none to tell.
         let breakthrough = self.displacement.reached_outlet().then(|| (f64::NAN, self.invading_saturation()));
@@ -241,9 +258,16 @@ impl Cycles {
             return None;
         }
         self.steps += 1;
-        let event = if self.has_ended_early() { None } else { self.displacement.next() };
-        let Some(event) = event else { return self.turn() };
+        if self.has_ended_early() {
+            return self.turn();
+        }
+        let Some(event) = self.displacement.next() else {
+            self.press_to_the_end();
+            return self.turn();
+        };
+        self.let_films_follow(event.applied);
         self.displace(&event.elements);
+        self.follow_films();
         let half = &self.half_cycles[self.half_cycle];
         let (curvature, half_cycle) = (half.towards_wetting(event.curvature), self.half_cycle);
         let (saturation, applied) = (self.saturation(), half.towards_wetting(event.applied));
@@ -256,7 +280,9 @@ impl Cycles {
         if self.outcomes[self.half_cycle].breakthrough.is_none() && self.displacement.reached_outlet() {
             self.outcomes[self.half_cycle].breakthrough = Some((applied, self.invading_saturation()));
         }
-        self.history.push(Entry { half_cycle, kind: event.kind, throat: event.throat, curvature, applied, saturation });
+        let film_saturation = self.film_saturation();
+        let (kind, throat) = (event.kind, event.throat);
+        self.history.push(Entry { half_cycle, kind, throat, curvature, applied, saturation, film_saturation });
         if self.breakthrough.is_none() && self.displacement.reached_outlet() {
             self.breakthrough = Some(Arc::new(self.moment()));
         }
@@ -270,7 +296,7 @@ impl Cycles {
             half_cycle: self.half_cycle,
             events: self.outcomes()[self.half_cycle].events,
             applied: self.applied(),
-            saturation: self.saturation(),
+            saturation: tidy(self.wetting_area / self.pore_area),
         }
     }
 
@@ -298,6 +324,8 @@ impl Cycles {
         let before: Vec<Phase> = (0..self.invasions.len()).map(reversed).collect();
         self.half_cycle += 1;
         self.displacement = self.displacement.clone().reverse(next.conditions.clone());
+        let terms = next.films.clone();
+        self.films = self.films.take().map(|films| films.with_terms(&self.displacement, terms));
         self.begin(&before);
         Some("reversal")
     }
@@ -337,16 +365,17 @@ impl Cycles {
         self.displaced_area / self.pore_area
     }
 
-    /// Saturation of the wetting phase.
+    /// Saturation of the wetting phase, films in corners included.
     pub(crate) fn saturation(&self) -> f64 {
-        tidy(self.wetting_area / self.pore_area)
+        tidy((self.wetting_area + self.film_area) / self.pore_area)
     }
 
     /// Share of the pore space that holds the defending phase and cannot let it go.
     pub fn trapped_saturation(&self) -> f64 {
         let elements = self.displacement.elements().iter().enumerate();
         let trapped = elements.filter(|(index, _)| self.displacement.is_trapped(*index));
-        trapped.map(|(_, element)| element.area).sum::<f64>() / self.pore_area
+        let films = self.films.as_ref().map_or(0.0, |films| films.trapped_area(&self.displacement));
+        (trapped.map(|(_, element)| element.area).sum::<f64>() - films) / self.pore_area
     }
 
     /// All events so far.
@@ -356,6 +385,11 @@ impl Cycles {
 
     /// The applied curvature towards the wetting phase in 1/m; none before the first event of a half cycle.
     pub(crate) fn applied(&self) -> Option<f64> {
+        let last = self.outcomes.get(self.half_cycle).and_then(|outcome| outcome.last);
+        last.or_else(|| self.last_event())
+    }
+
+    fn last_event(&self) -> Option<f64> {
         self.history.last().filter(|entry| entry.half_cycle == self.half_cycle).map(|entry| entry.applied)
     }
 

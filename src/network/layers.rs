@@ -49,7 +49,7 @@ pub(crate) fn regions(setting: &Setting, occupation: Option<&Occupation>) -> Lay
     let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
     let pressure = |invasion: &Invasion| setting.pressure(occupation.invading, invasion.applied);
     let invasions = || occupation.invasions.iter();
-    let fields = vec![
+    let mut fields = vec![
         integer("pore", elements.iter().map(|element| pores.pore_of[element.region] as i64)),
         integer("phase", (0..elements.len()).map(|element| phase(occupation.fluid(element)))),
         scalar("invading-share", "", occupation.share.iter().copied()),
@@ -62,6 +62,9 @@ pub(crate) fn regions(setting: &Setting, occupation: Option<&Occupation>) -> Lay
             invasions().map(|it| it.map_or(f64::NAN, |invasion| invasion.displaced)),
         ),
     ];
+    if let Some(films) = &occupation.films {
+        fields.push(scalar("film-volume", "m3", films.volume.iter().copied()));
+    }
     Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
 

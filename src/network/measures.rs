@@ -1,6 +1,7 @@
 //! The measures of a network.
 
 use super::cycles::{Cycles, FluidPhase};
+use super::displacement::EventKind;
 use super::flow::{along, drive, relative};
 use super::model::{Model, Setting};
 use super::permeability::Drive;
@@ -120,7 +121,8 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
     };
     let ending = if cycles.is_done() { "at the end" } else { "so far, the displacement goes on" };
     let largest = cycles.history().iter().filter(|entry| entry.half_cycle == 0);
-    let largest = largest.map(|entry| setting.curvature(first.invading, entry.applied));
+    let applied = largest.map(|entry| entry.applied).chain(cycles.outcomes()[0].last);
+    let largest = applied.map(|applied| setting.curvature(first.invading, applied));
     let largest = largest.fold(f64::NAN, |a, b| if a.abs() > b.abs() { a } else { b });
     let mut found = vec![
         measure(
@@ -163,9 +165,19 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
             "events",
             cycles.history().len() as f64,
             "",
-            "bursts, touches, overlaps and reconnections of all half cycles",
+            "bursts, touches, overlaps, snap-offs and reconnections of all half cycles",
         ),
     ];
+    if cycles.has_films() {
+        found.push(measure(
+            "film-saturation",
+            cycles.film_saturation(),
+            "",
+            format!("share of the pore space that films in corners hold, a part of the wetting saturation, {ending}"),
+        ));
+        let closed = cycles.history().iter().filter(|entry| entry.kind == EventKind::SnapOff).count();
+        found.push(measure("snap-offs", closed as f64, "", "throats that films in corners closed, in all half cycles"));
+    }
     if let Some(loss) = hysteresis(setting, cycles) {
         found.push(loss);
     }
@@ -178,6 +190,28 @@ fn hysteresis(setting: &Setting, cycles: &Cycles) -> Option<Measure> {
         return None;
     }
     let last = cycles.half_cycles().len() - 2;
+    let work = if cycles.has_films() { work_on_curve(cycles, last) } else { work_of_events(setting, cycles, last) };
+    let value = setting.tension? * work;
+    Some(measure(
+        "hysteresis-work-J-per-m3",
+        value,
+        "J/m3",
+        "integral of p_n - p_w over the saturation that events displaced along the last drainage and imbibition: work per pore volume; what enters \
+         through openings at their beginnings takes no pressure and is left out",
+    ))
+}
+
+/// The integral of curvature over saturation from a half cycle on, in 1/m, by the trapezoidal rule between the points of the curve.
+fn work_on_curve(cycles: &Cycles, first: usize) -> f64 {
+    let pairs = cycles.curve().windows(2).filter(|pair| pair[0].half_cycle >= first);
+    let within = pairs.filter(|pair| pair[0].half_cycle == pair[1].half_cycle);
+    -within
+        .map(|pair| 0.5 * (pair[0].curvature + pair[1].curvature) * (pair[1].saturation - pair[0].saturation))
+        .sum::<f64>()
+}
+
+/// The same where saturations change at events alone.
+fn work_of_events(setting: &Setting, cycles: &Cycles, last: usize) -> f64 {
     let mut work = 0.0;
     for (half, outcome) in cycles.outcomes().iter().enumerate().skip(last) {
         // No pressure holds back what enters through openings at the beginning of either.
@@ -187,12 +221,5 @@ fn hysteresis(setting: &Setting, cycles: &Cycles) -> Option<Measure> {
             before = entry.saturation;
         }
     }
-    let value = setting.tension? * work;
-    Some(measure(
-        "hysteresis-work-J-per-m3",
-        value,
-        "J/m3",
-        "integral of p_n - p_w over the saturation that events displaced along the last drainage and imbibition: work per pore volume; what enters \
-         through openings at their beginnings takes no pressure and is left out",
-    ))
+    work
 }

@@ -12,6 +12,8 @@ pub mod permeability;
 pub mod setup;
 pub mod solver;
 
+mod film_curve;
+mod films;
 mod flow;
 mod layers;
 mod measures;

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::displacement::{Element, Phase};
+use super::films::SeenFilms;
 use crate::math::Vec2;
 
 /// Which fluid holds what, and how it came there.
@@ -23,6 +24,8 @@ pub(crate) struct Occupation<'a> {
     pub(crate) passed: Vec<Option<usize>>,
     /// The menisci, each a polyline in m.
     pub(crate) menisci: Vec<Vec<Vec2>>,
+    /// The films in corners, where there are any.
+    pub(crate) films: Option<SeenFilms>,
     /// What it is and how far it has come, for pictures.
     pub(crate) note: String,
 }
@@ -53,6 +56,7 @@ impl Cycles {
             invasions: self.invasions().into(),
             passed: present.map(|entry| entry.throat).collect(),
             menisci: self.menisci(),
+            films: self.seen_films(),
             note: format!(
                 "{} {}: wetting saturation {:.3}",
                 self.half_cycle().name(),

@@ -27,7 +27,8 @@ pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
 fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
     setting.tension?;
     let pressure_at = |entry: &Entry| setting.pressure(cycles.half_cycles()[entry.half_cycle].invading, entry.applied);
-    let applied = cycles.history().iter().map(|entry| pressure_at(entry).abs());
+    let on_curve = cycles.curve().iter().map(|point| setting.tension.unwrap_or(f64::NAN) * point.curvature.abs());
+    let applied = cycles.history().iter().map(|entry| pressure_at(entry).abs()).chain(on_curve);
     let (label, unit) = if applied.fold(0.0, f64::max) > KILO {
         ("capillary pressure p_n - p_w in kPa", 1.0e-3)
     } else {
@@ -35,6 +36,18 @@ fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
     };
     let mut traces = Vec::new();
     for (index, (half, outcome)) in cycles.half_cycles().iter().zip(cycles.outcomes()).enumerate() {
+        let name = if cycles.half_cycles().len() > 2 {
+            format!("{} {}", half.name(), index / 2 + 1)
+        } else {
+            half.name().to_owned()
+        };
+        if cycles.has_films() {
+            let of_half = cycles.curve().iter().filter(|point| point.half_cycle == index);
+            let tension = setting.tension?;
+            let points = of_half.map(|point| [point.saturation, unit * tension * point.curvature]).collect();
+            traces.push(Trace { name, stroke: Stroke::Full, points });
+            continue;
+        }
         let entries = cycles.history().iter().filter(|entry| entry.half_cycle == index);
         let mut saturation = outcome.first_saturation[1];
         let mut points: Vec<[f64; 2]> = Vec::new();
@@ -44,11 +57,6 @@ fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
             points.push([entry.saturation, pressure]);
             saturation = entry.saturation;
         }
-        let name = if cycles.half_cycles().len() > 2 {
-            format!("{} {}", half.name(), index / 2 + 1)
-        } else {
-            half.name().to_owned()
-        };
         traces.push(Trace { name, stroke: Stroke::Full, points });
     }
     let ends = |side: usize| {
@@ -140,6 +148,7 @@ fn empty(setting: &Setting) -> Mosaic {
         areas: Vec::new(),
         walls: outline.lines.iter().map(wall).collect(),
         lines: ("", Vec::new()),
+        strips: ("films", Vec::new()),
     }
 }
 
@@ -162,6 +171,8 @@ fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
     };
     let defending = occupation.invading.other().name();
     let menisci = occupation.menisci.iter().flat_map(|line| images(setting, line)).collect();
+    let seen = occupation.films.iter().flat_map(|films| &films.strips);
+    let strips = seen.flat_map(|(line, width)| images(setting, line).into_iter().map(|line| (line, *width)));
     Mosaic {
         name: "invasion",
         note: occupation.note.clone(),
@@ -170,6 +181,7 @@ fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
         classes: vec![(defending, NOT_INVADED), ("trapped", TRAPPED), (invaded_before, INVADED_BEFORE)],
         areas,
         lines: ("menisci", menisci),
+        strips: ("films", strips.collect()),
         ..empty(setting)
     }
 }

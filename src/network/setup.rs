@@ -6,9 +6,10 @@ use std::time::Instant;
 
 use super::ExtractError;
 use super::cycles::{Cycles, End, FluidPhase, HalfCycle};
-use super::displacement::{Beginning, Conditions, Displacement, Element, Events, MeasuredBurst};
+use super::displacement::{Beginning, Conditions, CornerFilms, Displacement, Element, Events, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{self, Drive, Dynamic, Terms};
+use super::films::FilmTerms;
 use super::graph::{Network, Pores};
 use super::model::Setting;
 use super::solver::NetworkSolver;
@@ -19,6 +20,7 @@ use crate::case::network::{NetworkDisplacement, NetworkInterface, PoreNetwork, P
 use crate::case::{Case, PatchedWall, SIDES, Side, on_plates};
 use crate::geometry::{Geometry, GeometryError};
 use crate::interface::depth::Depth;
+use crate::interface::films::WallFilms;
 use crate::solver::Solver;
 use crate::wetting::Wetting;
 
@@ -165,7 +167,7 @@ fn beginning(
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) => {
-            half_cycles(displacement, interface, wanted.sides.each(), (walls, network.depth, &measured(wanted)))
+            half_cycles(displacement, interface, wanted.sides.each(), (walls, network, &measured(wanted)))
         }
         _ => Vec::new(),
     };
@@ -202,7 +204,7 @@ pub(crate) fn assemble(
     let walls = geometry.shape_count() as usize + SIDES.len();
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) if displacement.dynamic.is_none() => {
-            half_cycles(displacement, interface, wanted.sides.each(), (walls, network.depth, &measured(wanted)))
+            half_cycles(displacement, interface, wanted.sides.each(), (walls, &network, &measured(wanted)))
         }
         _ => Vec::new(),
     };
@@ -214,6 +216,7 @@ pub(crate) fn assemble(
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: measured(wanted),
+        films: CornerFilms::Absent,
     });
     let setting = Setting {
         network: Arc::clone(&network),
@@ -255,6 +258,7 @@ fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Option<(Dynamic, Flui
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
+        films: CornerFilms::Absent,
     };
     let terms = Terms {
         viscosity: if invading == FluidPhase::Wetting { [wetting, non_wetting] } else { [non_wetting, wetting] },
@@ -284,15 +288,17 @@ fn half_cycles(
     displacement: &NetworkDisplacement,
     interface: &NetworkInterface,
     sides: [Side; 4],
-    (walls, depth, measured): (usize, Option<f64>, &[MeasuredBurst]),
+    (walls, network, measured): (usize, &Network, &[MeasuredBurst]),
 ) -> Vec<HalfCycle> {
     let open = |kind: Side| sides.map(|side| side == kind);
     let half = |invading: FluidPhase, [from, to]: [Side; 2], stop: Stop| {
         let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
         let in_plane = |pressure: f64| {
             let curvature = pressure / interface.tension;
-            depth.map_or(curvature, |depth| met_by(invading, depth, interface).plane(curvature))
+            network.depth.map_or(curvature, |depth| met_by(invading, depth, interface).plane(curvature))
         };
+        let depth = network.depth.filter(|_| displacement.films);
+        let films = depth.map(|depth| film_terms(invading, depth, interface, walls));
         HalfCycle {
             invading,
             conditions: Conditions {
@@ -303,7 +309,13 @@ fn half_cycles(
                 events: displacement.events,
                 largest_curvature: stop.capillary_pressure.map_or(f64::INFINITY, |pressure| sign * in_plane(pressure)),
                 measured: measured.to_vec(),
+                films: match &films {
+                    None => CornerFilms::Absent,
+                    Some(_) if invading == FluidPhase::NonWetting => CornerFilms::Drain,
+                    Some(terms) => CornerFilms::Join { meeting: terms.meeting(network) },
+                },
             },
+            films,
             end: End {
                 at_breakthrough: stop.breakthrough,
                 at_saturation: stop.saturation.map(|wetting| match invading {
@@ -331,10 +343,27 @@ fn half_cycles(
 
 /// Floor and lid as a phase that invades meets them: on them the wetting phase recedes or advances.
 fn met_by(invading: FluidPhase, depth: f64, interface: &NetworkInterface) -> Depth {
+    let (wall, plates) = on_depth(invading, interface);
+    Depth::new(depth, wall, plates)
+}
+
+/// Contact angles in rad of walls, floor and lid through the wetting phase.
+fn on_depth(invading: FluidPhase, interface: &NetworkInterface) -> (f64, [f64; 2]) {
     let end = usize::from(invading == FluidPhase::Wetting);
     let angle = |model: &Wetting| model.hysteresis_range()[end];
-    let plates = on_plates(&interface.wetting_model, &interface.patches, angle);
-    Depth::new(depth, angle(&interface.wetting_model), plates)
+    (angle(&interface.wetting_model), on_plates(&interface.wetting_model, &interface.patches, angle))
+}
+
+/// The films in the corners of all walls with floor and lid.
+fn film_terms(invading: FluidPhase, thickness: f64, interface: &NetworkInterface, walls: usize) -> FilmTerms {
+    let plates = on_depth(invading, interface).1;
+    let through_wetting = |defending: f64| if invading == FluidPhase::Wetting { PI - defending } else { defending };
+    let wall = |angle: f64| WallFilms::new(through_wetting(angle), plates);
+    FilmTerms {
+        thickness,
+        depth: met_by(invading, thickness, interface),
+        walls: angles(interface, walls, invading).into_iter().map(wall).collect(),
+    }
 }
 
 /// Contact angle of each wall through the defending phase in rad: where the non-wetting phase invades, the wetting one recedes.

@@ -122,6 +122,10 @@ impl Solver for NetworkSolver {
                 sample("touches", self.count(EventKind::Touch)),
                 sample("overlaps", self.count(EventKind::Overlap)),
             ]);
+            if cycles.has_films() {
+                row.push(sample("snap_offs", self.count(EventKind::SnapOff)));
+                row.push(sample("film_saturation", cycles.film_saturation()));
+            }
         }
         row
     }
@@ -146,6 +150,8 @@ impl Solver for NetworkSolver {
         let occupation = self.model.cycles.as_ref().map(Cycles::occupation);
         let mut results = results_with(&self.model, occupation.as_ref());
         results.tables.extend(self.model.cycles.as_ref().map(|cycles| tables::events(&self.model.setting, cycles)));
+        let cycles = self.model.cycles.as_ref();
+        results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(&self.model.setting, cycles)));
         results.documents.extend(state::documents(&self.model));
         results.tables.extend(flow::table(&self.model));
         results
@@ -177,8 +183,14 @@ impl Solver for NetworkSolver {
     }
 
     fn steps_to(&self, _end: f64) -> Option<f64> {
-        // At most, each event of a half cycle fills one element.
-        let elements = |cycles: &Cycles| cycles.displacement().elements().len() * cycles.half_cycles().len();
+        // At most, each event of a half cycle fills one element, or closes or opens a throat.
+        let throats = if self.model.cycles.as_ref().is_some_and(Cycles::has_films) {
+            self.model.setting.network.throats.len()
+        } else {
+            0
+        };
+        let elements =
+            |cycles: &Cycles| (cycles.displacement().elements().len() + throats) * cycles.half_cycles().len();
         Some(
             self.model.cycles.as_ref().map_or(0.0, |cycles| (elements(cycles) as f64 - cycles.steps() as f64).max(0.0)),
         )

@@ -12,6 +12,10 @@ use crate::table::Document;
 const NOTE: &str = "SI units; curvatures above 0 where an interface bulges into the wetting phase: tension times curvature is p_n - p_w; \
                     curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
 
+/// The same of a chip.
+const NOTE_OF_CHIP: &str = "SI units; curvatures are those in the plane, above 0 where an interface bulges into the wetting phase: floor and lid add to p_n - p_w; \
+                            curves as [x1, y1, x2, y2] or [center x, center y, radius, polar angle of the start, signed angle to the end]";
+
 /// The states at the first breakthrough and at the present moment.
 pub(crate) fn documents(model: &Model) -> Vec<Document> {
     let Some(cycles) = &model.cycles else { return Vec::new() };
@@ -45,7 +49,7 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
     NetworkState {
         format: FORMAT,
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        note: NOTE.to_owned(),
+        note: if setting.depth.is_some() { NOTE_OF_CHIP } else { NOTE }.to_owned(),
         geometry_hash: setting.geometry_hash.clone(),
         domain_m: [setting.bounds.min.into(), setting.bounds.max.into()],
         sides: setting.sides,
@@ -64,6 +68,7 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
         }),
         elements: elements(half, moment, &interfaces.trapped),
         menisci: interfaces.menisci.iter().map(|standing| meniscus(half, standing)).collect(),
+        snapped_throats: displacement.closed_throats(),
         invading_outline: interfaces.outline.iter().map(Curve::numbers).collect(),
     }
 }
@@ -111,5 +116,6 @@ pub(crate) fn beginning(state: &NetworkState, invading: FluidPhase) -> Beginning
         invaded: state.elements.iter().map(|element| element.phase == invading).collect(),
         applied: largest.filter(|_| is_same).unwrap_or(f64::NEG_INFINITY),
         held: state.elements.iter().map(held).collect(),
+        closed: state.snapped_throats.clone(),
     }
 }

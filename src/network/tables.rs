@@ -1,6 +1,7 @@
 //! `pores.csv`, `throats.csv` and `events.csv`: SI units, one row each for a pore, a throat, an event.
 
 use super::cycles::{Cycles, Entry, FluidPhase, Invasion};
+use super::films::CurvePoint;
 use super::graph::{Opening, Throat};
 use super::model::{Model, Setting};
 use super::occupation::Occupation;
@@ -122,6 +123,13 @@ fn pores(setting: &Setting, occupation: Option<&Occupation>) -> Table {
     if let Some(occupation) = occupation {
         let states = PoreStates::new(setting, occupation).0;
         columns.extend(state_columns(setting, occupation.invading, &states));
+        if let Some(films) = &occupation.films {
+            let mut volumes = vec![0.0; setting.pores.main_region.len()];
+            for (element, volume) in occupation.elements.iter().zip(&films.volume) {
+                volumes[setting.pores.pore_of[element.region]] += volume;
+            }
+            columns.push(numbers("film_volume_m3", volumes));
+        }
     }
     Table { name: "pores", columns }
 }
@@ -215,7 +223,7 @@ pub(crate) fn events(setting: &Setting, cycles: &Cycles) -> Table {
     let pressures = |of: fn(&Entry) -> f64| {
         history.iter().map(move |entry| setting.pressure(cycles.half_cycles()[entry.half_cycle].invading, of(entry)))
     };
-    Table {
+    let mut table = Table {
         name: "events",
         columns: vec![
             counts("half_cycle", history.iter().map(|entry| entry.half_cycle + 1)),
@@ -227,5 +235,25 @@ pub(crate) fn events(setting: &Setting, cycles: &Cycles) -> Table {
             numbers("capillary_pressure_Pa", pressures(|entry| entry.applied)),
             numbers("saturation", history.iter().map(|entry| entry.saturation)),
         ],
+    };
+    if cycles.has_films() {
+        table.columns.push(numbers("film_saturation", history.iter().map(|entry| entry.film_saturation)));
     }
+    table
+}
+
+/// `capillary_pressure.csv`: the curve with the films at every pressure; none without films.
+pub(crate) fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Table> {
+    let (curve, tension) = (cycles.curve(), setting.tension?);
+    let process = |point: &CurvePoint| cycles.half_cycles()[point.half_cycle].name();
+    cycles.has_films().then(|| Table {
+        name: "capillary_pressure",
+        columns: vec![
+            counts("half_cycle", curve.iter().map(|point| point.half_cycle + 1)),
+            words("process", curve.iter().map(process)),
+            numbers("capillary_pressure_Pa", curve.iter().map(|point| tension * point.curvature)),
+            numbers("saturation", curve.iter().map(|point| point.saturation)),
+            numbers("film_saturation", curve.iter().map(|point| point.film_saturation)),
+        ],
+    })
 }

@@ -3,6 +3,7 @@
 use super::flow::{LEAST_SOLID, drive};
 use super::model::Setting;
 use crate::case::{SIDES, Side};
+use crate::interface::depth::odd;
 
 /// The names of both permeabilities.
 const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];
@@ -53,20 +54,8 @@ fn open_beside(setting: &Setting, axis: usize) -> Option<String> {
 
 /// A depth that makes all throats slits between floor and lid, or between their walls.
 fn odd_depth(setting: &Setting) -> Option<String> {
-    const MOST: f64 = 1e3;
-    let depth = setting.network.depth?;
     let widths = || setting.network.throats.iter().map(|throat| throat.width);
-    let (narrowest, widest) = (widths().reduce(f64::min)?, widths().reduce(f64::max)?);
-    let advice = "is it in m? An etched or molded chip has 20e-6 to 400e-6";
-    match () {
-        () if depth > MOST * widest => Some(format!(
-            "the depth of {depth:e} m is more than {MOST} times the widest throat, {widest:.3e} m, so that all is as without a depth; {advice}"
-        )),
-        () if depth * MOST < narrowest => Some(format!(
-            "the depth of {depth:e} m is less than the narrowest throat, {narrowest:.3e} m, over {MOST}, so that floor and lid alone decide pressures and flows; {advice}"
-        )),
-        () => None,
-    }
+    odd(setting.network.depth?, widths().reduce(f64::min)?, widths().reduce(f64::max)?)
 }
 
 /// Whether the pore space leads from the inlet to the outlet.

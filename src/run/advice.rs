@@ -40,6 +40,9 @@ pub(crate) struct Advice {
     pub(crate) network_s: f64,
     /// Width of the narrowest throat in m.
     pub(crate) narrowest_throat_m: f64,
+    /// Widths of the narrowest and of the median throat over the depth of the chip; absent in the plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) widths_over_depth: Option<[f64; 2]>,
     /// Spacing in m of a direct simulation: that of the case, or the one that puts eight across the narrowest throat.
     pub(crate) spacing_m: f64,
     /// Spacings across the narrowest throat.
@@ -91,8 +94,9 @@ pub(crate) fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
     let network = network::extract(&geometry, open).ok()?;
     let pores = Pores::merged(&network, PERSISTENCE);
     let network_s = clock.elapsed().as_secs_f64();
-    let widths: Vec<f64> = pores.throats.iter().map(|&throat| network.throats[throat].width).collect();
-    let narrowest = widths.iter().copied().min_by(f64::total_cmp)?;
+    let mut widths: Vec<f64> = pores.throats.iter().map(|&throat| network.throats[throat].width).collect();
+    widths.sort_by(f64::total_cmp);
+    let narrowest = *widths.first()?;
     let spacing = sph.map_or(narrowest / ACROSS, |sph| sph.spacing);
     let mut radii: Vec<f64> = pores.main_region.iter().map(|&region| network.regions[region].radius).collect();
     radii.sort_by(f64::total_cmp);
@@ -104,6 +108,7 @@ pub(crate) fn advice(case: &Case, trial: Option<&Trial>) -> Option<Advice> {
         throats: widths.len(),
         network_s,
         narrowest_throat_m: narrowest,
+        widths_over_depth: case.depth.map(|depth| [narrowest, widths[widths.len() / 2]].map(|width| width / depth)),
         spacing_m: spacing,
         spacings_across: narrowest / spacing,
         coarse_throats: widths.iter().filter(is_coarse).count(),
@@ -193,6 +198,7 @@ mod tests {
             throats: 20,
             network_s: 0.1,
             narrowest_throat_m: 1e-5,
+            widths_over_depth: None,
             spacing_m: 1e-6,
             spacings_across: 10.0,
             coarse_throats: 0,

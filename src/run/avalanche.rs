@@ -60,6 +60,9 @@ pub(crate) struct Avalanche {
     pub(crate) pressure_pa: f64,
     /// One at which the menisci rest before it, in Pa.
     pub(crate) rest_pressure_pa: f64,
+    /// Tension times the size of the curvature in the plane then, in Pa: with a depth less than the pressure.
+    #[serde(skip)]
+    pub(crate) in_plane_pa: f64,
     /// Saturation of the wetting phase before and after it.
     pub(crate) saturation: [f64; 2],
     /// Number of its events.
@@ -97,7 +100,7 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
     let applied = history[target].applied;
     let first = history.iter().position(|entry| entry.applied == applied).unwrap_or(target);
     let events = history[first..].iter().take_while(|entry| entry.applied == applied).count();
-    solver.setting().tension.ok_or(AvalancheError::NoNetwork)?;
+    let tension = solver.setting().tension.ok_or(AvalancheError::NoNetwork)?;
     let earlier = first.checked_sub(1).map(|index| history[index]);
     let direction = if state.invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let rest = earlier.map_or(applied - direction * applied.abs(), |entry| 0.5 * (entry.applied + applied));
@@ -105,6 +108,7 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
         invading: state.invading,
         pressure_pa: solver.setting().pressure(state.invading, applied),
         rest_pressure_pa: solver.setting().pressure(state.invading, rest),
+        in_plane_pa: tension * applied.abs(),
         saturation: [earlier.map_or(before, |entry| entry.saturation), history[first + events - 1].saturation],
         events,
         inlet: solver.setting().inlet.ok_or(AvalancheError::NoNetwork)?,

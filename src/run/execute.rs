@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use super::claim::Claim;
+use super::extension;
 use super::folder;
 use super::folder_error::FolderError;
 use super::numbers::{self, Length};
@@ -26,7 +27,7 @@ use crate::solver::{Clock, Results, Solver, StateError};
 pub enum Mode {
     /// In a folder that does not exist or is empty.
     New,
-    /// From the saved state in the folder.
+    /// From the saved state in the folder; that of a run that ended may go on to a later end.
     Resume,
 }
 
@@ -133,6 +134,7 @@ fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<(Start, 
     match job.mode {
         Mode::New => Ok((Start::New, folder::create(&job.folder)?)),
         Mode::Resume => {
+            let hash = extension::hash_of_shorter(&job.folder, job.case).unwrap_or(hash);
             let (saved, claim) = folder::resume(&job.folder, hash)?;
             solver.restore(&saved.state)?;
             Ok((Start::Resumed { series: saved.series, frames: saved.frames }, claim))

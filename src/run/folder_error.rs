@@ -24,7 +24,7 @@ pub enum FolderError {
     /// The run in it is of another case.
     #[error(
         "the run in {} is of another case, or its case file was changed (saved {saved:016x}, now {now:016x}); take the case \
-         it was started with, or start a new run with another --out DIR", folder.display()
+         it was started with (once the run has ended, time.end may be later), or start a new run with another --out DIR", folder.display()
     )]
     OtherCase {
         /// The folder.

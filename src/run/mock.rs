@@ -175,6 +175,7 @@ pub(crate) fn case() -> Case {
         initial: Initial {
             wetting: Vec::new(),
             wetting_is_background: true,
+            key: "sph.initial.wetting",
             network: None,
             velocity: InitialVelocity::Rest,
         },

@@ -85,7 +85,7 @@ fn given_speeds<'a>(case: &Case, sph: &'a Sph) -> impl Iterator<Item = f64> + us
     given.map(move |(number, drive)| match drive {
         Drive::Pressure(_) => 0.0,
         Drive::Velocity(speed, _) => speed.abs(),
-        Drive::FlowRate(rate, _) => rate.abs() / size[1 - number / 2],
+        Drive::FlowRate(rate, _) => rate.abs() / sph.thickness() / size[1 - number / 2],
     })
 }
 

@@ -116,7 +116,11 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
 pub fn warnings(case: &Case, solver: &dyn Solver, series: &Series) -> Vec<String> {
     let of_case = match &case.model {
         Model::ThinFilm(film) => film.notes(case.end),
-        Model::Sph(sph) => coarse_throat(case, sph).into_iter().chain(not_at_rest(sph)).collect(),
+        Model::Sph(sph) => {
+            let of_depth =
+                sph.depth.and_then(|_| geometry(case).ok()).map(|geometry| sph::setup::notes_on_depth(sph, &geometry));
+            coarse_throat(case, sph).into_iter().chain(not_at_rest(sph)).chain(of_depth.unwrap_or_default()).collect()
+        }
         Model::Network(_) => Vec::new(),
     };
     of_case.into_iter().chain(solver.warnings(series)).collect()

@@ -11,7 +11,7 @@ use crate::solver::{
 };
 use crate::sph::flow::Flow;
 use crate::sph::frozen::FrozenInterface;
-use crate::sph::measures::{DiscOf, Group, Subject, all, columns, permeability, relative};
+use crate::sph::measures::{DiscOf, Group, Subject, all, columns, permeability, relative, samples_of_chip};
 use crate::sph::observe::Observation;
 use crate::sph::output;
 use crate::sph::particles::Particles;
@@ -197,7 +197,9 @@ impl Solver for SphSolver {
             ("momentum_y_kg_per_m_s", momentum.y),
         ];
         let asked = columns(flow, seen, self.surroundings.stages.is_some(), &self.groups);
-        row.into_iter().chain(asked).map(|(name, value)| Sample { name, value }).collect()
+        let mut row: Vec<Sample> = row.into_iter().chain(asked).map(|(name, value)| Sample { name, value }).collect();
+        row.extend(samples_of_chip(flow, &row));
+        row
     }
 
     fn watched(&self) -> Vec<Watched> {

@@ -14,6 +14,9 @@ const LARGEST_THIN_SHARE: f64 = 0.01;
 /// Spacings across a drop or a film that its measures need.
 const ENOUGH: f64 = 8.0;
 
+/// Films on floor and lid thinner than this share of the depth are not told: with both less than 1 % of the pore is left behind.
+const LEAST_FILM: f64 = 5e-3;
+
 /// Cosine between the wall normals at both contact lines of a drop on a plane.
 const SAME_WALL: f64 = 0.9;
 
@@ -39,6 +42,7 @@ pub(crate) fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<
     }
     let found = [
         thin_layer(flow),
+        films_left(flow),
         pieces_and_films(flow, seen, series),
         low_drop(flow, seen),
         limiting_angle(flow),
@@ -57,6 +61,28 @@ fn thin_layer(flow: &Flow) -> Option<String> {
             "the layer beside walls in which the flow between floor and lid slows down is {layer:.2e} m thick, less than the spacing of {:.2e} m: in a channel ten times \
              as wide as deep with 20 spacings across the permeability is 2 % too large",
             method.spacing
+        )
+    })
+}
+
+/// Menisci so fast that they leave films of the wetting phase on floor and lid where it recedes. The speed is the mean one in the pore: that of the given flow,
+/// or of the particles where they are faster.
+fn films_left(flow: &Flow) -> Option<String> {
+    let (m, p) = (&flow.setting.method, &flow.state.particles);
+    let plates = m.plates?;
+    let (open, size) = (&flow.setting.open, flow.setting.domain.bounds.size());
+    let given = open
+        .sides
+        .iter()
+        .chain(&open.through)
+        .map(|side| side.flow_rate().abs() * size[side.axis()] / (p.fluids as f64 * m.volume));
+    let mean = p.velocity[..p.fluids].iter().map(|v| v.norm()).sum::<f64>() / p.fluids as f64;
+    let number = m.wetting_fluid.viscosity * given.fold(mean, f64::max) / m.tension;
+    plates.depth.film_left(number).filter(|film| *film >= LEAST_FILM).map(|film| {
+        format!(
+            "at Ca = {number:.1e} of the wetting phase and an angle of {:.0} degrees receding menisci leave films on floor and lid (Bretherton 1961: {film:.1e} \
+             of the depth each), which are left out: where the wetting phase is displaced, less of it is in truth",
+            plates.depth.wettest().to_degrees()
         )
     })
 }

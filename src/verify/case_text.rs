@@ -3,16 +3,13 @@
 use std::fmt::Write;
 
 use super::cut_out::CutOut;
+use super::fluids::Fluids;
 use super::whole_pore::WholePore;
 use crate::case::Fluid;
 use crate::geometry::spec::{CurvedPolygon, GeometrySpec, ShapeSpec};
 use crate::network::cycles::FluidPhase as Phase;
 use crate::network::displacement::EventKind;
 
-/// Density in kg/m³ where the network gives none: at rest no pressure depends on it.
-pub(crate) const DENSITY: f64 = 1000.0;
-/// Viscosity over √(density · tension · width) where the network gives none: menisci come to rest without a long swing.
-pub(crate) const OHNESORGE: f64 = 0.1;
 /// Reynolds number ρQ/μ of the flow that conductances are measured by.
 const REYNOLDS: f64 = 0.01;
 /// Latest end of a run with a meniscus, in times √(density · length³/tension) and density · length²/viscosity, the longer one of both.
@@ -33,36 +30,10 @@ const TOUCH_RISE: f64 = 0.02;
 const TOUCH_STEPS: f64 = 2.0;
 /// As of an overlap.
 const TOUCH_TIMES: f64 = 9.0;
+/// The same of a run with a meniscus in times of the friction of floor and lid.
+const FRICTION_TIMES: f64 = 6.0;
 /// Largest deviation of the entry pressure from the formula that the case expects, as a share.
 const EXPECTED: f64 = 0.02;
-
-/// The fluids of the cut-outs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fluids {
-    /// The wetting and the non-wetting phase, where those of the network are wanted and known.
-    pub given: [Option<Fluid>; 2],
-    /// Interfacial tension in N/m.
-    pub tension: f64,
-    /// The phase that invades.
-    pub invading: Phase,
-}
-
-impl Fluids {
-    /// The wetting and the non-wetting phase for a throat of a width (m).
-    pub(crate) fn of(&self, width: f64) -> [Fluid; 2] {
-        let other = self.given[0].or(self.given[1]);
-        let default = Fluid { density: DENSITY, viscosity: OHNESORGE * (DENSITY * self.tension * width).sqrt() };
-        self.given.map(|given| given.or(other).unwrap_or(default))
-    }
-
-    /// Contact angle through the wetting phase in degrees for one through the defending phase in rad.
-    fn wetting_angle(&self, angle: f64) -> f64 {
-        match self.invading {
-            Phase::NonWetting => angle.to_degrees(),
-            Phase::Wetting => (std::f64::consts::PI - angle).to_degrees(),
-        }
-    }
-}
 
 /// A throat for its titles.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,9 +65,13 @@ fn polygon(polygon: &CurvedPolygon) -> String {
     format!("outer = [\n{vertices}]")
 }
 
-fn shapes(geometry: &GeometrySpec) -> String {
+fn shapes(geometry: &GeometrySpec, fluids: &Fluids) -> String {
     let corner = |x: [f64; 2]| format!("[{:e}, {:e}] # m", x[0], x[1]);
     let mut text = format!("[geometry]\nmin = {}\nmax = {}\n", corner(geometry.min), corner(geometry.max));
+    if let Some(chip) = fluids.chip {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "depth = {:e} # m", chip.depth.distance());
+    }
     for shape in &geometry.shapes {
         // Writing to a string cannot fail; a cut-out has no other shapes.
         let _ = match shape {
@@ -137,25 +112,24 @@ pub(crate) fn entry(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String 
     let size = crate::math::Vec2::from(cut_out.geometry.max) - crate::math::Vec2::from(cut_out.geometry.min);
     let length = size.min().max(width);
     let end = (CAPILLARY_TIMES * (density * length.powi(3) / tension).sqrt())
-        .max(VISCOUS_TIMES * density * width * width / viscosity);
-    let sign = if fluids.invading == Phase::NonWetting { 1.0 } else { -1.0 };
-    let pressure = sign * tension * cut_out.meniscus.curvature;
+        .max(VISCOUS_TIMES * density * width * width / viscosity)
+        .max(FRICTION_TIMES * fluids.friction_time(length, width));
+    let pressure = fluids.invading.towards_wetting(fluids.pressure(cut_out.meniscus.curvature));
     let background = if fluids.invading == Phase::NonWetting { "wetting" } else { "non-wetting" };
     let title = format!("Throat {}: entry pressure, {} spacings across", named.number, named.across);
     let what = "The invading phase fills the closed box up to the meniscus of largest curvature, which rests there.";
     let mut text = head(named, cut_out, what, &title);
-    text += &shapes(&cut_out.geometry);
+    text += &shapes(&cut_out.geometry, fluids);
     let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
     text += &phase("wetting", wetting);
     text += &phase("non-wetting", other);
     let _ = write!(
         text,
-        "[sph.interface]\ntension = {tension:e} # N/m\n\n[sph.wetting.young]\ncontact-angle-deg = {:e} # degrees through the wetting phase\n\n\
-         [sph.initial]\nbackground = \"{background}\"\n\n[[sph.initial.wetting]] # the invading phase: its arc is that of the meniscus\n\
+        "[sph.interface]\ntension = {tension:e} # N/m\n\n{}[sph.initial]\nbackground = \"{background}\"\n\n[[sph.initial.wetting]] # the invading phase: its arc is that of the meniscus\n\
          [sph.initial.wetting.curved-polygon] # x and y in m, bulge\n{}\n\n[sph.measure.throat-entry]\n\n\
          [time]\nend = {end:e} # s\n\n[time.steady]\ncapillary-number = 3.0e-4\n\n[output.vtk]\nevery-time = {end:e} # s\n\n\
          [[expect]] # the formula\nmeasure = \"entry-pressure-Pa\"\nvalue = {pressure:e}\ntolerance = {:e}\n",
-        fluids.wetting_angle(cut_out.angle),
+        fluids.wetting(cut_out.angle),
         polygon(&cut_out.behind),
         (EXPECTED * pressure).abs()
     );
@@ -171,14 +145,15 @@ pub(crate) fn flow(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
     let title = format!("Throat {}: conductance, {} spacings across", named.number, named.across);
     let what = "One phase passes the throat at a given rate; the box is joined along the way.";
     let mut text = head(named, cut_out, what, &title);
-    text += &shapes(&cut_out.geometry);
+    text += &shapes(&cut_out.geometry, fluids);
     let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
     text += &phase("wetting", fluid);
     let _ = write!(
         text,
-        "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n\n[sph.sides.open.left]\nflow-rate = {:e} # m2/s, Reynolds number {REYNOLDS}\n\n\
+        "[sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n\n[sph.sides.open.left]\nflow-rate = {:e} # {}, Reynolds number {REYNOLDS}\n\n\
          [time]\nend = {end:e} # s\n\n[output.vtk]\nevery-time = {end:e} # s\n",
-        flow_rate(fluid)
+        fluids.thickness() * flow_rate(fluid),
+        if fluids.chip.is_some() { "m3/s" } else { "m2/s" }
     );
     text
 }
@@ -227,7 +202,9 @@ pub(crate) fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Optio
     let (density, viscosity) = (wetting.density.max(other.density), wetting.viscosity.max(other.viscosity));
     let size = crate::math::Vec2::from(cut_out.geometry.max) - crate::math::Vec2::from(cut_out.geometry.min);
     let capillary = (density * size.min().powi(3) / tension).sqrt();
-    let hold = steps.times * capillary.max(density * width * width / viscosity);
+    let friction = fluids.friction_time(size.min(), width);
+    let hold = steps.times * capillary.max(density * width * width / viscosity).max(friction);
+    let (first, rise) = fluids.steps(cut_out.curvature, steps.first, steps.rise);
     let background = fluids.invading.other().name();
     let (what, kind) = match cut_out.kind {
         EventKind::Overlap => ("Two menisci meet on the wall between them", "overlap"),
@@ -242,25 +219,24 @@ pub(crate) fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Optio
         frame.middle.x,
         frame.middle.y,
         frame.angle.to_degrees(),
-        tension * cut_out.curvature,
+        fluids.pressure(cut_out.curvature),
         named.number,
         named.across
     );
-    text += &shapes(&cut_out.geometry);
+    text += &shapes(&cut_out.geometry, fluids);
     let _ = write!(text, "\n[sph]\nspacing = {spacing:e} # m\n\n");
     text += &phase("wetting", wetting);
     text += &phase("non-wetting", other);
     let _ = write!(
         text,
-        "[sph.interface]\ntension = {tension:e} # N/m\n\n[sph.wetting.young]\ncontact-angle-deg = {:e} # degrees through the wetting phase\n\n\
-         [sph.sides]\nleft = \"inlet\"\nright = \"outlet\" # at 0 Pa\n\n[sph.sides.open.left]\npressure = {:e} # Pa\n\
+        "[sph.interface]\ntension = {tension:e} # N/m\n\n{}[sph.sides]\nleft = \"inlet\"\nright = \"outlet\" # at 0 Pa\n\n[sph.sides.open.left]\npressure = {:e} # Pa\n\
          pressure-steps = {{ rise = {:e}, every-time = {hold:e} }} # Pa, s\n\n\
          [sph.initial]\nbackground = \"{background}\"\n\n[[sph.initial.wetting]] # the invading phase: its arcs are those of the menisci\n\
          [sph.initial.wetting.curved-polygon] # x and y in m, bulge\n{}\n\n\
          [time]\nend = {:e} # s\n\n[output.vtk]\nevery-time = {hold:e} # s\n",
-        fluids.wetting_angle(cut_out.angle),
-        tension * steps.first,
-        tension * steps.rise,
+        fluids.wetting(cut_out.angle),
+        first,
+        rise,
         polygon(&behind),
         hold * steps.count
     );

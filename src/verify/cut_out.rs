@@ -66,6 +66,11 @@ pub enum Impossible {
     /// Not an event of this kind.
     #[error("it is a burst, which is verified in its throat")]
     Burst,
+    /// Films of another angle.
+    #[error(
+        "its walls have another contact angle than those of which the network takes the films in the corners of floor and lid"
+    )]
+    Films,
     /// Another throat.
     #[error("the cut-out has a throat of {0} m in place of this one")]
     Throat(String),

@@ -4,8 +4,8 @@
 //! the largest capillary pressure at which the menisci stood at the end of a step before, as measured in the phases, and the pressure of the step
 //! after that.
 
-use super::case_text::Fluids;
 use super::events::PlannedEvent;
+use super::fluids::Fluids;
 use super::plan::Kind;
 use super::results::{Direct, Run, Status, runs_of, unfinished};
 use crate::io::series;
@@ -85,7 +85,7 @@ pub(crate) fn event_row<'a>(
     let complete = || runs.iter().filter(|run| run.is_complete());
     let mut row = EventRow {
         planned,
-        formula: fluids.tension * planned.curvature,
+        formula: fluids.pressure(planned.curvature),
         direct: None,
         scale: planned.cut_out.as_ref().map_or(f64::NAN, |cut_out| fluids.tension / cut_out.width),
         status: Status::Open,

@@ -111,7 +111,11 @@ impl PlannedEvent {
             event.curvature,
             subject.filled_area(event),
             &subject.conditions.angle,
-        );
+        )
+        .and_then(|cut_out| match subject.has_its_films(cut_out.angle) {
+            true => Ok(cut_out),
+            false => Err(Impossible::Films),
+        });
         Self {
             number,
             kind: event.kind,

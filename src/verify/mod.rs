@@ -10,6 +10,7 @@ pub mod choose;
 pub mod cut_out;
 pub(crate) mod event_results;
 pub mod events;
+pub mod fluids;
 mod page;
 pub mod plan;
 pub(crate) mod report;

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::case_text::{self, Fluids, Named};
+use super::case_text::{self, Named};
 use super::choose::{Chosen, touches_first};
 use super::cut_out::{CutOut, Impossible};
 use super::events::PlannedEvent;
+use super::fluids::Fluids;
 use super::subject::Subject;
 use crate::case::load;
 use crate::input::Overrides;
@@ -15,6 +16,7 @@ use crate::io::checksum::fnv1a;
 use crate::io::{FileError, atomic};
 use crate::network::conductance::conductances;
 use crate::network::extract;
+use crate::network::graph::Network;
 use crate::network::permeability::{Drive, Paths, permeability};
 
 /// The study file of a folder.
@@ -45,16 +47,20 @@ impl Planned {
         let Some((passage, ahead)) = subject.passage(chosen.throat, chosen.to) else {
             return Self { chosen, cut_out: Err(Impossible::NoMeniscus), touches: None, conductance: None };
         };
-        let cut_out = CutOut::new(&passage, &ahead);
-        let conductance = cut_out.as_ref().ok().and_then(conductance);
+        let depth = subject.chip.map(|chip| chip.depth.distance());
+        let cut_out = CutOut::new(&passage, &ahead).and_then(|cut_out| match subject.has_its_films(cut_out.angle) {
+            true => Ok(cut_out),
+            false => Err(Impossible::Films),
+        });
+        let conductance = cut_out.as_ref().ok().and_then(|cut_out| conductance(cut_out, depth));
         Self { chosen, cut_out, touches: touches_first(&passage, &ahead), conductance }
     }
 }
 
-/// The conductance of a cut-out by the network of its own bodies.
-fn conductance(cut_out: &CutOut) -> Option<f64> {
+/// The conductance of a cut-out by the network of its own bodies, of a depth in m.
+fn conductance(cut_out: &CutOut, depth: Option<f64>) -> Option<f64> {
     let geometry = cut_out.solids(true).ok()?;
-    let network = extract(&geometry, [false; 4]).ok()?;
+    let network = Network { depth, ..extract(&geometry, [false; 4]).ok()? };
     let paths = Paths { conductance: &conductances(&network), holds: &vec![true; network.regions.len()] };
     let permeability = permeability(&network, paths, geometry.bounds(), Drive::Periodic(0)).ok()?;
     let size = geometry.bounds().size();

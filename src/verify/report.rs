@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use super::cut_out::CutOut;
 use super::event_results::EventRow;
+use super::fluids::Fluids;
 use super::page::page;
 use super::results::{Direct, Row, Status};
 use super::subject::Subject;
 use super::whole_pore::WholePore;
 use crate::case::network::measured::{Measured, MeasuredThroat};
 use crate::io::{FileError, atomic};
-use crate::network::cycles::FluidPhase;
 use crate::network::graph::Throat;
 use crate::study::table::Table;
 
@@ -35,14 +35,14 @@ pub(crate) fn write(
     subject: &Subject,
     rows: &[Row],
     events: &[EventRow],
-    spacings: &[u32],
+    (spacings, fluids): (&[u32], &Fluids),
     title: &str,
 ) -> Result<Written, FileError> {
     let path = |name: &str| folder.join(name);
     let table = short(subject, rows);
-    atomic::write(&path("verify.csv"), &full(subject, rows, spacings).csv()?)?;
+    atomic::write(&path("verify.csv"), &full(subject, rows, (spacings, fluids)).csv()?)?;
     atomic::write(&path("entry_pressures.csv"), &pressures(rows).csv()?)?;
-    let measured = measured(subject, rows);
+    let measured = measured(subject, rows, fluids);
     let replaced = measured.throats.len();
     // Numbers and texts can always be written.
     let text = serde_json::to_vec_pretty(&measured).unwrap_or_default();
@@ -56,7 +56,7 @@ pub(crate) fn write(
     Ok(Written { table, events: of_events, page: path("verify.html"), replaced, measured: path("measured.json") })
 }
 
-fn measured(subject: &Subject, rows: &[Row]) -> Measured {
+fn measured(subject: &Subject, rows: &[Row], fluids: &Fluids) -> Measured {
     let one = |row: &Row| {
         let (Some(Direct { value, .. }), Ok(cut_out)) = (row.pressure, &row.planned.cut_out) else {
             return None;
@@ -64,7 +64,7 @@ fn measured(subject: &Subject, rows: &[Row]) -> Measured {
         Some(MeasuredThroat {
             index: row.planned.chosen.throat,
             formula_curvature: cut_out.meniscus.curvature,
-            entry_curvature: value / subject.tension,
+            entry_curvature: fluids.in_plane(value),
         })
     };
     Measured {
@@ -103,7 +103,7 @@ fn joined(spacings: &[u32]) -> String {
 }
 
 /// All digits.
-fn full(subject: &Subject, rows: &[Row], spacings: &[u32]) -> Table {
+fn full(subject: &Subject, rows: &[Row], (spacings, fluids): (&[u32], &Fluids)) -> Table {
     let across = joined(spacings);
     let throat = |row: &Row, value: fn(&Throat) -> f64| exact(Some(value(subject.throat(row.planned.chosen.throat))));
     let cut_out =
@@ -132,7 +132,7 @@ fn full(subject: &Subject, rows: &[Row], spacings: &[u32]) -> Table {
             ("status", &|row| row.status.to_string()),
             ("flow_status", &|row| row.flow_status.to_string()),
             ("used", &|row| used(row).to_owned()),
-            ("touch_pressure_Pa", &|row| exact(row.planned.touches.map(|curvature| subject.tension * curvature))),
+            ("touch_pressure_Pa", &|row| exact(row.planned.touches.map(|curvature| fluids.pressure(curvature)))),
             ("walls_left_out", &|row| cut_out(row, &|cut_out| cut_out.left_out.to_string())),
             ("chosen", &|row| row.planned.chosen.reason.clone()),
         ],
@@ -243,15 +243,37 @@ fn short(subject: &Subject, rows: &[Row]) -> Table {
 }
 
 /// One line for each throat that is not as it should be.
-pub(crate) fn notes(rows: &[Row], tension: f64, invading: FluidPhase) -> Vec<String> {
+pub(crate) fn notes(rows: &[Row], fluids: &Fluids, spacings: &[u32]) -> Vec<String> {
     let touch = |row: &Row| {
         let curvature = row.planned.touches?;
         let number = row.planned.chosen.number;
         Some(format!(
             "throat {number}: the {} phase touches another wall at {:.1} Pa, before the burst that is verified here",
-            invading.name(),
-            tension * curvature
+            fluids.invading.name(),
+            fluids.pressure(curvature)
         ))
     };
-    rows.iter().filter_map(touch).collect()
+    rows.iter().filter_map(touch).chain(of_chip(rows, fluids, spacings)).collect()
+}
+
+/// What floor and lid leave open in what was verified.
+fn of_chip(rows: &[Row], fluids: &Fluids, spacings: &[u32]) -> Vec<String> {
+    let (Some(chip), Some(across)) = (fluids.chip, spacings.iter().max()) else { return Vec::new() };
+    let layer = chip.depth.distance() / 12.0_f64.sqrt();
+    let coarse =
+        |row: &&Row| row.planned.cut_out.as_ref().is_ok_and(|cut_out| cut_out.width > layer * f64::from(*across));
+    let mut found = vec![
+        "both sides curve menisci over the depth, and thin them by corner films below 45 degrees, by the same formula: what is verified is the curvature in \
+         the plane, the friction and the numbers, not that formula"
+            .to_owned(),
+    ];
+    let coarse: Vec<String> = rows.iter().filter(coarse).map(|row| row.planned.chosen.number.to_string()).collect();
+    if !coarse.is_empty() {
+        found.push(format!(
+            "throats {}: the finest spacing is above depth/sqrt(12), {layer:.2e} m, the layer in which the flow slows down beside walls, so that the direct \
+             conductance is too large by some percent; take more spacings across",
+            coarse.join(", ")
+        ));
+    }
+    found
 }

@@ -1,6 +1,6 @@
 //! What the runs of the cut-outs say, beside the formula.
 
-use super::case_text::Fluids;
+use super::fluids::Fluids;
 use super::plan::{Kind, Planned, case_name};
 use crate::network::cycles::FluidPhase;
 use crate::study::results::{RunResult, Standing};
@@ -135,20 +135,14 @@ pub(super) fn unfinished(runs: &[Run]) -> Option<Status> {
 }
 
 /// The row of a throat; `spacings` in their order.
-pub(crate) fn row<'a>(
-    planned: &'a Planned,
-    tension: f64,
-    fluids: &Fluids,
-    spacings: &[u32],
-    results: &[RunResult],
-) -> Row<'a> {
+pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], results: &[RunResult]) -> Row<'a> {
     let curvature = planned.cut_out.as_ref().map_or(f64::NAN, |cut_out| cut_out.meniscus.curvature);
     let runs = |kind: Kind| runs_of(planned.chosen.number, kind, spacings, results);
     let (entries, flows) = (runs(Kind::Entry), runs(Kind::Flow));
     let all = || entries.iter().chain(&flows).filter(|run| run.is_complete());
     let mut row = Row {
         planned,
-        pressure_formula: tension * curvature,
+        pressure_formula: fluids.pressure(curvature),
         pressure: None,
         conductance: None,
         status: Status::Open,

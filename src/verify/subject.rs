@@ -1,6 +1,10 @@
 //! What is verified: a network with its menisci, and how its first displacement went up to breakthrough.
 
-use crate::case::{Case, Fluid, Model};
+use std::f64::consts::PI;
+
+use super::fluids::Chip;
+use crate::case::{Case, Fluid, Model, on_plates};
+use crate::interface::depth::Depth;
 use crate::interface::menisci::Passage;
 use crate::network::cycles::{Cycles, Entry, FluidPhase};
 use crate::network::displacement::{Conditions, Displacement, Event, EventKind, Scene};
@@ -33,6 +37,8 @@ pub struct Subject {
     pub tension: f64,
     /// The wetting and the non-wetting phase, where the case gives them.
     pub fluids: [Option<Fluid>; 2],
+    /// Floor and lid; none in the plane.
+    pub chip: Option<Chip>,
     /// The phase that invades first.
     pub invading: FluidPhase,
     /// What it invades under.
@@ -48,15 +54,20 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// The network of a case in the plane, displaced once: floor and lid add what they add to every throat.
+    /// The network of a case, displaced once. Curvatures are those in the plane: floor and lid change no order.
     pub fn new(case: &Case) -> Result<Self, SubjectError> {
         let Model::Network(wanted) = &case.model else { return Err(SubjectError::NoNetwork) };
         let Some(interface) = &wanted.interface else { return Err(SubjectError::NoInterface) };
-        let solver = build_still(&Case { depth: None, ..case.clone() }, wanted)?;
+        let solver = build_still(case, wanted)?;
         let half = solver.cycles().map(|cycles| cycles.half_cycles()[0].clone());
         let invading = half.as_ref().map_or(FluidPhase::NonWetting, |half| half.invading);
         let conditions = half.map(|half| half.conditions).or_else(|| solver.setting().entry.clone());
         let Some(conditions) = conditions else { return Err(SubjectError::NoInterface) };
+        let receding_or_advancing = usize::from(invading == FluidPhase::Wetting);
+        let plates = on_plates(&interface.wetting_model, &interface.patches, |model| {
+            model.hysteresis_range()[receding_or_advancing]
+        });
+        let chip = solver.setting().depth_met_by(invading).map(|depth| Chip { plates, depth });
         let history = solver.cycles().map(first_half_cycle).unwrap_or_default();
         let setting = solver.setting();
         let fresh = Displacement::new(&setting.network, &setting.pores, conditions.clone());
@@ -66,6 +77,7 @@ impl Subject {
         Ok(Self {
             tension: interface.tension,
             fluids: [wanted.wetting, wanted.non_wetting],
+            chip,
             invading,
             conditions,
             overlapped: overlaps.filter_map(|entry| entry.throat).collect(),
@@ -95,6 +107,12 @@ impl Subject {
     pub fn entry(&self, throat: usize) -> Option<(usize, f64)> {
         let burst = |to| Some((to, self.passage(throat, to)?.0.burst()?.curvature));
         [1, 0].into_iter().filter_map(burst).reduce(|best, next| if next.1 > best.1 { next } else { best })
+    }
+
+    /// Whether walls of a contact angle through the defending phase (rad) have the corner films that the network computes with: those of all walls.
+    pub(crate) fn has_its_films(&self, angle: f64) -> bool {
+        let angle = if self.invading == FluidPhase::NonWetting { angle } else { PI - angle };
+        self.chip.is_none_or(|Chip { plates, depth }| Depth::new(depth.distance(), angle, plates).has_films_of(&depth))
     }
 
     /// The menisci of an event of the first half cycle.

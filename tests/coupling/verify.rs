@@ -9,14 +9,14 @@ use meniscus::geometry::Geometry;
 use meniscus::input::Overrides;
 use meniscus::math::Vec2;
 use meniscus::network::conductance::conductances;
-use meniscus::network::displacement::{Conditions, Displacement, EventKind, Events, Trapping};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, EventKind, Events, Trapping};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 use meniscus::study;
-use meniscus::verify::case_text::Fluids;
 use meniscus::verify::choose::{Choice, ChoiceError, choose};
 use meniscus::verify::cut_out::CutOut;
 use meniscus::verify::events::{EventChoice, EventError, PlannedEvent, choose_events};
+use meniscus::verify::fluids::Fluids;
 use meniscus::verify::plan::{Plan, Planned, write};
 use meniscus::verify::subject::Subject;
 use meniscus::verify::whole_pore::WholePore;
@@ -69,6 +69,7 @@ fn own_throat(cut_out: &CutOut) -> (f64, f64) {
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
+        films: CornerFilms::Absent,
     };
     let displacement = Displacement::new(&network, &pores, conditions);
     let burst = |to| displacement.passage_through(middle, to).unwrap().0.burst().unwrap().curvature;
@@ -140,7 +141,8 @@ fn the_invading_phase_ends_at_the_meniscus() {
 fn cases_and_study_load_and_a_case_changed_by_hand_is_kept() {
     let folder = tempfile::tempdir().unwrap();
     let subject = subject(folder.path(), EDGES, 60.0, &[]);
-    let fluids = Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading };
+    let fluids =
+        Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading, chip: subject.chip };
     let all = planned(&subject);
     let out = folder.path().join("out");
     let plan = Plan { throats: &all, events: &[], fluids: &fluids, spacings: &[6, 8], network: "grains.toml" };
@@ -171,7 +173,8 @@ fn no_case_of_a_cut_out_is_refused() {
         std::fs::write(&path, case(&shapes, angle, "")).unwrap();
         let loaded = load(&path, &Overrides::default()).unwrap_or_else(|error| panic!("{}", error.render()));
         let Ok(subject) = Subject::new(&loaded.case) else { continue };
-        let fluids = Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading };
+        let fluids =
+            Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading, chip: subject.chip };
         let (all, events) = (planned(&subject), planned_events(&subject));
         cut += all.iter().filter(|one| one.cut_out.is_ok()).count();
         let plan = Plan { throats: &all, events: &events, fluids: &fluids, spacings: &[8], network: "grains.toml" };
@@ -219,6 +222,7 @@ fn has_event(cut_out: &WholePore) -> bool {
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
+        films: CornerFilms::Absent,
     };
     let is_it = |curvature: f64| (curvature - cut_out.curvature).abs() < 1e-7 / cut_out.width;
     Displacement::new(&network, &Pores::merged(&network, 1.0), conditions)
@@ -353,6 +357,49 @@ fn one_throat_is_verified_and_its_value_taken_up() {
     assert!(stderr(&again).contains("was complete") || !stderr(&again).contains("begun"), "{}", stderr(&again));
     assert_eq!(first_row(&at.join("out/verify.csv")), row);
     taken_up(at, discs, number("pc_formula_Pa"));
+}
+
+/// Two discs and a block, 150 µm and more apart.
+const DISCS: &str = "{ disc = { center = [8.0e-4, 2.0e-4], radius = 3.0e-4 } }, { disc = { center = [8.0e-4, 9.0e-4], radius = 2.5e-4 } }, \
+                     { rectangle = { center = [8.0e-4, 1.4e-3], size = [6.0e-4, 5.0e-4] } }";
+
+#[test]
+fn a_throat_of_a_chip_is_verified_with_its_depth() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("two.toml"), case(DISCS, 50.0, "")).unwrap();
+    let set =
+        ["--set", "geometry.depth=1.5e-4", "--set", "network.wetting.patches=[{plate=\"lid\",contact-angle-deg=70.0}]"];
+    let verify = ["network", "verify", "two.toml", "--throats", "critical", "--spacings", "6,8", "--threads", "1"];
+    let output = meniscus(at, &[&verify[..], &["--out", "out"], &set].concat());
+    assert_code(&output, 0);
+    let row = first_row(&at.join("out/verify.csv"));
+    let number = |name: &str| row[name].parse::<f64>().unwrap();
+    assert_eq!((row["status"].as_str(), row["flow_status"].as_str()), ("ok", "ok"), "{row:?}");
+    // Of the network with the same depth.
+    assert_code(&meniscus(at, &[&["run", "two.toml", "--out", "run"], &set[..]].concat()), 0);
+    let mut throats = csv::Reader::from_path(at.join("run/throats.csv")).unwrap();
+    let heads = throats.headers().unwrap().clone();
+    let place = heads.iter().position(|head| head == "entry_pressure_Pa").unwrap();
+    let of_network = throats.records().nth(number("throat") as usize).unwrap().unwrap()[place].parse::<f64>().unwrap();
+    assert!((number("pc_formula_Pa") / of_network - 1.0).abs() < 1e-12, "{row:?} {of_network}");
+    assert!(number("pc_difference_percent").abs() < 1.0, "{row:?}");
+    // 16 % at eight spacings and 12 % at sixteen, 4 % in the plane; the conductance of the plane is 300 % off.
+    assert!(number("g_difference_percent").abs() < 20.0, "{row:?}");
+    assert!(stdout(&output).contains("both sides curve menisci over the depth"), "{}", stdout(&output));
+}
+
+#[test]
+fn walls_with_other_films_than_the_network_computes_with_have_no_cut_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let on_all = "network.wetting.patches=[{shape=0,contact-angle-deg=10.0},{shape=1,contact-angle-deg=10.0},{shape=2,contact-angle-deg=10.0}]";
+    let all_planned = |depth: &[&str]| planned(&subject(folder.path(), DISCS, 50.0, &[&[on_all], depth].concat()));
+    let made = |all: &[Planned]| all.iter().filter(|one| one.cut_out.is_ok()).count();
+    let (plane, chip) = (all_planned(&[]), all_planned(&["geometry.depth=1.5e-4"]));
+    assert!(made(&plane) > 0 && made(&chip) < made(&plane));
+    assert!(
+        chip.iter().any(|one| one.cut_out.as_ref().is_err_and(|why| why.to_string().contains("films in the corners")))
+    );
 }
 
 /// A measured value that is a tenth higher moves the breakthrough; one of another geometry is refused.

@@ -167,6 +167,20 @@ fn every_column_of_the_series_is_described() {
     }
 }
 
+/// The second words of the rows of a table in `src/sph/measures/chip.rs`: names of values of all of the depth.
+fn of_chip(table: &str) -> Vec<String> {
+    let source = text("src/sph/measures/chip.rs");
+    let rows = source.split(&format!("const {table}:")).nth(1).and_then(|rest| rest.split("];").next()).unwrap();
+    let names: Vec<String> = rows.lines().filter_map(|row| row.split('"').nth(3)).map(str::to_owned).collect();
+    assert!(names.len() > 3, "{rows}");
+    names
+}
+
+#[test]
+fn every_column_of_a_depth_is_described() {
+    assert_eq!(names(&section(&page("docs/reference/output.md"), "Series columns of a depth")), of_chip("COLUMNS"));
+}
+
 #[test]
 fn every_array_is_described_with_its_unit() {
     for (case, title) in [(FLOW, "Arrays"), (FILM, "Film arrays")] {
@@ -257,6 +271,7 @@ fn every_measure_is_described() {
         let axes = source.split("of_axis(").skip(1).filter_map(|rest| rest.split_once(", \"")?.1.split_once("\")"));
         there.extend(axes.map(|(name, _)| name.to_owned()));
     }
+    there.extend(of_chip("MEASURES"));
     there.insert(meniscus::run::report::STEADY_AT.to_owned());
     assert!(there.contains("contact-angle-deg") && there.contains("permeability-x-m2"), "{there:?}");
     assert_eq!(set(names(&page("docs/reference/measures.md").rows())), there);

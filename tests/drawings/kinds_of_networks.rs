@@ -4,7 +4,7 @@
 use meniscus::geometry::Geometry;
 use meniscus::geometry::import::Options;
 use meniscus::geometry::spec::GeometrySpec;
-use meniscus::network::displacement::{Conditions, Displacement, Events, Phase};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 
@@ -34,6 +34,7 @@ fn drained(name: &str, [inlet, outlet]: [usize; 2], angle_deg: f64, trapping: bo
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
+        films: CornerFilms::Absent,
     };
     let mut state = Displacement::new(&network, &Pores::merged(&network, 0.95), conditions);
     let (mut breakthrough, mut last) = (f64::INFINITY, 0.0);

@@ -8,7 +8,7 @@ use meniscus::geometry::import::Options;
 use meniscus::geometry::spec::GeometrySpec;
 use meniscus::interface::menisci::{Hand, Passage, Wall, WallPart};
 use meniscus::math::Vec2;
-use meniscus::network::displacement::{Conditions, Displacement, Events, Phase};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores, Throat};
 use serde_json::Value;
@@ -33,6 +33,7 @@ fn conditions(angle_deg: f64, shapes: usize, trapping: bool) -> Conditions {
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
+        films: CornerFilms::Absent,
     }
 }
 

@@ -60,10 +60,11 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
 ];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
-const ONE_PLACE: [(&str, &[&str]); 19] = [
+const ONE_PLACE: [(&str, &[&str]); 20] = [
     ("parry2d_f64", &["geometry/"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/"]),
+    ("clap_mangen", &["cli/"]),
     ("indicatif", &["cli/"]),
     ("ctrlc", &["cli/"]),
     ("signal_hook", &["cli/"]),

@@ -2,7 +2,7 @@
 
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::ShapeSpec;
-use meniscus::network::displacement::{Conditions, Displacement, Events, Trapping};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Trapping};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 
@@ -26,6 +26,7 @@ fn drained(shapes: Vec<ShapeSpec>, angle_deg: f64) -> Option<[f64; 2]> {
         events: Events::All,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
+        films: CornerFilms::Absent,
     };
     let mut displacement = Displacement::new(&network, &Pores::merged(&network, 0.95), conditions);
     let mut breakthrough = f64::NAN;

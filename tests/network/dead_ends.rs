@@ -1,7 +1,7 @@
 //! Dead ends beside a channel: what they hold stays where nothing can leave them, and leaves at 2 cos θ/w where films drain it.
 
 use meniscus::geometry::spec::ShapeSpec;
-use meniscus::network::displacement::{Conditions, Displacement, Events, Phase};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 
@@ -93,6 +93,7 @@ impl DeadEnd {
             events: Events::All,
             largest_curvature: f64::INFINITY,
             measured: Vec::new(),
+            films: CornerFilms::Absent,
         };
         Displacement::new(&network, &Pores::merged(&network, 0.95), conditions)
     }

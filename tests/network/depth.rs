@@ -129,6 +129,20 @@ fn floor_and_lid_may_have_angles_of_their_own() {
 }
 
 #[test]
+fn relative_permeabilities_are_those_of_ducts() {
+    let of = |depth: &str| {
+        let set = ["network.wetting={young={contact-angle-deg=60.0}}", "network.stop={breakthrough=true}", "expect=[]"];
+        let set: Vec<&str> = set.into_iter().chain((!depth.is_empty()).then_some(depth)).collect();
+        measures(to_the_end(&loaded(&named("drainage"), &set)).as_ref())
+    };
+    let [plane, deep, shallow] = ["", "geometry.depth=1.0", "geometry.depth=5e-6"].map(of);
+    const NAME: &str = "relative-permeability-non-wetting";
+    // Wide throats conduct less between close plates than the third power of their width says.
+    assert!(plane[NAME] > 0.0 && (deep[NAME] / plane[NAME] - 1.0).abs() < 1e-3, "{plane:?} {deep:?}");
+    assert!((shallow[NAME] / plane[NAME] - 1.0).abs() > 0.01, "{plane:?} {shallow:?}");
+}
+
+#[test]
 fn a_displacement_in_time_is_that_of_the_plane_where_the_chip_is_deep() {
     // So deep that it is plane.
     let set = ["network.wetting={young={contact-angle-deg=60.0}}", "expect=[]"];
@@ -166,4 +180,25 @@ fn in_time_pores_are_invaded_at_the_pressures_of_events() {
             assert!(known.len() > 5 && known.iter().all(|pressure| events.contains(pressure)), "{process} {depth}");
         }
     }
+}
+
+#[test]
+fn relative_permeabilities_have_the_conductances_of_the_chip() {
+    // Wide and narrow ways: in the plane the wide one carries (2/1)^3 times as much, in a shallow chip twice as much.
+    let of = |depth: &str| {
+        let set = ["expect=[]", "network.wetting={young={contact-angle-deg=60.0}}", depth];
+        let case = loaded(&named("drainage"), if depth.is_empty() { &set[..2] } else { &set });
+        let table = columns(&case, "relative_permeability.csv", ["relative_permeability_wetting", "saturation"]);
+        table.into_iter().map(|row| row.map(|cell| cell.parse::<f64>().unwrap())).collect::<Vec<_>>()
+    };
+    let (plane, deep, shallow) = (of(""), of("geometry.depth=1.0"), of("geometry.depth=1e-6"));
+    assert!(plane.len() > 4 && plane.len() == deep.len() && plane.len() == shallow.len());
+    let mut most = 0.0_f64;
+    for ((plane, deep), shallow) in plane.iter().zip(&deep).zip(&shallow) {
+        assert!(plane[1] == deep[1] && plane[1] == shallow[1]);
+        assert!((plane[0] - deep[0]).abs() < 1e-3, "{plane:?} {deep:?}");
+        most = most.max((plane[0] - shallow[0]).abs());
+    }
+    // The depth decides how much narrow throats count.
+    assert!(most > 0.01, "{most}");
 }

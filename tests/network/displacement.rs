@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::{Disc, GeometrySpec, ShapeSpec, SolidSide};
-use meniscus::network::displacement::{Conditions, Displacement, Event, EventKind, Events, Phase};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Event, EventKind, Events, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores};
 
@@ -42,6 +42,7 @@ fn conditions(angle_deg: f64, shapes: usize, trapping: bool, events: Events) -> 
         events,
         largest_curvature: f64::INFINITY,
         measured: Vec::new(),
+        films: CornerFilms::Absent,
     }
 }
 

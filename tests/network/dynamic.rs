@@ -5,7 +5,7 @@ use std::sync::Arc;
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::{GeometrySpec, ShapeSpec, SolidSide};
 use meniscus::network::conductance::conductances;
-use meniscus::network::displacement::{Conditions, Displacement, Events};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events};
 use meniscus::network::dynamic::{Drive, Dynamic, StepEnd, Terms};
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores};
@@ -50,6 +50,7 @@ impl Pack {
             events: Events::All,
             largest_curvature: f64::INFINITY,
             measured: Vec::new(),
+            films: CornerFilms::Absent,
         };
         Displacement::new(&self.network, &self.pores, conditions)
     }

@@ -11,6 +11,7 @@ mod dead_ends;
 mod depth;
 mod displacement;
 mod dynamic;
+mod films;
 mod generated;
 mod invariants;
 mod packs;

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use meniscus::geometry::Geometry;
 use meniscus::geometry::spec::{Disc, GeometrySpec, Polygon, ShapeSpec, SolidSide};
 use meniscus::math::Vec2;
-use meniscus::network::displacement::{Conditions, Displacement, Events, Phase};
+use meniscus::network::displacement::{Conditions, CornerFilms, Displacement, Events, Phase};
 use meniscus::network::extract;
 use meniscus::network::graph::{Network, Pores};
 use rayon::prelude::*;
@@ -151,6 +151,7 @@ impl Outcome {
                 events: Events::All,
                 largest_curvature: f64::INFINITY,
                 measured: Vec::new(),
+                films: CornerFilms::Absent,
             }
         };
         let pores = Pores::merged(network, 0.95);

@@ -113,7 +113,11 @@ fn ranges(schema: &Value, whole: &Value, at: &str, found: &mut BTreeMap<String, 
 fn all_ranges() -> BTreeMap<String, [Option<(f64, bool)>; 2]> {
     let (whole, mut found) = (schema(), BTreeMap::new());
     ranges(&whole, &whole, "", &mut found);
-    found.retain(|path, _| !path.contains("shapes") && !path.starts_with("sph.initial.wetting"));
+    found.retain(|path, _| {
+        !path.contains("shapes")
+            && !path.starts_with("sph.initial.wetting")
+            && !path.starts_with("sph.initial.non-wetting")
+    });
     found
 }
 

@@ -68,6 +68,30 @@ fn the_starter_case_meets_its_expectation() {
 }
 
 #[test]
+fn every_command_has_a_manual_page() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(text(&meniscus(&["man"], folder.path()).stdout).contains(".TH meniscus 1"));
+    assert_eq!(meniscus(&["man", "--out", "man"], folder.path()).status.code(), Some(0));
+    for name in ["meniscus", "meniscus-run", "meniscus-network", "meniscus-network-verify", "meniscus-study-plan"] {
+        let page = std::fs::read_to_string(folder.path().join(format!("man/{name}.1"))).unwrap();
+        assert!(page.contains(".SH SYNOPSIS"), "{name}");
+    }
+}
+
+#[test]
+fn a_quiet_command_tells_errors_only() {
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(meniscus(&["new", "mine.toml", "--quiet"], folder.path()).status.code(), Some(0));
+    let short =
+        ["run", "mine.toml", "--quiet", "--set", "sph.spacing=5e-5", "--set", "time.end=1e-5", "--set", "expect=[]"];
+    let run = meniscus(&short, folder.path());
+    assert_eq!(run.status.code(), Some(0));
+    assert!(run.stderr.is_empty() && !run.stdout.is_empty(), "{}", text(&run.stderr));
+    let refused = meniscus(&["-q", "check", "no-such-case.toml"], folder.path());
+    assert!(refused.status.code() == Some(3) && text(&refused.stderr).contains("no-such-case.toml"));
+}
+
+#[test]
 fn the_list_names_the_paper_and_completions_are_a_script() {
     let folder = tempfile::tempdir().unwrap();
     assert!(text(&meniscus(&["list"], folder.path()).stdout).contains("Huber et al. 2013"));

@@ -8,6 +8,7 @@ mod before_a_run;
 mod case_files;
 mod case_schema;
 mod cases;
+mod chip;
 mod command_line;
 mod expectations;
 mod faults;

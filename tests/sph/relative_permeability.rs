@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use meniscus::interface::depth::{duct_factor, profile_factor};
 use meniscus::math::Vec2;
 use meniscus::solver::Solver;
 use meniscus::sph::particles::Phase;
@@ -43,6 +44,30 @@ fn layers_between_plates_have_the_cubes_of_their_shares() {
     assert!(found("unsteady-share") < 1e-3, "{}", found("unsteady-share"));
 }
 
+/// The depth-averaged flow of a duct of the width `ratio` b by the factor `profile` of the profile over the depth, over b²/12.
+fn averaged(ratio: f64, profile: f64) -> f64 {
+    let z = ratio * (3.0 / profile).sqrt();
+    1.0 - z.tanh() / z
+}
+
+/// Ducts: there are no throats, so that the profile is that of a duct as wide as the whole gap.
+#[test]
+fn layers_in_a_chip_have_the_relative_permeability_of_ducts() {
+    for depth in [2e-4, 1e-3] {
+        let found = measures(&[&COARSE[..], &[&format!("geometry.depth={depth:e}")]].concat());
+        let ratio = 1e-3 / depth;
+        let profile = profile_factor(ratio);
+        let layer = |share: f64| share * averaged(share * ratio, profile) / averaged(ratio, profile);
+        for (name, exact) in [
+            ("permeability-m2", depth * depth / 12.0 * duct_factor(ratio)),
+            ("relative-permeability-wetting", layer(0.4)),
+            ("relative-permeability-non-wetting", layer(0.6)),
+        ] {
+            assert!((found(name) / exact - 1.0).abs() < 0.05, "{depth} {name}: {}, not {exact}", found(name));
+        }
+    }
+}
+
 /// Exact by postprocess/stokes_permeability.py at `--across 10`. Eight spacings between disc and drop leave 4.5 % (docs/validation/relative-permeability.md).
 #[test]
 fn trapped_drops_hold_the_flow_back_as_solids_do_and_carry_nothing() {
@@ -70,7 +95,13 @@ fn a_cap_on_a_wall_holds_the_flow_back_as_a_solid_one_does() {
 /// A slow flow has the same permeability with any fluid, and the interface does not move.
 #[test]
 fn neither_the_other_fluid_nor_its_tension_or_angle_changes_a_bit() {
-    let short = ["time.end=3.0e-3"];
+    for depth in [&[][..], &["geometry.depth=2e-4"]] {
+        no_fluid_changes_a_bit(depth);
+    }
+}
+
+fn no_fluid_changes_a_bit(depth: &[&str]) {
+    let short = [&["time.end=3.0e-3"], depth].concat();
     let found = measures(&[&COARSE[..], &short].concat());
     let other = [
         "sph.phases.non-wetting={ density = 1.2, viscosity = 1.8e-5 }",

@@ -13,6 +13,9 @@ pub struct NetworkDisplacement {
     pub process: Process,
     /// What is trapped.
     pub trapping: Trapping,
+    /// Whether there are films of the wetting phase in the corners of a chip.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) films: bool,
     /// Which events move menisci.
     pub(crate) events: Events,
     /// Where it ends early.
@@ -105,6 +108,7 @@ pub(super) fn displacement(checker: &mut Checker, raw: &RawNetwork, initial: Opt
     NetworkDisplacement {
         process,
         trapping: raw.trapping.unwrap_or(true).into(),
+        films: raw.films.unwrap_or_default(),
         events: raw.events.unwrap_or(Events::All),
         stop: stop(checker, raw),
         dynamic: raw
@@ -154,6 +158,7 @@ pub(super) fn refuse_without_inlet(checker: &mut Checker, raw: &RawNetwork) {
         ("process", raw.process.is_some()),
         ("cycles", checker.is_given("network.cycles", raw.cycles.as_ref())),
         ("trapping", raw.trapping.is_some()),
+        ("films", raw.films == Some(true)),
         ("events", raw.events.is_some()),
         ("stop", raw.stop.is_some()),
         ("initial", raw.initial.is_some()),
@@ -180,6 +185,7 @@ pub(super) fn raw_displacement(displacement: &NetworkDisplacement, network: RawN
         process: Some(process),
         cycles,
         trapping: displacement.dynamic.is_none().then_some(displacement.trapping.into()),
+        films: displacement.films.then_some(true),
         events: Some(displacement.events),
         stop: Some(RawStop {
             breakthrough: Some(stop.breakthrough),

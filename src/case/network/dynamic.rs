@@ -72,6 +72,7 @@ pub(super) fn drive(
         ("process", is_cycle, "a cycle", "take drainage or imbibition"),
         ("events", raw.events == Some(Events::Burst), "invasion percolation", "leave events out"),
         ("trapping", raw.trapping.is_some(), "a rule for trapping", "leave it out: what cannot flow out is trapped"),
+        ("films", raw.films == Some(true), "what corner films do at rest", "leave films out"),
         (
             "stop.capillary-pressure",
             raw.stop.as_ref().is_some_and(|stop| stop.capillary_pressure.is_some()),

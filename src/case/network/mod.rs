@@ -2,6 +2,7 @@
 
 mod displacement;
 mod dynamic;
+mod films;
 pub(crate) mod measured;
 mod pore_network;
 pub mod state;
@@ -10,6 +11,7 @@ mod table;
 pub use displacement::Trapping;
 pub(crate) use displacement::{NetworkDisplacement, Process, Stop};
 pub use dynamic::{DEFAULT_LARGEST_STEP, Drive, DynamicDrive};
+pub(super) use films::refuse_films;
 pub(crate) use pore_network::{NetworkInterface, PoreNetwork};
 pub(super) use pore_network::{network, raw};
 pub use table::Events;

@@ -46,7 +46,7 @@ pub struct NetworkState {
     pub tension_n_per_m: f64,
     /// The applied curvature, at which all menisci rest but those around what is trapped. In the middle of an avalanche it is that of the next event.
     pub applied_curvature_per_m: f64,
-    /// Tension times that.
+    /// Tension times that; in a chip with a depth what floor and lid add comes to it.
     pub capillary_pressure_pa: f64,
     /// The largest curvature that was applied so far; absent before the first event.
     pub largest_applied_curvature_per_m: Option<f64>,
@@ -60,6 +60,9 @@ pub struct NetworkState {
     pub elements: Vec<ElementState>,
     /// All menisci.
     pub menisci: Vec<MeniscusState>,
+    /// Throats of the network before the merge that films have closed; they hold no volume. Absent where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub snapped_throats: Vec<usize>,
     /// The boundary of the invading phase along walls and menisci, the phase on its left: numbers of segments and arcs.
     pub invading_outline: Vec<Vec<f64>>,
 }
@@ -131,6 +134,7 @@ impl NetworkState {
             saturation_with_menisci: None,
             elements: Vec::new(),
             menisci: Vec::new(),
+            snapped_throats: Vec::new(),
             invading_outline: Vec::new(),
         }
     }

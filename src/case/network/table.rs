@@ -29,6 +29,9 @@ tables! {
         pub cycles: u32 => Key::within("a number of cycles", 1.0, 100.0),
         /// Traps defending regions without a path to the outlet; else films drain them (default true).
         pub trapping: bool,
+        /// Films of the wetting phase in corners with floor and lid: they let it out and in, and close throats where they meet; needs `geometry.depth`
+        /// (default false).
+        pub films: bool,
         /// Burst, touch and overlap, or burst alone (invasion percolation) (default `all`).
         pub events: Events,
         /// Half width of a throat over the smaller inscribed radius, above which its pores are one (default 0.95).

@@ -63,11 +63,20 @@ impl Format {
 /// Pixels along the longer side of a mask whose pixel size is not given.
 const MASK_PIXELS: f64 = 2048.0;
 
-/// The bytes of a drawing of a specification without problems. `pixel` is the side of a pixel of a mask in m.
-pub fn write(spec: &GeometrySpec, format: Format, pixel: Option<f64>) -> Result<Vec<u8>, ExportError> {
+/// What single formats hold beside the shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Beside {
+    /// Side of a pixel of a mask in m.
+    pub pixel: Option<f64>,
+    /// Distance of floor and lid in m, which a TOML shape file has a place for.
+    pub depth: Option<f64>,
+}
+
+/// The bytes of a drawing of a specification without problems.
+pub fn write(spec: &GeometrySpec, format: Format, beside: Beside) -> Result<Vec<u8>, ExportError> {
     let spec = &plain(spec)?;
     Ok(match format {
-        Format::Toml => text::toml(spec)?.into_bytes(),
+        Format::Toml => text::toml(spec, beside.depth)?.into_bytes(),
         Format::Svg => svg::svg(&Sheet::of(spec)).into_bytes(),
         Format::Dxf => dxf::dxf(&Sheet::of(spec))?,
         Format::Wkt => text::well_known_text(&Sheet::of(spec)).into_bytes(),
@@ -75,7 +84,7 @@ pub fn write(spec: &GeometrySpec, format: Format, pixel: Option<f64>) -> Result<
         Format::Discs => text::discs(&Sheet::of(spec))?.into_bytes(),
         Format::Png => {
             let sheet = Sheet::of(spec);
-            mask::png(&sheet, pixel.unwrap_or(sheet.frame.size().max() / MASK_PIXELS))?
+            mask::png(&sheet, beside.pixel.unwrap_or(sheet.frame.size().max() / MASK_PIXELS))?
         }
     })
 }

@@ -108,10 +108,14 @@ pub(super) fn discs(sheet: &Sheet) -> Result<String, ExportError> {
     if others == 0 { Ok(text) } else { Err(ExportError::NoDisc { others, all: sheet.outlines.len() }) }
 }
 
-/// A shape file, one shape a line.
-pub(super) fn toml(spec: &GeometrySpec) -> Result<String, ExportError> {
+/// A shape file, one shape a line, with its depth in m where there is one.
+pub(super) fn toml(spec: &GeometrySpec, depth: Option<f64>) -> Result<String, ExportError> {
     let pair = |[x, y]: [f64; 2]| format!("[{x:?}, {y:?}]");
     let mut text = format!("format = 1\nmin = {} # m\nmax = {}\n", pair(spec.min), pair(spec.max));
+    if let Some(depth) = depth {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "depth = {depth:?} # from the floor to the lid");
+    }
     if spec.solid == SolidSide::Outside {
         text += "solid = \"outside\"\n";
     }

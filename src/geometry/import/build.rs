@@ -28,6 +28,8 @@ const LARGEST: f64 = 1e15;
 pub struct Imported {
     /// Domain and shapes in m.
     pub spec: GeometrySpec,
+    /// Distance of floor and lid in m, where the file has one: only our own shape files do.
+    pub depth: Option<f64>,
     /// One sentence each: unit, what was read, recognized, repaired, not used.
     pub notes: Vec<String>,
 }
@@ -91,7 +93,7 @@ pub(crate) fn build(drawing: Drawing, format: Format, options: &Options) -> Resu
     let spec = GeometrySpec { min: domain.min.into(), max: domain.max.into(), solid, shapes };
     let problems = spec.problems();
     if problems.is_empty() {
-        Ok(Imported { spec, notes: notes.lines(options) })
+        Ok(Imported { spec, depth: None, notes: notes.lines(options) })
     } else {
         Err(Refused::Shapes(problems.into_iter().map(|problem| placed(problem, &places)).collect()))
     }
@@ -116,7 +118,7 @@ pub(crate) fn windowed(mut spec: GeometrySpec, options: &Options) -> Result<Impo
     let key = if options.window.is_some() { "window" } else { "invert" };
     let problems = if options.window.is_some() || options.is_inverted() { spec.problems() } else { Vec::new() };
     if problems.is_empty() {
-        return Ok(Imported { spec, notes });
+        return Ok(Imported { spec, depth: None, notes });
     }
     Err(problems.into_iter().map(|problem| Problem { path: key.into(), ..problem }).collect())
 }

@@ -37,6 +37,10 @@ fn color_at(share: f64) -> Rgb {
     [mix(0), mix(1), mix(2)]
 }
 
+/// The color of strips, and the least width in pixels that is seen.
+const STRIP: Rgb = [0, 114, 178];
+const THINNEST: f32 = 2.0;
+
 /// Draws a map as a PNG file.
 pub(crate) fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, PictureError> {
     let [min, max] = mosaic.bounds.map(Vec2::from);
@@ -58,6 +62,10 @@ pub(crate) fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, Pi
     // Thousands of grains leave no room for thick lines.
     const FEW: usize = 500;
     let thin = if mosaic.walls.len() < FEW { 1.0 } else { 0.4 };
+    for (line, width) in &mosaic.strips.1 {
+        let width = ((width * view.scale) as f32).max(THINNEST);
+        canvas.polyline(line.iter().map(|&x| view.place(x.into())), width, STRIP);
+    }
     for wall in &mosaic.walls {
         canvas.polyline(wall.iter().map(|&x| view.place(x.into())), 1.5 * thin, OUTLINE);
     }
@@ -102,7 +110,8 @@ fn legend(canvas: &mut Canvas, mosaic: &Mosaic, y: f32) {
     let is_there = |class: usize| mosaic.areas.iter().any(|area| area.tone == Tone::Class(class));
     let classes = mosaic.classes.iter().enumerate().filter(|(class, _)| is_there(*class)).map(|(_, entry)| *entry);
     let lines = Some((mosaic.lines.0, INTERFACE)).filter(|_| !mosaic.lines.1.is_empty());
-    let entries: Vec<(&str, Rgb)> = classes.chain([("solid", SOLID)]).chain(lines).collect();
+    let strips = Some((mosaic.strips.0, STRIP)).filter(|_| !mosaic.strips.1.is_empty());
+    let entries: Vec<(&str, Rgb)> = classes.chain([("solid", SOLID)]).chain(lines).chain(strips).collect();
     canvas.legend(&entries, [WIDTH as f32 - RIM, y], TEXT_SIZE);
 }
 
@@ -123,6 +132,7 @@ mod tests {
             areas: vec![square(0.0, Tone::Value(2.0)), square(1.0, Tone::Class(0)), square(2.0, Tone::Value(0.0))],
             walls: vec![vec![[3.0, 0.0], [3.0, 1.0]]],
             lines: ("menisci", vec![vec![[1.0, 0.0], [1.0, 1.0]]]),
+            strips: ("films", Vec::new()),
         }
     }
 

@@ -20,6 +20,24 @@ pub struct Conditions {
     pub largest_curvature: f64,
     /// Bursts that were measured.
     pub measured: Vec<MeasuredBurst>,
+    /// What films in corners do.
+    pub films: CornerFilms,
+}
+
+/// What films of the wetting phase in the corners of a chip do to a displacement.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum CornerFilms {
+    /// There are none.
+    #[default]
+    Absent,
+    /// The defending phase flows out through them: none of it is trapped.
+    Drain,
+    /// The invading phase flows in through them: all of it takes part, and it closes throats where films meet.
+    Join {
+        /// For each throat of the network the curvature in the plane (1/m, above 0 into the defending phase) at which its films meet; infinite where
+        /// they do not.
+        meeting: Vec<f64>,
+    },
 }
 
 /// A burst that was measured, in place of that of the formula.

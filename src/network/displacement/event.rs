@@ -12,6 +12,10 @@ pub enum EventKind {
     Touch,
     /// It met its neighbor on the wall between them.
     Overlap,
+    /// No meniscus moved: the films in a throat met and closed it.
+    SnapOff,
+    /// It passed a throat that films had closed, and the invading phase is joined again.
+    Reconnection,
 }
 
 impl EventKind {
@@ -21,6 +25,8 @@ impl EventKind {
             Self::Burst => "burst",
             Self::Touch => "touch",
             Self::Overlap => "overlap",
+            Self::SnapOff => "snap-off",
+            Self::Reconnection => "reconnection",
         }
     }
 }

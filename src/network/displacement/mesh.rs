@@ -194,9 +194,9 @@ impl Mesh {
         self.element_of[self.gates[gate].places[end].0]
     }
 
-    /// The elements beside an element, one for each of its gates that leads to another one.
-    pub(crate) fn neighbors(&self, element: usize) -> impl Iterator<Item = usize> + '_ {
-        let gates = self.elements[element].gates.iter();
+    /// The elements beside an element, one for each of its gates that is not closed and leads to another one.
+    pub(crate) fn neighbors<'a>(&'a self, closed: &'a [bool], element: usize) -> impl Iterator<Item = usize> + 'a {
+        let gates = self.elements[element].gates.iter().filter(|&&(gate, _)| !closed[gate]);
         gates.map(|&(gate, end)| self.element(gate, 1 - end)).filter(move |&other| other != element)
     }
 }

@@ -7,7 +7,9 @@
 //! one element they fill it; where several lie in between, a grain stands ahead, and the joined meniscus fills all of them once it
 //! bursts or touches. Pressures are curvatures here: times the tension they are p_invading − p_defending.
 //!
-//! Left out: areas swept by menisci between events, overlaps of a joined meniscus with a third one, films and corner flow.
+//! Films in the corners of a chip let the wetting phase out and in, and close throats where they meet (`snap_off`).
+//!
+//! Left out: areas swept by menisci between events, overlaps of a joined meniscus with a third one.
 
 mod conditions;
 mod dead_ends;
@@ -21,12 +23,13 @@ mod outflow;
 mod outline;
 mod progress;
 mod sequence;
+mod snap_off;
 mod standing;
 mod trapping;
 mod wall_chains;
 mod walls;
 
-pub use self::conditions::{Conditions, MeasuredBurst};
+pub use self::conditions::{Conditions, CornerFilms, MeasuredBurst};
 pub(crate) use self::driven::{Advance, FrontId, GateFacts};
 pub use self::event::EventKind;
 pub(crate) use self::involved::{Place, Scene};

@@ -17,14 +17,14 @@ pub(super) struct Outflow {
 
 impl Outflow {
     /// Ways to the elements marked as outlets, whatever they hold, through the elements marked as defending.
-    pub(crate) fn new(mesh: &Mesh, defends: &[bool], is_outlet: &[bool]) -> Self {
+    pub(crate) fn new(mesh: &Mesh, closed: &[bool], defends: &[bool], is_outlet: &[bool]) -> Self {
         let mut next = vec![None; defends.len()];
         let mut queue: Vec<usize> = (0..defends.len()).filter(|&e| is_outlet[e]).collect();
         queue.iter().for_each(|&e| next[e] = Some(e));
         let mut at = 0;
         while let Some(&element) = queue.get(at) {
             at += 1;
-            for other in mesh.neighbors(element) {
+            for other in mesh.neighbors(closed, element) {
                 if defends[other] && next[other].is_none() {
                     next[other] = Some(element);
                     queue.push(other);
@@ -40,28 +40,50 @@ impl Outflow {
     }
 
     /// Takes an element out, and returns those that have lost their way for good.
-    pub(crate) fn remove(&mut self, mesh: &Mesh, element: usize) -> Vec<usize> {
+    pub(crate) fn remove(&mut self, mesh: &Mesh, closed: &[bool], element: usize) -> Vec<usize> {
         if self.next[element] == Some(element) {
             return Vec::new();
         }
         self.next[element] = None;
-        // All whose way led through the element, the nearest first.
-        let (mut lost, mut through) = (Vec::new(), Some(element));
-        let mut at = 0;
-        while let Some(cut) = through {
-            for other in mesh.neighbors(cut) {
-                if other != cut && self.next[other] == Some(cut) {
-                    self.next[other] = None;
-                    lost.push(other);
-                }
+        let lost = self.cut_from(mesh, closed, element);
+        self.mend(mesh, closed, lost)
+    }
+
+    /// Takes a gate between two elements out, which is closed already, and returns those that have lost their way for good.
+    pub(crate) fn close(&mut self, mesh: &Mesh, closed: &[bool], [one, other]: [usize; 2]) -> Vec<usize> {
+        if mesh.neighbors(closed, one).any(|beside| beside == other) {
+            return Vec::new();
+        }
+        let through = [(one, other), (other, one)].into_iter().find(|&(from, to)| self.next[from] == Some(to));
+        let Some((from, _)) = through.filter(|_| one != other) else { return Vec::new() };
+        self.next[from] = None;
+        self.mend(mesh, closed, vec![from])
+    }
+
+    /// Takes the way from all beside an element whose way leads through it.
+    fn cut_from(&mut self, mesh: &Mesh, closed: &[bool], element: usize) -> Vec<usize> {
+        let mut lost = Vec::new();
+        for other in mesh.neighbors(closed, element) {
+            if other != element && self.next[other] == Some(element) {
+                self.next[other] = None;
+                lost.push(other);
             }
-            through = lost.get(at).copied();
+        }
+        lost
+    }
+
+    /// Finds new ways for elements that have lost theirs and for all whose way led through them; returns those that have none.
+    fn mend(&mut self, mesh: &Mesh, closed: &[bool], mut lost: Vec<usize>) -> Vec<usize> {
+        // The nearest first.
+        let mut at = 0;
+        while let Some(&cut) = lost.get(at) {
             at += 1;
+            lost.extend(self.cut_from(mesh, closed, cut));
         }
         // New ways begin where one of them lies beside an element that has a way, and spread among the others.
         let mut queue = Vec::new();
         for &cut in &lost {
-            if let Some(way) = mesh.neighbors(cut).find(|&other| self.next[other].is_some()) {
+            if let Some(way) = mesh.neighbors(closed, cut).find(|&other| self.next[other].is_some()) {
                 self.next[cut] = Some(way);
                 queue.push(cut);
             }
@@ -71,7 +93,7 @@ impl Outflow {
         let mut at = 0;
         while let Some(&found) = queue.get(at) {
             at += 1;
-            for other in mesh.neighbors(found) {
+            for other in mesh.neighbors(closed, found) {
                 if self.next[other].is_none() && is_lost.binary_search(&other).is_ok() {
                     self.next[other] = Some(found);
                     queue.push(other);

@@ -7,12 +7,12 @@ use super::conditions::Conditions;
 use super::event::Candidate;
 use super::mesh::Mesh;
 use super::outline::outline;
-use super::trapping::Connection;
+use super::trapping::{Connection, Held};
 use crate::case::network::Events;
 use crate::geometry::curve::Curve;
 use crate::interface::menisci::Passage;
 use crate::math::Vec2;
-use crate::network::graph::{Network, Pores};
+use crate::network::graph::{Network, Pores, WallPiece};
 
 /// The phases of a displacement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,6 +60,11 @@ pub struct Displacement {
     pub(super) tied: VecDeque<Candidate>,
     /// Elements that events of this curvature have filled.
     filled: Vec<usize>,
+    /// By gate: whether films have closed it to the non-wetting phase on both sides of it.
+    pub(super) closed: Vec<bool>,
+    /// Gates that events of this curvature have closed, and opened again.
+    pub(super) closing: Vec<usize>,
+    pub(super) opened: Vec<usize>,
     pub(super) applied: f64,
     is_outlet: Vec<bool>,
     has_reached_outlet: bool,
@@ -77,7 +82,8 @@ impl Displacement {
         let element =
             |k: usize| Element { region: mesh.region_of[k], area: mesh.area[k], outline: outline(&mesh.loops[k]) };
         let elements = Arc::new((0..mesh.loops.len()).map(element).collect());
-        Self::begun(Arc::new(mesh), elements, centers, conditions, invaded)
+        let closed = vec![false; mesh.gates.len()];
+        Self::begun((Arc::new(mesh), elements, centers), conditions, invaded, closed)
     }
 
     /// The other phase invades from the state that is left. What it holds and is not connected to an inlet takes no part until it is
@@ -90,15 +96,14 @@ impl Displacement {
         let held =
             self.connection.trapped.iter().zip(&self.held).map(|(&trapped, held)| if trapped { -held } else { last });
         let held = held.collect();
-        Self { held, ..Self::begun(self.mesh, self.elements, self.centers, conditions, invaded) }
+        Self { held, ..Self::begun((self.mesh, self.elements, self.centers), conditions, invaded, self.closed) }
     }
 
     pub(super) fn begun(
-        mesh: Arc<Mesh>,
-        elements: Arc<Vec<Element>>,
-        centers: Arc<Vec<Vec2>>,
+        (mesh, elements, centers): (Arc<Mesh>, Arc<Vec<Element>>, Arc<Vec<Vec2>>),
         conditions: Conditions,
         mut invaded: Vec<bool>,
+        mut closed: Vec<bool>,
     ) -> Self {
         let count = mesh.elements.len();
         let opens = |sides: [bool; 4]| -> Vec<bool> {
@@ -106,7 +111,9 @@ impl Displacement {
         };
         let (inlets, outlets) = (opens(conditions.inlet), opens(conditions.outlet));
         inlets.iter().zip(&mut invaded).for_each(|(&inlet, invaded)| *invaded |= inlet);
-        let (connection, first) = Connection::begin(conditions.trapping, &mesh, &invaded, [&inlets, &outlets]);
+        Self::closed_within(&mesh, &mut closed, &invaded, &conditions.films);
+        let held = Held { mesh: &mesh, invaded: &invaded, closed: &closed };
+        let (connection, first) = Connection::begin(&conditions, held, [&inlets, &outlets]);
         let fronts = vec![const { [None, None] }; mesh.gates.len()];
         let mut begun = Self {
             mesh: mesh.clone(),
@@ -120,11 +127,18 @@ impl Displacement {
             queue: BinaryHeap::new(),
             tied: VecDeque::new(),
             filled: Vec::new(),
+            closed,
+            closing: Vec::new(),
+            opened: Vec::new(),
             applied: f64::NEG_INFINITY,
             is_outlet: outlets,
             has_reached_outlet: false,
         };
         begun.advance_from_all(&mesh, &first);
+        for gate in (0..mesh.gates.len()).filter(|&gate| begun.closed[gate]).collect::<Vec<_>>() {
+            begun.advance_from_closed(&mesh, gate);
+        }
+        begun.await_films(&mesh);
         begun
     }
 
@@ -132,22 +146,36 @@ impl Displacement {
         for &element in elements {
             self.invaded[element] = true;
             self.stop_fronts_into(mesh, element);
+            mesh.elements[element].gates.iter().for_each(|&(gate, _)| self.closed[gate] = false);
         }
         self.filled.extend_from_slice(elements);
     }
 
-    /// What follows from all that events of one curvature have filled: what is trapped now, and where menisci wait next.
+    /// What follows from all that events of one curvature have done: what is trapped now, and where menisci wait next.
     pub(super) fn settle(&mut self, mesh: &Mesh) {
-        let elements = std::mem::take(&mut self.filled);
+        let (elements, opened) = (std::mem::take(&mut self.filled), std::mem::take(&mut self.opened));
+        let mut closing = std::mem::take(&mut self.closing);
+        closing.retain(|&gate| self.closed[gate]);
         for &element in &elements {
-            for lost in self.connection.lose(mesh, &self.invaded, element) {
-                self.held[lost] = self.applied;
-                self.stop_fronts_into(mesh, lost);
-            }
+            let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };
+            let lost = self.connection.lose(held, element);
+            self.leave(mesh, lost);
         }
-        for element in elements {
-            let joined = self.connection.join(mesh, &self.invaded, element);
+        self.lose_through(mesh, &closing);
+        let beside = opened.iter().flat_map(|&gate| [mesh.element(gate, 0), mesh.element(gate, 1)]);
+        for element in elements.into_iter().chain(beside) {
+            let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };
+            let joined = self.connection.join(held, element);
             self.advance_from_all(mesh, &joined);
+        }
+        closing.into_iter().for_each(|gate| self.advance_from_closed(mesh, gate));
+    }
+
+    /// Elements are trapped at the applied curvature.
+    pub(super) fn leave(&mut self, mesh: &Mesh, lost: Vec<usize>) {
+        for lost in lost {
+            self.held[lost] = self.applied;
+            self.stop_fronts_into(mesh, lost);
         }
     }
 
@@ -170,6 +198,8 @@ impl Displacement {
             let (to, target) = (1 - end, mesh.element(gate, 1 - end));
             if !self.invaded[target] && !self.connection.trapped[target] && self.fronts[gate][to].is_none() {
                 self.advance_through(mesh, gate, to);
+            } else if self.closed[gate] && self.invaded[target] && self.fronts[gate][to].is_none() {
+                self.await_reconnection(mesh, gate, to);
             }
         }
     }
@@ -192,6 +222,22 @@ impl Displacement {
     /// Whether an element holds the defending phase and cannot let it go.
     pub fn is_trapped(&self, element: usize) -> bool {
         self.connection.trapped[self.mesh.element_of[element]]
+    }
+
+    /// Whether what an element holds of its phase follows the applied pressure no more: it is trapped, or invades and is not joined to the inlet.
+    pub(crate) fn is_cut_off(&self, element: usize) -> bool {
+        let element = self.mesh.element_of[element];
+        self.connection.trapped[element] || (self.invaded[element] && !self.connection.is_joined(element))
+    }
+
+    /// The walls around an element.
+    pub(crate) fn wall_pieces(&self, element: usize) -> impl Iterator<Item = &WallPiece> {
+        self.mesh.loops[element].walls.iter().flatten()
+    }
+
+    /// Applies a curvature in 1/m at which no event comes.
+    pub(crate) fn apply(&mut self, curvature: f64) {
+        self.applied = self.applied.max(curvature);
     }
 
     /// Whether the invading phase, joined to the inlet, has come to an outlet.

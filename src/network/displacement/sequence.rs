@@ -10,7 +10,7 @@ use super::progress::Displacement;
 pub struct Event {
     /// What happened.
     pub kind: EventKind,
-    /// The throat through which elements were filled; none for a segment within a region.
+    /// The throat through which elements were filled, or which films closed; none for a segment within a region.
     pub throat: Option<usize>,
     /// The elements that were filled.
     pub elements: Vec<usize>,
@@ -33,12 +33,19 @@ impl Displacement {
                 self.tie()?;
             }
             let candidate = self.tied.pop_front()?;
-            let Candidate { gate, to, partner, .. } = candidate;
+            let Candidate { gate, to, partner, kind, .. } = candidate;
+            if kind == EventKind::SnapOff {
+                if self.can_close(mesh, gate) {
+                    return Some((candidate, Vec::new(), Involved::alone((gate, to))));
+                }
+                continue;
+            }
             if self.fronts[gate][to].is_none() {
                 continue;
             }
             let Some((front, hand)) = partner else {
-                return Some((candidate, vec![mesh.element(gate, to)], Involved::alone((gate, to))));
+                let ahead = (kind != EventKind::Reconnection).then(|| mesh.element(gate, to));
+                return Some((candidate, ahead.into_iter().collect(), Involved::alone((gate, to))));
             };
             // Another meniscus may have come in between.
             let neighbor = self.neighbor(mesh, (gate, to), hand).filter(|neighbor| neighbor.front == front);
@@ -83,7 +90,11 @@ impl Iterator for Displacement {
         let (candidate, filled, involved) = self.next_candidate(&mesh, false)?;
         let Candidate { kind, curvature, gate, .. } = candidate;
         self.applied = self.applied.max(curvature);
-        self.fill(&mesh, &filled);
+        match kind {
+            EventKind::SnapOff => self.close(gate),
+            EventKind::Reconnection => self.reopen(gate),
+            EventKind::Burst | EventKind::Touch | EventKind::Overlap => self.fill(&mesh, &filled),
+        }
         match self.next_candidate(&mesh, true) {
             Some((next, ..)) => self.tied.push_front(next),
             None => self.settle(&mesh),

@@ -13,6 +13,7 @@ use super::conditions::Conditions;
 use super::event::{Candidate, EventKind};
 use super::fronts::Neighbor;
 use super::loops::GateId;
+use super::mesh::Gate;
 use super::progress::Displacement;
 use super::wall_chains::{Side, WallChains};
 use crate::geometry::curve::Curve;
@@ -69,6 +70,8 @@ pub(crate) struct Beginning {
     pub(crate) applied: f64,
     /// Curvature in 1/m at which an element was trapped; NaN where it was not.
     pub(crate) held: Vec<f64>,
+    /// Throats that films have closed.
+    pub(crate) closed: Vec<usize>,
 }
 
 impl Displacement {
@@ -81,7 +84,9 @@ impl Displacement {
             invaded[element] |= beginning.invaded[index];
             held[element] = beginning.held[index];
         }
-        let mut begun = Self::begun(fresh.mesh, fresh.elements, fresh.centers, conditions, invaded);
+        let is_closed = |gate: &Gate| gate.throat.is_some_and(|throat| beginning.closed.contains(&throat));
+        let closed = fresh.mesh.gates.iter().map(is_closed).collect();
+        let mut begun = Self::begun((fresh.mesh, fresh.elements, fresh.centers), conditions, invaded, closed);
         (begun.applied, begun.held) = (beginning.applied, held);
         begun
     }

@@ -1,5 +1,6 @@
 //! What of both phases takes part in a displacement: the one place that knows the rules of trapping.
 
+use super::conditions::{Conditions, CornerFilms};
 use super::mesh::Mesh;
 use super::outflow::Outflow;
 use crate::case::network::Trapping;
@@ -15,42 +16,69 @@ pub(super) struct Connection {
     pub(super) trapped: Vec<bool>,
 }
 
+/// What each phase holds, and which gates are closed to the non-wetting one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Held<'a> {
+    pub(crate) mesh: &'a Mesh,
+    pub(crate) invaded: &'a [bool],
+    pub(crate) closed: &'a [bool],
+}
+
 impl Connection {
-    /// The connections at the beginning, with the elements from which menisci advance at first. Where no outlet opens, nothing is trapped.
-    pub(super) fn begin(rule: Trapping, mesh: &Mesh, invaded: &[bool], opens: [&[bool]; 2]) -> (Self, Vec<usize>) {
+    /// The connections at the beginning, with the elements from which menisci advance at first. Where no outlet opens, nothing is trapped. Films in
+    /// corners lead the wetting phase everywhere.
+    pub(super) fn begin(conditions: &Conditions, held: Held, opens: [&[bool]; 2]) -> (Self, Vec<usize>) {
+        let Held { mesh, invaded, closed } = held;
         let (count, [inlets, outlets]) = (invaded.len(), opens);
-        match rule {
-            Trapping::None => {
-                let all = (0..count).filter(|&element| invaded[element]).collect();
-                (Self { joined: invaded.to_vec(), ways: None, trapped: vec![false; count] }, all)
-            }
-            Trapping::Disconnected => {
-                let defends: Vec<bool> = invaded.iter().map(|invaded| !invaded).collect();
-                let ways = outlets.contains(&true).then(|| Outflow::new(mesh, &defends, outlets));
-                let trapped = (0..count).map(|e| defends[e] && ways.as_ref().is_some_and(|ways| !ways.is_open(e)));
-                let mut begun = Self { joined: vec![false; count], trapped: trapped.collect(), ways };
-                let first = (0..count).filter(|&e| inlets[e]).flat_map(|e| begun.join(mesh, invaded, e)).collect();
-                (begun, first)
-            }
+        let is_free = conditions.trapping == Trapping::None;
+        let ways = if is_free || conditions.films == CornerFilms::Drain || !outlets.contains(&true) {
+            None
+        } else {
+            let defends: Vec<bool> = invaded.iter().map(|invaded| !invaded).collect();
+            Some(Outflow::new(mesh, closed, &defends, outlets))
+        };
+        let trapped = (0..count).map(|e| !invaded[e] && ways.as_ref().is_some_and(|ways| !ways.is_open(e))).collect();
+        if is_free || matches!(conditions.films, CornerFilms::Join { .. }) {
+            let all = (0..count).filter(|&element| invaded[element]).collect();
+            return (Self { joined: invaded.to_vec(), ways, trapped }, all);
         }
+        let mut begun = Self { joined: vec![false; count], trapped, ways };
+        let first = (0..count).filter(|&e| inlets[e]).flat_map(|e| begun.join(held, e)).collect();
+        (begun, first)
     }
 
     /// Joins an invading element to the inlet, and returns it with all that is joined by it.
-    pub(super) fn join(&mut self, mesh: &Mesh, invaded: &[bool], element: usize) -> Vec<usize> {
+    pub(super) fn join(&mut self, held: Held, element: usize) -> Vec<usize> {
         let (mut open, mut found) = (vec![element], Vec::new());
         while let Some(element) = open.pop() {
             if !std::mem::replace(&mut self.joined[element], true) {
-                open.extend(mesh.neighbors(element).filter(|&other| invaded[other] && !self.joined[other]));
+                let beside = held.mesh.neighbors(held.closed, element);
+                open.extend(beside.filter(|&other| held.invaded[other] && !self.joined[other]));
                 found.push(element);
             }
         }
         found
     }
 
+    /// Whether an invading element is joined to the inlet.
+    pub(super) fn is_joined(&self, element: usize) -> bool {
+        self.joined[element]
+    }
+
     /// Takes an element from the defending phase, and returns those that are trapped by it.
-    pub(super) fn lose(&mut self, mesh: &Mesh, invaded: &[bool], element: usize) -> Vec<usize> {
-        let mut lost = self.ways.as_mut().map_or_else(Vec::new, |ways| ways.remove(mesh, element));
-        lost.retain(|&lost| !invaded[lost]);
+    pub(super) fn lose(&mut self, held: Held, element: usize) -> Vec<usize> {
+        let lost = self.ways.as_mut().map_or_else(Vec::new, |ways| ways.remove(held.mesh, held.closed, element));
+        self.trap(held, lost)
+    }
+
+    /// Takes the gate between two elements from the defending phase, and returns those that are trapped by it.
+    pub(super) fn close(&mut self, held: Held, between: [usize; 2]) -> Vec<usize> {
+        let lost = self.ways.as_mut().map_or_else(Vec::new, |ways| ways.close(held.mesh, held.closed, between));
+        self.trap(held, lost)
+    }
+
+    fn trap(&mut self, held: Held, mut lost: Vec<usize>) -> Vec<usize> {
+        lost.retain(|&lost| !held.invaded[lost]);
         lost.iter().for_each(|&lost| self.trapped[lost] = true);
         lost
     }

@@ -110,22 +110,17 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
     found
 }
 
-/// A warning where menisci are so fast that they leave films of the wetting phase on floor and lid, which the network has not: where no angle holds a
-/// receding line, 9 Ca ln(x/l) > θ³ with the receding angle θ (Cox 1986; Voinov 1976).
+/// A warning where menisci are so fast that they leave films of the wetting phase on floor and lid, which the network has not.
 pub(crate) fn films_left(model: &DynamicModel) -> Option<String> {
-    /// Logarithm of a depth over a molecular length.
-    const LOGARITHM: f64 = 9.0;
     let setting = &model.still.setting;
-    let angle = *setting.entry.as_ref()?.angle.first()?;
-    setting.network.depth.filter(|_| model.invading == FluidPhase::NonWetting)?;
+    let depth = setting.depth_met_by(model.invading).filter(|_| model.invading == FluidPhase::NonWetting)?;
     let wetting = model.dynamic.terms().viscosity[1];
     let number = model.capillary_number() * wetting / model.dynamic.terms().viscosity[0];
-    (9.0 * number * LOGARITHM > angle.powi(3)).then(|| {
+    depth.film_left(number).map(|film| {
         format!(
-            "at Ca = {number:.1e} of the wetting phase and an angle of {:.0} degrees menisci leave films on floor and lid (Bretherton 1961: {:.1e} of the depth each), \
+            "at Ca = {number:.1e} of the wetting phase and an angle of {:.0} degrees menisci leave films on floor and lid (Bretherton 1961: {film:.1e} of the depth each), \
              which are left out: less is displaced in truth",
-            angle.to_degrees(),
-            0.67 * number.powf(2.0 / 3.0)
+            depth.wettest().to_degrees()
         )
     })
 }

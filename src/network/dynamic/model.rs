@@ -52,6 +52,7 @@ impl DynamicModel {
             invasions: self.dynamic.invasions().iter().map(|invasion| invasion.map(towards_wetting)).collect(),
             passed: self.dynamic.history().iter().map(|event| event.throat).collect(),
             menisci: self.dynamic.menisci(),
+            films: None,
             note: format!(
                 "{name} at t = {:.3e} s: {:.3} pore volumes injected, Ca {:.1e}",
                 self.dynamic.time(),

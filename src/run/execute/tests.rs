@@ -198,13 +198,29 @@ fn a_folder_with_files_in_it_is_refused_with_three_ways_out() {
 }
 
 #[test]
+fn a_finished_run_goes_on_to_a_later_end() {
+    let (folder, unbroken) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    run(&case(), folder.path(), Mode::New).unwrap();
+    let mut longer = case();
+    longer.end *= 2.0;
+    let finished = run(&longer, folder.path(), Mode::Resume).unwrap();
+    assert!(!finished.was_at_end);
+    run(&longer, unbroken.path(), Mode::New).unwrap();
+    // The first end is a record of both.
+    assert!(files(folder.path()) == files(unbroken.path()));
+    assert_eq!(json(folder.path())["clock"]["value"], longer.end);
+    // What is shorter again, or another fluid, is another case.
+    assert!(run(&case(), folder.path(), Mode::Resume).is_err());
+}
+
+#[test]
 fn resuming_nothing_or_another_case_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let message = run(&case(), folder.path(), Mode::Resume).unwrap_err().to_string();
     assert!(message.contains("no run to resume"), "{message}");
     run(&case(), folder.path(), Mode::New).unwrap();
     let mut other = case();
-    other.end *= 2.0;
+    other.end *= 0.5;
     let message = run(&other, folder.path(), Mode::Resume).unwrap_err().to_string();
     assert!(message.contains("another case"), "{message}");
 }

@@ -4,6 +4,7 @@
 //! frozen interface the [`relative`] one.
 //! [`stream`] is the force of the other fluid. The groups are those of `src/benchmarks`, which the solver is given as a list: it knows none of them.
 
+mod chip;
 mod every_run;
 pub(crate) mod open;
 pub(crate) mod permeability;
@@ -13,7 +14,7 @@ mod subject;
 
 pub use subject::{Columns, DiscOf, Group, Subject, measure};
 
-use crate::solver::Measure;
+use crate::solver::{Measure, Sample};
 use crate::sph::flow::Flow;
 use crate::sph::observe::Observation;
 
@@ -24,7 +25,15 @@ pub(crate) fn all(subject: &Subject, groups: &[Group]) -> Vec<Measure> {
     measures.extend(permeability::measures(subject));
     measures.extend(relative::measures(subject));
     measures.extend(groups.iter().flat_map(|group| (group.measures)(subject)));
+    let of_chip: Vec<Measure> =
+        measures.iter().filter_map(|one| chip::measure(&subject.flow.setting.method, one)).collect();
+    measures.extend(of_chip);
     measures
+}
+
+/// The samples of a row whose values are per meter of depth, of all of the depth; none in the plane.
+pub(crate) fn samples_of_chip(flow: &Flow, row: &[Sample]) -> Vec<Sample> {
+    row.iter().filter_map(|one| chip::sample(&flow.setting.method, *one)).collect()
 }
 
 /// Further columns of the time series: of open sides, of the permeability where it is measured, and of the groups.

@@ -61,6 +61,7 @@ fn state(
         saturation_with_menisci: None,
         elements,
         menisci: Vec::new(),
+        snapped_throats: Vec::new(),
         invading_outline: Vec::new(),
         ..start.clone()
     }

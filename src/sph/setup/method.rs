@@ -42,12 +42,17 @@ pub(super) fn method(sph: &Sph, geometry: &Geometry, lattice: &Lattice) -> Metho
     }
 }
 
+/// The width in m of the median throat of all, the narrowest first.
+pub(super) fn median_width(widths: &[f64]) -> Option<f64> {
+    widths.get(widths.len() / 2).copied()
+}
+
 /// Floor and lid at the distance `depth` (m). The profile is that of a duct as wide as the median throat, or as the largest circle in the pore where there is
 /// none; moving lines leave the angles of floor and lid at rest.
 fn plates(sph: &Sph, geometry: &Geometry, lattice: &Lattice, depth: f64) -> Plates {
-    let all = throats(geometry);
+    let all: Vec<f64> = throats(geometry).iter().map(|throat| throat.width).collect();
     let largest = || lattice.inside().map(|x| 2.0 * geometry.signed_distance(x)).fold(0.0, f64::max);
-    let width = all.get(all.len() / 2).map_or_else(largest, |throat| throat.width);
+    let width = median_width(&all).unwrap_or_else(largest);
     let at_rest = match &sph.wetting_model {
         Some(model) => {
             Depth::new(depth, model.static_angle(), on_plates(model, &sph.wetting_patches, Wetting::static_angle))

@@ -1,5 +1,6 @@
 //! From a checked case and its geometry to a solver: the only SPH folder that sees both.
 
+mod depth_notes;
 mod error;
 mod frozen;
 mod ground;
@@ -15,6 +16,7 @@ mod walls;
 
 use std::sync::Arc;
 
+pub(crate) use depth_notes::notes as notes_on_depth;
 pub(crate) use error::SetupError;
 pub(crate) use initial::region;
 

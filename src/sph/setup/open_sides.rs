@@ -75,7 +75,7 @@ pub(super) fn open_sides(
                 open::Drive::Pressure(first)
             }
             case::Drive::Velocity(mean, form) => profile(mean, form)?,
-            case::Drive::FlowRate(rate, form) => profile(rate / width, form)?,
+            case::Drive::FlowRate(rate, form) => profile(rate / sph.thickness() / width, form)?,
         };
         side.openings = openings;
         if kinds[number] == Side::Periodic {

@@ -1,0 +1,40 @@
+//! `meniscus man`: manual pages, made from the same arguments as the help.
+
+use std::path::Path;
+
+use clap::CommandFactory;
+use clap_mangen::Man;
+
+use super::arguments::{Arguments, ManArguments};
+use super::exit::{DONE, Failure, USAGE};
+use super::output::say;
+use crate::io::atomic;
+
+/// Prints the page of the program, or writes it with those of all commands into a folder.
+pub(crate) fn man(arguments: &ManArguments) -> Result<u8, Failure> {
+    let mut program = Arguments::command();
+    program.build();
+    let Some(folder) = &arguments.out else {
+        say(page(&program)?.trim_end());
+        return Ok(DONE);
+    };
+    let count = write(folder, &program)?;
+    say(format_args!("wrote {count} pages to {0}; try: man {0}/meniscus.1", folder.display()));
+    Ok(DONE)
+}
+
+/// Writes the pages of a command and of those below it, and counts them.
+fn write(folder: &Path, command: &clap::Command) -> Result<usize, Failure> {
+    let name = command.get_display_name().unwrap_or_else(|| command.get_name());
+    let file = folder.join(format!("{name}.1"));
+    atomic::write(&file, page(command)?.as_bytes()).map_err(|error| Failure::new(USAGE, &error))?;
+    let below = command.get_subcommands().filter(|below| below.get_name() != "help");
+    below.map(|below| write(folder, below)).sum::<Result<usize, _>>().map(|count| count + 1)
+}
+
+/// The page of a command in the language of `man`.
+fn page(command: &clap::Command) -> Result<String, Failure> {
+    let mut text = Vec::new();
+    Man::new(command.clone()).render(&mut text).map_err(|error| Failure::new(USAGE, &error))?;
+    Ok(String::from_utf8_lossy(&text).into_owned())
+}

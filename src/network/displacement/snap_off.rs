@@ -1,0 +1,93 @@
+//! Throats that films close: where those in the corners of a throat meet, the wetting phase fills it.
+//!
+//! A throat has no volume here. It is closed to the non-wetting phase, and menisci stand on both sides of it, from which the wetting phase goes
+//! on into the elements beside it by the events of any meniscus. In the next drainage it opens again where a meniscus passes it at its entry pressure.
+//!
+//! Left out: that the menisci on both sides of a closed throat may touch each other before.
+
+use super::conditions::CornerFilms;
+use super::event::{Candidate, EventKind};
+use super::mesh::Mesh;
+use super::progress::{Displacement, Front};
+use super::trapping::Held;
+use crate::math::Vec2;
+
+impl Displacement {
+    /// The curvatures in 1/m at which films meet in the throats, for all throats that are gates.
+    pub(super) fn await_films(&mut self, mesh: &Mesh) {
+        let CornerFilms::Join { meeting } = &self.conditions.films else { return };
+        for (gate, throat) in mesh.gates.iter().enumerate().filter_map(|(gate, it)| Some((gate, it.throat?))) {
+            let curvature = meeting[throat];
+            if curvature.is_finite() && self.can_close(mesh, gate) {
+                let kind = EventKind::SnapOff;
+                self.queue.push(Candidate { curvature, kind, gate, to: 0, partner: None, is_joined: false });
+            }
+        }
+    }
+
+    /// Whether the non-wetting phase, where it defends, goes through a gate, and can leave.
+    pub(super) fn can_close(&self, mesh: &Mesh, gate: usize) -> bool {
+        let is_open = |end| {
+            let element = mesh.element(gate, end);
+            !self.invaded[element] && !self.connection.trapped[element]
+        };
+        !self.closed[gate] && is_open(0) && is_open(1)
+    }
+
+    /// Takes from closed gates those that no longer lie between parts of the non-wetting phase.
+    pub(super) fn closed_within(mesh: &Mesh, closed: &mut [bool], invaded: &[bool], films: &CornerFilms) {
+        let invades = *films == CornerFilms::Drain;
+        for (gate, closed) in closed.iter_mut().enumerate() {
+            *closed &= [0, 1].iter().all(|&end| invaded[mesh.element(gate, end)] == invades);
+        }
+    }
+
+    /// Films meet in a gate.
+    pub(super) fn close(&mut self, gate: usize) {
+        self.closed[gate] = true;
+        self.closing.push(gate);
+    }
+
+    /// The invading phase passes a closed gate.
+    pub(super) fn reopen(&mut self, gate: usize) {
+        self.closed[gate] = false;
+        self.fronts[gate] = [None, None];
+        self.opened.push(gate);
+    }
+
+    /// Lets menisci wait on both sides of a closed gate.
+    pub(super) fn advance_from_closed(&mut self, mesh: &Mesh, gate: usize) {
+        for to in 0..2 {
+            let target = mesh.element(gate, to);
+            if !self.invaded[target] && !self.connection.trapped[target] && self.fronts[gate][to].is_none() {
+                self.advance_through(mesh, gate, to);
+            }
+        }
+    }
+
+    /// Lets a meniscus wait for its way through a closed gate, behind which its own phase stands.
+    pub(super) fn await_reconnection(&mut self, mesh: &Mesh, gate: usize, to: usize) {
+        let (passage, _) = self.passage_at(&self.conditions.angle, mesh, (gate, to), Vec2::zeros());
+        let formula = passage.burst().map_or(f64::INFINITY, |meniscus| meniscus.curvature);
+        let own = self.conditions.burst(mesh.gates[gate].throat, formula);
+        let kind = EventKind::Reconnection;
+        self.queue.push(Candidate { curvature: own, kind, gate, to, partner: None, is_joined: false });
+        self.fronts[gate][to] = Some(Front { passage, own });
+    }
+
+    /// What follows where gates were closed: what is trapped now.
+    pub(super) fn lose_through(&mut self, mesh: &Mesh, gates: &[usize]) {
+        for &gate in gates {
+            let held = Held { mesh, invaded: &self.invaded, closed: &self.closed };
+            let between = [0, 1].map(|end| mesh.element(gate, end));
+            let lost = self.connection.close(held, between);
+            self.leave(mesh, lost);
+        }
+    }
+
+    /// The throats of the network that films have closed.
+    pub(crate) fn closed_throats(&self) -> Vec<usize> {
+        let gates = self.mesh.gates.iter().zip(&self.closed).filter(|(_, closed)| **closed);
+        gates.filter_map(|(gate, _)| gate.throat).collect()
+    }
+}

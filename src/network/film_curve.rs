@@ -1,0 +1,94 @@
+//! The films of a displacement along its half cycles: between events they grow or shrink with the capillary pressure, so that the curve of
+//! capillary pressure over saturation has points between them.
+
+use super::cycles::{Cycles, tidy};
+use super::films::{CurvePoint, SeenFilms};
+
+/// Curvatures in 1/m on the way from one to another, with the last one, so close that a curve through them is smooth.
+fn places_between(from: f64, to: f64) -> Vec<f64> {
+    const RATIO: f64 = 0.05;
+    const MOST: f64 = 64.0;
+    let ratio = (to / from).ln();
+    if from == to {
+        return Vec::new();
+    }
+    if !(from > 0.0 && to > 0.0 && ratio.is_finite()) {
+        return vec![to];
+    }
+    let count = (ratio.abs() / RATIO).ceil().clamp(1.0, MOST);
+    (1..=count as u32)
+        .map(|k| if f64::from(k) == count { to } else { from * (ratio * f64::from(k) / count).exp() })
+        .collect()
+}
+
+impl Cycles {
+    /// Films take the thickness of a curvature in the plane (1/m) into the defending phase, while both phases stay where they are.
+    pub(super) fn let_films_follow(&mut self, applied: f64) {
+        let half = self.half_cycle();
+        let Some(films) = &self.films else { return };
+        let to = films.curvature_at(half.towards_wetting(applied));
+        let points: Vec<CurvePoint> = places_between(films.curvature, to)
+            .into_iter()
+            .map(|curvature| self.curve_point(curvature, films.area_at(curvature)))
+            .collect();
+        self.curve.extend(points);
+        if let Some(films) = &mut self.films {
+            films.curvature = to;
+        }
+    }
+
+    /// Films are where the non-wetting phase is now.
+    pub(super) fn follow_films(&mut self) {
+        let invading = self.half_cycle().invading;
+        let Some(films) = &mut self.films else { return };
+        films.update(&self.displacement, invading);
+        let curvature = films.curvature;
+        self.film_area = films.area();
+        if curvature.is_finite() {
+            self.curve.push(self.curve_point(curvature, self.film_area));
+        }
+    }
+
+    fn curve_point(&self, curvature: f64, films: f64) -> CurvePoint {
+        CurvePoint {
+            half_cycle: self.half_cycle,
+            curvature,
+            saturation: tidy((self.wetting_area + films) / self.pore_area),
+            film_saturation: films / self.pore_area,
+        }
+    }
+
+    /// After the last event films go on to the pressure at which the half cycle ends, where one is given.
+    pub(super) fn press_to_the_end(&mut self) {
+        let half = self.half_cycle();
+        let end = half.conditions.largest_curvature;
+        if self.films.is_none() || !end.is_finite() || self.outcomes[self.half_cycle].last.is_some() {
+            return;
+        }
+        let applied = half.towards_wetting(end);
+        self.let_films_follow(end);
+        self.displacement.apply(end);
+        self.follow_films();
+        self.outcomes[self.half_cycle].last = Some(applied);
+    }
+
+    /// Share of the pore space that films in corners hold.
+    pub(crate) fn film_saturation(&self) -> f64 {
+        self.film_area / self.pore_area
+    }
+
+    /// Whether there are films in corners.
+    pub(crate) fn has_films(&self) -> bool {
+        self.films.is_some()
+    }
+
+    /// The curve of capillary pressure over saturation, where films follow the pressure.
+    pub(crate) fn curve(&self) -> &[CurvePoint] {
+        &self.curve
+    }
+
+    /// What pictures and tables show of films.
+    pub(crate) fn seen_films(&self) -> Option<SeenFilms> {
+        self.films.as_ref().map(|films| films.seen(&self.displacement))
+    }
+}

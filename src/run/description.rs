@@ -1,0 +1,176 @@
+//! A case in words, and what about its numbers is so unusual that it may be a slip: both told before a run.
+
+use super::numbers::{Length, numbers};
+use crate::case::{Case, Fluid, Model, SIDES, Side, Sides, Sph};
+use crate::math::Vec2;
+use crate::wetting::Wetting;
+
+/// The parts of a case by name: its phases, its interface and its sides; those that it has.
+pub(crate) fn description(case: &Case) -> Vec<(&'static str, String)> {
+    let (fluids, interface, sides) = match &case.model {
+        Model::Sph(sph) => {
+            let law = sph.wetting_model.as_ref();
+            let interface = (sph.tension > 0.0).then_some((sph.tension, law, sph.wetting_patches.len()));
+            ([Some(sph.wetting), sph.non_wetting], interface, &sph.sides)
+        }
+        Model::Network(network) => {
+            let interface = network.interface.as_ref();
+            let interface = interface.map(|it| (it.tension, Some(&it.wetting_model), it.patches.len()));
+            ([network.wetting, network.non_wetting], interface, &network.sides)
+        }
+        Model::ThinFilm(_) => return Vec::new(),
+    };
+    let [wetting, non_wetting] = fluids.map(|fluid| fluid.map(in_words));
+    let phases = match (wetting, non_wetting) {
+        (Some(wetting), Some(other)) => Some(format!("wetting {wetting}; non-wetting {other}")),
+        (only, other) => only.or(other),
+    };
+    let interface = interface.map(|(tension, law, patches)| {
+        let patches = match patches {
+            0 => String::new(),
+            1 => ", and one patch of its own".to_owned(),
+            count => format!(", and {count} patches of their own"),
+        };
+        format!("{} mN/m{}{patches}", rounded(1e3 * tension), law.map_or(String::new(), angle))
+    });
+    [("phases", phases), ("interface", interface), ("sides", Some(in_order(sides)))]
+        .into_iter()
+        .filter_map(|(name, text)| Some((name, text?)))
+        .collect()
+}
+
+/// Numbers that are right by themselves and rarely meant, each with what may have been meant.
+pub(crate) fn doubts(case: &Case) -> Vec<String> {
+    /// Pores are smaller, in m.
+    const LARGEST: f64 = 1.0;
+    /// Beyond this Bond number an interface is flat all over the domain.
+    const FLAT: f64 = 1e3;
+    /// No liquid but a molten metal has more, in N/m.
+    const STRONGEST: f64 = 1.0;
+    /// In degrees: a right angle, and more, in radians.
+    const SHARPEST: f64 = 3.2;
+    let mut doubts = Vec::new();
+    let size = Vec2::from(case.geometry.max) - Vec2::from(case.geometry.min);
+    let (tension, law) = match &case.model {
+        Model::Sph(sph) => (sph.tension, sph.wetting_model.as_ref()),
+        Model::Network(network) => {
+            network.interface.as_ref().map_or((0.0, None), |it| (it.tension, Some(&it.wetting_model)))
+        }
+        Model::ThinFilm(_) => return doubts,
+    };
+    if tension > 0.0 && size.max() > LARGEST {
+        doubts.push(format!(
+            "the domain is {} m long: lengths are in m, and a drawing in mm has unit = \"mm\" in [geometry]",
+            rounded(size.max())
+        ));
+    }
+    if tension > STRONGEST {
+        doubts.push(format!("the tension is {} N/m: water has 0.0728 against air, 72.8 mN/m", rounded(tension)));
+    }
+    let [least, most] = law.map_or([90.0; 2], |law| law.hysteresis_range().map(f64::to_degrees));
+    if least > 0.0 && most < SHARPEST {
+        doubts.push(format!("the contact angle is {} degrees: angles are in degrees, not in radians", rounded(most)));
+    }
+    if let Model::Sph(sph) = &case.model {
+        let bond = numbers(case, Length::of(case), 0.0).into_iter().find(|number| number.symbol == "Bo");
+        if let Some(bond) = bond.filter(|bond| bond.value > FLAT) {
+            doubts.push(format!("Bo is {}: gravity flattens all interfaces; are lengths in m?", rounded(bond.value)));
+        }
+        doubts.extend(never_at_rest(sph));
+        doubts.extend(ends_early(case, sph));
+    }
+    doubts
+}
+
+/// A weight along a wall without end, and a contact line that nothing holds.
+fn never_at_rest(sph: &Sph) -> Option<String> {
+    let other = sph.non_wetting?;
+    let along = [(sph.sides.left, sph.gravity.x), (sph.sides.bottom, sph.gravity.y)];
+    let slides = along.into_iter().any(|(side, gravity)| side == Side::Periodic && gravity != 0.0);
+    let [receding, advancing] = sph.wetting_model?.hysteresis_range();
+    let is_light = sph.wetting.density == other.density;
+    (slides && !is_light && sph.acting_tension() > 0.0 && receding == advancing).then(|| {
+        "gravity acts along a periodic direction, and the wall has a single contact angle: a drop never comes to rest; \
+         [sph.wetting.hysteresis] holds one"
+            .to_owned()
+    })
+}
+
+/// A drop that is left alone and whose run ends before its oscillations have decayed: those of the second mode do as exp(−4 ν t/R²) in the plane,
+/// by Lamb's dissipation, with the radius R of the drop (Lamb 1932, §355).
+fn ends_early(case: &Case, sph: &Sph) -> Option<String> {
+    let is_alone = sph.open.iter().all(Option::is_none) && sph.wall_speeds == [0.0; 4] && sph.gravity == Vec2::zeros();
+    let area = super::setup::drop_area(case).filter(|_| is_alone && sph.acting_tension() > 0.0)?;
+    let (radius_squared, viscosity) = (area / std::f64::consts::PI, sph.wetting.viscosity / sph.wetting.density);
+    let decay = radius_squared / (4.0 * viscosity);
+    (case.end < decay).then(|| {
+        format!(
+            "oscillations of the drop decay by a factor of e in {} s, and the run ends at {} s, before it is at rest",
+            rounded(decay),
+            rounded(case.end)
+        )
+    })
+}
+
+fn in_words(fluid: Fluid) -> String {
+    format!("{} kg/m3, {} mPa s", rounded(fluid.density), rounded(1e3 * fluid.viscosity))
+}
+
+fn angle(law: &Wetting) -> String {
+    let [receding, advancing] = law.hysteresis_range().map(f64::to_degrees);
+    let name = law.table().key;
+    if receding == advancing {
+        return format!(", {} degrees through the wetting phase ({name})", rounded(receding));
+    }
+    format!(", {} to {} degrees through the wetting phase ({name})", rounded(receding), rounded(advancing))
+}
+
+fn in_order(sides: &Sides) -> String {
+    let word = |side| match side {
+        Side::Periodic => "periodic",
+        Side::Wall => "wall",
+        Side::Image => "wall by images",
+        Side::Symmetry => "symmetry",
+        Side::Inlet => "inlet",
+        Side::Outlet => "outlet",
+    };
+    let named: Vec<String> =
+        SIDES.iter().zip(sides.each()).map(|(name, side)| format!("{name} {}", word(side))).collect();
+    named.join(", ")
+}
+
+/// A number with at most four digits and no zeros at its end.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::load_default;
+    use crate::input::Overrides;
+
+    fn case(overrides: &[&str]) -> Case {
+        load_default(&Overrides::parse(overrides).unwrap()).unwrap().case
+    }
+
+    #[test]
+    fn a_case_is_told_in_words() {
+        let found = description(&case(&[]));
+        assert_eq!(found[0].0, "phases");
+        assert!(found[0].1.starts_with("wetting 773") && found[0].1.contains("; non-wetting "), "{}", found[0].1);
+        assert!(found[1].1.contains("mN/m, 40 degrees through the wetting phase (young)"), "{}", found[1].1);
+        assert!(found[2].1.starts_with("left "), "{}", found[2].1);
+    }
+
+    #[test]
+    fn slips_of_units_are_told_and_usual_cases_are_not() {
+        assert_eq!(doubts(&case(&[])), [""; 0]);
+        let told = |overrides: &[&str], word: &str| {
+            let found = doubts(&case(overrides));
+            assert!(found.iter().any(|doubt| doubt.contains(word)), "{word}: {found:?}");
+        };
+        told(&["sph.interface.tension=27.6"], "27.6 N/m");
+        told(&["sph.wetting.young.contact-angle-deg=0.7"], "not in radians");
+    }
+}

@@ -1,0 +1,50 @@
+//! What a reader must know of a flow between a floor and a lid before it begins: throats that its depth-averaged equations do not fit, and laws that do not
+//! reach floor and lid.
+
+use super::method::median_width;
+use crate::case::Sph;
+use crate::geometry::Geometry;
+use crate::geometry::throats::throats;
+use crate::interface::depth::{duct_error, odd, profile_factor};
+use crate::wetting::Wetting;
+
+/// Errors of the flow through a throat above this share are told.
+const LARGEST_ERROR: f64 = 0.05;
+
+/// The notes; none in the plane.
+pub(crate) fn notes(sph: &Sph, geometry: &Geometry) -> Vec<String> {
+    let Some(depth) = sph.depth else { return Vec::new() };
+    let widths: Vec<f64> = throats(geometry).iter().map(|throat| throat.width).collect();
+    let law = sph.wetting_model.filter(|_| sph.acting_tension() > 0.0).and_then(|law| on_walls_only(&law));
+    let [Some(&narrowest), Some(&widest)] = [widths.first(), widths.last()] else { return law.into_iter().collect() };
+    let of_throats = odd(depth, narrowest, widest).or_else(|| unlike(sph, (depth, &widths), [narrowest, widest]));
+    of_throats.into_iter().chain(law).collect()
+}
+
+/// Throats so much narrower or wider than the median one that one factor of the profile does not give both their flow.
+fn unlike(sph: &Sph, (depth, widths): (f64, &[f64]), ends: [f64; 2]) -> Option<String> {
+    let profile = sph.profile_factor.or_else(|| Some(profile_factor(median_width(widths)? / depth)))?;
+    let error = |width: &f64| duct_error(width / depth, profile);
+    let worst = ends.into_iter().max_by(|a, b| error(a).abs().total_cmp(&error(b).abs()))?;
+    (error(&worst).abs() > LARGEST_ERROR).then(|| {
+        format!(
+            "the depth-averaged flow through a throat of {worst:.3e} m, {:.2} depths wide, is {:+.0} % off that of a duct: one profile over the depth (factor \
+             {profile:.3}) cannot fit throats of {:.2} to {:.2} depths; the network has the flow of ducts in each",
+            worst / depth,
+            100.0 * error(&worst),
+            ends[0] / depth,
+            ends[1] / depth
+        )
+    })
+}
+
+/// A law by which angles of moving lines differ from those at rest, which floor and lid keep.
+fn on_walls_only(law: &Wetting) -> Option<String> {
+    (!law.is_static()).then(|| {
+        format!(
+            "the law [sph.wetting.{}] acts on lines along the walls; floor and lid keep the static angle, {:.1} degrees unless a patch gives another one",
+            law.table().key,
+            law.static_angle().to_degrees()
+        )
+    })
+}
