@@ -42,11 +42,11 @@ def measure(path: str | Path) -> dict:
     for kind in ("grid-times", "interface-times"):
         if found.get(kind, found["times"]) != found["times"]:
             problems.append(f"the {kind} are not the times of the particles")
-    solid = directory / "solid.vtp"
+    solid = directory / "solid.vtu"
     if not solid.is_file():
-        problems.append("solid.vtp is missing")
-    elif not isinstance(results.read(solid), pv.PolyData):
-        problems.append("solid.vtp is not poly data")
+        problems.append("solid.vtu is missing")
+    else:
+        check_cells(results.read(solid), pv.CellType.LINE, "solid.vtu", problems)
     problems.extend(f"{left.relative_to(directory)} is a temporary file" for left in directory.rglob("*.tmp"))
     return found
 
@@ -65,10 +65,19 @@ def measure_network(directory: Path, problems: list[str]) -> dict:
 
 def check_regions(data, place: str, problems: list[str]) -> None:
     """Polygons with arrays on cells; what was not invaded has no pressure at invasion (NaN)."""
-    if not isinstance(data, pv.PolyData) or data.n_cells == 0:
+    check_cells(data, pv.CellType.POLYGON, place, problems)
+    if data.n_cells == 0:
         problems.append(f"{place}: no polygons")
         return
     problems.extend(f"{place}: no array {name}" for name in results.REGION_ARRAYS if name not in data.cell_data)
+
+
+def check_cells(data, kind: pv.CellType, place: str, problems: list[str]) -> None:
+    """An unstructured grid with cells of one kind; there may be none."""
+    if not isinstance(data, pv.UnstructuredGrid):
+        problems.append(f"{place}: no unstructured grid")
+    elif not (data.celltypes == kind).all():
+        problems.append(f"{place}: cells other than {kind.name}")
 
 
 def check_collection(directory: Path, name: str, check, problems: list[str]) -> list[float]:
@@ -91,16 +100,8 @@ def check_collection(directory: Path, name: str, check, problems: list[str]) -> 
         if frame.file.is_file():
             data = results.read(frame.file)
             place = f"{name}/{frame.file.name}"
-            check_time(data, frame.time, place, problems)
             check(data, place, problems)
     return times
-
-
-def check_time(data, time: float, place: str, problems: list[str]) -> None:
-    """The time in the file, where it has one, is that of the collection."""
-    for name in ("time", "TimeValue"):
-        if name in data.field_data and not np.isclose(float(data.field_data[name][0]), time, rtol=1e-9, atol=1e-300):
-            problems.append(f"{place}: field data {name} is {data.field_data[name][0]}, the collection says {time}")
 
 
 def check_arrays(data, arrays: dict[str, int], may_be_nan, place: str, problems: list[str]) -> None:
@@ -122,13 +123,10 @@ def check_arrays(data, arrays: dict[str, int], may_be_nan, place: str, problems:
 
 def check_particles(arrays: dict[str, int], data, place: str, problems: list[str]) -> None:
     """Each particle is a vertex cell with all arrays; ids are unique and phases known."""
-    if not isinstance(data, pv.UnstructuredGrid) or data.n_points == 0:
-        problems.append(f"{place}: no particles in an unstructured grid")
+    check_cells(data, pv.CellType.VERTEX, place, problems)
+    if data.n_points == 0 or data.n_cells != data.n_points:
+        problems.append(f"{place}: {data.n_points} particles, {data.n_cells} cells")
         return
-    if data.n_cells != data.n_points or not (data.celltypes == pv.CellType.VERTEX).all():
-        problems.append(f"{place}: {data.n_points} particles but {data.n_cells} cells, or cells that are no vertices")
-    if not ({"time", "TimeValue"} & set(data.field_data.keys())):
-        problems.append(f"{place}: no time in the field data")
     check_arrays(data, arrays, np.zeros(data.n_points, dtype=bool), place, problems)
     if "id" in data.point_data and len(np.unique(data.point_data["id"])) != data.n_points:
         problems.append(f"{place}: ids are not unique")
@@ -140,9 +138,10 @@ def check_particles(arrays: dict[str, int], data, place: str, problems: list[str
 
 
 def check_grid(data, place: str, problems: list[str]) -> None:
-    """Fields on a regular grid; they may be missing (NaN) inside of the solids."""
-    if not isinstance(data, pv.ImageData) or data.n_points == 0:
-        problems.append(f"{place}: no regular grid")
+    """Fields on a grid of quadrilaterals; they may be missing (NaN) inside of the solids."""
+    check_cells(data, pv.CellType.QUAD, place, problems)
+    if data.n_cells == 0:
+        problems.append(f"{place}: no grid")
         return
     solid = np.zeros(data.n_points, dtype=bool)
     if "wall-distance" in data.point_data:
@@ -152,10 +151,9 @@ def check_grid(data, place: str, problems: list[str]) -> None:
 
 def check_interface(data, place: str, problems: list[str]) -> None:
     """Lines with curvature; a state without interface has none. The curvature of very short lines is unknown (NaN)."""
-    if not isinstance(data, pv.PolyData):
-        problems.append(f"{place}: not poly data")
-    elif data.n_points > 0:
-        if data.n_lines == 0:
+    check_cells(data, pv.CellType.LINE, place, problems)
+    if data.n_points > 0:
+        if data.n_cells == 0:
             problems.append(f"{place}: {data.n_points} points but no lines")
         check_arrays(data, results.INTERFACE_ARRAYS, np.ones(data.n_points, dtype=bool), place, problems)
 

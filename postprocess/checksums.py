@@ -27,7 +27,7 @@ FINISHED = (0, 5)
 
 def kind(path: Path) -> str:
     """The group in which a file of a run is counted."""
-    if path.suffix in {".vtu", ".vti", ".vtp", ".pvd"}:
+    if path.suffix in {".vtu", ".pvd"}:
         return "vtk"
     if path.parts[0] == "restart":
         return "state"

@@ -81,7 +81,7 @@ NETWORK_SERIES_COLUMNS = [
     "touches",
     "overlaps",
 ]
-NETWORK_FILES = ["pores.csv", "throats.csv", "openpnm.csv", "network.json", "pores.vtp", "throats.vtp"]
+NETWORK_FILES = ["pores.csv", "throats.csv", "openpnm.csv", "network.json", "pores.vtu", "throats.vtu"]
 UNITS = {
     "velocity": "m/s",
     "pressure": "Pa",

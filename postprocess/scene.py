@@ -69,7 +69,7 @@ def draw(plotter, directory: Path, frame: results.Frame, field: str, limits: tup
     lines = results.read(results.frame_at(directory / "interface.pvd", frame.time).file)
     if lines.n_points:
         plotter.add_mesh(lines.translate(lift), color="red", line_width=4)
-    solid = results.read(directory / "solid.vtp")
+    solid = results.read(directory / "solid.vtu")
     if solid.n_points:
         plotter.add_mesh(solid.translate(lift), color=SOLID_COLOR, line_width=4)
     plotter.add_text(f"t = {frame.time:.4g} s", font_size=12, color="black")

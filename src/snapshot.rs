@@ -79,6 +79,12 @@ pub struct Grid<'a> {
 }
 
 impl Grid<'_> {
+    /// Positions of the nodes in m.
+    pub(crate) fn points(&self) -> Vec<Vec2> {
+        let node = |x, y| self.origin + Vec2::new(x as f64, y as f64).component_mul(&self.spacing);
+        (0..self.counts[1]).flat_map(|y| (0..self.counts[0]).map(move |x| node(x, y))).collect()
+    }
+
     /// The same with values of its own.
     pub(crate) fn into_owned(self) -> Grid<'static> {
         Grid { origin: self.origin, spacing: self.spacing, counts: self.counts, fields: owned(self.fields) }
@@ -108,7 +114,7 @@ impl Lines<'_> {
 pub enum CellKind {
     /// Single points.
     Points,
-    /// Polylines.
+    /// Lines of two points.
     Lines,
     /// Polygons, not closed by repeating the first vertex.
     Polygons,

@@ -17,23 +17,16 @@ def write(directory: Path) -> None:
     """Writes all files of the contract below `directory`."""
     for name in ("particles", "grid", "interface"):
         (directory / name).mkdir(parents=True)
-    for index, time in enumerate(TIMES):
+    for index in range(len(TIMES)):
         radius = (4.0 + index) * SPACING
-        save(particles(radius), time, directory / "particles" / f"{index:06}.vtu")
-        save(grid(radius), time, directory / "grid" / f"{index:06}.vti")
-        save(circle(radius), time, directory / "interface" / f"{index:06}.vtp")
-    for name, ending in (("particles", "vtu"), ("grid", "vti"), ("interface", "vtp")):
-        write_collection(directory, name, ending)
+        for name, data in {"particles": particles(radius), "grid": grid(radius), "interface": circle(radius)}.items():
+            data.save(directory / name / f"{index:06}.vtu")
+    for name in ("particles", "grid", "interface"):
+        write_collection(directory, name)
     plate = np.array([[-10.0, -9.5, 0.0], [10.0, -9.5, 0.0]]) * SPACING
-    pv.PolyData(plate, lines=[2, 0, 1]).save(directory / "solid.vtp")
+    lines(plate, [[0, 1]]).save(directory / "solid.vtu")
     write_series(directory / "series.csv")
     (directory / "report.json").write_text(json.dumps(report()), encoding="utf-8")
-
-
-def save(data, time: float, path: Path) -> None:
-    """Saves one data set with its time."""
-    data.field_data["time"] = np.array([time])
-    data.save(path)
 
 
 def fields(points: np.ndarray, radius: float) -> dict[str, np.ndarray]:
@@ -71,28 +64,35 @@ def particles(radius: float) -> pv.UnstructuredGrid:
     return data
 
 
-def grid(radius: float) -> pv.ImageData:
+def grid(radius: float) -> pv.UnstructuredGrid:
     """The same fields on a regular grid."""
     points = lattice()
-    data = pv.ImageData(dimensions=(COUNT, COUNT, 1), spacing=(SPACING, SPACING, 1.0), origin=points[0])
+    corner = np.arange(COUNT * COUNT).reshape(COUNT, COUNT)[:-1, :-1].ravel()
+    quadrilaterals = np.column_stack([corner, corner + 1, corner + 1 + COUNT, corner + COUNT])
+    data = pv.UnstructuredGrid({pv.CellType.QUAD: quadrilaterals}, points)
     values = fields(points, radius)
     for name in results.GRID_ARRAYS:
         data.point_data[name] = values[name]
     return data
 
 
-def circle(radius: float) -> pv.PolyData:
+def lines(points: np.ndarray, segments) -> pv.UnstructuredGrid:
+    """Lines between points."""
+    return pv.UnstructuredGrid({pv.CellType.LINE: np.array(segments)}, points)
+
+
+def circle(radius: float) -> pv.UnstructuredGrid:
     """The interface as a closed line."""
     angles = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)
     points = radius * np.column_stack([np.cos(angles), np.sin(angles), np.zeros(40)])
-    data = pv.PolyData(points, lines=[41, *range(40), 0])
+    data = lines(points, [[i, (i + 1) % 40] for i in range(40)])
     data.point_data["curvature"] = np.full(40, 1.0 / radius)
     return data
 
 
-def write_collection(directory: Path, name: str, ending: str) -> None:
+def write_collection(directory: Path, name: str) -> None:
     """Writes a .pvd."""
-    lines = [f'<DataSet timestep="{time}" file="{name}/{index:06}.{ending}"/>' for index, time in enumerate(TIMES)]
+    lines = [f'<DataSet timestep="{time}" file="{name}/{index:06}.vtu"/>' for index, time in enumerate(TIMES)]
     text = '<VTKFile type="Collection" version="1.0"><Collection>' + "".join(lines) + "</Collection></VTKFile>"
     (directory / f"{name}.pvd").write_text(text, encoding="utf-8")
 

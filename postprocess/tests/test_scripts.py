@@ -65,8 +65,8 @@ class Scripts(unittest.TestCase):
 
     def test_a_lost_file_is_found(self):
         """A listed file that is missing."""
-        (self.directory / "grid" / "000001.vti").unlink()
-        self.assertIn("000001.vti is listed in grid.pvd but missing", self.problems())
+        (self.directory / "grid" / "000001.vtu").unlink()
+        self.assertIn("000001.vtu is listed in grid.pvd but missing", self.problems())
         self.assertEqual(self.run_script("check_output.py").returncode, 1)
 
     def test_a_file_that_no_collection_lists_is_found(self):

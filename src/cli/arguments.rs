@@ -109,7 +109,7 @@ pub(crate) struct GeometryArguments {
 /// `geometry --write`.
 #[derive(Debug, Default, Args)]
 pub(crate) struct WriteArguments {
-    /// Write the shapes as a drawing: .svg, .dxf, .wkt, .geojson, .xyr, .toml, .vtp, or a mask as .png; may be given several times
+    /// Write the shapes as a drawing: .svg, .dxf, .wkt, .geojson, .xyr, .toml, .vtu, or a mask as .png; may be given several times
     #[arg(long, value_name = "FILE")]
     pub(crate) write: Vec<PathBuf>,
     /// Side of a pixel of a mask in m; where there is none the longer side has 2048

@@ -10,7 +10,6 @@ use super::stages::Stages;
 use super::write_shapes::{formats, write_shapes};
 use crate::io::picture::{PORE, picture};
 use crate::io::{atomic, vtk};
-use crate::math::Vec2;
 use crate::snapshot::{Cloud, Field, Snapshot, Values};
 
 /// Stages of loading and measuring, and those of writing.
@@ -39,7 +38,7 @@ pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
         stages.at("drawing and writing files");
         write(folder, &shapes, &title)?;
         drop(stages);
-        say(format_args!("wrote solid.vtp, distance.vti and picture.png to {}", folder.display()));
+        say(format_args!("wrote solid.vtu, distance.vtu and picture.png to {}", folder.display()));
     }
     write_shapes(&arguments.drawings, formats, &shapes)?;
     Ok(DONE)
@@ -48,8 +47,8 @@ pub(crate) fn geometry(arguments: &GeometryArguments) -> Result<u8, Failure> {
 fn write(folder: &Path, shapes: &Shapes, title: &str) -> Result<(), Failure> {
     let bug = |error: &dyn std::fmt::Display| Failure::new(BUG, error);
     let files = [
-        ("solid.vtp", vtk::lines(&shapes.outline, 0.0, vtk::Compression::default()).map_err(|error| bug(&error))?),
-        ("distance.vti", vtk::grid(&shapes.distance, 0.0, vtk::Compression::default()).map_err(|error| bug(&error))?),
+        ("solid.vtu", vtk::lines(&shapes.outline, vtk::Compression::default()).map_err(|error| bug(&error))?),
+        ("distance.vtu", vtk::grid(&shapes.distance, vtk::Compression::default()).map_err(|error| bug(&error))?),
         ("picture.png", picture(&pore(shapes), &shapes.outline, title).map_err(|error| Failure::new(USAGE, &error))?),
     ];
     files
@@ -61,13 +60,8 @@ fn write(folder: &Path, shapes: &Shapes, title: &str) -> Result<(), Failure> {
 /// The nodes of the grid as points, those in the pore marked as such.
 fn pore(shapes: &Shapes) -> Snapshot<'static> {
     const SOLID: i64 = 2;
-    let grid = &shapes.distance;
-    let node = |i: usize| {
-        let [x, y] = [i % grid.counts[0].max(1), i / grid.counts[0].max(1)];
-        grid.origin + Vec2::new(x as f64, y as f64).component_mul(&grid.spacing)
-    };
-    let points: Vec<Vec2> = (0..grid.counts[0] * grid.counts[1]).map(node).collect();
-    let distance = grid.fields.iter().find(|field| field.name == "wall-distance").map(|field| &field.values);
+    let points = shapes.distance.points();
+    let distance = shapes.distance.fields.iter().find(|field| field.name == "wall-distance").map(|field| &field.values);
     let is_pore = |i: usize| matches!(distance, Some(Values::Scalar(d)) if d.get(i).is_some_and(|&d| d > 0.0));
     let phase = (0..points.len()).map(|i| if is_pore(i) { PORE } else { SOLID }).collect();
     let fields = vec![Field { name: "phase", unit: "", values: Values::Integer(phase) }];
@@ -77,6 +71,7 @@ fn pore(shapes: &Shapes) -> Snapshot<'static> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Vec2;
     use crate::snapshot::{Grid, Lines};
 
     #[test]
@@ -102,6 +97,6 @@ mod tests {
         let mut names: Vec<_> =
             std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         names.sort();
-        assert_eq!(names, ["distance.vti", "picture.png", "solid.vtp"]);
+        assert_eq!(names, ["distance.vtu", "picture.png", "solid.vtu"]);
     }
 }

@@ -10,7 +10,7 @@ use crate::io::{atomic, vtk};
 
 /// The formats of the drawings that were asked for; none for the outline as VTK.
 pub(crate) fn formats(arguments: &WriteArguments) -> Result<Vec<Option<Format>>, Failure> {
-    let is_vtk = |path: &std::path::Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtp"));
+    let is_vtk = |path: &std::path::Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtu"));
     let format = |path: &std::path::PathBuf| if is_vtk(path) { Ok(None) } else { Format::of(path).map(Some) };
     arguments.write.iter().map(format).collect::<Result<_, _>>().map_err(|error| Failure::new(USAGE, &error))
 }
@@ -27,7 +27,7 @@ pub(crate) fn write_shapes(
             Some(format) => export::write(&shapes.spec, format, beside).map_err(|error| Failure::new(USAGE, &error))?,
             None => {
                 let geometry = Geometry::new(&shapes.spec).map_err(|error| Failure::new(BAD_INPUT, &error))?;
-                vtk::lines(&geometry.outline(), 0.0, vtk::Compression::default())
+                vtk::lines(&geometry.outline(), vtk::Compression::default())
                     .map_err(|error| Failure::new(BUG, &error))?
             }
         };

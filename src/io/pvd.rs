@@ -11,12 +11,11 @@ use std::path::{Path, PathBuf};
 use super::atomic::{self, FileError};
 use super::frames::{FrameList, Written};
 
-/// A time series of VTK files: `NAME.pvd` beside the folder `NAME/` with `NAME-000000.EXT` and so on.
+/// A time series of VTK files: `NAME.pvd` beside the folder `NAME/` with `NAME-000000.vtu` and so on.
 #[derive(Debug)]
 pub(crate) struct Collection {
     folder: PathBuf,
     name: String,
-    extension: &'static str,
     entries: Entries,
 }
 
@@ -48,13 +47,13 @@ impl Entries {
 
 impl Collection {
     /// The series in `folder` that holds what was `written` before; files of other series are passed over.
-    pub(crate) fn new(folder: &Path, name: &str, extension: &'static str, written: &[Written]) -> Self {
+    pub(crate) fn new(folder: &Path, name: &str, written: &[Written]) -> Self {
         let mut entries = Entries::default();
         for frame in written.iter().filter(|frame| series_of(frame) == name) {
             entries.cut(frame.time);
             entries.push(frame.time, &frame.file);
         }
-        Self { folder: folder.to_path_buf(), name: name.to_owned(), extension, entries }
+        Self { folder: folder.to_path_buf(), name: name.to_owned(), entries }
     }
 
     /// The `.pvd` file.
@@ -65,7 +64,7 @@ impl Collection {
     /// Writes the VTK file of `time` (s), notes it in `frames`, then writes the `.pvd` that names it.
     pub(crate) fn record(&mut self, time: f64, content: &[u8], frames: &mut FrameList) -> Result<(), FileError> {
         self.entries.cut(time);
-        let file = format!("{0}/{0}-{1:06}.{2}", self.name, self.entries.times.len(), self.extension);
+        let file = format!("{0}/{0}-{1:06}.vtu", self.name, self.entries.times.len());
         frames.write(time, &file, content)?;
         self.entries.push(time, &file);
         self.write()
@@ -88,7 +87,7 @@ fn series_of(frame: &Written) -> &str {
 /// Makes the `.pvd` files anew that name what was `written`, whatever is there.
 pub(crate) fn rebuild(folder: &Path, written: &[Written]) -> Result<(), FileError> {
     let names: BTreeSet<&str> = written.iter().map(series_of).collect();
-    names.into_iter().try_for_each(|name| Collection::new(folder, name, "", written).write())
+    names.into_iter().try_for_each(|name| Collection::new(folder, name, written).write())
 }
 
 #[cfg(test)]
@@ -99,8 +98,7 @@ mod tests {
     #[test]
     fn resuming_drops_later_times_doubles_none_and_needs_no_pvd() {
         let folder = tempfile::tempdir().unwrap();
-        let (mut series, mut list) =
-            (Collection::new(folder.path(), "grid", "vti", &[]), FrameList::new(folder.path()));
+        let (mut series, mut list) = (Collection::new(folder.path(), "grid", &[]), FrameList::new(folder.path()));
         series.record(0.0, b"x", &mut list).unwrap();
         series.record(1.0e-7, b"x", &mut list).unwrap();
         let mark = list.mark();
@@ -111,7 +109,7 @@ mod tests {
         rebuild(folder.path(), &written).unwrap();
         assert_eq!(std::fs::read_to_string(series.path()).unwrap().matches("<DataSet ").count(), 2);
         let (mut series, mut list) =
-            (Collection::new(folder.path(), "grid", "vti", &written), FrameList::resume(folder.path(), mark).unwrap());
+            (Collection::new(folder.path(), "grid", &written), FrameList::resume(folder.path(), mark).unwrap());
         series.record(1.0e-7, b"x", &mut list).unwrap();
         series.record(0.1 + 0.2, b"x", &mut list).unwrap();
         assert_eq!(std::fs::read(series.path()).unwrap(), unbroken);

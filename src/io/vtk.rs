@@ -1,25 +1,35 @@
-//! Snapshots as VTK XML files: particles `.vtu`, grid `.vti`, lines and layers of cells `.vtp`.
+//! Snapshots as VTK XML files, written by vtkio: each an unstructured grid (`.vtu`), the kind that meshio reads too.
 //!
-//! Points of the plane get z = 0 and vectors three components. Arrays stand where they belong, in base 64 and compressed by
-//! zlib: the form that every reader knows, meshio too. LZ4 is faster, and read by VTK, ParaView and pyvista only. The time is
-//! field data. Units stand in `units.json` of the output folder.
+//! Particles are vertices, a grid is quadrilaterals, lines are segments, since meshio knows no polylines. Points of the plane get z = 0 and vectors three
+//! components. Arrays stand where they belong, in base 64 and compressed by zlib: the form that every reader knows. LZ4 is faster, and read by VTK,
+//! ParaView and pyvista only. Times stand in the `.pvd`, units in `units.json` of the output folder.
 
-mod array;
+mod document;
 
-use std::fmt::Write as _;
+use vtkio::IOBuffer;
+use vtkio::model::CellType;
+use vtkio::xml::{AttributeData, DataArray};
 
-pub(crate) use array::Compression;
-
+use self::document::{Arrays, Piece};
 use crate::math::Vec2;
 use crate::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines, Values};
 
-/// Type of a cell that is a point, as VTK numbers them.
-const VERTEX: u8 = 1;
+/// How arrays are compressed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Compression {
+    /// Not at all.
+    None,
+    /// By zlib at its fastest level.
+    #[default]
+    Zlib,
+    /// By LZ4.
+    Lz4,
+}
 
 /// A snapshot that cannot be written as VTK.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum VtkError {
-    /// A field that is longer or shorter than the points it belongs to.
+    /// A field that is longer or shorter than the points or cells it belongs to.
     #[error("the field {name} has {found} values, expected {expected}")]
     Length {
         /// Name of the field.
@@ -29,130 +39,130 @@ pub(crate) enum VtkError {
         /// Number of points.
         expected: usize,
     },
+    /// What the library that writes says.
+    #[error("the file cannot be written: {0}")]
+    Write(String),
 }
 
-/// Points as a `.vtu` file, each a vertex cell; `time` in s.
-pub(crate) fn points(cloud: &Cloud<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
-    let count = cloud.points.len();
-    let fields = arrays(&cloud.fields, count, compression)?;
-    let types = compression.bytes("types", &vec![VERTEX; count]);
-    let piece = format!(
-        "<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{count}\"><PointData>{fields}</PointData>{}<Cells>{}{types}</Cells></Piece>",
-        places(&cloud.points, compression),
-        cells((0..count).map(|point| [point as i64]), compression),
-    );
-    Ok(file("UnstructuredGrid", "", time, &piece, compression))
+/// Points, each a vertex.
+pub(crate) fn points(cloud: &Cloud<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let cells = Cells::new(CellType::Vertex, (0..cloud.points.len()).map(|point| [point]));
+    file(&cloud.points, cells, [&cloud.fields, &[]], compression)
 }
 
-/// Fields on a regular grid as a `.vti` file; `time` in s.
-pub(crate) fn grid(grid: &Grid<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
-    let fields = arrays(&grid.fields, grid.counts[0] * grid.counts[1], compression)?;
-    let [last_x, last_y] = grid.counts.map(|count| count.saturating_sub(1));
-    let extent = format!("0 {last_x} 0 {last_y} 0 0");
-    // The third spacing has no meaning with one layer of nodes, but must not be zero.
-    let attributes = format!(
-        " WholeExtent=\"{extent}\" Origin=\"{:?} {:?} 0\" Spacing=\"{:?} {:?} {:?}\"",
-        grid.origin.x, grid.origin.y, grid.spacing.x, grid.spacing.y, grid.spacing.x
-    );
-    let piece = format!("<Piece Extent=\"{extent}\"><PointData>{fields}</PointData></Piece>");
-    Ok(file("ImageData", &attributes, time, &piece, compression))
+/// Fields on the corners of the quadrilaterals of a regular grid.
+pub(crate) fn grid(grid: &Grid<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let [columns, rows] = grid.counts;
+    let nodes = (1..rows).flat_map(|row| (1..columns).map(move |column| row * columns + column));
+    let corners = nodes.map(|node| [node - columns - 1, node - columns, node, node - 1]);
+    file(&grid.points(), Cells::new(CellType::Quad, corners), [&grid.fields, &[]], compression)
 }
 
-/// Polylines as a `.vtp` file; `time` in s.
-pub(crate) fn lines(lines: &Lines<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
-    let fields = arrays(&lines.fields, lines.points.len(), compression)?;
-    let data = format!("<PointData>{fields}</PointData>");
-    Ok(poly_data(&lines.points, CellKind::Lines, &lines.lines, &data, time, compression))
+/// Polylines, segment by segment.
+pub(crate) fn lines(lines: &Lines<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let segments = lines.lines.iter().flat_map(|line| line.windows(2)).map(indices);
+    file(&lines.points, Cells::new(CellType::Line, segments), [&lines.fields, &[]], compression)
 }
 
-/// Cells with fields on them as a `.vtp` file; `time` in s, or where the clock of the run stands.
-pub(crate) fn layer(layer: &Layer<'_>, time: f64, compression: Compression) -> Result<Vec<u8>, VtkError> {
-    let fields = arrays(&layer.fields, layer.cells.len(), compression)?;
-    let data = format!("<CellData>{fields}</CellData>");
-    Ok(poly_data(&layer.points, layer.kind, &layer.cells, &data, time, compression))
-}
-
-fn poly_data(
-    points: &[Vec2],
-    kind: CellKind,
-    cells_of: &[Vec<u32>],
-    data: &str,
-    time: f64,
-    compression: Compression,
-) -> Vec<u8> {
-    let name = match kind {
-        CellKind::Points => "Verts",
-        CellKind::Lines => "Lines",
-        CellKind::Polygons => "Polys",
+/// Cells with fields on them.
+pub(crate) fn layer(layer: &Layer<'_>, compression: Compression) -> Result<Vec<u8>, VtkError> {
+    let kind = match layer.kind {
+        CellKind::Points => CellType::Vertex,
+        CellKind::Lines => CellType::Line,
+        CellKind::Polygons => CellType::Polygon,
     };
-    let mut counts = format!("NumberOfPoints=\"{}\"", points.len());
-    for other in ["Verts", "Lines", "Strips", "Polys"] {
-        let count = if other == name { cells_of.len() } else { 0 };
-        // Writing to a string cannot fail.
-        let _ = write!(counts, " NumberOf{other}=\"{count}\"");
-    }
-    let topology = cells(cells_of.iter().map(|cell| cell.iter().map(|&point| i64::from(point))), compression);
-    let piece = format!("<Piece {counts}>{data}{}<{name}>{topology}</{name}></Piece>", places(points, compression));
-    file("PolyData", "", time, &piece, compression)
+    let cells = Cells::new(kind, layer.cells.iter().map(|cell| indices(cell)));
+    file(&layer.points, cells, [&[], &layer.fields], compression)
 }
 
-/// A file of the given kind around its one piece.
-fn file(kind: &str, attributes: &str, time: f64, piece: &str, compression: Compression) -> Vec<u8> {
-    let compressor = compression.attribute();
-    format!(
-        "<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{compressor}>\
-         <{kind}{attributes}><FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
-         format=\"ascii\">{time:?}</DataArray></FieldData>{piece}</{kind}></VTKFile>"
-    )
-    .into_bytes()
+fn indices(cell: &[u32]) -> impl Iterator<Item = usize> {
+    cell.iter().map(|&point| point as usize)
 }
 
-/// Points, cells or other elements with their points, one after the other, and where each ends.
-fn cells(of: impl Iterator<Item = impl IntoIterator<Item = i64>>, compression: Compression) -> String {
-    let (mut connectivity, mut offsets) = (Vec::new(), Vec::new());
-    for cell in of {
-        connectivity.extend(cell);
-        offsets.push(connectivity.len() as i64);
-    }
-    compression.integers("connectivity", &connectivity) + &compression.integers("offsets", &offsets)
+/// Cells of one kind: their points, one after the other, and where each ends.
+struct Cells {
+    kind: CellType,
+    connectivity: Vec<i64>,
+    offsets: Vec<i64>,
 }
 
-fn places(points: &[Vec2], compression: Compression) -> String {
-    format!("<Points>{}</Points>", compression.vectors("Points", points))
-}
-
-/// The fields, one after the other.
-fn arrays(fields: &[Field<'_>], points: usize, compression: Compression) -> Result<String, VtkError> {
-    let mut text = String::new();
-    for field in fields {
-        let (found, array) = match &field.values {
-            Values::Scalar(values) => (values.len(), compression.scalars(field.name, values)),
-            Values::Vector(values) => (values.len(), compression.vectors(field.name, values)),
-            Values::Integer(values) => (values.len(), compression.integers(field.name, values)),
-        };
-        if found != points {
-            return Err(VtkError::Length { name: field.name, found, expected: points });
+impl Cells {
+    fn new(kind: CellType, of: impl Iterator<Item = impl IntoIterator<Item = usize>>) -> Self {
+        let (mut connectivity, mut offsets) = (Vec::new(), Vec::new());
+        for cell in of {
+            connectivity.extend(cell.into_iter().map(|point| point as i64));
+            offsets.push(connectivity.len() as i64);
         }
-        text += &array;
+        Self { kind, connectivity, offsets }
     }
-    Ok(text)
 }
+
+/// The file of points and cells with fields on both.
+fn file(
+    points: &[Vec2],
+    cells: Cells,
+    [on_points, on_cells]: [&[Field<'_>]; 2],
+    compression: Compression,
+) -> Result<Vec<u8>, VtkError> {
+    let (number_of_points, number_of_cells) = (points.len(), cells.offsets.len());
+    let types = vec![cells.kind as u8; number_of_cells];
+    let piece = Piece {
+        number_of_points,
+        number_of_cells,
+        point_data: data(on_points, number_of_points, compression)?,
+        cell_data: data(on_cells, number_of_cells, compression)?,
+        points: Arrays { arrays: vec![vectors("Points", points, compression)?] },
+        cells: Arrays {
+            arrays: vec![
+                compression.array("connectivity", 1, cells.connectivity.into())?,
+                compression.array("offsets", 1, cells.offsets.into())?,
+                compression.array("types", 1, types.into())?,
+            ],
+        },
+    };
+    piece.into_file(compression)
+}
+
+/// Vectors of the plane with a third component of 0.
+fn vectors(name: &str, values: &[Vec2], compression: Compression) -> Result<DataArray, VtkError> {
+    compression.array(name, 3, values.iter().flat_map(|v| [v.x, v.y, 0.0]).collect::<IOBuffer>())
+}
+
+/// The fields, each of so many values.
+fn data(fields: &[Field<'_>], expected: usize, compression: Compression) -> Result<AttributeData, VtkError> {
+    let mut data = AttributeData::default();
+    for Field { name, values, .. } in fields {
+        let (found, array) = match values {
+            Values::Scalar(values) => (values.len(), compression.array(name, 1, values.to_vec().into())),
+            Values::Vector(values) => (values.len(), vectors(name, values, compression)),
+            Values::Integer(values) => (values.len(), compression.array(name, 1, values.to_vec().into())),
+        };
+        if found != expected {
+            return Err(VtkError::Length { name: *name, found, expected });
+        }
+        data.data_array.push(array?);
+    }
+    Ok(data)
+}
+
+#[cfg(test)]
+#[allow(unreachable_pub, dead_code, reason = "the tests beside the library use it too")]
+#[path = "../../tests/support/python.rs"]
+mod python;
 
 #[cfg(test)]
 mod tests {
     use std::borrow::Cow;
 
-    use vtkio::IOBuffer;
-    use vtkio::model::{Attribute, CellType, DataSet, Vtk};
+    use vtkio::model::{Attribute, DataSet, UnstructuredGridPiece, VertexNumbers, Vtk};
 
     use super::*;
 
-    fn find(bytes: &[u8], text: &str) -> Option<usize> {
-        bytes.windows(text.len()).position(|window| window == text.as_bytes())
-    }
-
-    fn parse(bytes: &[u8]) -> Vtk {
-        Vtk::parse_xml(bytes).unwrap()
+    fn parse(bytes: &[u8]) -> UnstructuredGridPiece {
+        let DataSet::UnstructuredGrid { pieces, .. } = Vtk::parse_xml(bytes).unwrap().data else {
+            panic!("not an unstructured grid")
+        };
+        pieces.into_iter().next().unwrap().into_loaded_piece_data(None).unwrap()
     }
 
     fn fields(count: usize) -> Vec<Field<'static>> {
@@ -164,63 +174,96 @@ mod tests {
         ]
     }
 
+    fn coordinates(points: &[Vec2]) -> IOBuffer {
+        points.iter().flat_map(|v| [v.x, v.y, 0.0]).collect()
+    }
+
     #[test]
-    fn particles_read_back_as_vertex_cells_with_all_fields_and_the_time() {
-        let points_given: Vec<Vec2> = (0..5000).map(|i| Vec2::new(f64::from(i) * 1.0e-7 / 3.0, -1.0e-3)).collect();
-        let cloud = Cloud { points: Cow::Borrowed(&points_given), fields: fields(5000) };
-        let bytes = points(&cloud, 0.25e-3, Compression::Zlib).unwrap();
-        assert!(find(&bytes, "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">0.00025<").is_some());
-        let DataSet::UnstructuredGrid { pieces, .. } = parse(&bytes).data else { panic!("not an unstructured grid") };
-        let piece = pieces.into_iter().next().unwrap().into_loaded_piece_data(None).unwrap();
-        assert_eq!(piece.points, IOBuffer::F64(points_given.iter().flat_map(|v| [v.x, v.y, 0.0]).collect()));
+    fn particles_read_back_as_vertices_with_all_fields() {
+        let given: Vec<Vec2> = (0..5000).map(|i| Vec2::new(f64::from(i) * 1.0e-7 / 3.0, -1.0e-3)).collect();
+        let cloud = Cloud { points: Cow::Borrowed(&given), fields: fields(5000) };
+        let piece = parse(&points(&cloud, Compression::None).unwrap());
+        assert_eq!(piece.points, coordinates(&given));
         assert_eq!(piece.cells.types, vec![CellType::Vertex; 5000]);
         let names: Vec<&str> = piece.data.point.iter().map(Attribute::name).collect();
         assert_eq!(names, ["pressure", "velocity", "id"]);
     }
 
     #[test]
-    fn a_grid_keeps_its_origin_and_spacing_in_double_precision() {
-        let example = Grid {
-            origin: Vec2::new(0.1e-3, -1.0 / 3.0),
-            spacing: Vec2::new(1.0e-5, 2.0e-5),
-            counts: [4, 3],
-            fields: fields(12),
-        };
-        let bytes = grid(&example, 1.0, Compression::Zlib).unwrap();
-        assert!(find(&bytes, "Origin=\"0.0001 -0.3333333333333333 0\"").is_some());
-        let DataSet::ImageData { extent, spacing, .. } = parse(&bytes).data else { panic!("not image data") };
-        assert_eq!(extent.into_dims(), [4, 3, 1]);
-        assert_eq!(spacing[..2], [1.0e-5_f32, 2.0e-5]);
+    fn a_grid_has_its_nodes_in_double_precision_at_the_corners_of_quadrilaterals() {
+        let (origin, spacing) = (Vec2::new(0.1e-3, -1.0 / 3.0), Vec2::new(1.0e-5, 2.0e-5));
+        let example = Grid { origin, spacing, counts: [3, 2], fields: fields(6) };
+        let piece = parse(&grid(&example, Compression::None).unwrap());
+        let nodes = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0], [1.0, 1.0], [2.0, 1.0]];
+        assert_eq!(piece.points, coordinates(&nodes.map(|[x, y]| origin + Vec2::new(x, y).component_mul(&spacing))));
+        assert_eq!(piece.cells.types, [CellType::Quad; 2]);
+        let (connectivity, offsets) = (vec![0, 1, 4, 3, 1, 2, 5, 4], vec![4, 8]);
+        assert_eq!(piece.cells.cell_verts, VertexNumbers::XML { connectivity, offsets });
     }
 
     #[test]
-    fn lines_read_back_with_their_vertices() {
+    fn polylines_read_back_as_their_segments() {
         let vertices = [Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
         let example =
             Lines { points: Cow::Borrowed(&vertices), lines: vec![vec![0, 1, 2, 0], vec![1, 2]], fields: fields(3) };
-        let DataSet::PolyData { pieces, .. } = parse(&lines(&example, 0.0, Compression::Lz4).unwrap()).data else {
-            panic!("not lines")
-        };
-        let piece = pieces.into_iter().next().unwrap().into_loaded_piece_data(None).unwrap();
-        assert_eq!(piece.num_lines(), 2);
-        assert_eq!(piece.num_points(), 3);
+        let piece = parse(&lines(&example, Compression::None).unwrap());
+        assert_eq!(piece.cells.types, [CellType::Line; 4]);
+        let (connectivity, offsets) = (vec![0, 1, 1, 2, 2, 0, 1, 2], vec![2, 4, 6, 8]);
+        assert_eq!(piece.cells.cell_verts, VertexNumbers::XML { connectivity, offsets });
+    }
+
+    #[test]
+    fn polygons_carry_their_fields() {
+        let vertices = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vec2::new(x, y));
+        let (points, cells) = (Cow::Borrowed(&vertices[..]), vec![vec![0, 1, 2, 3], vec![0, 1, 2]]);
+        let example = Layer { name: "regions", kind: CellKind::Polygons, points, cells, fields: fields(2) };
+        let piece = parse(&layer(&example, Compression::None).unwrap());
+        assert_eq!(piece.cells.types, [CellType::Polygon; 2]);
+        assert_eq!((piece.data.point.len(), piece.data.cell.len()), (0, 3));
     }
 
     #[test]
     fn files_without_points_tell_their_counts_and_the_names_of_their_fields() {
-        let nothing = Lines { fields: fields(0), ..Lines::default() };
-        let bytes = lines(&nothing, 0.0, Compression::Zlib).unwrap();
-        assert!(matches!(parse(&bytes).data, DataSet::PolyData { .. }));
-        assert!(find(&bytes, "<Piece NumberOfPoints=\"0\"").is_some() && find(&bytes, "Name=\"velocity\"").is_some());
-        let bytes = points(&Cloud { points: Cow::default(), fields: fields(0) }, 0.0, Compression::Zlib).unwrap();
-        assert!(matches!(parse(&bytes).data, DataSet::UnstructuredGrid { .. }));
+        for compression in [Compression::None, Compression::Zlib, Compression::Lz4] {
+            let nothing = Lines { fields: fields(0), ..Lines::default() };
+            let text = String::from_utf8(lines(&nothing, compression).unwrap()).unwrap();
+            for told in ["<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\">", "Name=\"velocity\""] {
+                assert!(text.contains(told), "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn arrays_around_the_length_of_a_block_are_read_back_to_the_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let names = [Compression::None, Compression::Zlib, Compression::Lz4].map(|way| (way, format!("{way:?}")));
+        // Blocks are full at 4096 numbers of a field, at 4096 vectors, and at 32768 types of cells.
+        for count in [0, 1, 4095, 4096, 4097, 8192, 32767, 32768, 32769, 65536] {
+            let given: Vec<Vec2> = (0..count).map(|i| Vec2::new((i as f64).sqrt(), -(i as f64) / 7.0)).collect();
+            let cloud = Cloud { points: given.clone().into(), fields: fields(count) };
+            for (compression, name) in &names {
+                let content = points(&cloud, *compression).unwrap();
+                if *compression == Compression::None {
+                    assert_eq!(parse(&content).points, coordinates(&given), "{count} points");
+                }
+                crate::io::atomic::write(&folder.path().join(name).join(format!("{count}.vtu")), &content).unwrap();
+            }
+        }
+        let mut compare = std::process::Command::new(python::interpreter());
+        compare.arg(python::root().join("postprocess/tests/same_arrays.py"));
+        let printed =
+            python::run(compare.args(names.map(|(_, name)| folder.path().join(name))), "all must read the same arrays");
+        assert_eq!(
+            printed,
+            "None: 10 files, 9 of them by meshio too\nZlib: 10 files, 9 of them by meshio too\nLz4: 10 files, 0 of them by meshio too\n"
+        );
     }
 
     #[test]
     fn a_field_of_another_length_is_refused() {
         let cloud = Cloud { points: vec![Vec2::zeros(); 2].into(), fields: fields(3) };
         assert_eq!(
-            points(&cloud, 0.0, Compression::None).unwrap_err().to_string(),
+            points(&cloud, Compression::None).unwrap_err().to_string(),
             "the field pressure has 3 values, expected 2"
         );
     }

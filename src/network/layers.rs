@@ -78,7 +78,7 @@ fn plain_regions(setting: &Setting) -> Layer<'static> {
     Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
 
-/// `pores.vtp` and `throats.vtp`.
+/// `pores.vtu` and `throats.vtu`.
 pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) -> Vec<Layer<'static>> {
     let setting = &model.setting;
     let count = setting.pores.main_region.len();
@@ -104,23 +104,24 @@ pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) 
     vec![pores, throats(model)]
 }
 
-/// Lines from pore center to pore center by way of the middle of the throat.
+/// Two lines each, from the pore centers to the middle of the throat.
 fn throats(model: &Model) -> Layer<'static> {
     let setting = &model.setting;
-    let (points, cells) = joined(kept(setting).map(|throat| {
-        let [to_first, to_second] = arms(setting, throat);
-        vec![throat.middle() + to_first, throat.middle(), throat.middle() + to_second]
-    }));
+    let (points, cells) =
+        joined(kept(setting).flat_map(|throat| {
+            arms(setting, throat).map(|to_center| vec![throat.middle() + to_center, throat.middle()])
+        }));
+    let both = || kept(setting).flat_map(|throat| [throat, throat]);
     let mut fields = vec![
-        integer("throat", 0..setting.pores.throats.len() as i64),
-        integer("pore-1", kept(setting).map(|throat| pores_of(setting, throat)[0] as i64)),
-        integer("pore-2", kept(setting).map(|throat| pores_of(setting, throat)[1] as i64)),
-        scalar("width", "m", kept(setting).map(|throat| throat.width)),
-        scalar("length", "m", kept(setting).map(|throat| length(setting, throat))),
+        integer("throat", (0..setting.pores.throats.len() as i64).flat_map(|throat| [throat, throat])),
+        integer("pore-1", both().map(|throat| pores_of(setting, throat)[0] as i64)),
+        integer("pore-2", both().map(|throat| pores_of(setting, throat)[1] as i64)),
+        scalar("width", "m", both().map(|throat| throat.width)),
+        scalar("length", "m", both().map(|throat| length(setting, throat))),
     ];
     if let Some(pressures) = model.entry_pressures() {
-        let kept = setting.pores.throats.iter().map(|&throat| pressures[throat]);
-        fields.push(scalar("entry-pressure", "Pa", kept));
+        let both = setting.pores.throats.iter().flat_map(|&throat| [pressures[throat]; 2]);
+        fields.push(scalar("entry-pressure", "Pa", both));
     }
     Layer { name: "throats", kind: CellKind::Lines, points: points.into(), cells, fields }
 }

@@ -124,7 +124,7 @@ pub fn execute(
     written?;
     let results = solver.results();
     let picture = draw(job, solver, &results)?;
-    write_results(job, &results, solver.time())?;
+    write_results(job, &results)?;
     draw_diagrams(job, solver)?;
     Ok(Finished { report, folder: job.folder.clone(), picture, was_at_end })
 }
@@ -197,12 +197,12 @@ fn draw(job: &Job<'_>, solver: &dyn Solver, results: &Results<'_>) -> Result<Res
 }
 
 /// Writes tables, layers, texts and further maps.
-fn write_results(job: &Job<'_>, results: &Results<'_>, time: f64) -> Result<(), FileError> {
+fn write_results(job: &Job<'_>, results: &Results<'_>) -> Result<(), FileError> {
     let folder = &job.folder;
     results.tables.iter().try_for_each(|one| table::write(folder, one))?;
     for layer in &results.layers {
-        let path = folder.join(format!("{}.vtp", layer.name));
-        let content = vtk::layer(layer, time, compression(&job.case.output))
+        let path = folder.join(format!("{}.vtu", layer.name));
+        let content = vtk::layer(layer, compression(&job.case.output))
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
         atomic::write(&path, &content)?;
     }

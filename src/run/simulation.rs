@@ -175,21 +175,21 @@ pub(crate) struct Simulation<'a> {
 }
 
 impl Simulation<'_> {
-    /// Writes `solid.vtp` and the record of time zero.
+    /// Writes `solid.vtu` and the record of time zero.
     pub(crate) fn begin(&mut self, folder: &Path) -> Result<(), FileError> {
         self.write_outline(folder)?;
         self.record(Due::ALL)
     }
 
-    /// Writes anew what follows from the solver whatever its state: `solid.vtp` and `units.json`.
+    /// Writes anew what follows from the solver whatever its state: `solid.vtu` and `units.json`.
     pub(crate) fn go_on(&mut self, folder: &Path) -> Result<(), FileError> {
         self.write_outline(folder)?;
         write_units(folder, &Frame::of(self.solver))
     }
 
     fn write_outline(&self, folder: &Path) -> Result<(), FileError> {
-        let path = folder.join("solid.vtp");
-        let outline = vtk::lines(&self.solver.outline(), 0.0, self.records.compression)
+        let path = folder.join("solid.vtu");
+        let outline = vtk::lines(&self.solver.outline(), self.records.compression)
             .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
         atomic::write(&path, &outline)
     }

@@ -76,27 +76,27 @@ impl VtkFiles {
         let (time, compression) = (*time, self.compression);
         // A solver without particles has no fields of them either.
         if !(particles.fields.is_empty() && particles.points.is_empty()) {
-            self.write(("particles", "vtu"), time, vtk::points(particles, time, compression), frames)?;
+            self.write("particles", time, vtk::points(particles, compression), frames)?;
         }
         if let Some(grid) = grid {
-            self.write(("grid", "vti"), time, vtk::grid(grid, time, compression), frames)?;
+            self.write("grid", time, vtk::grid(grid, compression), frames)?;
         }
         if let Some(interface) = interface {
-            self.write(("interface", "vtp"), time, vtk::lines(interface, time, compression), frames)?;
+            self.write("interface", time, vtk::lines(interface, compression), frames)?;
         }
         let time = frame.time;
         let mut layers = frame.layers.iter();
-        layers.try_for_each(|it| self.write((it.name, "vtp"), time, vtk::layer(it, time, compression), frames))
+        layers.try_for_each(|it| self.write(it.name, time, vtk::layer(it, compression), frames))
     }
 
     fn write(
         &mut self,
-        (name, extension): (&'static str, &'static str),
+        name: &'static str,
         time: f64,
         content: Result<Vec<u8>, VtkError>,
         frames: &mut FrameList,
     ) -> Result<(), FileError> {
-        let new = || Collection::new(&self.folder, name, extension, &self.written);
+        let new = || Collection::new(&self.folder, name, &self.written);
         let files = self.series.entry(name).or_insert_with(new);
         let content = content.map_err(|error| FileError::Format { path: files.path(), what: error.to_string() })?;
         files.record(time, &content, frames)

@@ -85,8 +85,8 @@ fn trial_within(
     let per_record = clock.elapsed().as_secs_f64() - before_record;
     // A run needs most memory where it draws its picture while one record is on its way into files and the next one waits.
     let waiting = record();
-    let content = vtk::points(&first.1.particles, first.1.time, compression(&case.output));
-    let grid = first.1.grid.as_ref().map(|grid| vtk::grid(grid, first.1.time, compression(&case.output)));
+    let content = vtk::points(&first.1.particles, compression(&case.output));
+    let grid = first.1.grid.as_ref().map(|grid| vtk::grid(grid, compression(&case.output)));
     let picture = drawn(&case.title, solver, &solver.results());
     drop((first, waiting, content, grid, picture));
     // Steps that grow with the time are cut at every record, most of them late in the run.

@@ -230,7 +230,7 @@ fn every_file_of_a_network_is_described() {
     let told: BTreeSet<String> =
         section(&page("docs/reference/output.md"), "Files of networks").iter().flat_map(|row| code(&row[0])).collect();
     let tables = results.tables.iter().map(|table| format!("{}.csv", table.name));
-    let layers = results.layers.iter().map(|layer| format!("{}.vtp", layer.name));
+    let layers = results.layers.iter().map(|layer| format!("{}.vtu", layer.name));
     let regions = solver.layers().into_iter().map(|layer| format!("{}.pvd", layer.name));
     let diagrams = solver.diagrams().into_iter().map(|diagram| format!("diagram-{}.svg", diagram.name));
     let documents = results.documents.iter().map(|document| document.name.to_owned());

@@ -60,7 +60,7 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
 ];
 
 /// Words that belong to one place: the word, and the files that may hold it, by the beginning of their path.
-const ONE_PLACE: [(&str, &[&str]); 19] = [
+const ONE_PLACE: [(&str, &[&str]); 20] = [
     ("parry2d_f64", &["geometry/"]),
     ("clap", &["cli/"]),
     ("clap_complete", &["cli/"]),
@@ -78,6 +78,7 @@ const ONE_PLACE: [(&str, &[&str]); 19] = [
     // Pipes of other processes are called so too.
     ("stdout", &["cli/", "study/child.rs"]),
     ("stderr", &["cli/", "study/child.rs"]),
+    ("vtkio", &["io/vtk.rs", "io/vtk/"]),
     ("flate2", &["io/vtk/"]),
     ("lz4_flex", &["io/vtk/"]),
     ("base64", &["io/vtk/"]),

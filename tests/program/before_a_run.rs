@@ -99,7 +99,7 @@ fn geometry_measures_and_draws_every_shape_file() {
         let surface: Vec<&str> = line(&text, "specific-surface-per-m").split_whitespace().collect();
         assert_eq!(surface[1..3], ["1/m", "wall"], "{text}");
         assert!(surface[0].parse::<f64>().is_ok_and(|surface| surface > 0.0), "{text}");
-        for name in ["solid.vtp", "distance.vti", "picture.png"] {
+        for name in ["solid.vtu", "distance.vtu", "picture.png"] {
             let length = std::fs::metadata(out.join(name)).unwrap().len();
             assert!(length > 500, "{}: {name} has {length} bytes", file.display());
         }

@@ -1,5 +1,6 @@
 //! Runs of the program on small cases: files, threads, interrupts, failures and messages.
 
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -29,6 +30,29 @@ fn every_case_of_the_folder_runs_and_keeps_the_output_contract() {
         let mut check = Command::new(interpreter());
         check.arg(root().join("postprocess/check_output.py")).arg(folder.path().join("out"));
         run(&mut check, &format!("the output of {} must keep the contract", case.display()));
+        assert_same_arrays(&folder.path().join("out"), &case);
+    }
+}
+
+/// All readers must find the same bits in every VTK file of a run.
+fn assert_same_arrays(out: &Path, case: &Path) {
+    let mut compare = Command::new(interpreter());
+    compare.arg(root().join("postprocess/tests/same_arrays.py")).arg(out);
+    run(&mut compare, &format!("pyvista, VTK and meshio must read the same arrays of {}", case.display()));
+}
+
+#[test]
+fn every_network_and_film_has_files_that_all_readers_read() {
+    for case in ["cases/network", "cases/thin-film"].into_iter().flat_map(|folder| shipped(folder, &["toml"])) {
+        let folder = tempfile::tempdir().unwrap();
+        let text = std::fs::read_to_string(&case).unwrap().parse::<toml::Table>().unwrap();
+        let end = text.get("time").and_then(|time| time.get("end")?.as_float());
+        let end = end.map(|end| format!("--set=time.end={:e}", end / PART));
+        let arguments = ["run", case.to_str().unwrap(), "--out", "out"].into_iter().chain(end.as_deref());
+        let output = meniscus(folder.path(), &arguments.collect::<Vec<_>>());
+        let code = output.status.code();
+        assert!(code == Some(0) || code == Some(5), "{}: {code:?}\n{}", case.display(), stderr(&output));
+        assert_same_arrays(&folder.path().join("out"), &case);
     }
 }
 

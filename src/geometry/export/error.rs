@@ -5,7 +5,7 @@
 pub enum ExportError {
     /// The name's ending is none of ours.
     #[error(
-        "`.{ending}` names no format that can be written; use .svg, .dxf, .wkt, .geojson, .xyr, .toml, .png or .vtp"
+        "`.{ending}` names no format that can be written; use .svg, .dxf, .wkt, .geojson, .xyr, .toml, .png or .vtu"
     )]
     Ending {
         /// The ending.

@@ -27,16 +27,16 @@ fn a_run_leaves_every_file_of_the_output_contract() {
     let names: Vec<String> = files(folder.path()).keys().map(|path| path.display().to_string()).collect();
     for name in [
         "grid.pvd",
-        "grid/grid-000005.vti",
+        "grid/grid-000005.vtu",
         "interface.pvd",
-        "interface/interface-000000.vtp",
+        "interface/interface-000000.vtu",
         "particles.pvd",
         "particles/particles-000000.vtu",
         "particles/particles-000005.vtu",
         "picture.png",
         "restart/state.bin",
         "series.csv",
-        "solid.vtp",
+        "solid.vtu",
         "units.json",
     ] {
         assert!(names.iter().any(|found| found == name), "{name} is missing among {names:?}");
