@@ -138,7 +138,7 @@ fn data(fields: &[Field<'_>], expected: usize, compression: Compression) -> Resu
             Values::Integer(values) => (values.len(), compression.array(name, 1, values.to_vec().into())),
         };
         if found != expected {
-            return Err(VtkError::Length { name: *name, found, expected });
+            return Err(VtkError::Length { name, found, expected });
         }
         data.data_array.push(array?);
     }

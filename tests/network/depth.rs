@@ -181,24 +181,3 @@ fn in_time_pores_are_invaded_at_the_pressures_of_events() {
         }
     }
 }
-
-#[test]
-fn relative_permeabilities_have_the_conductances_of_the_chip() {
-    // Wide and narrow ways: in the plane the wide one carries (2/1)^3 times as much, in a shallow chip twice as much.
-    let of = |depth: &str| {
-        let set = ["expect=[]", "network.wetting={young={contact-angle-deg=60.0}}", depth];
-        let case = loaded(&named("drainage"), if depth.is_empty() { &set[..2] } else { &set });
-        let table = columns(&case, "relative_permeability.csv", ["relative_permeability_wetting", "saturation"]);
-        table.into_iter().map(|row| row.map(|cell| cell.parse::<f64>().unwrap())).collect::<Vec<_>>()
-    };
-    let (plane, deep, shallow) = (of(""), of("geometry.depth=1.0"), of("geometry.depth=1e-6"));
-    assert!(plane.len() > 4 && plane.len() == deep.len() && plane.len() == shallow.len());
-    let mut most = 0.0_f64;
-    for ((plane, deep), shallow) in plane.iter().zip(&deep).zip(&shallow) {
-        assert!(plane[1] == deep[1] && plane[1] == shallow[1]);
-        assert!((plane[0] - deep[0]).abs() < 1e-3, "{plane:?} {deep:?}");
-        most = most.max((plane[0] - shallow[0]).abs());
-    }
-    // The depth decides how much narrow throats count.
-    assert!(most > 0.01, "{most}");
-}

@@ -194,7 +194,7 @@ fn the_curve_falls_on_in_drainage_after_the_last_event_and_rises_in_imbibition()
     assert_eq!(last["capillary_pressure_Pa"], imbibition[0]["capillary_pressure_Pa"]);
     assert!(number(imbibition[0], "saturation") > number(last, "saturation"));
     // At the end of the drainage films alone hold water: their share goes with the square of 1/p.
-    let last_event = table(&case, "events.csv").into_iter().filter(|row| row["half_cycle"] == "1").next_back().unwrap();
+    let last_event = table(&case, "events.csv").into_iter().rfind(|row| row["half_cycle"] == "1").unwrap();
     let ratio = 5e4 / number(&last_event, "capillary_pressure_Pa");
     let shrunk = number(&last_event, "film_saturation") / number(last, "film_saturation");
     assert!(ratio > 1.5 && (shrunk / (ratio * ratio) - 1.0).abs() < 1e-9, "{ratio} {shrunk}");

@@ -204,22 +204,6 @@ impl Walls {
         }
         self.share(leg, high)
     }
-
-    /// A place on a leg, by the share of the way of the contact that goes farther over its piece.
-    pub(super) fn share(&self, leg: &Leg, share: f64) -> Place {
-        let (start, end) = (leg.start.place, leg.end.place);
-        let (i, j) = (end.left.0, end.right.0);
-        let (l, r) = (&self.left[i], &self.right[j]);
-        let mix = |a: f64, b: f64| a + (b - a) * share;
-        let (s, t) = (mix(start.left.1, end.left.1), mix(start.right.1, end.right.1));
-        if (end.left.1 - start.left.1).abs() >= (end.right.1 - start.right.1).abs() {
-            let t = r.answer(l.point(s), l.direction(s)).unwrap_or(t);
-            Place { left: (i, s), right: (j, held(t, start.right.1, end.right.1)) }
-        } else {
-            let s = l.answer(r.point(t), r.direction(t)).unwrap_or(s);
-            Place { left: (i, held(s, start.left.1, end.left.1)), right: (j, t) }
-        }
-    }
 }
 
 fn contact(piece: &Piece, s: f64) -> Contact {

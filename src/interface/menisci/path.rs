@@ -169,6 +169,9 @@ impl Walls {
             for station in inner.into_iter().chain([exit]) {
                 // Beyond half a turn the arc would go through infinity.
                 if (last.bend + self.change_of_bend(&last, &station)).abs() > PI {
+                    if way == Way::Forward {
+                        path.push(self.before_infinity(Leg { start: last, end: station }));
+                    }
                     return path;
                 }
                 path.push(match way {
@@ -180,6 +183,36 @@ impl Walls {
             now = exit;
         }
         path
+    }
+
+    /// The part of a leg in which arcs turn by less than half a turn, but for a millionth.
+    fn before_infinity(&self, leg: Leg) -> Leg {
+        const TURN: f64 = PI * (1.0 - 1e-6);
+        let (mut low, mut high) = (0.0, 1.0);
+        // A double has 53 bits.
+        for _ in 0..53 {
+            let middle = 0.5 * (low + high);
+            let station = self.station(self.share(&leg, middle));
+            let bend = leg.start.bend + self.change_of_bend(&leg.start, &station);
+            if bend.abs() < TURN { low = middle } else { high = middle }
+        }
+        Leg { end: self.station(self.share(&leg, low)), ..leg }
+    }
+
+    /// A place on a leg, by the share of the way of the contact that goes farther over its piece.
+    pub(crate) fn share(&self, leg: &Leg, share: f64) -> Place {
+        let (start, end) = (leg.start.place, leg.end.place);
+        let (i, j) = (end.left.0, end.right.0);
+        let (l, r) = (&self.left[i], &self.right[j]);
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        let (s, t) = (mix(start.left.1, end.left.1), mix(start.right.1, end.right.1));
+        if (end.left.1 - start.left.1).abs() >= (end.right.1 - start.right.1).abs() {
+            let t = r.answer(l.point(s), l.direction(s)).unwrap_or(t);
+            Place { left: (i, s), right: (j, held(t, start.right.1, end.right.1)) }
+        } else {
+            let s = l.answer(r.point(t), r.direction(t)).unwrap_or(s);
+            Place { left: (i, held(s, start.left.1, end.left.1)), right: (j, t) }
+        }
     }
 
     /// β = (μ_l − μ_r + π)/2 up to a constant: its change within a pair of pieces.

@@ -222,10 +222,9 @@ impl Dynamic {
         if let (Some(meniscus), Some(filling)) =
             (&mut self.state.menisci[front.0][front.1], &mut self.state.filling[element])
             && !std::mem::replace(&mut meniscus.has_burst, true)
+            && !self.is_outlet[element]
         {
-            if !self.is_outlet[element] {
-                filling.area += meniscus.area;
-            }
+            filling.area += meniscus.area;
         }
         self.graph = None;
     }

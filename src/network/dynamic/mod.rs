@@ -38,8 +38,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use self::graph::Graph;
-use self::open::Reach;
-use self::rise::Rise;
+use self::rise::{Reach, Rise};
 use super::conductance::{opening_resistances, resistances};
 use super::cycles::{FluidPhase, Invasion};
 use super::displacement::{Advance, Displacement, EventKind, FrontId, GateFacts, Phase};

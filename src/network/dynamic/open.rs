@@ -5,21 +5,12 @@
 
 use std::sync::Arc;
 
-use super::rise::Rise;
+use super::rise::{Reach, Rise};
 use super::{Breakthrough, Dynamic, Meniscus};
 use crate::geometry::curve::Curve;
 use crate::math::{Vec2, perpendicular};
 use crate::network::cycles::Invasion;
 use crate::network::displacement::FrontId;
-
-/// Where a meniscus that enters a pore at the outlet touches the side.
-#[derive(Debug, Clone)]
-pub(super) struct Reach {
-    /// Area in m² that it has swept since the chord of its gate.
-    area: f64,
-    /// What resists until then.
-    pub(super) rise: Arc<Rise>,
-}
 
 impl Dynamic {
     /// Elements that hold the defending phase and are open at given sides.
@@ -60,7 +51,7 @@ impl Dynamic {
         let opening = &self.network.openings[opening];
         let [a, b] = opening.ends;
         let mut inwards = Vec2::zeros();
-        inwards[opening.side / 2] = if opening.side % 2 == 0 { 1.0 } else { -1.0 };
+        inwards[opening.side / 2] = if opening.side.is_multiple_of(2) { 1.0 } else { -1.0 };
         let is_forward = (b - a).dot(&perpendicular(inwards)) > 0.0;
         self.terms.outlet[opening.side].then_some(if is_forward {
             Curve::Segment { a, b }

@@ -1,6 +1,8 @@
 //! The curvature over the area: of a meniscus over what it has swept in its gate, up to its event, and of the body in an element over what
 //! fills it.
 
+use std::sync::Arc;
+
 use crate::interface::menisci::Passage;
 
 /// Menisci that a table is made of; they stand closer towards the event, where the curvature of a burst is level.
@@ -156,4 +158,13 @@ impl Rise {
         let range = self.end().0 - self.area[0];
         range.max(self.end().1.abs().max(f64::MIN_POSITIVE) / self.closed)
     }
+}
+
+/// Where a meniscus that enters a pore at the outlet touches the side.
+#[derive(Debug, Clone)]
+pub(super) struct Reach {
+    /// Area in m² that it has swept since the chord of its gate.
+    pub(super) area: f64,
+    /// What resists until then.
+    pub(super) rise: Arc<Rise>,
 }
