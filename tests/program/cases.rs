@@ -232,9 +232,13 @@ fn resuming_another_case_or_nothing_is_refused() {
     assert_code(&output, 2);
     assert!(stderr(&output).contains("no run to resume"), "{}", stderr(&output));
     assert_code(&meniscus(folder.path(), &["run", "drop.toml", "--out", "a", "--set=time.end=1e-5"]), 0);
-    let output = meniscus(folder.path(), &["run", "drop.toml", "--out", "a", "--set=time.end=2e-5", "--resume"]);
+    let later = ["run", "drop.toml", "--out", "a", "--set=time.end=2e-5", "--resume"];
+    let output = meniscus(folder.path(), &[&later[..], &["--set=sph.gravity=[0.0, -1.0]"]].concat());
     assert_code(&output, 2);
     assert!(stderr(&output).contains("another case"), "{}", stderr(&output));
+    // The same case goes on to a later end.
+    assert_code(&meniscus(folder.path(), &later), 0);
+    assert_eq!(report(&folder.path().join("a"))["time-s"], 2e-5);
 }
 
 #[test]
