@@ -1,11 +1,13 @@
 """Permeability of packs of grains by direct solution of the Stokes equations, beside that of their pore networks.
 
-Usage: stokes_permeability.py SHAPES... [--periodic xy] [--open x] [--across 4.5] [--network RUN...] [--json FILE].
+Usage: stokes_permeability.py SHAPES... [--periodic xy] [--open x] [--depth B] [--across 4.5] [--network RUN...]
+[--json FILE].
 SHAPES are shape files with discs, rectangles and polygons, or lists `x y r` in m with --box. Along an axis that is
 neither periodic nor open both sides are walls, and nothing flows. Finite elements: velocities of second, pressures of
 first order (Taylor, Hood 1973) on a mesh that follows the walls, and a direct solver. A mean pressure gradient of 1
 drives the flow; K is the mean velocity times the viscosity. Its error falls with the third to fourth power of the
-edges, with the second one at corners; it is told by a second mesh, coarser by 1.5. Left out: grains that touch,
+edges, with the second one at corners; it is told by a second mesh, coarser by 1.5. With a depth in m these are the
+equations averaged between floor and lid, alpha div grad v - 12/b2 v = grad p: alpha is --profile-factor. Left out: grains that touch,
 overlap, or cross a side that is not periodic. Needs scipy and numpy, as in requirements-network.txt.
 """
 
@@ -36,9 +38,17 @@ class Flow:
     total: np.ndarray
 
 
-def flow(made: Mesh, has_open_sides: bool, axes: list[int]) -> list[Flow]:
+@dataclass
+class Plates:
+    """What floor and lid do: 12 over the squared depth in 1/m2, and the factor on the viscosity in the plane."""
+
+    friction: float = 0.0
+    factor: float = 1.0
+
+
+def flow(made: Mesh, has_open_sides: bool, axes: list[int], plates: Plates) -> list[Flow]:
     """Flow along each of the axes."""
-    stiffness, divergence, load = matrices(made)
+    stiffness, divergence, load = matrices(made, plates)
     free = np.flatnonzero(~made.is_wall)
     corners = np.unique(made.nodes[:, :3])
     # Without an open side the pressure is known but for a constant.
@@ -59,13 +69,14 @@ def flow(made: Mesh, has_open_sides: bool, axes: list[int]) -> list[Flow]:
     return flows
 
 
-def matrices(made: Mesh):
-    """Products of gradients of velocities, of pressures with divergences along both axes, and integrals of nodes."""
+def matrices(made: Mesh, plates: Plates):
+    """Resistance to velocities, products of pressures with divergences along both axes, and integrals of nodes."""
     k = np.zeros((len(made.nodes), 6, 6))
     b = np.zeros((2, len(made.nodes), 3, 6))
     load = np.zeros(made.count)
     for weight, value, corner, gradient in quadrature(made):
-        k += weight[:, None, None] * np.einsum("mia,mja->mij", gradient, gradient)
+        k += plates.factor * weight[:, None, None] * np.einsum("mia,mja->mij", gradient, gradient)
+        k += plates.friction * weight[:, None, None] * np.outer(value, value)
         for axis in (0, 1):
             b[axis] -= weight[:, None, None] * corner[:, None] * gradient[:, None, :, axis]
         np.add.at(load, made.nodes, weight[:, None] * value)
@@ -79,12 +90,12 @@ def matrices(made: Mesh):
     return matrix(k, made.nodes, (made.count, made.count)), divergence, load
 
 
-def permeability(domain: Domain, across: float) -> dict[int, np.ndarray]:
+def permeability(domain: Domain, across: float, plates: Plates | None = None) -> dict[int, np.ndarray]:
     """For each axis along which the domain is periodic or open, the mean velocity in m2 under a gradient along it."""
     axes = [axis for axis in (0, 1) if domain.sides[axis] != "wall"]
     if not axes or domain.sides == ("open", "open"):
         raise ValueError("one axis must be periodic or open, and not both open")
-    flows = flow(mesh(domain, across), "open" in domain.sides, axes)
+    flows = flow(mesh(domain, across), "open" in domain.sides, axes, plates or Plates())
     return {axis: found.total / np.prod(domain.period) for axis, found in zip(axes, flows, strict=True)}
 
 
@@ -114,11 +125,11 @@ def grain(path: Path, kind: str, keys: dict) -> Disc | Polygon:
     return Polygon(corners @ turn + keys["center"])
 
 
-def measure(domain: Domain, across: float) -> dict:
+def measure(domain: Domain, across: float, plates: Plates) -> dict:
     """Permeabilities in m2 with the share by which the coarser mesh differs."""
     found = {"porosity": domain.pore_area() / float(np.prod(domain.period))}
-    coarse = permeability(domain, across / COARSER)
-    for axis, mean in permeability(domain, across).items():
+    coarse = permeability(domain, across / COARSER, plates)
+    for axis, mean in permeability(domain, across, plates).items():
         found[f"permeability-{'xy'[axis]}-m2"] = float(mean[axis])
         found[f"difference-{'xy'[axis]}"] = float(abs(coarse[axis][axis] / mean[axis] - 1))
     return found
@@ -139,16 +150,19 @@ def main() -> None:
     )
     parser.add_argument("--open", default="", choices=["", "x", "y"], help="axis along which both sides are open")
     parser.add_argument("--box", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"), help="corners in m of a list")
+    parser.add_argument("--depth", type=float, help="distance of floor and lid in m")
+    parser.add_argument("--profile-factor", type=float, default=1.2, help="factor on the viscosity in the plane")
     parser.add_argument("--across", type=float, default=4.5, help="edges of elements across a gap")
     parser.add_argument("--network", type=Path, nargs="*", default=[], help="output folders of the networks of SHAPES")
     parser.add_argument("--json", type=Path, help="file to write")
     given = parser.parse_args()
     sides = tuple("periodic" if a in given.periodic else "open" if a in given.open else "wall" for a in "xy")
+    plates = Plates(12 / given.depth**2, given.profile_factor) if given.depth else Plates()
     records = []
     print(f"{'shapes':24} {'solid':>6} {'measure':17} {'Stokes in m2':>13} {'+-':>7} {'network in m2':>13} {'off':>7}")
     for index, path in enumerate(given.shapes):
         domain = domain_of(path, sides, given.box)
-        found = measure(domain, given.across)
+        found = measure(domain, given.across, plates)
         network = measures(given.network[index]) if index < len(given.network) else {}
         for axis in "xy":
             name = f"permeability-{axis}-m2"

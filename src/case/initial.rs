@@ -86,12 +86,8 @@ pub(super) fn initial(
 ) -> Option<Initial> {
     let others = [("background", raw.background.is_some()), ("wetting", raw.wetting.is_some())];
     let is_of_non_wetting = raw.non_wetting.is_some();
-    for (key, _) in others.into_iter().filter(|(_, given)| *given && is_of_non_wetting) {
-        checker.refuse(
-            format!("sph.initial.{key}"),
-            format!("`non-wetting` says which phase is where, and `{key}` is given too"),
-            "keep one of them",
-        );
+    if is_of_non_wetting {
+        refuse_beside(checker, "non-wetting", &others);
     }
     let (key, shapes) = if is_of_non_wetting { (NON_WETTING, &raw.non_wetting) } else { (WETTING, &raw.wetting) };
     let wetting = shapes.clone().unwrap_or_default();
@@ -124,12 +120,8 @@ pub(super) fn from_network(
         ("wetting", raw.wetting.is_some()),
         ("non-wetting", raw.non_wetting.is_some()),
     ];
-    for (key, _) in others.into_iter().filter(|(_, given)| *given && two_phases) {
-        checker.refuse(
-            format!("sph.initial.{key}"),
-            format!("`network` says which phase is where, and `{key}` is given too"),
-            "keep one of them",
-        );
+    if two_phases {
+        refuse_beside(checker, "network", &others);
     }
     let velocity = velocity(checker, raw);
     let start = start?;
@@ -152,6 +144,17 @@ pub(super) fn from_network(
     let wetting_is_background = start.state.invading == FluidPhase::NonWetting;
     let velocity = velocity?;
     Some(Initial { wetting: Vec::new(), wetting_is_background, key: WETTING, network: Some(start), velocity })
+}
+
+/// Refuses what else is given where one key says which phase is where; `others` are keys, and whether they are given.
+fn refuse_beside(checker: &mut Checker, says_it: &str, others: &[(&str, bool)]) {
+    for (key, _) in others.iter().filter(|(_, given)| *given) {
+        checker.refuse(
+            format!("sph.initial.{key}"),
+            format!("`{says_it}` says which phase is where, and `{key}` is given too"),
+            "keep one of them",
+        );
+    }
 }
 
 fn velocity(checker: &mut Checker, raw: &RawInitial) -> Option<InitialVelocity> {

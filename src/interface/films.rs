@@ -6,17 +6,11 @@
 //!
 //! Left out: the curvature of a film along its wall, contact lines that hysteresis pins.
 
-use std::f64::consts::FRAC_PI_2;
-
-use nalgebra::{DMatrix, DVector};
-
 use super::depth::corner_area;
 
 /// A film in a right corner between a wall and a plate, at a radius of its surface of 1: areas go with the square of the radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
-    /// Contact angles in rad of the wall and of the plate.
-    angles: [f64; 2],
     /// Cross-section.
     area: f64,
     /// How far it reaches along the wall and along the plate.
@@ -28,71 +22,7 @@ impl Corner {
     pub fn new(wall: f64, plate: f64) -> Option<Self> {
         let area = corner_area(wall, plate);
         let arms = [plate.cos() - wall.sin(), wall.cos() - plate.sin()];
-        (area > 0.0).then_some(Self { angles: [wall, plate], area, arms })
-    }
-
-    /// The flow along the film is g r⁴/μ times the pressure gradient, r the radius of its surface: g for a surface without shear stress.
-    ///
-    /// The velocity u with ∇²u = -1 is 0 on both walls and has no slope across the arc. With the angle φ from the plate and the distance ρ from the
-    /// corner, u = -(ρ sin φ)²/2 - ρ² (ln ρ sin 2φ + φ cos 2φ)/π + Σ a_n ρ^(2n) sin 2nφ satisfies all but the last condition, which the a_n meet best at
-    /// points of the arc; the flow is the integral of u in closed form along ρ. Ransohoff and Radke (1988) have the same problem, by finite elements.
-    pub fn conductance(&self) -> f64 {
-        /// Terms of the series and points of the arc. The flow with twice as many differs by less than 1e-6 of it for equal angles, by 1e-4 in a corner
-        /// of 5 and 80 degrees.
-        const TERMS: usize = 24;
-        const POINTS: usize = 8 * TERMS;
-        let size = self.arms[0].max(self.arms[1]);
-        let center = self.angles.map(|angle| angle.cos() / size);
-        let radius = 1.0 / size;
-        // From the contact on the plate to that on the wall, seen from the center of the arc.
-        let from = (-center[1]).atan2(self.arms[1] / size - center[0]);
-        let to = (self.arms[0] / size - center[1]).atan2(-center[0]);
-        let turn = (to - from).rem_euclid(std::f64::consts::TAU) - std::f64::consts::TAU;
-        let mut matrix = DMatrix::zeros(POINTS, TERMS);
-        let mut missing = DVector::zeros(POINTS);
-        for point in 0..POINTS {
-            // Closer together near both contacts.
-            let share = 0.5 * (1.0 - (std::f64::consts::PI * (point as f64 + 0.5) / POINTS as f64).cos());
-            let (ny, nx) = (from + share * turn).sin_cos();
-            let (x, y) = (center[0] + radius * nx, center[1] + radius * ny);
-            let (rho, phi) = (x.hypot(y), y.atan2(x));
-            for term in 0..TERMS {
-                let power = (2 * term + 1) as f64;
-                let (sin, cos) = (power * phi).sin_cos();
-                matrix[(point, term)] = rho.powf(power) * (nx * sin + ny * cos);
-            }
-            // The gradient of Im z² ln z has the parts Im and Re of 2 z ln z + z.
-            let (re, im) = (2.0 * (x * rho.ln() - y * phi) + x, 2.0 * (x * phi + y * rho.ln()) + y);
-            missing[point] = (nx * im + ny * re) / std::f64::consts::PI + ny * y;
-        }
-        /// Singular values below this share of the largest say nothing.
-        const ROUNDING: f64 = 1e-13;
-        let Ok(slopes) = matrix.svd(true, true).solve(&missing, ROUNDING) else { return f64::NAN };
-        let a: Vec<f64> = slopes.iter().enumerate().map(|(term, slope)| slope / (2 * term + 2) as f64).collect();
-        size.powi(4) * self.flow(&a, center, radius)
-    }
-
-    /// The integral of the velocity over a cross-section of the scaled film, by the midpoint rule in the angle.
-    fn flow(&self, a: &[f64], center: [f64; 2], radius: f64) -> f64 {
-        const ANGLES: usize = 2000;
-        let step = FRAC_PI_2 / ANGLES as f64;
-        let at = |index: usize| {
-            let phi = (index as f64 + 0.5) * step;
-            let (sin, cos) = phi.sin_cos();
-            let along = center[0] * cos + center[1] * sin;
-            let inner = center[0] * center[0] + center[1] * center[1] - radius * radius;
-            // Of both crossings of the circle the one nearer to the corner, without cancellation.
-            let rho = inner / (along + (along * along - inner).max(0.0).sqrt());
-            let fourth = rho.powi(4);
-            let (sin2, cos2) = (2.0 * phi).sin_cos();
-            let logarithm = sin2 * fourth * (0.25 * rho.ln() - 0.0625) + 0.25 * phi * cos2 * fourth;
-            let series = a.iter().enumerate().map(|(term, a)| {
-                let power = (2 * term + 2) as f64;
-                a * rho.powf(power + 2.0) / (power + 2.0) * (power * phi).sin()
-            });
-            series.sum::<f64>() - 0.125 * sin * sin * fourth - logarithm / std::f64::consts::PI
-        };
-        step * (0..ANGLES).map(at).sum::<f64>()
+        (area > 0.0).then_some(Self { area, arms })
     }
 }
 
@@ -144,33 +74,12 @@ pub fn meeting(width: f64, depth: f64, walls: [&WallFilms; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
     use super::*;
-    use crate::interface::depth::duct_factor;
 
     fn corner(wall: f64, plate: f64) -> Corner {
         Corner::new(wall.to_radians(), plate.to_radians()).unwrap()
-    }
-
-    #[test]
-    fn films_conduct_as_converged_finite_elements_say() {
-        for (deg, exact) in [(0.0, 2.349e-3), (10.0, 1.880e-3), (20.0, 9.027e-4), (30.0, 1.901e-4), (40.0, 3.46e-6)] {
-            let found = corner(deg, deg).conductance();
-            // Three digits are given for the last one.
-            let given = if deg == 40.0 { 2e-3 } else { 4e-4 };
-            assert!((found / exact - 1.0).abs() < given, "{deg}: {found:e} {exact:e}");
-        }
-    }
-
-    #[test]
-    fn a_mirrored_corner_conducts_the_same_and_one_with_a_straight_arc_as_half_a_duct() {
-        for (one, other) in [(10.0, 50.0), (0.0, 30.0), (5.0, 80.0)] {
-            let [a, b] = [corner(one, other), corner(other, one)].map(|corner| corner.conductance());
-            assert!((a / b - 1.0).abs() < 1e-4, "{one} {other}: {a:e} {b:e}");
-        }
-        // Near 45 degrees the arc is straight, and the film half of a square duct, cut along its diagonal.
-        let corner = corner(44.99, 44.99);
-        let share = corner.conductance() / corner.arms[0].powi(4);
-        assert!((share * 24.0 / duct_factor(1.0) - 1.0).abs() < 4e-4, "{share}");
     }
 
     #[test]

@@ -115,6 +115,15 @@ impl Arc {
         Self { chord, d, tangents, cos, sin, h, middle, direction }
     }
 
+    /// Area between arc and chord in m², above 0 where the arc bulges ahead.
+    fn segment(&self) -> f64 {
+        let alpha = self.sin.atan2(self.cos);
+        // d²/4 (α - sin α cos α)/sin² α, by its series where the quotient loses digits.
+        let shape =
+            if alpha.abs() < 1e-2 { alpha / 1.5 } else { (alpha - self.sin * self.cos) / (self.sin * self.sin) };
+        0.25 * self.d * self.d * shape
+    }
+
     /// 12/h³ in 1/m3; between floor and lid at the distance b that of a duct, 12/(h b² F(h/b)).
     fn gradient(&self, depth: Option<f64>) -> f64 {
         match depth {
@@ -201,12 +210,22 @@ impl Channel {
             let Some(step) = self.step(places, (scale / STEPS).min(ahead), center, (&arc, &rates)) else { break };
             sum += step.resistance;
             let Some((entered, is_concave)) = self.entered(step.places, step.ended) else { break };
+            if is_concave {
+                sum += self.drawn_back(&self.arc(step.places), &self.arc(entered));
+            }
             places = entered;
             if is_concave && !self.settle(&mut places, center, &mut sum) {
                 break;
             }
         }
         (sum, steps)
+    }
+
+    /// What floor and lid resist less where an arc draws back over an area that it has passed, as a wall turns towards the channel: 12/b² times the area over
+    /// h². In the plane 12/h³ makes it small where the channel is wide.
+    fn drawn_back(&self, before: &Arc, after: &Arc) -> f64 {
+        let area = (after.segment() - before.segment()).min(0.0);
+        self.depth.map_or(0.0, |depth| 12.0 * area / (depth * depth * before.h * after.h))
     }
 
     /// How far the middle has to go until the center is abreast of it; 0 where the channel has turned off at nearly a right angle.

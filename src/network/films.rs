@@ -15,8 +15,6 @@ use crate::math::Vec2;
 /// The films of a chip as a phase that invades meets them.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FilmTerms {
-    /// Distance of floor and lid in m.
-    pub(crate) thickness: f64,
     /// What floor and lid add to the curvature of menisci.
     pub(crate) depth: Depth,
     /// By wall.
@@ -28,7 +26,7 @@ impl FilmTerms {
     pub(crate) fn meeting(&self, network: &Network) -> Vec<f64> {
         let throat = |throat: &Throat| {
             let walls = throat.shapes.map(|shape| &self.walls[shape as usize]);
-            let curvature = meeting(throat.width, self.thickness, walls);
+            let curvature = meeting(throat.width, self.depth.distance(), walls);
             if curvature > 0.0 { -self.depth.plane(curvature) } else { f64::INFINITY }
         };
         network.throats.iter().map(throat).collect()
@@ -68,8 +66,8 @@ impl ElementFilms {
         let (mut unit, mut largest, mut on_plates) = (0.0, f64::INFINITY, [0.0; 2]);
         for piece in displacement.wall_pieces(element) {
             let (films, length) = (&terms.walls[piece.shape as usize], piece.curve.length());
-            unit += length * films.area() / terms.thickness;
-            largest = largest.min(terms.thickness / films.along_wall());
+            unit += length * films.area() / terms.depth.distance();
+            largest = largest.min(terms.depth.distance() / films.along_wall());
             let along = films.along_plates();
             on_plates = [0, 1].map(|plate| on_plates[plate] + length * along[plate]);
         }
@@ -179,7 +177,7 @@ impl Films {
     /// What pictures and tables show of them.
     pub(crate) fn seen(&self, displacement: &Displacement) -> SeenFilms {
         let count = self.states.len();
-        let volume = |element| self.terms.thickness * self.area_of(element, self.curvature);
+        let volume = |element| self.terms.depth.distance() * self.area_of(element, self.curvature);
         let strips = (0..count).flat_map(|element| self.strips(displacement, element)).collect();
         SeenFilms { volume: (0..count).map(volume).collect(), strips }
     }

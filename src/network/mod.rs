@@ -1,5 +1,6 @@
 //! Pore networks: extraction from the exact geometry, displacement with the menisci of `interface`, conductance and permeability.
 
+mod angles;
 mod channel;
 pub mod conductance;
 pub(crate) mod cycles;
@@ -15,6 +16,7 @@ pub mod solver;
 mod film_curve;
 mod films;
 mod flow;
+mod half_cycle;
 mod layers;
 mod measures;
 mod merge;

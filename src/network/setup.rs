@@ -1,15 +1,14 @@
 //! From a checked case to its network and the displacement in it.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 use std::time::Instant;
 
 use super::ExtractError;
+use super::angles::{angles, film_terms, met_by};
 use super::cycles::{Cycles, End, FluidPhase, HalfCycle};
 use super::displacement::{Beginning, Conditions, CornerFilms, Displacement, Element, Events, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{self, Drive, Dynamic, Terms};
-use super::films::FilmTerms;
 use super::graph::{Network, Pores};
 use super::model::Setting;
 use super::solver::NetworkSolver;
@@ -17,12 +16,9 @@ use super::state;
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
 use crate::case::network::{DynamicDrive, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop, Trapping};
-use crate::case::{Case, PatchedWall, SIDES, Side, on_plates};
+use crate::case::{Case, SIDES, Side};
 use crate::geometry::{Geometry, GeometryError};
-use crate::interface::depth::Depth;
-use crate::interface::films::WallFilms;
 use crate::solver::Solver;
-use crate::wetting::Wetting;
 
 /// A network that cannot be set up.
 #[derive(Debug, thiserror::Error)]
@@ -373,55 +369,4 @@ fn half_cycles(
             })
             .collect(),
     }
-}
-
-/// Floor and lid as a phase that invades meets them: on them the wetting phase recedes or advances.
-fn met_by(invading: FluidPhase, depth: f64, interface: &NetworkInterface) -> Depth {
-    let (wall, plates) = on_depth(invading, interface);
-    Depth::new(depth, wall, plates)
-}
-
-/// Contact angles in rad of walls, floor and lid through the wetting phase.
-fn on_depth(invading: FluidPhase, interface: &NetworkInterface) -> (f64, [f64; 2]) {
-    let end = usize::from(invading == FluidPhase::Wetting);
-    let angle = |model: &Wetting| model.hysteresis_range()[end];
-    (angle(&interface.wetting_model), on_plates(&interface.wetting_model, &interface.patches, angle))
-}
-
-/// The films in the corners of all walls with floor and lid.
-fn film_terms(invading: FluidPhase, thickness: f64, interface: &NetworkInterface, walls: usize) -> FilmTerms {
-    let plates = on_depth(invading, interface).1;
-    let through_wetting = |defending: f64| if invading == FluidPhase::Wetting { PI - defending } else { defending };
-    let wall = |angle: f64| WallFilms::new(through_wetting(angle), plates);
-    FilmTerms {
-        thickness,
-        depth: met_by(invading, thickness, interface),
-        walls: angles(interface, walls, invading).into_iter().map(wall).collect(),
-    }
-}
-
-/// Contact angle of each wall through the defending phase in rad: where the non-wetting phase invades, the wetting one recedes.
-fn angles(interface: &NetworkInterface, walls: usize, invading: FluidPhase) -> Vec<f64> {
-    let through_defending = |model: &Wetting| match invading {
-        FluidPhase::NonWetting => model.hysteresis_range()[0],
-        FluidPhase::Wetting => PI - model.hysteresis_range()[1],
-    };
-    let mut angles = vec![through_defending(&interface.wetting_model); walls];
-    let first_side = walls - SIDES.len();
-    for patch in &interface.patches {
-        let angle = through_defending(&patch.model);
-        let wall = match patch.on {
-            PatchedWall::All => {
-                angles.fill(angle);
-                continue;
-            }
-            PatchedWall::Shape(shape) => shape as usize,
-            PatchedWall::Side(side) => first_side + side as usize,
-            PatchedWall::Plate(_) => continue,
-        };
-        if let Some(known) = angles.get_mut(wall) {
-            *known = angle;
-        }
-    }
-    angles
 }

@@ -1,7 +1,8 @@
-//! A case in words, and what about its numbers is so unusual that it may be a slip: both told before a run.
+//! A case in words, and what about its numbers is so unusual that it may be a slip: both for a reader before a run.
 
 use super::numbers::{Length, numbers};
 use crate::case::{Case, Fluid, Model, SIDES, Side, Sides, Sph};
+use crate::input::tables::Words;
 use crate::math::Vec2;
 
 /// The parts of a case by name: its phases, its interface and its sides; those that it has.
@@ -126,17 +127,8 @@ fn angle((range, name): ([f64; 2], String)) -> String {
 }
 
 fn in_order(sides: &Sides) -> String {
-    let word = |side| match side {
-        Side::Periodic => "periodic",
-        Side::Wall => "wall",
-        Side::Image => "wall by images",
-        Side::Symmetry => "symmetry",
-        Side::Inlet => "inlet",
-        Side::Outlet => "outlet",
-    };
-    let named: Vec<String> =
-        SIDES.iter().zip(sides.each()).map(|(name, side)| format!("{name} {}", word(side))).collect();
-    named.join(", ")
+    let named = SIDES.iter().zip(sides.each()).map(|(name, side)| format!("{name} {}", side.word()));
+    named.collect::<Vec<_>>().join(", ")
 }
 
 /// A number with at most four digits and no zeros at its end.
@@ -155,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn a_case_is_told_in_words() {
+    fn a_case_is_described_in_words() {
         let found = description(&case(&[]));
         assert_eq!(found[0].0, "phases");
         assert!(found[0].1.starts_with("wetting 773") && found[0].1.contains("; non-wetting "), "{}", found[0].1);
@@ -164,13 +156,13 @@ mod tests {
     }
 
     #[test]
-    fn slips_of_units_are_told_and_usual_cases_are_not() {
+    fn slips_of_units_are_noticed_and_usual_cases_are_right() {
         assert_eq!(doubts(&case(&[])), [""; 0]);
-        let told = |overrides: &[&str], word: &str| {
+        let noticed = |overrides: &[&str], word: &str| {
             let found = doubts(&case(overrides));
             assert!(found.iter().any(|doubt| doubt.contains(word)), "{word}: {found:?}");
         };
-        told(&["sph.interface.tension=27.6"], "27.6 N/m");
-        told(&["sph.wetting.young.contact-angle-deg=0.7"], "not in radians");
+        noticed(&["sph.interface.tension=27.6"], "27.6 N/m");
+        noticed(&["sph.wetting.young.contact-angle-deg=0.7"], "not in radians");
     }
 }

@@ -6,4 +6,5 @@ mod support;
 mod compare;
 mod couple;
 mod handover;
+mod verified;
 mod verify;

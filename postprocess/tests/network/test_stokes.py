@@ -8,7 +8,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from stokes_mesh import Disc, Domain
-from stokes_permeability import permeability
+from stokes_permeability import Plates, permeability
 
 PERIODIC = ("periodic", "periodic")
 
@@ -36,6 +36,13 @@ class Stokes(unittest.TestCase):
             found = permeability(unit([], (side, "wall")), 4)
             self.assertEqual(list(found), [0])
             self.assertAlmostEqual(found[0][0] * 12, 1, delta=1e-9)
+
+    def test_a_slit_between_floor_and_lid_has_a_profile_of_exponentials(self):
+        """K = b2/12 (1 - tanh z/z) with z = sqrt(3/alpha)/b for a width of 1."""
+        depth, factor = 0.5, 1.2
+        z = np.sqrt(3 / factor) / depth
+        found = permeability(unit([], ("periodic", "wall")), 16, Plates(12 / depth**2, factor))
+        self.assertAlmostEqual(found[0][0] / (depth**2 / 12 * (1 - np.tanh(z) / z)), 1, delta=1e-5)
 
     def test_overlapping_grains_are_refused(self):
         """No mesh fits to walls that cross."""

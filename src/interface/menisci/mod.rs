@@ -11,6 +11,7 @@
 
 mod circle;
 mod crossing;
+mod extremes;
 mod meniscus;
 mod obstacle;
 mod overlap;

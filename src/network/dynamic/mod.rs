@@ -32,6 +32,7 @@ mod path;
 mod rise;
 pub(crate) mod solver;
 mod step;
+mod terms;
 
 use std::sync::Arc;
 
@@ -39,41 +40,13 @@ use serde::{Deserialize, Serialize};
 
 use self::graph::Graph;
 use self::rise::{Reach, Rise};
+pub use self::terms::Terms;
 use super::conductance::{opening_resistances, resistances};
-use super::cycles::{FluidPhase, Invasion};
+use super::cycles::Invasion;
 use super::displacement::{Advance, Displacement, EventKind, FrontId, GateFacts, Phase};
 use super::graph::Network;
 pub use crate::case::network::Drive;
-use crate::interface::depth::Depth;
 use crate::interface::menisci::Passage;
-
-/// Fluids and drive of a dynamic displacement.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Terms {
-    /// Viscosities of the invading and the defending phase in Pa s.
-    pub viscosity: [f64; 2],
-    /// Interfacial tension in N/m.
-    pub tension: f64,
-    /// What drives it.
-    pub drive: Drive,
-    /// Most pore volumes that pass the inlet in one step.
-    pub largest_step: f64,
-    /// Sides at which the invading phase comes in: left, right, bottom, top.
-    pub inlet: [bool; 4],
-    /// Sides at which both phases leave.
-    pub outlet: [bool; 4],
-    /// The phase that invades, and floor and lid as it meets them; none in the plane.
-    pub depth: Option<(FluidPhase, Depth)>,
-}
-
-impl Terms {
-    /// The pressure of the invading phase less that of the defending one, over the tension, at a meniscus of this curvature in the plane; both in 1/m.
-    pub(super) fn with_depth(&self, curvature: f64) -> f64 {
-        self.depth.map_or(curvature, |(invading, depth)| {
-            invading.towards_wetting(depth.curvature(invading.towards_wetting(curvature)))
-        })
-    }
-}
 
 /// A meniscus in a gate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
