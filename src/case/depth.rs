@@ -17,11 +17,13 @@ pub(super) fn depth(
     depth: Option<f64>,
     model: Option<&mut Model>,
     geometry: Option<&GeometrySpec>,
+    has_wetting_table: bool,
 ) {
     let (table, patches) = match model {
         Some(Model::Sph(sph)) => {
             sph.depth = depth;
-            if depth.is_some() && sph.acting_tension() > 0.0 && sph.wetting_model.is_none() {
+            // A table without a model has a mistake of its own.
+            if depth.is_some() && sph.acting_tension() > 0.0 && sph.wetting_model.is_none() && !has_wetting_table {
                 let message = "an interface between floor and lid is curved by their contact angles, and none is given";
                 checker.refuse("sph.wetting", message, "add the table [sph.wetting.young]");
             }

@@ -138,7 +138,8 @@ fn load_text(name: &str, text: &str, overrides: &Overrides, origin: &Origin) -> 
     let network = raw.network.as_ref().map(|network| network::measured::with_file(&mut checker, network, folder));
     let mut model = model(&mut checker, (raw, network.as_ref()), geometry.as_ref(), start);
     let depth = raw.geometry.as_ref().and_then(|geometry| geometry.depth).or(of_file);
-    depth::depth(&mut checker, depth, model.as_mut(), geometry.as_ref());
+    let has_wetting_table = raw.sph.as_ref().is_some_and(|sph| sph.wetting.is_some());
+    depth::depth(&mut checker, depth, model.as_mut(), geometry.as_ref(), has_wetting_table);
     shapes::refuse_images(&mut checker, geometry.as_ref(), model.as_ref().and_then(Model::sides));
     permeability::permeability(&mut checker, model.as_ref(), geometry.as_ref());
     relative_permeability::relative_permeability(&mut checker, model.as_ref());

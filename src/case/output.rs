@@ -76,7 +76,7 @@ words! {
 pub struct Output {
     /// Time between records of the series in s; of a network, displaced pore volumes. So are the other intervals.
     pub series_every: f64,
-    /// Time between VTK files in s, a whole multiple of nothing: it has its own schedule.
+    /// Time between VTK files in s, independent of the records of the series.
     pub vtk_every: f64,
     /// How arrays in VTK files are compressed.
     pub vtk_compression: Compression,

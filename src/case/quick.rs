@@ -19,7 +19,7 @@ pub(crate) fn quick(
     let mut checker = Checker::default();
     let raw = raw.clone().in_range(&mut checker, "network");
     let mut found = network(&mut checker, &raw, Some(&geometry), None).map(|network| Model::Network(Box::new(network)));
-    depth::depth(&mut checker, depth, found.as_mut(), Some(&geometry));
+    depth::depth(&mut checker, depth, found.as_mut(), Some(&geometry), false);
     shapes::refuse_images(&mut checker, Some(&geometry), found.as_ref().and_then(Model::sides));
     let whole = RawCase { network: Some(raw), ..RawCase::default() };
     let end = records::end(&mut checker, &whole, found.as_ref());

@@ -109,7 +109,7 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
     if let Some(code) = run(&arguments.direct, &overrides, during.clone())? {
         return Ok(code);
     }
-    // What the network does in the same avalanche, to be held against it.
+    // What the network does in the same avalanche, to compare with.
     if let Some(code) = run(&arguments.network, &[stop(driving)], same.clone())? {
         return Ok(code);
     }

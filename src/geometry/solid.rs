@@ -57,7 +57,7 @@ fn is_same(a: &Vec2, b: &Vec2) -> bool {
 
 /// The normals that differ.
 fn different(mut normals: Vec<Vec2>) -> Vec<Vec2> {
-    // Of more than these each is held against its neighbors in angle only: from the center of a round ring all its edges are equally near.
+    // Of more than these each is compared with its neighbors in angle only: from the center of a round ring all its edges are equally near.
     const MANY: usize = 64;
     if normals.len() > MANY {
         normals.sort_by(|a, b| a.y.atan2(a.x).total_cmp(&b.y.atan2(b.x)));

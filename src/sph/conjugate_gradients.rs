@@ -1,7 +1,7 @@
 //! Flexible preconditioned conjugate gradients (Notay 2000) with one dot product more than the plain form, since the
 //! K-cycle of the pressure is not a fixed linear map. Unknowns are numbers (pressure) or vectors of the plane (viscosity).
 
-use std::ops::{Add, AddAssign, Mul, SubAssign};
+use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
 
 use rayon::prelude::*;
 
@@ -17,9 +17,28 @@ const ANEW_AFTER: usize = 5;
 const PROGRESS: f64 = 0.5;
 
 /// One unknown: a number, or a vector of the plane.
-pub trait Unknown: Copy + Send + Sync + Add<Output = Self> + Mul<f64, Output = Self> + AddAssign + SubAssign {
+pub trait Unknown:
+    Copy
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+    + AddAssign
+    + SubAssign
+{
     /// Nothing.
     const ZERO: Self;
+
+    /// Number of components.
+    const COMPONENTS: usize;
+
+    /// Component `k`.
+    fn component(&self, k: usize) -> f64;
+
+    /// The unknown with these components.
+    fn from_components(component: impl Fn(usize) -> f64) -> Self;
 
     /// The product of both; of vectors the inner one.
     fn times(&self, other: &Self) -> f64;
@@ -27,6 +46,15 @@ pub trait Unknown: Copy + Send + Sync + Add<Output = Self> + Mul<f64, Output = S
 
 impl Unknown for f64 {
     const ZERO: Self = 0.0;
+    const COMPONENTS: usize = 1;
+
+    fn component(&self, _: usize) -> f64 {
+        *self
+    }
+
+    fn from_components(component: impl Fn(usize) -> f64) -> Self {
+        component(0)
+    }
 
     fn times(&self, other: &Self) -> f64 {
         self * other
@@ -35,6 +63,15 @@ impl Unknown for f64 {
 
 impl Unknown for Vec2 {
     const ZERO: Self = Self::new(0.0, 0.0);
+    const COMPONENTS: usize = 2;
+
+    fn component(&self, k: usize) -> f64 {
+        self[k]
+    }
+
+    fn from_components(component: impl Fn(usize) -> f64) -> Self {
+        Self::new(component(0), component(1))
+    }
 
     fn times(&self, other: &Self) -> f64 {
         self.dot(other)

@@ -24,7 +24,7 @@ const ROOM_ALONG: f64 = 2.0;
 const REACH: f64 = 4.0;
 /// Lengths below this share of the width are rounding.
 const ROUNDING: f64 = 1e-9;
-/// Points of the meniscus that are held against the walls.
+/// Points of the meniscus that are compared with the walls.
 const POINTS: usize = 41;
 
 /// Why there is no cut-out.

@@ -23,7 +23,7 @@ const ROOM_AT_ENDS: f64 = 1.5;
 const CUT: f64 = 0.5;
 /// Room ahead of menisci and behind them, in widths.
 const ROOM_ALONG: f64 = 2.0;
-/// How far below the event the menisci are held against box and walls, as curvature times width.
+/// How far below the event the menisci are compared with box and walls, as curvature times width.
 const BELOW: f64 = 0.1;
 /// Least gap between two of the bodies, in widths: spacings are chosen by it, and their number goes with the square.
 const NARROWEST: f64 = 0.5;
@@ -31,7 +31,7 @@ const NARROWEST: f64 = 0.5;
 const ROUNDING: f64 = 1e-9;
 /// The same of a touch, which is a double root.
 const TOUCHING: f64 = 1e-5;
-/// Points of a meniscus that are held against the walls.
+/// Points of a meniscus that are compared with the walls.
 const POINTS: usize = 201;
 
 /// A pore on its own, in a frame whose x axis is the way of the invading phase.

@@ -99,8 +99,9 @@ fn a_throat_of_a_chip_is_verified_with_its_depth() {
     let of_network = throats.records().nth(number("throat") as usize).unwrap().unwrap()[place].parse::<f64>().unwrap();
     assert!((number("pc_formula_Pa") / of_network - 1.0).abs() < 1e-12, "{row:?} {of_network}");
     assert!(number("pc_difference_percent").abs() < 1.0, "{row:?}");
-    // 16 % at eight spacings and 12 % at sixteen, 4 % in the plane; the conductance of the plane is 300 % off.
-    assert!(number("g_difference_percent").abs() < 20.0, "{row:?}");
+    // Finite elements of the depth-averaged equations give 2.969e-10 m²: the network is 7 % below, eight spacings 4 % above, and the conductance
+    // of the plane 3.5 times that.
+    assert!(number("g_difference_percent").abs() < 15.0, "{row:?}");
     assert!(stdout(&output).contains("both sides curve menisci over the depth"), "{}", stdout(&output));
 }
 

@@ -1,4 +1,4 @@
-//! The direct simulation of a comparison: an ordinary run in a folder of its own, of which each record is held against the network.
+//! The direct simulation of a comparison: an ordinary run in a folder of its own, each record of which is compared with the network.
 
 use std::sync::atomic::AtomicBool;
 

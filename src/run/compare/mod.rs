@@ -1,7 +1,7 @@
 //! A network and a direct simulation of one geometry, side by side.
 //!
 //! Both are cases of their own. The network goes from event to event, the direct simulation from record to record. At equal saturations the elements
-//! that each has filled are held against each other, cell by cell on one grid; so are the pressures, the order in which elements were filled, and
+//! that each has filled are compared, cell by cell on one grid; so are the pressures, the order in which elements were filled, and
 //! what both took. Of a network its first half cycle counts.
 
 mod comparison;

@@ -5,6 +5,7 @@ use crate::solver::Measure;
 use crate::sph::flow::Flow;
 use crate::sph::open::{GivenFlow, Ledger, OpenSide};
 use crate::sph::particles::Phase;
+use crate::sph::unresolved::SMALLEST_PIECE;
 
 fn is_open(flow: &Flow) -> bool {
     !flow.setting.open.sides.is_empty() || !flow.setting.open.through.is_empty()
@@ -140,7 +141,12 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     found
 }
 
-/// When the phase that comes in first left through another side, and its saturation then: in the middle between two records.
+/// Area in m² of 20 particles, the smallest drop that is resolved: what leaves before them may be stray particles ahead of the front.
+fn smallest_passage(flow: &Flow) -> f64 {
+    SMALLEST_PIECE as f64 * flow.setting.method.volume
+}
+
+/// When the phase that comes in left through another side, and its saturation then: in the middle between two records.
 fn breakthrough(s: &Subject) -> [Measure; 2] {
     let is_wetting = match rising(s.flow) {
         Some(side) => side.main == Phase::Wetting,
@@ -151,10 +157,13 @@ fn breakthrough(s: &Subject) -> [Measure; 2] {
     // Of the entering phase, as that of a network.
     let saturation: Vec<f64> = wetting.iter().map(|s| if is_wetting { *s } else { 1.0 - s }).collect();
     // At the very start, before much came in, the column can be of the other phase.
-    let before = passed.iter().rposition(|&area| area == 0.0);
+    let before = passed.iter().rposition(|&area| area < smallest_passage(s.flow));
     let interval = before.map(|row| [row, row + 1]).filter(|[_, after]| *after < passed.len());
     let method = match interval {
-        Some(_) => "middle of the interval of records in which the phase that comes in first left through another side",
+        Some(_) => {
+            "middle of the interval of records in which the phase that comes in left through another side, 20 particles of it: fewer may be \
+             stray ones ahead of the front"
+        }
         None => "the phase that comes in has left through no other side by the end",
     };
     let of = |name: &str, values: &[f64], unit: &str| {
@@ -174,7 +183,7 @@ fn burst(s: &Subject) -> Option<Measure> {
     let hold = rising(s.flow)?.steps?.hold;
     let [pressure, passed, time, saturation] =
         [PRESSURE_DIFFERENCE, PASSED, "time_s", "saturation"].map(|name| s.series.column(name).collect::<Vec<f64>>());
-    let through = passed.iter().position(|&area| area > 0.0);
+    let through = passed.iter().position(|&area| area >= smallest_passage(s.flow));
     let rests = |end: &usize| {
         let late = (0..*end).rev().find(|&row| time[row] <= time[*end] - 0.25 * hold);
         late.is_some_and(|late| (saturation[*end] - saturation[late]).abs() < REST)

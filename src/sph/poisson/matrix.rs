@@ -39,7 +39,7 @@ impl Matrix {
 
     /// Σ_b A_ab x_b.
     #[inline]
-    pub(crate) fn coupled(&self, a: usize, x: &[f64]) -> f64 {
+    pub(crate) fn coupled<T: Unknown>(&self, a: usize, x: &[T]) -> T {
         let row = self.start[a]..self.start[a + 1];
         weighted_sum(&self.column[row.clone()], &self.coupling[row], x)
     }
@@ -66,12 +66,12 @@ pub fn weighted_sum<T: Unknown>(columns: &[u32], weights: &[f32], x: &[T]) -> T 
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-impl SymmetricMatrix<f64> for Matrix {
-    fn apply(&self, x: &[f64], y: &mut [f64]) {
-        each(y, |a| self.diagonal[a] * x[a] - self.coupled(a, x));
+impl<T: Unknown> SymmetricMatrix<T> for Matrix {
+    fn apply(&self, x: &[T], y: &mut [T]) {
+        each(y, |a| x[a] * self.diagonal[a] - self.coupled(a, x));
     }
 
-    fn residual(&self, b: &[f64], x: &[f64], r: &mut [f64]) {
-        each(r, |a| b[a] - self.diagonal[a] * x[a] + self.coupled(a, x));
+    fn residual(&self, b: &[T], x: &[T], r: &mut [T]) {
+        each(r, |a| b[a] - x[a] * self.diagonal[a] + self.coupled(a, x));
     }
 }

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use crate::math::Vec2;
 use crate::sph::components::components;
-use crate::sph::conjugate_gradients::SymmetricMatrix;
+use crate::sph::conjugate_gradients::{SymmetricMatrix, Unknown};
 use crate::sph::parallel::total;
 use crate::sph::poisson::aggregation::{Aggregates, COARSENING};
 use crate::sph::poisson::matrix::Matrix;
@@ -29,7 +29,7 @@ const GOOD_ENOUGH: f64 = 0.25;
 /// A share of the diagonal below which what the couplings leave of it is rounding: the part has no given value.
 const ROUNDING: f64 = 1e-10;
 
-/// Parts in which a coarse matrix is made, in parallel; its rows do not hang on them.
+/// Parts in which a coarse matrix is made, in parallel; its rows do not depend on them.
 const PARTS: usize = 16;
 
 /// No place.
@@ -73,24 +73,24 @@ impl Multigrid {
         Self { coarse, direct }
     }
 
-    /// z ≈ M⁻¹ r by one cycle from zero.
-    pub fn precondition(&self, matrix: &Matrix, r: &[f64], z: &mut [f64]) {
+    /// z ≈ M⁻¹ r by one cycle from zero; of vectors each component by itself, with common steps.
+    pub fn precondition<T: Unknown>(&self, matrix: &Matrix, r: &[T], z: &mut [T]) {
         self.cycle(0, matrix, r, z);
     }
 
-    fn cycle(&self, depth: usize, matrix: &Matrix, r: &[f64], z: &mut [f64]) {
+    fn cycle<T: Unknown>(&self, depth: usize, matrix: &Matrix, r: &[T], z: &mut [T]) {
         let Some(next) = self.coarse.get(depth) else {
             match &self.direct {
-                Some(direct) => z.copy_from_slice(direct.solve(&DVector::from_column_slice(r)).as_slice()),
+                Some(direct) => solve_dense(direct, r, z),
                 None => forward_from_zero(matrix, r, z),
             }
             return;
         };
         forward_from_zero(matrix, r, z);
-        let mut left = vec![0.0; r.len()];
+        let mut left = vec![T::ZERO; r.len()];
         matrix.residual(r, z, &mut left);
-        let mut coarse_r = vec![0.0; next.matrix.rows()];
-        for (value, &group) in left.iter().zip(&next.aggregate) {
+        let mut coarse_r = vec![T::ZERO; next.matrix.rows()];
+        for (&value, &group) in left.iter().zip(&next.aggregate) {
             coarse_r[group as usize] += value;
         }
         let coarse_z = self.inner(depth + 1, &next.matrix, &coarse_r);
@@ -102,35 +102,35 @@ impl Multigrid {
     }
 
     /// At most two steps of flexible conjugate gradients with the cycle of the level as preconditioner (Notay 2010, Alg. 3.2).
-    fn inner(&self, depth: usize, matrix: &Matrix, b: &[f64]) -> Vec<f64> {
+    fn inner<T: Unknown>(&self, depth: usize, matrix: &Matrix, b: &[T]) -> Vec<T> {
         let n = b.len();
-        let mut c = vec![0.0; n];
+        let mut c = vec![T::ZERO; n];
         self.cycle(depth, matrix, b, &mut c);
         if depth == self.coarse.len() {
             return c;
         }
-        let mut v = vec![0.0; n];
+        let mut v = vec![T::ZERO; n];
         matrix.apply(&c, &mut v);
         let (rho, alpha) = (dot(&c, &v), dot(&c, b));
         if !(rho > 0.0) {
             return c;
         }
-        let r: Vec<f64> = b.iter().zip(&v).map(|(b, v)| b - alpha / rho * v).collect();
+        let r: Vec<T> = b.iter().zip(&v).map(|(b, v)| *b - *v * (alpha / rho)).collect();
         if dot(&r, &r) <= GOOD_ENOUGH * GOOD_ENOUGH * dot(b, b) {
-            c.iter_mut().for_each(|c| *c *= alpha / rho);
+            c.iter_mut().for_each(|c| *c = *c * (alpha / rho));
             return c;
         }
-        let (mut d, mut w) = (vec![0.0; n], vec![0.0; n]);
+        let (mut d, mut w) = (vec![T::ZERO; n], vec![T::ZERO; n]);
         self.cycle(depth, matrix, &r, &mut d);
         matrix.apply(&d, &mut w);
         let (gamma, beta, alpha2) = (dot(&d, &v), dot(&d, &w), dot(&d, &r));
         let rho2 = beta - gamma * gamma / rho;
         if !(rho2 > 0.0) {
-            c.iter_mut().for_each(|c| *c *= alpha / rho);
+            c.iter_mut().for_each(|c| *c = *c * (alpha / rho));
             return c;
         }
         let (x, y) = (alpha / rho - gamma * alpha2 / (rho * rho2), alpha2 / rho2);
-        c.iter_mut().zip(&d).for_each(|(c, d)| *c = x * *c + y * d);
+        c.iter_mut().zip(&d).for_each(|(c, d)| *c = *c * x + *d * y);
         c
     }
 
@@ -140,8 +140,15 @@ impl Multigrid {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    total(a.len(), |i| a[i] * b[i])
+fn dot<T: Unknown>(a: &[T], b: &[T]) -> f64 {
+    total(a.len(), |i| a[i].times(&b[i]))
+}
+
+/// z = M⁻¹ r by the dense factor, component by component.
+fn solve_dense<T: Unknown>(factor: &Cholesky<f64, Dyn>, r: &[T], z: &mut [T]) {
+    let right = DMatrix::from_fn(r.len(), T::COMPONENTS, |a, k| r[a].component(k));
+    let solution = factor.solve(&right);
+    z.iter_mut().enumerate().for_each(|(a, z)| *z = T::from_components(|k| solution[(a, k)]));
 }
 
 /// Pᵀ M P for piecewise constant P: couplings between aggregates are summed, those within one cancel.
@@ -263,28 +270,30 @@ fn factor(matrix: &Matrix) -> Option<Cholesky<f64, Dyn>> {
 }
 
 /// z = (D − L)⁻¹ r, block by block: a forward Gauss-Seidel sweep from zero.
-fn forward_from_zero(matrix: &Matrix, r: &[f64], z: &mut [f64]) {
+fn forward_from_zero<T: Unknown>(matrix: &Matrix, r: &[T], z: &mut [T]) {
     z.par_chunks_mut(BLOCK).enumerate().for_each(|(block, z)| {
         // Rows that are still to come count as zero: adding them costs less than telling them apart.
-        z.fill(0.0);
+        z.fill(T::ZERO);
         let first = block * BLOCK;
         for i in 0..z.len() {
             let a = first + i;
-            let known: f64 =
-                matrix.row(a).map(|(b, coupling)| coupling * z.get(b.wrapping_sub(first)).unwrap_or(&0.0)).sum();
+            let known = matrix
+                .row(a)
+                .fold(T::ZERO, |sum, (b, coupling)| sum + *z.get(b.wrapping_sub(first)).unwrap_or(&T::ZERO) * coupling);
             z[i] = (r[a] + known) / matrix.diagonal[a];
         }
     });
 }
 
 /// A backward Gauss-Seidel sweep from `old`, block by block; other blocks are seen as they were.
-fn backward(matrix: &Matrix, r: &[f64], old: &[f64], z: &mut [f64]) {
+fn backward<T: Unknown>(matrix: &Matrix, r: &[T], old: &[T], z: &mut [T]) {
     z.par_chunks_mut(BLOCK).enumerate().for_each(|(block, z)| {
         let first = block * BLOCK;
         for i in (0..z.len()).rev() {
             let a = first + i;
-            let coupled: f64 =
-                matrix.row(a).map(|(b, coupling)| coupling * z.get(b.wrapping_sub(first)).unwrap_or(&old[b])).sum();
+            let coupled = matrix
+                .row(a)
+                .fold(T::ZERO, |sum, (b, coupling)| sum + *z.get(b.wrapping_sub(first)).unwrap_or(&old[b]) * coupling);
             z[i] = (r[a] + coupled) / matrix.diagonal[a];
         }
     });

@@ -8,6 +8,8 @@
 //! θ = 1/(1 − e^{−z}) − 1/z with the largest rate z/Δt [Liniger1970] is exact for a mode of that rate, the trapezoidal rule for short
 //! steps and backward Euler for long ones, and no mode changes its sign.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use crate::case::ViscousTerm;
@@ -17,7 +19,8 @@ use crate::sph::fields::Fields;
 use crate::sph::images::{Field, Images};
 use crate::sph::pairs::{Pair, Pairs, split_rows};
 use crate::sph::parallel::{GRAIN, each, largest, values};
-use crate::sph::poisson::weighted_sum;
+use crate::sph::particles::{Particles, Phase};
+use crate::sph::poisson::{Matrix, Multigrid, weighted_sum};
 use crate::sph::view::View;
 
 /// Largest relative residual of the change of the velocity.
@@ -25,6 +28,10 @@ pub(super) const RESIDUAL: f64 = 1e-6;
 
 /// Most iterations; a usual solve takes about ten, and one with steps a thousand times the explicit limit some hundreds.
 const ITERATIONS: usize = 2000;
+
+/// Above this product of θ Δt and the largest rate a multigrid cycle as preconditioner costs less than the iterations with the diagonal
+/// that it saves.
+const STIFF: f64 = 40.0;
 
 /// Below this product of step and rate θ is taken from its series, whose next term is z³/720.
 const SHORT: f64 = 1e-2;
@@ -44,6 +51,12 @@ pub(super) struct ViscousMatrix<'a> {
     diagonal: Vec<Mat2>,
     /// A bound of the rates in 1/s at which viscosity slows motions, by Gershgorin's theorem.
     largest_rate: f64,
+    /// Positions in m.
+    position: &'a [Vec2],
+    /// Phase of each particle: the multigrid keeps fluids of different viscosity apart.
+    phase: &'a [Phase],
+    /// Distance of neighboring particles in m.
+    spacing: f64,
 }
 
 impl View<'_, Fields> {
@@ -111,7 +124,20 @@ impl View<'_, Fields> {
         });
         let rate = |a: usize| 2.0 * diagonal[a].symmetric_eigenvalues().max();
         let largest_rate = largest(fluids, rate).map_or(0.0, |l| l.1);
-        ViscousMatrix { pairs, images, is_central, root_mass, coupling, diagonal, largest_rate }
+        let (Particles { position, phase, .. }, spacing) = (&self.state.particles, self.setting.method.spacing);
+        let (position, phase) = (&position[..fluids], &phase[..fluids]);
+        ViscousMatrix {
+            pairs,
+            images,
+            is_central,
+            root_mass,
+            coupling,
+            diagonal,
+            largest_rate,
+            position,
+            phase,
+            spacing,
+        }
     }
 }
 
@@ -136,9 +162,12 @@ impl ViscousMatrix<'_> {
         let b = values(fluids, |a| dt * self.root_mass[a] * acceleration[a]);
         let mut change = vec![Vec2::zeros(); fluids];
         let tolerance = Tolerance { residual: RESIDUAL, iterations: ITERATIONS };
-        let found = conjugate_gradients(&system, &b, &mut change, tolerance, |r, z| {
-            each(z, |a| inverse[a] * r[a]);
-        });
+        let found = if weight * self.largest_rate > STIFF && !self.is_central {
+            let preconditioner = Preconditioner::new(self, weight);
+            conjugate_gradients(&system, &b, &mut change, tolerance, |r, z| preconditioner.apply(r, z))
+        } else {
+            conjugate_gradients(&system, &b, &mut change, tolerance, |r, z| each(z, |a| inverse[a] * r[a]))
+        };
         change.iter_mut().zip(&self.root_mass).for_each(|(change, root)| *change /= *root);
         (change, found)
     }
@@ -147,6 +176,50 @@ impl ViscousMatrix<'_> {
 /// The weight of the end of the step, from 1/2 for short to 1 for long ones; `z` is the step times the largest rate.
 fn theta(z: f64) -> f64 {
     if z < SHORT { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
+}
+
+/// A multigrid cycle on m + θ Δt K with one number in place of each diagonal block, half its trace: near walls the two components are
+/// stretched differently. Images do not couple in it.
+struct Preconditioner<'a> {
+    root_mass: &'a [f64],
+    matrix: Matrix,
+    multigrid: Multigrid,
+}
+
+impl<'a> Preconditioner<'a> {
+    fn new(viscous: &'a ViscousMatrix, weight: f64) -> Self {
+        let (pairs, root_mass) = (viscous.pairs, &viscous.root_mass);
+        let fluids = root_mass.len();
+        let start = pairs.starts()[..=fluids].to_vec();
+        let mut column = vec![0; start[fluids]];
+        let mut coupling = vec![0.0; start[fluids]];
+        let parts: Vec<_> = split_rows(&start, &mut column).zip(split_rows(&start, &mut coupling)).collect();
+        parts.into_par_iter().for_each(|((rows, columns), (_, couplings))| {
+            let mut entries = columns.iter_mut().zip(couplings);
+            for a in rows {
+                for (k, (column, coupling)) in pairs.row(a).zip(&mut entries) {
+                    let b = pairs.neighbors()[k] as usize;
+                    // A particle does not couple to itself: such an entry is none.
+                    let (b, value) = if b < fluids { (b, viscous.coupling[k]) } else { (a, 0.0) };
+                    *column = b as u32;
+                    *coupling = (weight * root_mass[a] * root_mass[b] * f64::from(value)) as f32;
+                }
+            }
+        });
+        let diagonal =
+            values(fluids, |a| root_mass[a] * root_mass[a] * (1.0 + 0.5 * weight * viscous.diagonal[a].trace()));
+        let matrix = Matrix { start: Arc::new(start), column: Arc::new(column), coupling, diagonal };
+        let kind: Vec<u8> = viscous.phase.iter().map(|phase| phase.number() as u8).collect();
+        let multigrid = Multigrid::new(&matrix, viscous.position, &kind, viscous.spacing);
+        Self { root_mass, matrix, multigrid }
+    }
+
+    /// z ≈ (1 + θ Δt m^{-1/2} K m^{-1/2})⁻¹ r.
+    fn apply(&self, r: &[Vec2], z: &mut [Vec2]) {
+        let right = values(r.len(), |a| self.root_mass[a] * r[a]);
+        self.multigrid.precondition(&self.matrix, &right, z);
+        z.par_iter_mut().zip(self.root_mass).with_min_len(GRAIN).for_each(|(z, root)| *z *= *root);
+    }
 }
 
 /// 1 + `weight` m^{-1/2} K m^{-1/2} with the weight θ Δt in s.

@@ -18,7 +18,7 @@ use crate::sph::view::View;
 impl View<'_, Fields> {
     /// The predictor: viscosity, body force, surface force and line force [Huber2013, Eq. 25], without the gravity that goes with the
     /// pressure (`hydrostatic`). The step ends at `until` (s) or before, and is at most `longest` (s) long. Viscosity goes on as
-    /// `viscous_step` says; how long the step is does not hang on it.
+    /// `viscous_step` says; the length of the step does not depend on it.
     pub(super) fn predict(
         &self,
         until: f64,

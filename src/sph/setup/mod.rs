@@ -86,7 +86,7 @@ pub(crate) fn build_to_resume(case: &Case, sph: &Sph) -> Result<SphSolver, Setup
     placed(case, sph, None)
 }
 
-/// The solver with particles that are packed where someone is there to be told of it.
+/// The solver of a case. The particles are packed where there is a function to report the progress of packing to; a state that is resumed brings packed ones.
 fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result<SphSolver, SetupError> {
     if sph.measure.relative_permeability {
         return beside_frozen_interface(case, sph, packed.unwrap_or(&mut |_| {}));

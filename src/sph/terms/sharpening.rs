@@ -70,7 +70,7 @@ impl Sharpening<'_> {
         shift.iter_mut().zip(&back).for_each(|(shift, back)| *shift += back);
     }
 
-    /// `direction` without its part into a wall nearer than `h` (m): a particle that is pressed against it comes back on no way.
+    /// `direction` without its part into a wall nearer than `h` (m): nothing would bring a particle that is pressed into the wall back.
     fn off_the_wall(&self, a: usize, h: f64, direction: Vec2) -> Vec2 {
         if self.wall_distance[a] < h {
             direction - direction.dot(&self.wall_normal[a]).min(0.0) * self.wall_normal[a]

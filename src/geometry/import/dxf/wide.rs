@@ -15,7 +15,7 @@ const TOLERANCE: f64 = 1e-9;
 /// A mitre reaches at most so many half widths from its corner; sharper corners are cut off.
 const MITRE: f64 = 4.0;
 
-/// Edges that a polyline with a width may have: each is held against all that it overlaps.
+/// Edges that a polyline with a width may have: each is compared with all that it overlaps.
 const MOST: usize = 5000;
 
 /// A vertex of a polyline: the edge that begins there has this bulge and these widths at its two ends.

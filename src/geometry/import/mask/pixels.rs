@@ -1,6 +1,6 @@
 //! From the bytes of a PNG or TIFF file to the share of solid in each pixel.
 //!
-//! Colors count by their luminance (Rec. 709), transparent pixels lie on white. Sizes are held against limits before anything is
+//! Colors count by their luminance (Rec. 709), transparent pixels lie on white. Sizes are compared with limits before anything is
 //! reserved for them.
 
 use std::io::Cursor;
