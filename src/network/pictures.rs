@@ -23,7 +23,7 @@ pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
 }
 
 /// Capillary pressure over the saturation of the wetting phase, a line for each half cycle: the pressure rises at constant saturation
-/// and the saturation changes at constant pressure.
+/// and the saturation changes at constant pressure. Each line begins where the one before it ends, so that cycles are joined loops.
 fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
     setting.tension?;
     let pressure_at = |entry: &Entry| setting.pressure(cycles.half_cycles()[entry.half_cycle].invading, entry.applied);
@@ -34,25 +34,27 @@ fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
     } else {
         ("capillary pressure p_n - p_w in Pa", 1.0)
     };
-    let mut traces = Vec::new();
-    for (index, (half, outcome)) in cycles.half_cycles().iter().zip(cycles.outcomes()).enumerate() {
-        let name = if cycles.half_cycles().len() > 2 {
-            format!("{} {}", half.name(), index / 2 + 1)
-        } else {
-            half.name().to_owned()
-        };
+    let mut traces: Vec<Trace> = Vec::new();
+    for (index, outcome) in cycles.outcomes().iter().enumerate() {
+        let name = process_name(cycles, index);
+        let last = traces.last().and_then(|trace| trace.points.last().copied());
         if cycles.has_films() {
             let of_half = cycles.curve().iter().filter(|point| point.half_cycle == index);
             let tension = setting.tension?;
-            let points = of_half.map(|point| [point.saturation, unit * tension * point.curvature]).collect();
+            let points = of_half.map(|point| [point.saturation, unit * tension * point.curvature]);
+            let points = last.into_iter().chain(points).collect();
             traces.push(Trace { name, stroke: Stroke::Full, points });
             continue;
         }
         let entries = cycles.history().iter().filter(|entry| entry.half_cycle == index);
         let mut saturation = outcome.first_saturation[1];
-        let mut points: Vec<[f64; 2]> = Vec::new();
+        let mut points: Vec<[f64; 2]> = last.into_iter().collect();
         for entry in entries {
             let pressure = unit * pressure_at(entry);
+            if let [end] = points[..] {
+                // What is open at the inlet fills at the first pressure after the turn.
+                points.push([end[0], pressure]);
+            }
             points.push([saturation, pressure]);
             points.push([entry.saturation, pressure]);
             saturation = entry.saturation;
@@ -74,6 +76,18 @@ fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
         map: None,
         traces,
     })
+}
+
+/// Primary drainage, imbibition, secondary drainage and so on in a cycle; where there is no other half cycle, the process alone.
+fn process_name(cycles: &Cycles, index: usize) -> String {
+    const ORDERS: [&str; 2] = ["primary", "secondary"];
+    let (process, number) = (cycles.half_cycles()[index].name(), index / 2);
+    match ORDERS.get(number) {
+        _ if cycles.half_cycles().len() == 1 => process.to_owned(),
+        Some(_) if cycles.half_cycles().len() == 2 && index == 1 => process.to_owned(),
+        Some(order) => format!("{order} {process}"),
+        None => format!("{process} {}", number + 1),
+    }
 }
 
 /// A staircase without its middle points and without steps that are too short to be seen; first and last point stay.

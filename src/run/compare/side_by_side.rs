@@ -8,7 +8,7 @@ use super::track::{Grid, Record, Track};
 use super::{direct, network, picture, rank};
 use crate::case::network::PoreNetwork;
 use crate::case::network::state::NetworkState;
-use crate::case::{Case, Model};
+use crate::case::{Case, FluidPhase, Model};
 use crate::geometry::elements::Elements;
 use crate::network::solver::NetworkSolver;
 use crate::run::setup::{self, SetupError};
@@ -45,8 +45,8 @@ pub(crate) fn compare(
     let outlet = network::outlet_elements(&state);
     Ok(Comparison {
         titles: [pair.network.title.clone(), pair.direct.title.clone()],
-        network: side(&by_network, &outlet, pair.is_in_time()),
-        direct: side(&by_direct, &outlet, pair.is_in_time()),
+        network: side(&by_network, &outlet, (pair.is_in_time(), state.invading)),
+        direct: side(&by_direct, &outlet, (pair.is_in_time(), state.invading)),
         is_in_time: pair.is_in_time(),
         ..compared(&by_network, &by_direct, &grid)
     })
@@ -55,6 +55,9 @@ pub(crate) fn compare(
 /// The network and its first state, where the direct simulation has the same shapes and sides.
 fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareError> {
     let Model::Network(wanted) = &pair.network.model else { return Err(CompareError::NoNetwork) };
+    if wanted.region.is_some() {
+        return Err(CompareError::Region);
+    }
     let Model::Sph(sph) = &pair.direct.model else { return Err(CompareError::NoDirect) };
     if sph.non_wetting.is_none() {
         return Err(CompareError::NoDirect);
@@ -84,7 +87,7 @@ fn without_time(wanted: &PoreNetwork) -> PoreNetwork {
     wanted
 }
 
-fn side(track: &Track, outlet: &[usize], is_in_time: bool) -> Side {
+fn side(track: &Track, outlet: &[usize], (is_in_time, invading): (bool, FluidPhase)) -> Side {
     let pressures: Vec<Option<f64>> =
         track.records.iter().map(|it| Some(it.pressure).filter(|p| p.is_finite())).collect();
     let common = Side {
@@ -107,11 +110,16 @@ fn side(track: &Track, outlet: &[usize], is_in_time: bool) -> Side {
         };
     }
     let through = outlet.iter().filter_map(|&element| track.filled[element]).min().filter(|&record| record > 0);
+    // As far as the pressure had to go: p_n - p_w rises in a drainage and falls in an imbibition.
+    let farther = match invading {
+        FluidPhase::NonWetting => f64::max,
+        FluidPhase::Wetting => f64::min,
+    };
     let until = through.map(|record| track.records[..=record].iter().map(|it| it.pressure));
-    let largest = until.map(|pressures| pressures.fold(f64::NAN, f64::max)).filter(|pressure| pressure.is_finite());
+    let farthest = until.map(|pressures| pressures.fold(f64::NAN, farther)).filter(|pressure| pressure.is_finite());
     Side {
         capillary_pressure_pa: pressures,
-        breakthrough_pressure_pa: largest,
+        breakthrough_pressure_pa: farthest,
         saturation_at_breakthrough: through.map(|record| track.records[record].saturation),
         ..common
     }
