@@ -4,7 +4,8 @@ use super::cycles::{Cycles, Entry, FluidPhase};
 use super::model::{Model, Setting};
 use super::occupation::Occupation;
 use super::tables::{kept, radius};
-use crate::diagram::{Area, Axis, Color, Diagram, Mosaic, Stroke, Tone, Trace};
+use crate::case::Side;
+use crate::diagram::{Area, Axis, Color, Diagram, Frame, Mosaic, Stroke, Through, Tone, Trace, colors};
 use crate::math::Vec2;
 
 /// Steps of the curve shorter than this share of an axis are not drawn.
@@ -13,9 +14,32 @@ const FINEST: f64 = 1.0e-3;
 /// Above this pressure in Pa axes count in kPa.
 const KILO: f64 = 2.0e3;
 
-const NOT_INVADED: Color = [214, 228, 240];
-const INVADED_BEFORE: Color = [248, 232, 176];
-const TRAPPED: Color = [204, 121, 167];
+/// How a phase is drawn: where it invades and where it came before, where it is displaced and where it is trapped.
+struct Look {
+    color: Color,
+    trapped: (&'static str, Color),
+    in_order: (&'static str, &'static [Color]),
+    before: &'static str,
+}
+
+const LOOKS: [Look; 2] = [
+    Look {
+        color: colors::WETTING,
+        trapped: ("wetting, trapped", colors::WETTING_TRAPPED),
+        in_order: ("wetting, displaced share at invasion", colors::WETTING_IN_ORDER),
+        before: "wetting before",
+    },
+    Look {
+        color: colors::NON_WETTING,
+        trapped: ("non-wetting, trapped", colors::NON_WETTING_TRAPPED),
+        in_order: ("non-wetting, displaced share at invasion", colors::NON_WETTING_IN_ORDER),
+        before: "non-wetting before",
+    },
+];
+
+fn look(phase: FluidPhase) -> &'static Look {
+    &LOOKS[usize::from(phase == FluidPhase::NonWetting)]
+}
 
 /// The diagrams of a displacement.
 pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
@@ -158,11 +182,26 @@ fn empty(setting: &Setting) -> Mosaic {
         label: "",
         range: [0.0, 1.0],
         classes: Vec::new(),
-        bounds: [pair(setting.bounds.min), pair(setting.bounds.max)],
+        bar: colors::SIZES,
+        frame: Frame {
+            bounds: [pair(setting.bounds.min), pair(setting.bounds.max)],
+            open: setting.sides.map(through),
+            periodic: setting.periodic,
+        },
         areas: Vec::new(),
         walls: outline.lines.iter().map(wall).collect(),
-        lines: ("", Vec::new()),
+        menisci: ("menisci", Vec::new()),
+        throats: ("throats", kept(setting).flat_map(|throat| images(setting, &throat.contacts)).collect()),
         strips: ("films", Vec::new()),
+    }
+}
+
+/// What passes a side.
+fn through(side: Side) -> Option<Through> {
+    match side {
+        Side::Inlet => Some(Through::In),
+        Side::Outlet => Some(Through::Out),
+        _ => None,
     }
 }
 
@@ -179,22 +218,24 @@ fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
     });
     let areas: Vec<Area> = areas.flatten().collect();
     let largest = occupation.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
-    let invaded_before = match occupation.invading {
-        FluidPhase::NonWetting => "non-wetting before",
-        FluidPhase::Wetting => "wetting before",
-    };
-    let defending = occupation.invading.other().name();
+    let [invading, defending] = [occupation.invading, occupation.invading.other()].map(look);
+    let (label, bar) = invading.in_order;
     let menisci = occupation.menisci.iter().flat_map(|line| images(setting, line)).collect();
     let seen = occupation.films.iter().flat_map(|films| &films.strips);
     let strips = seen.flat_map(|(line, width)| images(setting, line).into_iter().map(|line| (line, *width)));
     Mosaic {
         name: "invasion",
         note: occupation.note.clone(),
-        label: "displaced share at invasion",
+        label,
+        bar,
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
-        classes: vec![(defending, NOT_INVADED), ("trapped", TRAPPED), (invaded_before, INVADED_BEFORE)],
+        classes: vec![
+            (occupation.invading.other().name(), defending.color),
+            defending.trapped,
+            (invading.before, invading.color),
+        ],
         areas,
-        lines: ("menisci", menisci),
+        menisci: ("menisci", menisci),
         strips: ("films", strips.collect()),
         ..empty(setting)
     }
@@ -214,7 +255,6 @@ fn sizes(setting: &Setting) -> Mosaic {
         label: "inscribed radius in m",
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
         areas: areas.collect(),
-        lines: ("throats", kept(setting).flat_map(|throat| images(setting, &throat.contacts)).collect()),
         ..empty(setting)
     }
 }

@@ -147,7 +147,10 @@ impl Solver for NetworkSolver {
     }
 
     fn results(&self) -> Results<'_> {
-        let occupation = self.model.cycles.as_ref().map(Cycles::occupation);
+        let occupation = self.model.cycles.as_ref().map(|cycles| {
+            let menisci = cycles.all_menisci(&self.model.setting);
+            Occupation { menisci, ..cycles.occupation() }
+        });
         let mut results = results_with(&self.model, occupation.as_ref());
         results.tables.extend(self.model.cycles.as_ref().map(|cycles| tables::events(&self.model.setting, cycles)));
         let cycles = self.model.cycles.as_ref();

@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::comparison::{AtSaturation, Comparison, Side};
 use super::pair::{CompareError, Pair, Task};
+use super::picture::Maps;
 use super::track::{Grid, Record, Track};
 use super::{direct, network, picture, rank};
 use crate::case::network::PoreNetwork;
@@ -13,6 +14,7 @@ use crate::geometry::elements::Elements;
 use crate::network::solver::NetworkSolver;
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
+use crate::solver::Solver;
 
 /// Saturations at which both are drawn.
 const PICTURES: usize = 4;
@@ -43,12 +45,13 @@ pub(crate) fn compare(
     };
     let by_direct = direct::track(task, (&state, &grid), interrupt, watcher)?;
     let outlet = network::outlet_elements(&state);
+    let outline = solver.outline();
     Ok(Comparison {
         titles: [pair.network.title.clone(), pair.direct.title.clone()],
         network: side(&by_network, &outlet, (pair.is_in_time(), state.invading)),
         direct: side(&by_direct, &outlet, (pair.is_in_time(), state.invading)),
         is_in_time: pair.is_in_time(),
-        ..compared(&by_network, &by_direct, &grid)
+        ..compared(&by_network, &by_direct, &Maps { grid: &grid, outline: &outline, invading: state.invading })
     })
 }
 
@@ -126,7 +129,7 @@ fn side(track: &Track, outlet: &[usize], (is_in_time, invading): (bool, FluidPha
 }
 
 /// What follows from both together; the sides are left to be filled in.
-fn compared(network: &Track, direct: &Track, grid: &Grid) -> Comparison {
+fn compared(network: &Track, direct: &Track, maps: &Maps<'_>) -> Comparison {
     let nearest = |track: &Track, saturation: f64| {
         let off = |record: &Record| (record.saturation - saturation).abs();
         (0..track.records.len()).min_by(|&a, &b| off(&track.records[a]).total_cmp(&off(&track.records[b]))).unwrap_or(0)
@@ -145,11 +148,10 @@ fn compared(network: &Track, direct: &Track, grid: &Grid) -> Comparison {
             // The direct simulation has more states: the one nearest to that of the network.
             let i = nearest(network, saturation);
             let j = nearest(direct, network.records[i].saturation);
-            AtSaturation {
-                saturation: [network.records[i].saturation, direct.records[j].saturation],
-                overlap: overlap(i, j),
-                picture: picture::svg(grid, [&network.records[i].invaded, &direct.records[j].invaded]),
-            }
+            let (one, other) = (&network.records[i], &direct.records[j]);
+            let saturation = [one.saturation, other.saturation];
+            let picture = picture::svg(maps, [&one.invaded, &other.invaded], saturation);
+            AtSaturation { saturation, overlap: overlap(i, j), picture }
         })
         .collect();
     let both: Vec<[usize; 2]> = network
