@@ -1,4 +1,4 @@
-"""Takes one picture out of the page of `meniscus compare`: network and direct simulation at equal saturation.
+"""Takes one picture out of the page of `meniscus compare`: network and direct simulation at equal saturation, with titles, scale and legend.
 
 Usage: compare_picture.py DIR [--number 4] [--picture picture.svg].
 """

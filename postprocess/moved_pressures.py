@@ -12,7 +12,9 @@ SAME = ["half_cycle", "event", "throat", "saturation"]
 
 def measure(paths: list[str]) -> dict:
     """Number of events, whether all are the same in order, place and saturation, smallest and largest move (Pa)."""
-    one, other = (list(csv.DictReader((Path(path) / "events.csv").open())) for path in paths)
+    rows = (csv.DictReader((Path(path) / "events.csv").open()) for path in paths)
+    # Nothing is applied at the beginning.
+    one, other = ([row for row in events if row["capillary_pressure_Pa"]] for events in rows)
     same = len(one) == len(other) and all(a[name] == b[name] for a, b in zip(one, other, strict=True) for name in SAME)
     column = "capillary_pressure_Pa"
     moves = [float(b[column]) - float(a[column]) for a, b in zip(one, other, strict=False)]

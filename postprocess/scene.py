@@ -1,7 +1,8 @@
-"""The scene that pictures and movies share: a field on the grid, the interface as a line, the solids in gray."""
+"""The scene that pictures and movies share: a field on the grid, the interface as a line, the solids filled."""
 
 from pathlib import Path
 
+import colors
 import numpy as np
 import pyvista as pv
 
@@ -10,13 +11,12 @@ import results
 # Pixels of the longer side where nothing else is asked for.
 LONG_SIDE = 1280
 # Pixels that bar and axes need at least.
-SHORT_SIDE = 480
-SOLID_COLOR = "gray"
+SHORT_SIDE = 640
 # Height of the picture over that of the data.
 ROOM = 1.4
 # The color bar on the right.
 BAR = {
-    "fmt": "%.3g",
+    "fmt": "%.4g",
     "color": "black",
     "vertical": True,
     "position_x": 0.86,
@@ -47,6 +47,18 @@ def value_range(directory: Path, field: str, frames: list[results.Frame]) -> tup
     return min(ends), max(ends)
 
 
+def length_unit(bounds) -> tuple[float, str]:
+    """What meters are multiplied with, and the unit, so that the longer side has few digits before its point."""
+    longer = max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    return next(((factor, unit) for factor, unit in [(1.0, "m"), (1e3, "mm")] if longer * factor >= 1.0), (1e6, "\u00b5m"))
+
+
+def in_thousands(label: str, limits: tuple[float, float]) -> tuple[float, str]:
+    """What values are multiplied with, and their label: kPa in place of thousands of Pa."""
+    is_large = "(Pa)" in label and max(abs(limit) for limit in limits) >= 1e4
+    return (1e-3, label.replace("(Pa)", "(kPa)")) if is_large else (1.0, label)
+
+
 def window_size(bounds, size: int) -> list[int]:
     """Window in pixels for the bounds of a flat data set, its sides multiples of 16 as video codecs want them."""
     width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
@@ -59,28 +71,32 @@ def draw(plotter, directory: Path, frame: results.Frame, field: str, limits: tup
     plotter.clear()
     grid = results.read(frame.file)
     bounds = grid.bounds
-    grid.point_data["shown"] = scalar(grid, field)
+    factor, label = in_thousands(results.label(field), limits)
+    grid.point_data["shown"] = factor * scalar(grid, field)
+    solids = grid.threshold(0.0, scalars="wall-distance", invert=True, all_scalars=False)
+    if solids.n_points:
+        plotter.add_mesh(solids, color=colors.SOLID, lighting=False)
     pore = grid.threshold(0.0, scalars="wall-distance")
     if pore.n_points:
-        bar = {**BAR, "title": results.label(field)}
-        plotter.add_mesh(pore, scalars="shown", clim=limits, cmap="viridis", scalar_bar_args=bar, nan_opacity=0.0)
+        bar, clim = {**BAR, "title": f"{label}\n "}, [factor * limit for limit in limits]
+        plotter.add_mesh(pore, scalars="shown", clim=clim, cmap="viridis", scalar_bar_args=bar, nan_opacity=0.0)
     # Lines are lifted towards the viewer, or the field in the same plane covers them.
     lift = (0.0, 0.0, 1e-2 * max(bounds[1] - bounds[0], bounds[3] - bounds[2]))
     lines = results.read(results.frame_at(directory / "interface.pvd", frame.time).file)
     if lines.n_points:
-        plotter.add_mesh(lines.translate(lift), color="red", line_width=4)
+        plotter.add_mesh(lines.translate(lift), color=colors.MENISCUS, line_width=4)
     solid = results.read(directory / "solid.vtu")
     if solid.n_points:
-        plotter.add_mesh(solid.translate(lift), color=SOLID_COLOR, line_width=4)
+        plotter.add_mesh(solid.translate(lift), color=colors.WALL, line_width=3)
     plotter.add_text(f"t = {frame.time:.4g} s", font_size=12, color="black")
-    millimeters = [1e3 * end for end in bounds]
+    factor, unit = length_unit(bounds)
     plotter.show_bounds(
         bounds=bounds,
-        axes_ranges=millimeters,
-        xtitle="x (mm)",
-        ytitle="y (mm)",
+        axes_ranges=[factor * end for end in bounds],
+        xtitle=f"x ({unit})",
+        ytitle=f"y ({unit})",
         color="black",
-        fmt="%.3g",
+        fmt="%.4g",
         n_xlabels=2,
         n_ylabels=2,
         grid=False,

@@ -88,7 +88,7 @@ pub enum Model {
 
 impl Model {
     /// The sides of its domain; none of a film on a wall.
-    pub(super) fn sides(&self) -> Option<&Sides> {
+    pub(crate) fn sides(&self) -> Option<&Sides> {
         match self {
             Self::Sph(sph) => Some(&sph.sides),
             Self::Network(network) => Some(&network.sides),

@@ -49,7 +49,10 @@ fn write(folder: &Path, shapes: &Shapes, title: &str) -> Result<(), Failure> {
     let files = [
         ("solid.vtu", vtk::lines(&shapes.outline, vtk::Compression::default()).map_err(|error| bug(&error))?),
         ("distance.vtu", vtk::grid(&shapes.distance, vtk::Compression::default()).map_err(|error| bug(&error))?),
-        ("picture.png", picture(&pore(shapes), &shapes.outline, title).map_err(|error| Failure::new(USAGE, &error))?),
+        (
+            "picture.png",
+            picture(&pore(shapes), &shapes.outline, title, None).map_err(|error| Failure::new(USAGE, &error))?,
+        ),
     ];
     files
         .iter()

@@ -10,6 +10,7 @@ use super::films::{CurvePoint, Films};
 use super::graph::{Network, Pores};
 pub(crate) use super::half_cycle::{End, HalfCycle};
 use super::moment::Moment;
+use super::region::Counted;
 pub(crate) use crate::case::FluidPhase;
 
 /// One event that took place.
@@ -51,6 +52,8 @@ pub(crate) struct Outcome {
     pub(crate) breakthrough: Option<(f64, f64)>,
     /// Saturation of the wetting phase at its beginning, before and after what is open at the inlet is filled.
     pub(crate) first_saturation: [f64; 2],
+    /// Share of the pore space that films hold after that.
+    pub(crate) first_film_saturation: f64,
     /// Curvature in the plane in 1/m that was applied at last, after all events, where films follow it.
     pub(crate) last: Option<f64>,
 }
@@ -64,11 +67,14 @@ pub struct Cycles {
     initial: Option<Arc<Beginning>>,
     pub(super) displacement: Displacement,
     breakthrough: Option<Arc<Moment>>,
-    pub(super) pore_area: f64,
+    pore_area: f64,
     pub(super) half_cycle: usize,
     is_done: bool,
     steps: u64,
-    pub(super) wetting_area: f64,
+    /// Area of the wetting phase, of the whole domain and of what counts.
+    wetting_area: f64,
+    pub(super) counted_wetting: f64,
+    pub(super) counted: Arc<Counted>,
     displaced_area: f64,
     history: Vec<Entry>,
     invasions: Vec<Option<Invasion>>,
@@ -96,12 +102,13 @@ pub(super) fn tidy(saturation: f64) -> f64 {
 
 impl Cycles {
     /// The beginning of the first of the half cycles, in a pore space full of the defending phase or in the phases of `initial`; none where
-    /// there is no half cycle.
+    /// there is no half cycle. Saturations are those of the areas that `count` gives.
     pub(crate) fn new(
         network: Arc<Network>,
         pores: Arc<Pores>,
         half_cycles: Vec<HalfCycle>,
         initial: Option<Arc<Beginning>>,
+        count: impl FnOnce(&Displacement) -> Counted,
     ) -> Option<Self> {
         let first = half_cycles.first()?;
         let conditions = first.conditions.clone();
@@ -114,11 +121,15 @@ impl Cycles {
         let is_held = |element: usize| initial.as_ref().is_some_and(|initial| initial.invaded[element]);
         let pore_area: f64 = (0..elements).map(area).sum();
         let invading_area: f64 = (0..elements).filter(|&element| is_held(element)).map(area).sum();
-        let wetting_area =
-            if first.invading == FluidPhase::Wetting { invading_area } else { pore_area - invading_area };
+        let counted = count(&displacement);
+        let of_wetting =
+            |invading: f64, all: f64| if first.invading == FluidPhase::Wetting { invading } else { all - invading };
+        let wetting_area = of_wetting(invading_area, pore_area);
+        let counted_wetting = of_wetting(counted.area_of(is_held), counted.sum);
         let before: Vec<Phase> =
             (0..elements).map(|element| if is_held(element) { Phase::Invading } else { Phase::Defending }).collect();
-        let films = first.films.clone().map(|terms| Films::new(&displacement, first.invading, terms));
+        let shares = (0..elements).map(|element| counted.share(&displacement, element)).collect();
+        let films = first.films.clone().map(|terms| Films::new(&displacement, first.invading, terms, shares));
         let films = films.map(|films| films.begun(first.invading, initial.as_deref()));
         let mut cycles = Self {
             films,
@@ -134,6 +145,8 @@ impl Cycles {
             is_done: false,
             steps: 0,
             wetting_area,
+            counted_wetting,
+            counted: Arc::new(counted),
             displaced_area: 0.0,
             history: Vec::new(),
             invasions: vec![None; elements],
@@ -164,7 +177,13 @@ impl Cycles {
         let first_saturation = [saturation, self.saturation()];
         // No pressure holds back what enters through an opening, so that there is none to tell.
         let breakthrough = self.displacement.reached_outlet().then(|| (f64::NAN, self.invading_saturation()));
-        self.outcomes.push(Outcome { first_saturation, breakthrough, ..Outcome::default() });
+        let first_film_saturation = self.film_saturation();
+        self.outcomes.push(Outcome { first_saturation, first_film_saturation, breakthrough, ..Outcome::default() });
+    }
+
+    /// The areas that count in saturations.
+    pub(crate) fn counted(&self) -> &Counted {
+        &self.counted
     }
 
     /// Share of the pore space that the invading phase holds.
@@ -179,13 +198,16 @@ impl Cycles {
     fn displace(&mut self, elements: &[usize]) {
         let area: f64 = elements.iter().map(|&element| self.displacement.elements()[element].area).sum();
         self.displaced_area += area;
-        self.wetting_area += if self.half_cycle().invading == FluidPhase::Wetting { area } else { -area };
+        let sign = if self.half_cycle().invading == FluidPhase::Wetting { 1.0 } else { -1.0 };
+        self.wetting_area += sign * area;
+        self.counted_wetting += sign * elements.iter().map(|&element| self.counted.areas[element]).sum::<f64>();
     }
 
     /// The same displacement at its beginning.
     pub(crate) fn restarted(&self) -> Option<Self> {
         let initial = self.initial.clone();
-        Self::new(Arc::clone(&self.network), Arc::clone(&self.pores), self.half_cycles.clone(), initial)
+        let counted = Counted::clone(&self.counted);
+        Self::new(Arc::clone(&self.network), Arc::clone(&self.pores), self.half_cycles.clone(), initial, |_| counted)
     }
 
     /// Does the next event, or turns to the next half cycle; none where the displacement is over.
@@ -303,15 +325,14 @@ impl Cycles {
 
     /// Saturation of the wetting phase, films in corners included.
     pub(crate) fn saturation(&self) -> f64 {
-        tidy((self.wetting_area + self.film_area) / self.pore_area)
+        tidy((self.counted_wetting + self.film_area) / self.counted.sum)
     }
 
     /// Share of the pore space that holds the defending phase and cannot let it go.
     pub fn trapped_saturation(&self) -> f64 {
-        let elements = self.displacement.elements().iter().enumerate();
-        let trapped = elements.filter(|(index, _)| self.displacement.is_trapped(*index));
+        let trapped = self.counted.area_of(|element| self.displacement.is_trapped(element));
         let films = self.films.as_ref().map_or(0.0, |films| films.trapped_area(&self.displacement));
-        (trapped.map(|(_, element)| element.area).sum::<f64>() - films) / self.pore_area
+        (trapped - films) / self.counted.sum
     }
 
     /// All events so far.

@@ -53,8 +53,8 @@ impl Cycles {
         CurvePoint {
             half_cycle: self.half_cycle,
             curvature,
-            saturation: tidy((self.wetting_area + films) / self.pore_area),
-            film_saturation: films / self.pore_area,
+            saturation: tidy((self.counted_wetting + films) / self.counted.sum),
+            film_saturation: films / self.counted.sum,
         }
     }
 
@@ -74,7 +74,7 @@ impl Cycles {
 
     /// Share of the pore space that films in corners hold.
     pub(crate) fn film_saturation(&self) -> f64 {
-        self.film_area / self.pore_area
+        self.film_area / self.counted.sum
     }
 
     /// Whether there are films in corners.

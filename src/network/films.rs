@@ -102,16 +102,18 @@ pub(crate) struct Films {
     terms: FilmTerms,
     elements: Vec<ElementFilms>,
     states: Vec<Film>,
+    /// Share of each element that counts in saturations.
+    shares: Vec<f64>,
     /// (p_n - p_w)/σ in 1/m.
     pub(crate) curvature: f64,
 }
 
 impl Films {
     /// Films before anything is applied: at no capillary pressure in a drainage, at any in an imbibition.
-    pub(crate) fn new(displacement: &Displacement, invading: FluidPhase, terms: FilmTerms) -> Self {
+    pub(crate) fn new(displacement: &Displacement, invading: FluidPhase, terms: FilmTerms, shares: Vec<f64>) -> Self {
         let curvature = if invading == FluidPhase::Wetting { f64::INFINITY } else { 0.0 };
         let states = vec![Film::Absent; displacement.elements().len()];
-        Self { elements: Vec::new(), states, curvature, terms }.with_terms(displacement, None)
+        Self { elements: Vec::new(), states, shares, curvature, terms }.with_terms(displacement, None)
     }
 
     /// The same at the pressure at which a displacement begins that goes on from another one.
@@ -150,9 +152,9 @@ impl Films {
         self.terms.curvature(in_plane)
     }
 
-    /// Volume over the depth in m² of all films if (p_n - p_w)/σ were `curvature` in 1/m.
+    /// Volume over the depth in m² of all films that count if (p_n - p_w)/σ were `curvature` in 1/m.
     pub(crate) fn area_at(&self, curvature: f64) -> f64 {
-        (0..self.states.len()).map(|element| self.area_of(element, curvature)).sum()
+        (0..self.states.len()).map(|element| self.shares[element] * self.area_of(element, curvature)).sum()
     }
 
     fn area_of(&self, element: usize, curvature: f64) -> f64 {
@@ -163,7 +165,7 @@ impl Films {
         }
     }
 
-    /// Volume over the depth in m² of all films.
+    /// The same at the present curvature.
     pub(crate) fn area(&self) -> f64 {
         self.area_at(self.curvature)
     }
@@ -171,7 +173,7 @@ impl Films {
     /// The same of those around what is trapped.
     pub(crate) fn trapped_area(&self, displacement: &Displacement) -> f64 {
         let trapped = (0..self.states.len()).filter(|&element| displacement.is_trapped(element));
-        trapped.map(|element| self.area_of(element, self.curvature)).sum()
+        trapped.map(|element| self.shares[element] * self.area_of(element, self.curvature)).sum()
     }
 
     /// What pictures and tables show of them.

@@ -1,8 +1,9 @@
 //! Flow through a network: permeability of the pore space, and relative permeabilities of both phases along a displacement.
 //!
-//! A phase flows through the throats between two regions that it holds: menisci are closed, and films are left out.
+//! A phase flows through the throats between two regions that it holds: menisci are closed, and films are left out. Where saturations are those of
+//! `network.region`, both phases pass the manifolds.
 
-use super::cycles::{Cycles, FluidPhase};
+use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::displacement::Phase;
 use super::laplacian::FlowError;
 use super::model::{Model, Setting};
@@ -46,27 +47,62 @@ pub(crate) fn along(model: &Model, axis: usize) -> f64 {
     drive(&model.setting, axis).and_then(|drive| of_phase(model, drive, &everywhere).ok()).unwrap_or(f64::NAN)
 }
 
-/// For each region whether the wetting phase held most of it when a share of the pore space was displaced in the last half cycle.
-fn wetting_regions(setting: &Setting, cycles: &Cycles, displaced: f64) -> (Vec<bool>, f64) {
+/// For each region whether the wetting phase held most of it when these invasions of the last half cycle had taken place, and its saturation.
+fn wetting_regions(setting: &Setting, cycles: &Cycles, has_come: impl Fn(&Invasion) -> bool) -> (Vec<bool>, f64) {
     let invading = cycles.half_cycle().invading;
     let regions = setting.network.regions.len();
     let (mut wetting, mut all) = (vec![0.0; regions], vec![0.0; regions]);
+    let counted = cycles.counted();
+    let mut counted_wetting = 0.0;
     for (index, element) in cycles.displacement().elements().iter().enumerate() {
-        let is_invaded = match cycles.invasions()[index] {
-            Some(invasion) => invasion.displaced <= displaced,
+        let is_invaded = match &cycles.invasions()[index] {
+            Some(invasion) => has_come(invasion),
             None => cycles.displacement().phase(index) == Phase::Invading,
         };
         all[element.region] += element.area;
         if is_invaded == (invading == FluidPhase::Wetting) {
             wetting[element.region] += element.area;
+            counted_wetting += counted.areas[index];
         }
     }
-    let saturation = wetting.iter().sum::<f64>() / all.iter().sum::<f64>();
+    let saturation = match setting.region {
+        Some(_) => counted_wetting / counted.sum,
+        None => wetting.iter().sum::<f64>() / all.iter().sum::<f64>(),
+    };
     (wetting.iter().zip(&all).map(|(wetting, all)| *wetting > 0.5 * all).collect(), saturation)
 }
 
 /// Relative permeabilities from inlet to outlet along the last half cycle: rows of wetting saturation, wetting and non-wetting phase.
 pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
+    let Some(cycles) = model.cycles.as_ref() else { return Vec::new() };
+    let displaced = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
+    // What the beginning fills is counted as displaced; before it, nothing is.
+    let at = |share: &f64| if *share > 0.0 { share * displaced } else { -1.0 };
+    let states = states.iter().map(at);
+    along_displacement(model, states.map(|at| move |invasion: &Invasion| invasion.displaced <= at))
+}
+
+/// The same after so many events of the last half cycle each; none for what was before its beginning.
+pub(super) fn relative_after(model: &Model, events: &[Option<usize>]) -> Vec<[f64; 3]> {
+    let has_come =
+        |event: Option<usize>| move |invasion: &Invasion| event.is_some_and(|last| invasion.sequence <= last);
+    along_displacement(model, events.iter().map(|&event| has_come(event)))
+}
+
+/// With a region, both phases pass what opens at the inlet and the outlet, which has no saturation.
+fn with_manifolds(setting: &Setting, mut holds: Vec<bool>) -> Vec<bool> {
+    let ends = [setting.inlet, setting.outlet];
+    let openings = setting
+        .network
+        .openings
+        .iter()
+        .filter(|opening| setting.region.is_some() && ends.contains(&Some(opening.side)));
+    openings.for_each(|opening| holds[opening.region] = true);
+    holds
+}
+
+/// The same at states that are told by which invasions have taken place.
+fn along_displacement<F: Fn(&Invasion) -> bool>(model: &Model, states: impl Iterator<Item = F>) -> Vec<[f64; 3]> {
     let setting = &model.setting;
     let drive = setting.inlet.and_then(|inlet| drive(setting, inlet / 2));
     let (Some(cycles), Some(drive)) = (model.cycles.as_ref(), drive) else { return Vec::new() };
@@ -74,19 +110,17 @@ pub(crate) fn relative(model: &Model, states: &[f64]) -> Vec<[f64; 3]> {
     if !(whole > 0.0) {
         return Vec::new();
     }
-    let displaced = cycles.invasions().iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
-    let state = |share: &f64| {
-        // What the beginning fills is counted as displaced; before it, nothing is.
-        let at = if *share > 0.0 { share * displaced } else { -1.0 };
-        let (wetting, saturation) = wetting_regions(setting, cycles, at);
+    let state = |has_come: F| {
+        let (wetting, saturation) = wetting_regions(setting, cycles, has_come);
         let other: Vec<bool> = wetting.iter().map(|wetting| !wetting).collect();
+        let [wetting, other] = [wetting, other].map(|holds| with_manifolds(setting, holds));
         // What a phase carries that is not joined from side to side is rounding.
         const ROUNDING: f64 = 1.0e-12;
         let ratio = |holds: Vec<bool>| of_phase(model, drive, &holds).unwrap_or(f64::NAN) / whole;
         let [wetting, other] = [wetting, other].map(ratio).map(|ratio| if ratio < ROUNDING { 0.0 } else { ratio });
         [saturation, wetting, other]
     };
-    states.iter().map(state).collect()
+    states.map(state).collect()
 }
 
 /// `relative_permeability.csv`; none where nothing flows from side to side.

@@ -35,8 +35,12 @@ fn of_network(setting: &Setting) -> Vec<Measure> {
     let (narrowest, widest) =
         widths().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), width| (low.min(width), high.max(width)));
     let number = |value: f64| if value.is_finite() { value } else { f64::NAN };
+    let porosity = match setting.region {
+        Some(_) => "area of the pore space in network.region in closed form over that of the region",
+        None => "sum of the pore areas in closed form over the area of the domain",
+    };
     vec![
-        measure("porosity", setting.porosity, "", "sum of the pore areas in closed form over the area of the domain"),
+        measure("porosity", setting.porosity, "", porosity),
         measure(
             "pores",
             pores.main_region.len() as f64,
@@ -112,7 +116,7 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
     } else {
         "at the event by which the invading phase reached the outlet"
     };
-    let name = first.name();
+    let (name, space) = (first.name(), setting.space());
     let invading = cycles.half_cycle().invading;
     let wetting = cycles.saturation();
     let (left, of) = match invading {
@@ -135,25 +139,25 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
             "saturation-at-breakthrough",
             saturation,
             "",
-            format!("share of the pore space that the invading phase of the first {name} holds, {reached}"),
+            format!("share of the {space} that the invading phase of the first {name} holds, {reached}"),
         ),
         measure(
             "residual-saturation",
             left,
             "",
-            format!("share of the pore space that the {of} phase, the displaced one, holds {ending}"),
+            format!("share of the {space} that the {of} phase, the displaced one, holds {ending}"),
         ),
         measure(
             "trapped-saturation",
             cycles.trapped_saturation(),
             "",
-            format!("share of the pore space where the {of} phase has no way to the outlet, {ending}"),
+            format!("share of the {space} where the {of} phase has no way to the outlet, {ending}"),
         ),
         measure(
             "final-wetting-saturation",
             wetting,
             "",
-            format!("share of the pore space that the wetting phase holds, {ending}"),
+            format!("share of the {space} that the wetting phase holds, {ending}"),
         ),
         measure(
             "largest-capillary-pressure-Pa",
@@ -173,7 +177,7 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
             "film-saturation",
             cycles.film_saturation(),
             "",
-            format!("share of the pore space that films in corners hold, a part of the wetting saturation, {ending}"),
+            format!("share of the {space} that films in corners hold, a part of the wetting saturation, {ending}"),
         ));
         let closed = cycles.history().iter().filter(|entry| entry.kind == EventKind::SnapOff).count();
         found.push(measure("snap-offs", closed as f64, "", "throats that films in corners closed, in all half cycles"));

@@ -8,6 +8,7 @@ use super::cycles::{Cycles, FluidPhase};
 use super::displacement::{Conditions, Displacement};
 use super::graph::{Network, Pores};
 use crate::case::Side;
+use crate::case::network::Tables;
 use crate::interface::depth::Depth;
 use crate::math::Bounds;
 use crate::snapshot::Lines;
@@ -29,7 +30,7 @@ pub struct Setting {
     pub outlet: Option<usize>,
     /// The walls, for pictures.
     pub outline: Lines<'static>,
-    /// Pore area over the area of the domain.
+    /// Pore area over the area of the domain or of its region.
     pub porosity: f64,
     /// Interfacial tension in N/m.
     pub tension: Option<f64>,
@@ -43,6 +44,10 @@ pub struct Setting {
     pub geometry_hash: String,
     /// The left, right, bottom and top side.
     pub sides: [Side; 4],
+    /// Where saturations and the porosity are taken, where that is not the whole domain.
+    pub region: Option<Bounds>,
+    /// Saturation functions that are written.
+    pub(crate) tables: Tables,
 }
 
 impl Setting {
@@ -60,6 +65,16 @@ impl Setting {
     /// Floor and lid as a phase that invades meets them; none in the plane.
     pub(crate) fn depth_met_by(&self, invading: FluidPhase) -> Option<Depth> {
         self.depth.map(|[drainage, imbibition]| if invading == FluidPhase::Wetting { imbibition } else { drainage })
+    }
+
+    /// The length of a period along x and y in m; none where the domain ends.
+    pub(crate) fn periods(&self) -> [Option<f64>; 2] {
+        [0, 1].map(|axis| self.periodic[axis].then(|| self.bounds.size()[axis]))
+    }
+
+    /// What a saturation is a share of.
+    pub(crate) fn space(&self) -> &'static str {
+        if self.region.is_some() { "pore space of network.region without manifolds" } else { "pore space" }
     }
 
     /// Distance of floor and lid in m; 1 in the plane, where volumes and rates are those per meter of depth.

@@ -4,7 +4,8 @@ use super::cycles::{Cycles, Entry, FluidPhase};
 use super::model::{Model, Setting};
 use super::occupation::Occupation;
 use super::tables::{kept, radius};
-use crate::diagram::{Area, Axis, Color, Diagram, Mosaic, Stroke, Tone, Trace};
+use crate::case::Side;
+use crate::diagram::{Area, Axis, Color, Diagram, Frame, Mosaic, Stroke, Through, Tone, Trace, colors};
 use crate::math::Vec2;
 
 /// Steps of the curve shorter than this share of an axis are not drawn.
@@ -13,9 +14,32 @@ const FINEST: f64 = 1.0e-3;
 /// Above this pressure in Pa axes count in kPa.
 const KILO: f64 = 2.0e3;
 
-const NOT_INVADED: Color = [214, 228, 240];
-const INVADED_BEFORE: Color = [248, 232, 176];
-const TRAPPED: Color = [204, 121, 167];
+/// How a phase is drawn: where it invades and where it came before, where it is displaced and where it is trapped.
+struct Look {
+    color: Color,
+    trapped: (&'static str, Color),
+    in_order: (&'static str, &'static [Color]),
+    before: &'static str,
+}
+
+const LOOKS: [Look; 2] = [
+    Look {
+        color: colors::WETTING,
+        trapped: ("wetting, trapped", colors::WETTING_TRAPPED),
+        in_order: ("wetting, displaced share at invasion", colors::WETTING_IN_ORDER),
+        before: "wetting before",
+    },
+    Look {
+        color: colors::NON_WETTING,
+        trapped: ("non-wetting, trapped", colors::NON_WETTING_TRAPPED),
+        in_order: ("non-wetting, displaced share at invasion", colors::NON_WETTING_IN_ORDER),
+        before: "non-wetting before",
+    },
+];
+
+fn look(phase: FluidPhase) -> &'static Look {
+    &LOOKS[usize::from(phase == FluidPhase::NonWetting)]
+}
 
 /// The diagrams of a displacement.
 pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
@@ -23,7 +47,7 @@ pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
 }
 
 /// Capillary pressure over the saturation of the wetting phase, a line for each half cycle: the pressure rises at constant saturation
-/// and the saturation changes at constant pressure.
+/// and the saturation changes at constant pressure. Each line begins where the one before it ends, so that cycles are joined loops.
 fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
     setting.tension?;
     let pressure_at = |entry: &Entry| setting.pressure(cycles.half_cycles()[entry.half_cycle].invading, entry.applied);
@@ -34,25 +58,27 @@ fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
     } else {
         ("capillary pressure p_n - p_w in Pa", 1.0)
     };
-    let mut traces = Vec::new();
-    for (index, (half, outcome)) in cycles.half_cycles().iter().zip(cycles.outcomes()).enumerate() {
-        let name = if cycles.half_cycles().len() > 2 {
-            format!("{} {}", half.name(), index / 2 + 1)
-        } else {
-            half.name().to_owned()
-        };
+    let mut traces: Vec<Trace> = Vec::new();
+    for (index, outcome) in cycles.outcomes().iter().enumerate() {
+        let name = process_name(cycles, index);
+        let last = traces.last().and_then(|trace| trace.points.last().copied());
         if cycles.has_films() {
             let of_half = cycles.curve().iter().filter(|point| point.half_cycle == index);
             let tension = setting.tension?;
-            let points = of_half.map(|point| [point.saturation, unit * tension * point.curvature]).collect();
+            let points = of_half.map(|point| [point.saturation, unit * tension * point.curvature]);
+            let points = last.into_iter().chain(points).collect();
             traces.push(Trace { name, stroke: Stroke::Full, points });
             continue;
         }
         let entries = cycles.history().iter().filter(|entry| entry.half_cycle == index);
         let mut saturation = outcome.first_saturation[1];
-        let mut points: Vec<[f64; 2]> = Vec::new();
+        let mut points: Vec<[f64; 2]> = last.into_iter().collect();
         for entry in entries {
             let pressure = unit * pressure_at(entry);
+            if let [end] = points[..] {
+                // What is open at the inlet fills at the first pressure after the turn.
+                points.push([end[0], pressure]);
+            }
             points.push([saturation, pressure]);
             points.push([entry.saturation, pressure]);
             saturation = entry.saturation;
@@ -74,6 +100,18 @@ fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
         map: None,
         traces,
     })
+}
+
+/// Primary drainage, imbibition, secondary drainage and so on in a cycle; where there is no other half cycle, the process alone.
+fn process_name(cycles: &Cycles, index: usize) -> String {
+    const ORDERS: [&str; 2] = ["primary", "secondary"];
+    let (process, number) = (cycles.half_cycles()[index].name(), index / 2);
+    match ORDERS.get(number) {
+        _ if cycles.half_cycles().len() == 1 => process.to_owned(),
+        Some(_) if cycles.half_cycles().len() == 2 && index == 1 => process.to_owned(),
+        Some(order) => format!("{order} {process}"),
+        None => format!("{process} {}", number + 1),
+    }
 }
 
 /// A staircase without its middle points and without steps that are too short to be seen; first and last point stay.
@@ -144,11 +182,26 @@ fn empty(setting: &Setting) -> Mosaic {
         label: "",
         range: [0.0, 1.0],
         classes: Vec::new(),
-        bounds: [pair(setting.bounds.min), pair(setting.bounds.max)],
+        bar: colors::SIZES,
+        frame: Frame {
+            bounds: [pair(setting.bounds.min), pair(setting.bounds.max)],
+            open: setting.sides.map(through),
+            periodic: setting.periodic,
+        },
         areas: Vec::new(),
         walls: outline.lines.iter().map(wall).collect(),
-        lines: ("", Vec::new()),
+        menisci: ("menisci", Vec::new()),
+        throats: ("throats", kept(setting).flat_map(|throat| images(setting, &throat.contacts)).collect()),
         strips: ("films", Vec::new()),
+    }
+}
+
+/// What passes a side.
+fn through(side: Side) -> Option<Through> {
+    match side {
+        Side::Inlet => Some(Through::In),
+        Side::Outlet => Some(Through::Out),
+        _ => None,
     }
 }
 
@@ -165,22 +218,24 @@ fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
     });
     let areas: Vec<Area> = areas.flatten().collect();
     let largest = occupation.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
-    let invaded_before = match occupation.invading {
-        FluidPhase::NonWetting => "non-wetting before",
-        FluidPhase::Wetting => "wetting before",
-    };
-    let defending = occupation.invading.other().name();
+    let [invading, defending] = [occupation.invading, occupation.invading.other()].map(look);
+    let (label, bar) = invading.in_order;
     let menisci = occupation.menisci.iter().flat_map(|line| images(setting, line)).collect();
     let seen = occupation.films.iter().flat_map(|films| &films.strips);
     let strips = seen.flat_map(|(line, width)| images(setting, line).into_iter().map(|line| (line, *width)));
     Mosaic {
         name: "invasion",
         note: occupation.note.clone(),
-        label: "displaced share at invasion",
+        label,
+        bar,
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
-        classes: vec![(defending, NOT_INVADED), ("trapped", TRAPPED), (invaded_before, INVADED_BEFORE)],
+        classes: vec![
+            (occupation.invading.other().name(), defending.color),
+            defending.trapped,
+            (invading.before, invading.color),
+        ],
         areas,
-        lines: ("menisci", menisci),
+        menisci: ("menisci", menisci),
         strips: ("films", strips.collect()),
         ..empty(setting)
     }
@@ -200,7 +255,6 @@ fn sizes(setting: &Setting) -> Mosaic {
         label: "inscribed radius in m",
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
         areas: areas.collect(),
-        lines: ("throats", kept(setting).flat_map(|throat| images(setting, &throat.contacts)).collect()),
         ..empty(setting)
     }
 }

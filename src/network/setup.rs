@@ -3,7 +3,6 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::ExtractError;
 use super::angles::{angles, film_terms, met_by};
 use super::cycles::{Cycles, End, FluidPhase, HalfCycle};
 use super::displacement::{Beginning, Conditions, CornerFilms, Displacement, Element, Events, MeasuredBurst};
@@ -11,90 +10,18 @@ use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{self, Drive, Dynamic, Terms};
 use super::graph::{Network, Pores};
 use super::model::Setting;
+use super::region::{Counted, porosity};
+pub use super::setup_error::SetupError;
 use super::solver::NetworkSolver;
 use super::state;
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
-use crate::case::network::{DynamicDrive, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop, Trapping};
+use crate::case::network::{
+    DynamicDrive, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Region, Stop, Trapping,
+};
 use crate::case::{Case, SIDES, Side};
-use crate::geometry::{Geometry, GeometryError};
+use crate::geometry::Geometry;
 use crate::solver::Solver;
-
-/// A network that cannot be set up.
-#[derive(Debug, thiserror::Error)]
-pub enum SetupError {
-    /// The shapes make no sense.
-    #[error(transparent)]
-    Geometry(#[from] GeometryError),
-    /// The pores cannot be told apart.
-    #[error("{0}")]
-    Extract(#[from] ExtractError),
-    /// Entry pressures that were measured in another geometry.
-    #[error(
-        "the measured entry pressures (network.measured) are those of another geometry: its hash is {expected}, that of this one is {found}; measure \
-         them anew with `meniscus network verify`, or leave the key out"
-    )]
-    OtherGeometry {
-        /// Hash of the geometry that they were measured in.
-        expected: String,
-        /// Hash of this one.
-        found: String,
-    },
-    /// The domain is solid.
-    #[error("there is no pore in the domain: the solids fill all of it")]
-    NoPore,
-    /// A state that does not belong to the network.
-    #[error(
-        "the state in {} (network.initial) has {found} elements, and this network has {expected}: {why}; run this case without \
-         network.initial, and take a state that it writes", file.display()
-    )]
-    OtherState {
-        /// Its file.
-        file: std::path::PathBuf,
-        /// Its elements.
-        found: usize,
-        /// Those of the network.
-        expected: usize,
-        /// What is different.
-        why: &'static str,
-    },
-    /// A displacement in time begins with more of the invading phase than its pores at the inlet hold.
-    #[error(
-        "at the beginning the invading phase would hold {asked:.4} of the pore space (network.dynamic.initial-saturation), and the pores that are open at \
-         the inlet are {found:.4} of it; take a share from 0 to that, or leave the key out: these pores are full then"
-    )]
-    InletTooSmall {
-        /// Share that is asked for.
-        asked: f64,
-        /// That of the pores at the inlet.
-        found: f64,
-    },
-    /// An open side is closed by solids.
-    #[error(
-        "no pore opens at the side `{side}`, which is the {role} (network.{role}): solids close all of it; choose another side, or \
-         cut the shapes there with a smaller domain"
-    )]
-    NoOpening {
-        /// The side.
-        side: &'static str,
-        /// `inlet` or `outlet`.
-        role: &'static str,
-    },
-}
-
-impl SetupError {
-    /// The key of the case that a user would change.
-    pub(crate) fn key(&self) -> String {
-        match self {
-            Self::Extract(ExtractError::NotOpen { .. }) => "network".to_owned(),
-            Self::Geometry(_) | Self::Extract(_) | Self::NoPore => "geometry".to_owned(),
-            Self::OtherGeometry { .. } => "network.measured".to_owned(),
-            Self::OtherState { .. } => "network.initial".to_owned(),
-            Self::InletTooSmall { .. } => "network.dynamic.initial-saturation".to_owned(),
-            Self::NoOpening { role, .. } => format!("network.{role}"),
-        }
-    }
-}
 
 /// The solids of a case as its network sees them: periodic sides joined, wall sides closed.
 ///
@@ -150,6 +77,10 @@ pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, S
         None => None,
     };
     let solver = assemble(wanted, &geometry, (network, pores), initial).timed(extraction);
+    if let Some(region) = wanted.region.filter(|_| solver.cycles().is_some_and(|cycles| !(cycles.counted().sum > 0.0)))
+    {
+        return Err(SetupError::EmptyRegion { min: region.min, max: region.max });
+    }
     let found = &solver.setting().geometry_hash;
     match wanted.measured.as_ref().map(|measured| &measured.geometry_hash) {
         Some(expected) if expected != found => {
@@ -233,7 +164,7 @@ pub(crate) fn assemble(
         measured: measured(wanted),
         films: CornerFilms::Absent,
     });
-    let setting = Setting {
+    let mut setting = Setting {
         network: Arc::clone(&network),
         pores: Arc::clone(&pores),
         bounds: geometry.bounds(),
@@ -250,8 +181,18 @@ pub(crate) fn assemble(
         entry,
         geometry_hash: format!("{:016x}", geometry.hash()),
         sides: wanted.sides.each(),
+        region: wanted.region.map(Region::bounds),
+        tables: wanted.tables,
     };
-    NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles, initial))
+    let counted = |displacement: &Displacement| match setting.region {
+        Some(region) => Counted::within(displacement, region, setting.periods()),
+        None => Counted::everywhere(displacement),
+    };
+    let cycles = Cycles::new(Arc::clone(&network), pores, half_cycles, initial, counted);
+    if let Some(region) = setting.region {
+        setting.porosity = porosity(&network, region, setting.periods());
+    }
+    NetworkSolver::new(setting, cycles)
 }
 
 /// A displacement in time with the phase that invades and its end.

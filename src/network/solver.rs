@@ -11,7 +11,7 @@ use super::cycles::Cycles;
 use super::displacement::EventKind;
 use super::model::{Model, Setting};
 use super::occupation::Occupation;
-use super::{flow, layers, measures, openpnm, pictures, state, summary, tables, warnings};
+use super::{flow, layers, measures, openpnm, pictures, reservoir, state, summary, tables, warnings};
 use crate::diagram::Diagram;
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
 use crate::solver::{
@@ -147,12 +147,16 @@ impl Solver for NetworkSolver {
     }
 
     fn results(&self) -> Results<'_> {
-        let occupation = self.model.cycles.as_ref().map(Cycles::occupation);
+        let occupation = self.model.cycles.as_ref().map(|cycles| {
+            let menisci = cycles.all_menisci(&self.model.setting);
+            Occupation { menisci, ..cycles.occupation() }
+        });
         let mut results = results_with(&self.model, occupation.as_ref());
         results.tables.extend(self.model.cycles.as_ref().map(|cycles| tables::events(&self.model.setting, cycles)));
         let cycles = self.model.cycles.as_ref();
         results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(&self.model.setting, cycles)));
         results.documents.extend(state::documents(&self.model));
+        results.documents.extend(reservoir::documents(&self.model));
         results.tables.extend(flow::table(&self.model));
         results
     }

@@ -1,6 +1,6 @@
 //! `pores.csv`, `throats.csv` and `events.csv`: SI units, one row each for a pore, a throat, an event.
 
-use super::cycles::{Cycles, Entry, FluidPhase, Invasion};
+use super::cycles::{Cycles, Entry, FluidPhase, Invasion, Outcome};
 use super::films::CurvePoint;
 use super::graph::{Opening, Throat};
 use super::model::{Model, Setting};
@@ -210,36 +210,61 @@ pub(super) fn numbers_of_throats(setting: &Setting) -> Vec<Option<usize>> {
 /// `events.csv` of a quasi-static displacement.
 pub(crate) fn events(setting: &Setting, cycles: &Cycles) -> Table {
     let number_of = numbers_of_throats(setting);
-    let history = cycles.history();
-    let mut sequence = 0;
-    let mut last = 0;
-    let sequences = history.iter().map(|entry| {
-        sequence = if entry.half_cycle == last { sequence } else { 0 };
-        last = entry.half_cycle;
-        sequence += 1;
-        sequence
-    });
+    let rows = rows(cycles);
+    let all = || rows.iter();
     let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].name();
     let pressures = |of: fn(&Entry) -> f64| {
-        history.iter().map(move |entry| setting.pressure(cycles.half_cycles()[entry.half_cycle].invading, of(entry)))
+        all().map(move |row| {
+            let pressure = |entry| setting.pressure(cycles.half_cycles()[row.half_cycle].invading, of(entry));
+            row.event.map_or(f64::NAN, pressure)
+        })
     };
+    let throat = |row: &Row| row.event.and_then(|entry| number_of[entry.throat?]);
     let mut table = Table {
         name: "events",
         columns: vec![
-            counts("half_cycle", history.iter().map(|entry| entry.half_cycle + 1)),
-            words("process", history.iter().map(|entry| process(entry.half_cycle))),
-            counts("sequence", sequences),
-            words("event", history.iter().map(|entry| entry.kind.name())),
-            places("throat", history.iter().map(|entry| entry.throat.and_then(|throat| number_of[throat]))),
+            counts("half_cycle", all().map(|row| row.half_cycle + 1)),
+            words("process", all().map(|row| process(row.half_cycle))),
+            counts("sequence", all().map(|row| row.sequence)),
+            words("event", all().map(|row| row.event.map_or(BEGINNING, |entry| entry.kind.name()))),
+            places("throat", all().map(throat)),
             numbers("meniscus_pressure_Pa", pressures(|entry| entry.curvature)),
             numbers("capillary_pressure_Pa", pressures(|entry| entry.applied)),
-            numbers("saturation", history.iter().map(|entry| entry.saturation)),
+            numbers("saturation", all().map(|row| row.saturation[0])),
         ],
     };
     if cycles.has_films() {
-        table.columns.push(numbers("film_saturation", history.iter().map(|entry| entry.film_saturation)));
+        table.columns.push(numbers("film_saturation", all().map(|row| row.saturation[1])));
     }
     table
+}
+
+/// What stands in place of an event at the beginning of a half cycle, when what is open at its inlet has been filled.
+pub(super) const BEGINNING: &str = "beginning";
+
+/// A row of the events.
+struct Row<'c> {
+    half_cycle: usize,
+    sequence: usize,
+    /// None at the beginning.
+    event: Option<&'c Entry>,
+    /// Saturation of the wetting phase and, as a part of it, of films.
+    saturation: [f64; 2],
+}
+
+/// The beginning of each half cycle, and its events.
+fn rows(cycles: &Cycles) -> Vec<Row<'_>> {
+    let of_half = |(half_cycle, outcome): (usize, &Outcome)| {
+        let saturation = [outcome.first_saturation[1], outcome.first_film_saturation];
+        let first = Row { half_cycle, sequence: 0, event: None, saturation };
+        let events = cycles.history().iter().filter(move |entry| entry.half_cycle == half_cycle);
+        let row = move |(entry, sequence): (_, usize)| {
+            let &Entry { saturation, film_saturation, .. } = entry;
+            Row { half_cycle, sequence, event: Some(entry), saturation: [saturation, film_saturation] }
+        };
+        std::iter::once(first).chain(events.zip(1..).map(row))
+    };
+    cycles.outcomes().iter().enumerate().flat_map(of_half).collect()
 }
 
 /// `capillary_pressure.csv`: the curve with the films at every pressure; none without films.

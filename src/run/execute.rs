@@ -180,17 +180,18 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
 }
 
 /// The picture of the present state as PNG.
-pub(super) fn drawn(title: &str, solver: &dyn Solver, results: &Results<'_>) -> Result<Vec<u8>, PictureError> {
+pub(super) fn drawn(case: &Case, solver: &dyn Solver, results: &Results<'_>) -> Result<Vec<u8>, PictureError> {
+    let title = &case.title;
     match results.mosaics.first() {
         Some(mosaic) => mosaic_picture(mosaic, title),
-        None => picture(&solver.snapshot(), &solver.outline(), title),
+        None => picture(&solver.snapshot(), &solver.outline(), title, setup::frame(case).as_ref()),
     }
 }
 
 /// Draws the state at the end. A picture that cannot be drawn does not spoil a run; one that cannot be written does.
 fn draw(job: &Job<'_>, solver: &dyn Solver, results: &Results<'_>) -> Result<Result<PathBuf, PictureError>, FileError> {
     let path: &Path = &job.folder.join("picture.png");
-    match drawn(&job.case.title, solver, results) {
+    match drawn(job.case, solver, results) {
         Ok(png) => atomic::write(path, &png).map(|()| Ok(path.to_path_buf())),
         Err(error) => Ok(Err(error)),
     }

@@ -18,6 +18,7 @@ pub(crate) mod memory;
 #[cfg(test)]
 pub(crate) mod mock;
 pub(crate) mod numbers;
+pub(crate) mod pressure_curves;
 pub(crate) mod processor_time;
 pub mod report;
 pub(crate) mod schedule;

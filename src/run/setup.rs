@@ -1,7 +1,8 @@
 //! From a checked case to its solver: the one place that knows both.
 
 use super::memory::{self, NoRoom};
-use crate::case::{Case, Facts, Model, Sph, check_against};
+use crate::case::{Case, Facts, Model, Side, Sph, check_against};
+use crate::diagram::{Frame, Through};
 use crate::geometry::Geometry;
 use crate::input::Problem;
 use crate::math::{Bounds, Vec2};
@@ -110,6 +111,21 @@ pub fn geometry(case: &Case) -> Result<Geometry, SetupError> {
         Model::Network(network) => Ok(network::setup::geometry(case, network)?),
         Model::ThinFilm(_) => Ok(Geometry::new(&case.geometry).map_err(sph::setup::SetupError::from)?),
     }
+}
+
+/// The domain of a case and what its sides are, for pictures; none of a film on a wall.
+pub(super) fn frame(case: &Case) -> Option<Frame> {
+    let sides = case.model.sides()?.each();
+    let through = |side: Side| match side {
+        Side::Inlet => Some(Through::In),
+        Side::Outlet => Some(Through::Out),
+        _ => None,
+    };
+    Some(Frame {
+        bounds: [case.geometry.min, case.geometry.max],
+        open: sides.map(through),
+        periodic: [sides[0] == Side::Periodic, sides[2] == Side::Periodic],
+    })
 }
 
 /// What a reader must know before trusting a run of the case, by the case and by the present state of its solver with the rows so far.

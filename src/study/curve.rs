@@ -43,13 +43,37 @@ pub(crate) struct Line {
     pub reference: Vec<(f64, f64)>,
 }
 
+/// The parameters by whose values a curve is told into lines: its series and, where a line would have two values at one x, others that vary.
+fn series(curve: &Curve, results: &[RunResult]) -> Vec<String> {
+    let mut names: Vec<String> = curve.series.iter().cloned().collect();
+    let all = || results.iter().flat_map(|result| &result.run.parameters).map(|parameter| &parameter.name);
+    let is_parameter = all().any(|name| *name == curve.x);
+    // Runs that differ in nothing else would stand on one point.
+    let shared = |names: &[String]| {
+        let keys = results.iter().map(|result| {
+            let of_line: Vec<_> = names.iter().map(|name| result.run.value(name)).collect();
+            (result.run.value(&curve.x), of_line)
+        });
+        let keys: Vec<_> = keys.collect();
+        (1..keys.len()).filter(|&k| keys[..k].contains(&keys[k])).count()
+    };
+    for name in all() {
+        let added = [&names[..], std::slice::from_ref(name)].concat();
+        if is_parameter && *name != curve.x && !names.contains(name) && shared(&added) < shared(&names) {
+            names = added;
+        }
+    }
+    names
+}
+
 /// The lines of a curve, from runs that have the values; points that a logarithmic scale cannot show are left out.
 pub(crate) fn lines(curve: &Curve, results: &[RunResult]) -> Vec<Line> {
+    let series = series(curve, results);
     let mut lines: Vec<Line> = Vec::new();
     let fits = |scale, value: f64| value.is_finite() && (scale == RawScale::Linear || value > 0.0);
     for result in results {
-        let name = curve.series.as_ref().and_then(|name| Some(format!("{name} = {}", shown(result.run.value(name)?))));
-        let name = name.unwrap_or_default();
+        let of = |name: &String| Some(format!("{name} = {}", shown(result.run.value(name)?)));
+        let name = series.iter().filter_map(of).collect::<Vec<_>>().join(", ");
         let (Some(x), Some(y)) = (result.number(&curve.x), result.number(&curve.y)) else { continue };
         let reference = curve.reference.as_ref().and_then(|reference| result.run.quantity(reference));
         let shown_y = if curve.error { (y - reference.unwrap_or(0.0)).abs() } else { y };
@@ -220,6 +244,18 @@ mod tests {
         super::super::mock::set_moving(&mut results[1], 0.5);
         assert_eq!(hollow(&results), 1);
         assert_eq!(lines(&study.report.curves[0], &results)[0].points.iter().filter(|p| !p.is_at_rest).count(), 1);
+    }
+
+    #[test]
+    fn no_line_joins_runs_that_differ_in_more_than_x() {
+        let study = study(
+            "[[axis]]\nkey = 'x'\nvalues = [1, 2]\n[[axis]]\nkey = 'slip'\nvalues = [3, 4]\n[[axis]]\nkey = 'dx'\nvalues = [5, 6]\n\
+             [[report.curve]]\nx = 'x'\ny = 'm'\nseries = 'slip'\n",
+        );
+        let found = lines(&study.report.curves[0], &complete(&study, |run| run.index as f64));
+        let names: Vec<&str> = found.iter().map(|line| line.name.as_str()).collect();
+        assert_eq!(names, ["slip = 3, dx = 5", "slip = 3, dx = 6", "slip = 4, dx = 5", "slip = 4, dx = 6"]);
+        assert!(found.iter().all(|line| line.points.len() == 2));
     }
 
     #[test]

@@ -27,6 +27,8 @@ pub(crate) struct Content<'a> {
     pub(crate) judgments: &'a [Judgment],
     /// Errors along spacings.
     pub(crate) convergences: &'a [Convergence],
+    /// The capillary pressure curves of all runs in one diagram as SVG, where runs have them.
+    pub(crate) pressures: Option<&'a str>,
     /// Names of the files of diagrams, a list per run.
     pub(crate) diagrams: &'a [Vec<String>],
     /// Capillary pressure over saturation of both models as SVG, one per run that was compared with a network and is complete.
@@ -53,6 +55,9 @@ pub(crate) fn page(content: &Content<'_>) -> String {
         html += "<h2>Curves</h2>\n<div class=\"curves\">\n";
         html.extend(content.curves.iter().map(String::as_str));
         html += "\n</div>\n";
+    }
+    if let Some(curves) = content.pressures {
+        html += &format!("<h2>Capillary pressure of all runs</h2>\n<div class=\"curves\">\n{curves}\n</div>\n");
     }
     html += "<h2>Table</h2>\n<div class=\"wide\">\n";
     html += &content.table.html();

@@ -12,10 +12,13 @@ use super::resolution::Resolution;
 use super::results::{RUN_NUMBERS, RunResult, Standing, measures, moving, results};
 use super::run::PlannedRun;
 use super::table::{self, Table};
+use super::values::shown;
 use super::verdict::{Judgment, judgments};
 use crate::input::nearest;
+use crate::io::diagram::DiagramError;
 use crate::io::{FileError, atomic};
 use crate::run::compare::CURVES;
+use crate::run::pressure_curves;
 
 /// A report that cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -26,6 +29,9 @@ pub(crate) enum ReportError {
     /// A curve.
     #[error("a curve cannot be drawn: {0}")]
     Curve(#[from] CurveError),
+    /// The curves of all runs in one diagram.
+    #[error(transparent)]
+    Diagram(#[from] DiagramError),
 }
 
 /// A report as written.
@@ -64,6 +70,21 @@ fn comparisons<'r>(study: &Study, results: &'r [RunResult], folder: &StudyFolder
     complete.map(|result| (result, curves(result).unwrap_or_default())).collect()
 }
 
+/// The capillary pressure curves of all complete runs, each named by the values in which runs differ; none where fewer than two have one.
+fn pressures(study: &Study, results: &[RunResult], folder: &StudyFolder) -> Result<Option<String>, ReportError> {
+    let varies = |name: &str| results.iter().any(|result| result.run.value(name) != results[0].run.value(name));
+    let name = |result: &RunResult| {
+        // One column tells the value of an axis.
+        let columns = study.axes.iter().filter_map(|axis| axis.columns.first()).map(|column| column.name.as_str());
+        let told = |name: &str| Some(format!("{name} = {}", shown(result.run.value(name)?)));
+        columns.filter(|name| varies(name)).filter_map(told).collect::<Vec<_>>().join(", ")
+    };
+    let complete = results.iter().filter(|result| study.compare.is_none() && result.standing.report().is_some());
+    let runs: Vec<(String, PathBuf)> = complete.map(|result| (name(result), folder.run(&result.run.name))).collect();
+    let runs: Vec<(String, &Path)> = runs.iter().map(|(name, folder)| (name.clone(), folder.as_path())).collect();
+    Ok(if runs.len() > 1 { pressure_curves::overlay(&runs)? } else { None })
+}
+
 /// Writes `table.csv`, `table.md`, `curve-1.svg` and so on, and `report.html`.
 pub(crate) fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Result<StudyReport, ReportError> {
     let results = results(runs, folder);
@@ -84,8 +105,13 @@ pub(crate) fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -
     let diagrams: Vec<Vec<String>> =
         results.iter().map(|result| diagrams_of(&folder.run(&result.run.name), &result.standing)).collect();
     let comparisons = comparisons(study, &results, folder);
+    let pressures = pressures(study, &results, folder)?;
+    if let Some(text) = &pressures {
+        atomic::write(&path(&format!("{}.svg", pressure_curves::NAME)), text.as_bytes())?;
+    }
     let content = Content {
         comparisons: &comparisons,
+        pressures: pressures.as_deref(),
         diagrams: &diagrams,
         study,
         results: &results,

@@ -193,3 +193,42 @@ fn a_comparison_of_a_study_that_cannot_be_run_is_refused_before_any_run() {
     assert!(told.contains("study.toml:6") && told.contains("not of one geometry"), "{told}");
     assert!(told.contains("let both name the same shape file: that of direct.toml"), "{told}");
 }
+
+/// The same cases with the wetting phase coming in.
+fn imbibition(folder: &Path) {
+    cases(folder);
+    let edit = |name: &str, pairs: &[(&str, &str)]| {
+        let path = folder.join(name);
+        let mut text = std::fs::read_to_string(&path).unwrap();
+        for (from, to) in pairs {
+            assert!(text.contains(from), "{from}");
+            text = text.replace(from, to);
+        }
+        std::fs::write(path, text).unwrap();
+    };
+    edit("network.toml", &[("outlet = \"right\"", "outlet = \"right\"\nprocess = \"imbibition\"")]);
+    let inflow = "velocity = 0.1 # m/s";
+    let pairs =
+        [("[[sph.initial.non-wetting]]", "[[sph.initial.wetting]]"), (inflow, "velocity = 0.1\nphase = \"wetting\"")];
+    edit("direct.toml", &pairs);
+}
+
+#[test]
+fn the_breakthrough_of_an_imbibition_is_that_of_a_run() {
+    let folder = tempfile::tempdir().unwrap();
+    imbibition(folder.path());
+    assert_code(&meniscus(folder.path(), &["run", "network.toml", "--out", "run", "--threads", "1"]), 0);
+    let report = std::fs::read_to_string(folder.path().join("run/report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    let measure = |name: &str| report["measures"][name]["value"].as_f64().unwrap();
+    let arguments = ["compare", "network.toml", "direct.toml", "--records", "2", "--out", "both", "--threads", "1"];
+    assert_code(&meniscus(folder.path(), &arguments), 0);
+    let text = std::fs::read_to_string(folder.path().join("both/compare.json")).unwrap();
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let network = &found["network"];
+    assert_eq!(network["breakthrough_pressure_pa"].as_f64().unwrap(), measure("breakthrough-pressure-Pa"));
+    assert_eq!(network["saturation_at_breakthrough"].as_f64().unwrap(), measure("saturation-at-breakthrough"));
+    let pressures: Vec<f64> =
+        network["capillary_pressure_pa"].as_array().unwrap().iter().filter_map(serde_json::Value::as_f64).collect();
+    assert!(pressures[0] > measure("breakthrough-pressure-Pa"), "it falls in an imbibition: {pressures:?}");
+}

@@ -17,6 +17,7 @@ mod invariants;
 mod packs;
 mod permeability;
 mod pores;
+mod region;
 mod scenes;
 mod symmetry;
 mod tutorial;

@@ -4,6 +4,7 @@ use super::displacement::{
     NetworkDisplacement, displacement, raw_displacement, refuse_other_sides, refuse_without_inlet,
 };
 use super::measured::{self, Measured};
+use super::region::{Region, Tables, raw_region, refuse_tables, region};
 use super::state::Start;
 use super::table::{RawNetwork, RawNetworkSide, RawNetworkSides};
 use crate::case::fluid::{Fluid, RawFluid, RawInterface, RawPhases, fluid};
@@ -32,6 +33,12 @@ pub struct PoreNetwork {
     pub measured: Option<Measured>,
     /// What is displaced; absent where there is no inlet.
     pub displacement: Option<NetworkDisplacement>,
+    /// Where saturations and the porosity are taken; absent: in the whole domain.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) region: Option<Region>,
+    /// Further files.
+    #[serde(skip_serializing_if = "Tables::is_empty")]
+    pub(crate) tables: Tables,
 }
 
 impl PoreNetwork {
@@ -87,6 +94,10 @@ pub(in crate::case) fn network(
         refuse_without_inlet(checker, raw);
         None
     };
+    let region = region(checker, raw, sides.as_ref(), geometry);
+    let given = raw.output.clone().unwrap_or_default();
+    let tables = Tables { swof: given.swof.unwrap_or_default(), sgof: given.sgof.unwrap_or_default() };
+    refuse_tables(checker, raw, tables);
     if raw.dynamic.is_some() && displacement.as_ref().is_some_and(|displacement| displacement.dynamic.is_none()) {
         return None;
     }
@@ -101,6 +112,8 @@ pub(in crate::case) fn network(
             None => None,
         },
         displacement,
+        region,
+        tables,
     })
 }
 
@@ -231,6 +244,8 @@ pub(in crate::case) fn raw(network: &PoreNetwork) -> RawNetwork {
         wetting: interface.map(|interface| wetting::raw(&interface.wetting_model, &interface.patches)),
         persistence: Some(network.persistence),
         measured_throats: network.measured.as_ref().map(measured::table),
+        region: network.region.map(raw_region),
+        output: (!network.tables.is_empty()).then(|| network.tables.raw()),
         ..RawNetwork::default()
     };
     let Some(displacement) = &network.displacement else { return none };

@@ -47,6 +47,29 @@ tables! {
         pub initial: PathBuf,
         /// Displacement in time, with viscous flow (default: quasi-static).
         pub dynamic: RawDynamic,
+        /// Region over which saturations and the porosity are taken; not with `dynamic` (default: the whole domain).
+        pub region: RawRegion,
+        /// Further files of a quasi-static displacement with an outlet.
+        pub output: RawNetworkOutput,
+    }
+
+    /// Region over which saturations and the porosity are taken: a rectangle, or the pack. Of a pore that reaches over its edge the part inside counts;
+    /// what opens at the inlet or the outlet is manifold and has no saturation, so that the first saturation is that of the defending phase alone.
+    pub(crate) struct RawRegion {
+        /// Lower left corner in m.
+        pub min: [f64; 2],
+        /// Upper right corner in m.
+        pub max: [f64; 2],
+        /// `pack`: from the first to the last grain on the way from inlet to outlet, across all of the domain; in place of both corners.
+        pub extent: RegionExtent,
+    }
+
+    /// Further files.
+    pub(crate) struct RawNetworkOutput {
+        /// Writes `swof.inc`, saturation functions of water and oil of the last half cycle as reservoir simulators read them (default false).
+        pub swof: bool,
+        /// Writes `sgof.inc`, those of gas and liquid (default false).
+        pub sgof: bool,
     }
 
     /// The sides that are neither inlet nor outlet.
@@ -122,6 +145,12 @@ words! {
         Imbibition,
         /// Drainage from the inlet, then imbibition from the outlet, again and again.
         Cycle,
+    }
+
+    /// A region that follows from the geometry.
+    pub(crate) enum RegionExtent {
+        /// From the first to the last grain.
+        Pack,
     }
 
     /// The events that move menisci.

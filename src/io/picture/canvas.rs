@@ -1,10 +1,12 @@
 //! A canvas in pixels: filled circles, polylines, rectangles (`tiny-skia`) and text (`ab_glyph`, DejaVu Sans built in).
 
+use crate::diagram::colors;
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, Transform,
+    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, StrokeDash,
+    Transform,
 };
 
 /// A picture that cannot be drawn.
@@ -104,6 +106,19 @@ impl Canvas {
         }
     }
 
+    /// A dashed polyline.
+    pub(crate) fn dashes(&mut self, vertices: impl Iterator<Item = [f32; 2]>, width: f32, color: Rgb) {
+        let mut builder = PathBuilder::new();
+        for [x, y] in vertices {
+            if builder.is_empty() { builder.move_to(x, y) } else { builder.line_to(x, y) }
+        }
+        if let Some(path) = builder.finish() {
+            let dash = StrokeDash::new(vec![3.0 * width, 2.0 * width], 0.0);
+            let stroke = Stroke { width, dash, ..Stroke::default() };
+            self.pixels.stroke_path(&path, &paint(color), &stroke, Transform::identity(), None);
+        }
+    }
+
     /// Names with a dot of their color each, from right to left; the last one ends at `end`.
     pub(crate) fn legend(&mut self, entries: &[(&str, Rgb)], end: [f32; 2], size: f32) {
         let [mut x, y] = end;
@@ -111,7 +126,8 @@ impl Canvas {
             x -= self.text_width(name, size);
             self.text(name, [x, y], size);
             x -= 22.0;
-            self.circles([[x, y - 8.0]].into_iter(), 11.0, *color);
+            self.circles([[x, y - 8.0]].into_iter(), 11.0, colors::WALL);
+            self.circles([[x, y - 8.0]].into_iter(), 10.0, *color);
             x -= 40.0;
         }
     }

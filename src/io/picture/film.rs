@@ -48,6 +48,8 @@ pub(super) fn film_picture(snapshot: &Snapshot<'_>, title: &str) -> Result<Vec<u
     canvas.polyline([[RIM, floor], [RIM + room as f32, floor]].into_iter(), 1.5, OUTLINE);
     canvas.polyline(profile.iter().map(place), 3.0, INTERFACE);
     heading(&mut canvas, title, &time_text(snapshot.time));
+    let entries = [("wetting", FLUIDS[0].color), ("solid", SOLID), ("interface", INTERFACE)];
+    canvas.legend(&entries, [WIDTH as f32 - RIM, 82.0], TEXT_SIZE);
     let below = floor + WALL + 30.0;
     scale_bar(&mut canvas, across, last.x - first.x, below);
     let note = format!("highest {}, drawn {:.0} times as high as wide", length_text(rounded(highest)), up / across);

@@ -9,13 +9,19 @@ mod view;
 
 pub(crate) use canvas::PictureError;
 pub(crate) use mosaic::mosaic_picture;
-pub(crate) use style::PORE;
+pub(crate) use style::{PORE, length_text, round_length};
 
 use self::film::{film_picture, is_film};
 use self::particles::particle_picture;
+use crate::diagram::Frame;
 use crate::snapshot::{Lines, Snapshot};
 
-/// Draws a snapshot and the outline of its solids as a PNG file.
-pub(crate) fn picture(snapshot: &Snapshot<'_>, outline: &Lines<'_>, title: &str) -> Result<Vec<u8>, PictureError> {
-    if is_film(snapshot) { film_picture(snapshot, title) } else { particle_picture(snapshot, outline, title) }
+/// Draws a snapshot and the outline of its solids as a PNG file; `frame` is that of a domain with sides.
+pub(crate) fn picture(
+    snapshot: &Snapshot<'_>,
+    outline: &Lines<'_>,
+    title: &str,
+    frame: Option<&Frame>,
+) -> Result<Vec<u8>, PictureError> {
+    if is_film(snapshot) { film_picture(snapshot, title) } else { particle_picture(snapshot, outline, title, frame) }
 }

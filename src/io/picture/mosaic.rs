@@ -3,7 +3,7 @@
 use super::canvas::{Canvas, PictureError, Rgb};
 use super::style::{INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, WIDTH};
 use super::view::{View, heading, scale_bar};
-use crate::diagram::{Mosaic, Tone};
+use crate::diagram::{Mosaic, Tone, colors};
 use crate::io::axes::short;
 use crate::math::{Bounds, Vec2};
 
@@ -12,39 +12,28 @@ const FOOT: f32 = 190.0;
 /// Height of the color bar in pixels.
 const BAR: f32 = 26.0;
 
-/// Colors that rise evenly in lightness, for color-blind eyes and gray prints too: viridis (van der Walt and Smith 2015) at eighths.
-const VIRIDIS: [Rgb; 9] = [
-    [68, 1, 84],
-    [71, 44, 122],
-    [59, 81, 139],
-    [44, 113, 142],
-    [33, 144, 141],
-    [39, 173, 129],
-    [92, 200, 99],
-    [170, 220, 50],
-    [253, 231, 37],
-];
-
-/// The color at a share of the bar; what comes first is bright, what comes last dark.
-fn color_at(share: f64) -> Rgb {
-    let place = (1.0 - share.clamp(0.0, 1.0)) * (VIRIDIS.len() - 1) as f64;
-    let below = (place.floor() as usize).min(VIRIDIS.len() - 2);
+/// The color at a share of the bar.
+fn color_at(bar: &[Rgb], share: f64) -> Rgb {
+    let place = share.clamp(0.0, 1.0) * (bar.len() - 1) as f64;
+    let below = (place.floor() as usize).min(bar.len() - 2);
     let rest = place - below as f64;
     let mix = |i: usize| {
-        let (a, b) = (f64::from(VIRIDIS[below][i]), f64::from(VIRIDIS[below + 1][i]));
+        let (a, b) = (f64::from(bar[below][i]), f64::from(bar[below + 1][i]));
         (a + rest * (b - a)).round() as u8
     };
     [mix(0), mix(1), mix(2)]
 }
 
-/// The color of strips, and the least width in pixels that is seen.
-const STRIP: Rgb = [0, 114, 178];
+/// The color of strips, which are films of the wetting phase, and the least width in pixels that is seen.
+const STRIP: Rgb = colors::WETTING;
 const THINNEST: f32 = 2.0;
+/// The color of throats.
+const THROAT: Rgb = colors::MARK;
 
 /// Draws a map as a PNG file.
 pub(crate) fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, PictureError> {
-    let [min, max] = mosaic.bounds.map(Vec2::from);
-    let view = View::new(Bounds { min, max });
+    let [min, max] = mosaic.frame.bounds.map(Vec2::from);
+    let view = View::new(Bounds { min, max }, Some(&mosaic.frame));
     if !(view.scale.is_finite() && view.scale > 0.0) || mosaic.areas.is_empty() {
         return Err(PictureError::Empty);
     }
@@ -54,7 +43,7 @@ pub(crate) fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, Pi
     let [low, high] = mosaic.range;
     for area in &mosaic.areas {
         let color = match area.tone {
-            Tone::Value(value) => color_at((value - low) / (high - low)),
+            Tone::Value(value) => color_at(mosaic.bar, (value - low) / (high - low)),
             Tone::Class(class) => mosaic.classes.get(class).map_or(SOLID, |(_, color)| *color),
         };
         canvas.polygon(area.boundary.iter().map(|&x| view.place(x.into())), color);
@@ -69,7 +58,10 @@ pub(crate) fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, Pi
     for wall in &mosaic.walls {
         canvas.polyline(wall.iter().map(|&x| view.place(x.into())), 1.5 * thin, OUTLINE);
     }
-    for line in &mosaic.lines.1 {
+    for throat in &mosaic.throats.1 {
+        canvas.dashes(throat.iter().map(|&x| view.place(x.into())), 2.0 * thin, THROAT);
+    }
+    for line in &mosaic.menisci.1 {
         canvas.polyline(line.iter().map(|&x| view.place(x.into())), 3.0 * thin, INTERFACE);
     }
     view.frame(&mut canvas);
@@ -92,7 +84,7 @@ fn color_bar(canvas: &mut Canvas, mosaic: &Mosaic, top: f32) {
     let length = RIM + width - from;
     for column in 0..length as u32 {
         let share = f64::from(column) / f64::from(length);
-        canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(share));
+        canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(mosaic.bar, share));
     }
     let [low, high] = mosaic.range;
     for number in 0..NUMBERS {
@@ -109,16 +101,18 @@ fn color_bar(canvas: &mut Canvas, mosaic: &Mosaic, top: f32) {
 fn legend(canvas: &mut Canvas, mosaic: &Mosaic, y: f32) {
     let is_there = |class: usize| mosaic.areas.iter().any(|area| area.tone == Tone::Class(class));
     let classes = mosaic.classes.iter().enumerate().filter(|(class, _)| is_there(*class)).map(|(_, entry)| *entry);
-    let lines = Some((mosaic.lines.0, INTERFACE)).filter(|_| !mosaic.lines.1.is_empty());
+    let menisci = Some((mosaic.menisci.0, INTERFACE)).filter(|_| !mosaic.menisci.1.is_empty());
+    let throats = Some((mosaic.throats.0, THROAT)).filter(|_| !mosaic.throats.1.is_empty());
     let strips = Some((mosaic.strips.0, STRIP)).filter(|_| !mosaic.strips.1.is_empty());
-    let entries: Vec<(&str, Rgb)> = classes.chain([("solid", SOLID)]).chain(lines).chain(strips).collect();
+    let entries: Vec<(&str, Rgb)> =
+        classes.chain([("solid", SOLID)]).chain(strips).chain(menisci).chain(throats).collect();
     canvas.legend(&entries, [WIDTH as f32 - RIM, y], TEXT_SIZE);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagram::Area;
+    use crate::diagram::{Area, Frame};
 
     fn mosaic() -> Mosaic {
         let square = |x: f64, tone| Area { boundary: vec![[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]], tone };
@@ -128,10 +122,12 @@ mod tests {
             label: "share",
             range: [0.0, 2.0],
             classes: vec![("trapped", [204, 121, 167])],
-            bounds: [[0.0, 0.0], [4.0, 1.0]],
+            bar: colors::SIZES,
+            frame: Frame { bounds: [[0.0, 0.0], [4.0, 1.0]], open: [None; 4], periodic: [false; 2] },
             areas: vec![square(0.0, Tone::Value(2.0)), square(1.0, Tone::Class(0)), square(2.0, Tone::Value(0.0))],
             walls: vec![vec![[3.0, 0.0], [3.0, 1.0]]],
-            lines: ("menisci", vec![vec![[1.0, 0.0], [1.0, 1.0]]]),
+            menisci: ("menisci", vec![vec![[1.0, 0.0], [1.0, 1.0]]]),
+            throats: ("throats", vec![vec![[2.0, 0.0], [2.0, 1.0]]]),
             strips: ("films", Vec::new()),
         }
     }
@@ -141,7 +137,7 @@ mod tests {
         let png = mosaic_picture(&mosaic(), "Squares").unwrap();
         let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
         let square = f64::from(WIDTH as f32 - 2.0 * RIM).powi(2) / 16.0;
-        for color in [VIRIDIS[0], VIRIDIS[VIRIDIS.len() - 1], [204, 121, 167], SOLID] {
+        for color in [colors::SIZES[0], colors::SIZES[colors::SIZES.len() - 1], [204, 121, 167], SOLID] {
             let count = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == color).count() as f64;
             // Lines take a few columns of each square, the legend adds a dot.
             assert!((count / square - 1.0).abs() < 0.03, "{color:?}: {}", count / square);

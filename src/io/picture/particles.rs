@@ -4,8 +4,9 @@
 //! every other field but `phase`; those are for ParaView.
 
 use super::canvas::{Canvas, PictureError, Rgb};
-use super::style::{FLUIDS, HEAD, INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, UNRESOLVED, WIDTH, time_text};
+use super::style::{FLUIDS, HEAD, INTERFACE, OUTLINE, PORE, RIM, SOLID, TEXT_SIZE, UNRESOLVED, WIDTH, time_text};
 use super::view::{View, heading, scale_bar};
+use crate::diagram::Frame;
 use crate::math::{Bounds, Vec2};
 use crate::snapshot::{Lines, Snapshot, Values};
 
@@ -23,23 +24,26 @@ pub(super) fn particle_picture(
     snapshot: &Snapshot<'_>,
     outline: &Lines<'_>,
     title: &str,
+    frame: Option<&Frame>,
 ) -> Result<Vec<u8>, PictureError> {
     let points = &snapshot.particles.points;
     let finite = |x: &&Vec2| x.iter().all(|c| c.is_finite());
     let tight = Bounds::around(points.iter().filter(finite).copied()).ok_or(PictureError::Empty)?;
     let spacing = particle_spacing(snapshot, &tight);
     let bounds = tight.grown(0.5 * spacing);
-    let view = View::new(bounds);
+    let view = View::new(bounds, frame);
     let height = (HEAD + view.size[1] + FOOT).ceil() as u32;
     let mut canvas = Canvas::new(WIDTH, height)?;
     canvas.rectangle(view.corner, view.size, SOLID);
     fluids(&mut canvas, &view, snapshot, spacing);
-    strokes(&mut canvas, &view, outline, 2.5, OUTLINE);
+    strokes(&mut canvas, &view, outline, (2.5, OUTLINE), &[Vec2::zeros()]);
     if let Some(interface) = &snapshot.interface {
-        strokes(&mut canvas, &view, interface, 3.5, INTERFACE);
+        strokes(&mut canvas, &view, interface, (3.5, INTERFACE), &periods(frame));
     }
     view.frame(&mut canvas);
-    heading(&mut canvas, title, &time_text(snapshot.time));
+    // A geometry has no time.
+    let is_geometry = (0..points.len()).any(|a| phase_of(snapshot, a) == Some(PORE));
+    heading(&mut canvas, title, &if is_geometry { String::new() } else { time_text(snapshot.time) });
     scale_bar(&mut canvas, view.scale, bounds.size().x.max(0.5 * bounds.size().y), view.bottom() + 30.0);
     legend(&mut canvas, &view, snapshot);
     canvas.png()
@@ -93,14 +97,22 @@ fn fluids(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>, spacing: f6
     canvas.circles(unresolved(snapshot).map(|x| view.place(x)), core, UNRESOLVED);
 }
 
-fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, width: f32, color: Rgb) {
+/// Lines, moved by each of `shifts` in m.
+fn strokes(canvas: &mut Canvas, view: &View, lines: &Lines<'_>, (width, color): (f32, Rgb), shifts: &[Vec2]) {
     for line in &lines.lines {
-        canvas.polyline(
-            line.iter().filter_map(|&i| lines.points.get(i as usize)).map(|&x| view.place(x)),
-            width,
-            color,
-        );
+        let points = || line.iter().filter_map(|&i| lines.points.get(i as usize));
+        shifts.iter().for_each(|shift| canvas.polyline(points().map(|&x| view.place(x + shift)), width, color));
     }
+}
+
+/// From a place in the domain to itself and to its images beyond periodic sides, in m.
+fn periods(frame: Option<&Frame>) -> Vec<Vec2> {
+    let Some(frame) = frame else { return vec![Vec2::zeros()] };
+    let [along_x, along_y] = [0, 1].map(|axis| {
+        let period = frame.bounds[1][axis] - frame.bounds[0][axis];
+        if frame.periodic[axis] { vec![-period, 0.0, period] } else { vec![0.0] }
+    });
+    along_x.iter().flat_map(|&x| along_y.iter().map(move |&y| Vec2::new(x, y))).collect()
 }
 
 /// Names what is in the drawing, from the right.
@@ -117,6 +129,7 @@ fn legend(canvas: &mut Canvas, view: &View, snapshot: &Snapshot<'_>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagram::Through;
     use crate::snapshot::{Cloud, Field};
 
     fn disc_in_a_box() -> (Vec<Vec2>, Vec<i64>) {
@@ -142,7 +155,7 @@ mod tests {
             grid: None,
             interface: None,
         };
-        let png = particle_picture(&snapshot, &Lines::default(), "A disc of liquid on a floor").unwrap();
+        let png = particle_picture(&snapshot, &Lines::default(), "A disc of liquid on a floor", None).unwrap();
         let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
         assert_eq!(pixels.width(), WIDTH);
         for color in [FLUIDS[0].color, FLUIDS[1].color, SOLID] {
@@ -152,10 +165,33 @@ mod tests {
     }
 
     #[test]
+    fn what_lies_beyond_an_open_side_is_white_with_arrows() {
+        let (points, phases) = disc_in_a_box();
+        let fields = vec![Field { name: "phase", unit: "", values: Values::Integer(phases.into()) }];
+        let particles = Cloud { points: points.into(), fields };
+        let snapshot = Snapshot { time: 0.0, step: 0, particles, grid: None, interface: None };
+        let open = [Some(Through::In), Some(Through::Out), None, None];
+        let frame = Frame { bounds: [[1.0e-4, 0.0], [3.0e-4, 3.0e-4]], open, periodic: [false; 2] };
+        let png = particle_picture(&snapshot, &Lines::default(), "", Some(&frame)).unwrap();
+        let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
+        let (width, row) = (pixels.width() as usize, HEAD as usize + 40);
+        let of = |x: usize| {
+            let pixel = pixels.pixels()[row * width + x];
+            [pixel.red(), pixel.green(), pixel.blue()]
+        };
+        let view = View::new(Bounds { min: Vec2::zeros(), max: Vec2::new(4.0e-4, 3.0e-4) }, Some(&frame));
+        let at = |x: f64| view.place(Vec2::new(x, 1.0e-4))[0] as usize;
+        assert_eq!([of(at(0.99e-4)), of(at(3.02e-4))], [[255; 3]; 2]);
+        assert_ne!(of(at(2.5e-4)), [255; 3]);
+        let arrows = pixels.pixels().iter().filter(|p| [p.red(), p.green(), p.blue()] == OUTLINE).count();
+        assert!(arrows > 500, "{arrows}");
+    }
+
+    #[test]
     fn nothing_to_draw_is_an_error_and_one_particle_is_not() {
         let mut snapshot = Snapshot { time: 0.0, step: 0, particles: Cloud::default(), grid: None, interface: None };
-        assert!(matches!(particle_picture(&snapshot, &Lines::default(), ""), Err(PictureError::Empty)));
+        assert!(matches!(particle_picture(&snapshot, &Lines::default(), "", None), Err(PictureError::Empty)));
         snapshot.particles.points = vec![Vec2::zeros()].into();
-        particle_picture(&snapshot, &Lines::default(), &"A very long title ".repeat(20)).unwrap();
+        particle_picture(&snapshot, &Lines::default(), &"A very long title ".repeat(20), None).unwrap();
     }
 }

@@ -1,6 +1,7 @@
 //! What all pictures have in common: sizes, colors, and lengths and times as people write them.
 
 use super::canvas::Rgb;
+use crate::diagram::colors;
 
 /// Width of the picture in pixels.
 pub(super) const WIDTH: u32 = 1200;
@@ -14,10 +15,10 @@ pub(super) const TEXT_SIZE: f32 = 24.0;
 /// The scale bar takes at most this share of the drawing's width.
 pub(super) const BAR_SHARE: f64 = 0.25;
 
-pub(super) const SOLID: Rgb = [196, 192, 186];
-pub(super) const OUTLINE: Rgb = [84, 80, 76];
-pub(super) const INTERFACE: Rgb = [178, 34, 52];
-pub(super) const UNRESOLVED: Rgb = [205, 80, 20];
+pub(super) const SOLID: Rgb = colors::SOLID;
+pub(super) const OUTLINE: Rgb = colors::WALL;
+pub(super) const INTERFACE: Rgb = colors::MENISCUS;
+pub(super) const UNRESOLVED: Rgb = colors::MARK;
 pub(super) const BLACK: Rgb = [0, 0, 0];
 
 /// A phase of the drawing: number in the field `phase`, name, color, color of the inner dot.
@@ -31,15 +32,26 @@ pub(super) struct Phase {
 /// Number of the phase of a pore without a fluid, in the picture of a geometry.
 pub(crate) const PORE: i64 = 3;
 
-/// What fills the pore; blue and yellow keep apart for color-blind eyes and in print.
+/// What fills the pore.
 pub(super) const FLUIDS: [Phase; 3] = [
-    Phase { number: 0, name: "wetting", color: [86, 146, 204], core: [58, 116, 176] },
-    Phase { number: 1, name: "non-wetting", color: [248, 232, 176], core: [236, 212, 136] },
-    Phase { number: PORE, name: "pore", color: [228, 238, 246], core: [228, 238, 246] },
+    Phase { number: 0, name: "wetting", color: colors::WETTING, core: shade(colors::WETTING) },
+    Phase { number: 1, name: "non-wetting", color: colors::NON_WETTING, core: shade(colors::NON_WETTING) },
+    Phase { number: PORE, name: "pore", color: colors::PORE, core: colors::PORE },
 ];
 
+/// A color a little darker.
+const fn shade(color: Rgb) -> Rgb {
+    let mut shaded = color;
+    let mut k = 0;
+    while k < shaded.len() {
+        shaded[k] = (color[k] as u16 * 85 / 100) as u8;
+        k += 1;
+    }
+    shaded
+}
+
 /// The largest of 1, 2, 5 times a power of ten that is at most `length`, in m.
-pub(super) fn round_length(length: f64) -> f64 {
+pub(crate) fn round_length(length: f64) -> f64 {
     let power = 10_f64.powf(length.log10().floor());
     [5.0, 2.0].into_iter().map(|digit| digit * power).find(|&candidate| candidate <= length).unwrap_or(power)
 }
@@ -54,7 +66,7 @@ fn with_prefix(value: f64, unit: &str) -> String {
     format!("{} {prefix}{unit}", digits.trim_end_matches('0').trim_end_matches('.'))
 }
 
-pub(super) fn length_text(length: f64) -> String {
+pub(crate) fn length_text(length: f64) -> String {
     with_prefix(length, "m")
 }
 

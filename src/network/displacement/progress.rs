@@ -219,6 +219,12 @@ impl Displacement {
         if self.invaded[self.mesh.element_of[element]] { Phase::Invading } else { Phase::Defending }
     }
 
+    /// Whether an element is open at an inlet or an outlet.
+    pub(crate) fn is_manifold(&self, element: usize) -> bool {
+        let open = self.mesh.elements[self.mesh.element_of[element]].open;
+        (0..4).any(|side| open[side] && (self.conditions.inlet[side] || self.conditions.outlet[side]))
+    }
+
     /// Whether an element holds the defending phase and cannot let it go.
     pub fn is_trapped(&self, element: usize) -> bool {
         self.connection.trapped[self.mesh.element_of[element]]

@@ -4,7 +4,7 @@ use super::model::DynamicModel;
 use crate::diagram::{Axis, Diagram, Stroke, Trace};
 use crate::network::cycles::FluidPhase;
 use crate::network::measures::of_network_with_flow;
-use crate::network::tables::{counts, numbers, numbers_of_throats, places, words};
+use crate::network::tables::{BEGINNING, counts, numbers, numbers_of_throats, places, words};
 use crate::solver::{Measure, Series, measure};
 use crate::table::Table;
 
@@ -129,18 +129,21 @@ pub(crate) fn films_left(model: &DynamicModel) -> Option<String> {
 pub(crate) fn events(model: &DynamicModel) -> Table {
     let pressure = |curvature| model.still.setting.pressure(model.invading, model.invading.towards_wetting(curvature));
     let number_of = numbers_of_throats(&model.still.setting);
-    let history = model.dynamic.history();
+    let history = || model.dynamic.history().iter();
     let wetting = |invading: f64| if model.invading == FluidPhase::Wetting { invading } else { 1.0 - invading };
+    let nothing = || std::iter::once(f64::NAN);
+    let throats = history().map(|event| event.throat.and_then(|throat| number_of[throat]));
+    let saturations = std::iter::once(model.dynamic.first_saturation()).chain(history().map(|event| event.saturation));
     Table {
         name: "events",
         columns: vec![
-            counts("sequence", 1..=history.len()),
-            numbers("time_s", history.iter().map(|event| event.time)),
-            words("event", history.iter().map(|event| event.kind.name())),
-            places("throat", history.iter().map(|event| event.throat.and_then(|throat| number_of[throat]))),
-            numbers("meniscus_pressure_Pa", history.iter().map(|event| pressure(event.curvature))),
-            numbers("pressure_difference_Pa", history.iter().map(|event| event.pressure)),
-            numbers("saturation", history.iter().map(|event| wetting(event.saturation))),
+            counts("sequence", 0..=history().len()),
+            numbers("time_s", std::iter::once(0.0).chain(history().map(|event| event.time))),
+            words("event", std::iter::once(BEGINNING).chain(history().map(|event| event.kind.name()))),
+            places("throat", std::iter::once(None).chain(throats)),
+            numbers("meniscus_pressure_Pa", nothing().chain(history().map(|event| pressure(event.curvature)))),
+            numbers("pressure_difference_Pa", nothing().chain(history().map(|event| event.pressure))),
+            numbers("saturation", saturations.map(wetting)),
         ],
     }
 }

@@ -285,6 +285,11 @@ impl Dynamic {
         self.state.breakthrough
     }
 
+    /// Saturation of the invading phase at the beginning.
+    pub(crate) fn first_saturation(&self) -> f64 {
+        self.first_area / self.pore_area
+    }
+
     /// Area of all pores in m².
     pub fn pore_area(&self) -> f64 {
         self.pore_area

@@ -18,7 +18,7 @@ pub(crate) struct Side {
     /// Of displacements in time: when the invading phase reached the outlet, in s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub breakthrough_time_s: Option<f64>,
-    /// The largest capillary pressure until the invading phase reached the outlet, in Pa, where it did.
+    /// The largest capillary pressure of a drainage, or the smallest one of an imbibition, until the invading phase reached the outlet, in Pa, where it did.
     pub breakthrough_pressure_pa: Option<f64>,
     /// Saturation then.
     pub saturation_at_breakthrough: Option<f64>,

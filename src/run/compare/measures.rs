@@ -6,7 +6,7 @@ use crate::solver::{self, Measure};
 /// Those of both together, then each of the network and of the direct simulation.
 pub(crate) fn measures(found: &Comparison) -> Vec<Measure> {
     let Comparison { network, direct, .. } = found;
-    let threshold = "largest capillary pressure until an element at the outlet was filled";
+    let threshold = "capillary pressure p_n - p_w until an element at the outlet was filled: the largest of a drainage, the smallest of an imbibition";
     let reached = "when the invading phase reached the outlet, of displacements in time";
     let largest = |side: &Side| side.breakthrough_pressure_pa;
     let saturation = |side: &Side| side.saturation_at_breakthrough;

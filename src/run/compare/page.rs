@@ -21,7 +21,7 @@ pub(crate) fn page(comparison: &Comparison) -> String {
             Err(error) => format!("<p>{}</p>", escaped(&error.to_string())),
         };
     }
-    html += "\n<h2>At equal saturation</h2>\n<p>Network on the left, direct simulation on the right; the invading phase is light.</p>\n";
+    html += "\n<h2>At equal saturation</h2>\n<p>Network on the left, direct simulation on the right.</p>\n";
     for at in &comparison.at_equal_saturation {
         let [one, other] = at.saturation;
         // Writing to a string cannot fail.

@@ -63,6 +63,9 @@ pub(crate) enum CompareError {
     /// The first case is no network with a displacement.
     #[error("expected a network with a displacement; give the case [network] with an inlet")]
     NoNetwork,
+    /// The network counts a part of the pore space alone.
+    #[error("a comparison is at equal saturations of the whole pore space; leave [network.region] out")]
+    Region,
     /// The second case is no direct simulation of two fluids.
     #[error("expected a direct simulation of two fluids; give the case [sph] with both phases")]
     NoDirect,
@@ -102,6 +105,7 @@ impl CompareError {
         let direct = |key: &str| Some((Of::Direct, vec![Problem::of_text(key, &self.to_string())]));
         match self {
             Self::NoNetwork => Some((Of::Network, vec![Problem::of_text("network", &self.to_string())])),
+            Self::Region => Some((Of::Network, vec![Problem::of_text("network.region", &self.to_string())])),
             Self::NoDirect => direct("sph"),
             Self::OtherGeometry(_) => direct("geometry"),
             Self::OtherSides { side, .. } => direct(&format!("sph.sides.{side}")),

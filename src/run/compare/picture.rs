@@ -1,48 +1,146 @@
-//! Two displacements at one saturation as SVG: the network on the left, the direct simulation on the right.
+//! Two displacements at one saturation as SVG: the network on the left, the direct simulation on the right, each a map of the phases under the outline of
+//! the solids.
 
 use std::fmt::Write;
 
 use super::track::Grid;
+use crate::case::FluidPhase;
+use crate::diagram::colors;
+use crate::io::picture::{length_text, round_length};
+use crate::math::Vec2;
+use crate::snapshot::Lines;
 
-/// Colors of the solid, of the invading and of the defending phase, as in the pictures of runs.
-const SOLID: &str = "#c4c0b8";
-const INVADING: &str = "#f6e8b0";
-const DEFENDING: &str = "#5590cc";
+/// Width of a map in pixels of the page, and the gap between both.
+const WIDTH: f64 = 468.0;
+const GAP: f64 = 24.0;
+/// Room for titles above the maps, and for scale bar and legend below them.
+const HEAD: f64 = 30.0;
+const FOOT: f64 = 46.0;
+/// The scale bar takes at most this share of a map.
+const BAR: f64 = 0.25;
 
-/// Width of a picture in pixels of the page.
-const WIDTH: f64 = 480.0;
+/// What both maps have in common.
+pub(crate) struct Maps<'a> {
+    /// Their cells.
+    pub(crate) grid: &'a Grid,
+    /// The outline of the solids in m.
+    pub(crate) outline: &'a Lines<'a>,
+    /// The phase that comes in.
+    pub(crate) invading: FluidPhase,
+}
 
-/// Both maps; `invaded` tells for each cell of the pore whether it holds the invading phase.
-pub(crate) fn svg(grid: &Grid, invaded: [&[bool]; 2]) -> String {
-    let [columns, rows] = grid.counts;
-    let gap = columns / 20 + 1;
-    let (width, height) = (2 * columns + gap, rows);
-    let scale = 2.0 * WIDTH / width as f64;
+/// Both maps; `invaded` tells for each cell of the pore whether it holds the invading phase, `saturation` what the wetting phase holds.
+pub(crate) fn svg(maps: &Maps<'_>, invaded: [&[bool]; 2], saturation: [f64; 2]) -> String {
+    let [columns, rows] = maps.grid.counts;
+    let size = maps.grid.bounds.size();
+    let tall = WIDTH * size.y / size.x;
+    let (width, height) = (2.0 * WIDTH + GAP, HEAD + tall + FOOT);
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{:.0}\" height=\"{:.0}\" \
-         shape-rendering=\"crispEdges\">",
-        scale * width as f64,
-        scale * height as f64
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" width=\"{width:.0}\" height=\"{height:.0}\" \
+         font-family=\"sans-serif\" font-size=\"15\"><rect width=\"{width:.0}\" height=\"{height:.0}\" fill=\"white\"/>"
     );
-    for (side, invaded) in invaded.into_iter().enumerate() {
-        let x = side * (columns + gap);
+    let places = Placing { maps, tall };
+    let [invading, defending] = match maps.invading {
+        FluidPhase::Wetting => [colors::WETTING, colors::NON_WETTING],
+        FluidPhase::NonWetting => [colors::NON_WETTING, colors::WETTING],
+    }
+    .map(hex);
+    for (side, name) in ["network", "direct simulation"].into_iter().enumerate() {
+        let left = side as f64 * (WIDTH + GAP);
         // Writing to a string cannot fail.
-        let _ = write!(svg, "<rect x=\"{x}\" y=\"0\" width=\"{columns}\" height=\"{rows}\" fill=\"{SOLID}\"/>");
-        for (color, wanted) in [(INVADING, true), (DEFENDING, false)] {
-            let _ = write!(svg, "<path fill=\"{color}\" d=\"{}\"/>", runs(grid, invaded, wanted, x));
+        let _ = write!(
+            svg,
+            "<text x=\"{left:.0}\" y=\"20\">{name}, S<tspan font-size=\"11\" dy=\"3\">w</tspan><tspan dy=\"-3\"> = {:.3}</tspan></text>",
+            saturation[side]
+        );
+        let _ = write!(
+            svg,
+            "<g transform=\"translate({left:.0} {HEAD:.0}) scale({:.6} {:.6})\" shape-rendering=\"crispEdges\">\
+             <rect width=\"{columns}\" height=\"{rows}\" fill=\"{}\"/>",
+            WIDTH / columns as f64,
+            tall / rows as f64,
+            hex(colors::SOLID)
+        );
+        for (color, wanted) in [(&invading, true), (&defending, false)] {
+            let _ = write!(svg, "<path fill=\"{color}\" d=\"{}\"/>", runs(maps.grid, invaded[side], wanted));
         }
+        let _ = write!(
+            svg,
+            "</g><g transform=\"translate({left:.0} {HEAD:.0})\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\">\
+             <path d=\"{}\"/><path stroke-width=\"1\" d=\"M0 0H{WIDTH:.0}V{tall:.1}H0Z\"/></g>",
+            hex(colors::WALL),
+            places.outline()
+        );
+    }
+    let below = HEAD + tall + 18.0;
+    let bar = round_length(BAR * size.x);
+    let _ = write!(
+        svg,
+        "<rect x=\"0\" y=\"{below:.1}\" width=\"{:.1}\" height=\"5\"/><text x=\"0\" y=\"{:.1}\">{}</text>",
+        bar / size.x * WIDTH,
+        below + 22.0,
+        length_text(bar)
+    );
+    let entries = [("wetting", colors::WETTING), ("non-wetting", colors::NON_WETTING), ("solid", colors::SOLID)];
+    for ((name, color), x) in entries.into_iter().zip([WIDTH + GAP, WIDTH + GAP + 100.0, WIDTH + GAP + 230.0]) {
+        let _ = write!(
+            svg,
+            "<rect x=\"{x:.0}\" y=\"{:.1}\" width=\"14\" height=\"14\" fill=\"{}\" stroke=\"{}\"/><text x=\"{:.0}\" y=\"{:.1}\">{name}</text>",
+            below - 4.0,
+            hex(color),
+            hex(colors::WALL),
+            x + 20.0,
+            below + 8.0
+        );
     }
     svg + "</svg>"
 }
 
+/// A color as SVG writes it.
+fn hex([red, green, blue]: [u8; 3]) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// From meters to pixels of a map.
+struct Placing<'a> {
+    maps: &'a Maps<'a>,
+    tall: f64,
+}
+
+impl Placing<'_> {
+    /// The outline of the solids within the domain as a path.
+    fn outline(&self) -> String {
+        let bounds = &self.maps.grid.bounds;
+        let place = |x: Vec2| {
+            let share = (x - bounds.min).component_div(&bounds.size());
+            [WIDTH * share.x, self.tall * (1.0 - share.y)]
+        };
+        let slack = 1.0e-9 * bounds.size().max();
+        let is_inside = |x: &Vec2| bounds.grown(slack).contains(*x);
+        let mut path = String::new();
+        for line in &self.maps.outline.lines {
+            let mut pen_is_down = false;
+            for x in line.iter().filter_map(|&i| self.maps.outline.points.get(i as usize)) {
+                let [left, top] = place(*x);
+                let is_seen = is_inside(x);
+                if is_seen {
+                    let _ = write!(path, "{}{left:.1} {top:.1}", if pen_is_down { "L" } else { "M" });
+                }
+                pen_is_down = is_seen;
+            }
+        }
+        path
+    }
+}
+
 /// The cells of one phase, those side by side in a row as one rectangle.
-fn runs(grid: &Grid, invaded: &[bool], wanted: bool, shift: usize) -> String {
+fn runs(grid: &Grid, invaded: &[bool], wanted: bool) -> String {
     let [columns, rows] = grid.counts;
     let chosen = grid.cells.iter().zip(invaded).filter(|(_, invaded)| **invaded == wanted).map(|((cell, _), _)| *cell);
     let cells: Vec<usize> = chosen.collect();
     let mut path = String::new();
     for run in cells.chunk_by(|a, b| a + 1 == *b && a / columns == b / columns) {
-        let (x, row, length) = (run[0] % columns + shift, run[0] / columns, run.len());
+        let (x, row, length) = (run[0] % columns, run[0] / columns, run.len());
         // The first row of cells lies at the bottom.
         let _ = write!(path, "M{x} {}h{length}v1h-{length}z", rows - 1 - row);
     }

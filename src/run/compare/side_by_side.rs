@@ -4,15 +4,17 @@ use std::sync::atomic::AtomicBool;
 
 use super::comparison::{AtSaturation, Comparison, Side};
 use super::pair::{CompareError, Pair, Task};
+use super::picture::Maps;
 use super::track::{Grid, Record, Track};
 use super::{direct, network, picture, rank};
 use crate::case::network::PoreNetwork;
 use crate::case::network::state::NetworkState;
-use crate::case::{Case, Model};
+use crate::case::{Case, FluidPhase, Model};
 use crate::geometry::elements::Elements;
 use crate::network::solver::NetworkSolver;
 use crate::run::setup::{self, SetupError};
 use crate::run::simulation::Watcher;
+use crate::solver::Solver;
 
 /// Saturations at which both are drawn.
 const PICTURES: usize = 4;
@@ -43,18 +45,22 @@ pub(crate) fn compare(
     };
     let by_direct = direct::track(task, (&state, &grid), interrupt, watcher)?;
     let outlet = network::outlet_elements(&state);
+    let outline = solver.outline();
     Ok(Comparison {
         titles: [pair.network.title.clone(), pair.direct.title.clone()],
-        network: side(&by_network, &outlet, pair.is_in_time()),
-        direct: side(&by_direct, &outlet, pair.is_in_time()),
+        network: side(&by_network, &outlet, (pair.is_in_time(), state.invading)),
+        direct: side(&by_direct, &outlet, (pair.is_in_time(), state.invading)),
         is_in_time: pair.is_in_time(),
-        ..compared(&by_network, &by_direct, &grid)
+        ..compared(&by_network, &by_direct, &Maps { grid: &grid, outline: &outline, invading: state.invading })
     })
 }
 
 /// The network and its first state, where the direct simulation has the same shapes and sides.
 fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareError> {
     let Model::Network(wanted) = &pair.network.model else { return Err(CompareError::NoNetwork) };
+    if wanted.region.is_some() {
+        return Err(CompareError::Region);
+    }
     let Model::Sph(sph) = &pair.direct.model else { return Err(CompareError::NoDirect) };
     if sph.non_wetting.is_none() {
         return Err(CompareError::NoDirect);
@@ -84,7 +90,7 @@ fn without_time(wanted: &PoreNetwork) -> PoreNetwork {
     wanted
 }
 
-fn side(track: &Track, outlet: &[usize], is_in_time: bool) -> Side {
+fn side(track: &Track, outlet: &[usize], (is_in_time, invading): (bool, FluidPhase)) -> Side {
     let pressures: Vec<Option<f64>> =
         track.records.iter().map(|it| Some(it.pressure).filter(|p| p.is_finite())).collect();
     let common = Side {
@@ -107,18 +113,23 @@ fn side(track: &Track, outlet: &[usize], is_in_time: bool) -> Side {
         };
     }
     let through = outlet.iter().filter_map(|&element| track.filled[element]).min().filter(|&record| record > 0);
+    // As far as the pressure had to go: p_n - p_w rises in a drainage and falls in an imbibition.
+    let farther = match invading {
+        FluidPhase::NonWetting => f64::max,
+        FluidPhase::Wetting => f64::min,
+    };
     let until = through.map(|record| track.records[..=record].iter().map(|it| it.pressure));
-    let largest = until.map(|pressures| pressures.fold(f64::NAN, f64::max)).filter(|pressure| pressure.is_finite());
+    let farthest = until.map(|pressures| pressures.fold(f64::NAN, farther)).filter(|pressure| pressure.is_finite());
     Side {
         capillary_pressure_pa: pressures,
-        breakthrough_pressure_pa: largest,
+        breakthrough_pressure_pa: farthest,
         saturation_at_breakthrough: through.map(|record| track.records[record].saturation),
         ..common
     }
 }
 
 /// What follows from both together; the sides are left to be filled in.
-fn compared(network: &Track, direct: &Track, grid: &Grid) -> Comparison {
+fn compared(network: &Track, direct: &Track, maps: &Maps<'_>) -> Comparison {
     let nearest = |track: &Track, saturation: f64| {
         let off = |record: &Record| (record.saturation - saturation).abs();
         (0..track.records.len()).min_by(|&a, &b| off(&track.records[a]).total_cmp(&off(&track.records[b]))).unwrap_or(0)
@@ -137,11 +148,10 @@ fn compared(network: &Track, direct: &Track, grid: &Grid) -> Comparison {
             // The direct simulation has more states: the one nearest to that of the network.
             let i = nearest(network, saturation);
             let j = nearest(direct, network.records[i].saturation);
-            AtSaturation {
-                saturation: [network.records[i].saturation, direct.records[j].saturation],
-                overlap: overlap(i, j),
-                picture: picture::svg(grid, [&network.records[i].invaded, &direct.records[j].invaded]),
-            }
+            let (one, other) = (&network.records[i], &direct.records[j]);
+            let saturation = [one.saturation, other.saturation];
+            let picture = picture::svg(maps, [&one.invaded, &other.invaded], saturation);
+            AtSaturation { saturation, overlap: overlap(i, j), picture }
         })
         .collect();
     let both: Vec<[usize; 2]> = network

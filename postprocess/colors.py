@@ -1,0 +1,11 @@
+"""The colors of all pictures, which color-blind eyes keep apart (Okabe and Ito 2008); `src/diagram.rs` has the same."""
+
+WETTING = "#56b4e9"
+WETTING_TRAPPED = "#0072b2"
+NON_WETTING = "#e69f00"
+NON_WETTING_TRAPPED = "#a65600"
+SOLID = "#bebebe"
+WALL = "#505050"
+MENISCUS = "#000000"
+PORE = "#ffffff"
+MARK = "#d53c8c"

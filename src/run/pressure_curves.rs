@@ -1,0 +1,92 @@
+//! The capillary pressure curves of several runs of networks in one diagram, read from the files that they left.
+
+use std::path::Path;
+
+use crate::diagram::{Axis, Diagram, Stroke, Trace};
+use crate::io::diagram::{DiagramError, svg};
+
+/// Name of the diagram: its file is `capillary-pressure.svg`.
+pub(crate) const NAME: &str = "capillary-pressure";
+/// With films, the curve at every pressure.
+const CURVE: &str = "capillary_pressure.csv";
+/// Else saturations change at events alone.
+const EVENTS: &str = "events.csv";
+
+/// Where a curve goes: the half cycle, the saturation of the wetting phase and p_n - p_w in Pa; no pressure at the beginning of a half cycle.
+#[derive(Debug, Clone, Copy, serde::Deserialize)]
+struct Row {
+    half_cycle: usize,
+    saturation: f64,
+    #[serde(rename = "capillary_pressure_Pa")]
+    pressure: Option<f64>,
+}
+
+/// The curves of the runs in these folders, each with its name, as SVG; none where no run has one.
+pub(crate) fn overlay(runs: &[(String, &Path)]) -> Result<Option<String>, DiagramError> {
+    let trace = |(name, folder): &(String, &Path)| {
+        Some(Trace { name: name.clone(), stroke: Stroke::Full, points: curve(folder)? })
+    };
+    let traces: Vec<Trace> = runs.iter().filter_map(trace).collect();
+    if traces.is_empty() {
+        return Ok(None);
+    }
+    let axis = |label| Axis { label, logarithmic: false };
+    svg(&Diagram {
+        name: NAME,
+        title: "Capillary pressure over saturation",
+        x: axis("saturation of the wetting phase"),
+        y: axis("capillary pressure p_n - p_w in Pa"),
+        map: None,
+        traces,
+    })
+}
+
+/// The curve of the quasi-static displacement in a folder, half cycles joined.
+fn curve(folder: &Path) -> Option<Vec<[f64; 2]>> {
+    let rows = |name: &str| -> Option<Vec<Row>> {
+        csv::Reader::from_path(folder.join(name)).ok()?.into_deserialize().collect::<Result<_, _>>().ok()
+    };
+    let points = match rows(CURVE) {
+        Some(rows) => rows.iter().filter_map(|row| Some([row.saturation, row.pressure?])).collect(),
+        None => staircase(&rows(EVENTS)?),
+    };
+    Some(points).filter(|points| !points.is_empty())
+}
+
+/// The pressure changes at constant saturation, and the saturation at constant pressure.
+fn staircase(rows: &[Row]) -> Vec<[f64; 2]> {
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    let mut before: Option<Row> = None;
+    for row in rows {
+        if let Some(pressure) = row.pressure {
+            // After a turn, what is open at the inlet fills at the first pressure.
+            let turned = before.filter(|before| before.pressure.is_none() && before.half_cycle > 1);
+            let end = points.last().copied().filter(|_| turned.is_some());
+            points.extend(end.map(|end| [end[0], pressure]));
+            points.extend(before.map(|before| [before.saturation, pressure]));
+            points.push([row.saturation, pressure]);
+        }
+        before = Some(*row);
+    }
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_cycles_are_joined_stairs_and_each_run_has_its_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = "half_cycle,event,saturation,capillary_pressure_Pa\n1,beginning,1,\n1,burst,0.5,10\n1,burst,0.25,20\n\
+                    2,beginning,0.375,\n2,burst,0.75,5\n";
+        std::fs::write(folder.path().join(EVENTS), text).unwrap();
+        let stairs = [[1.0, 10.0], [0.5, 10.0], [0.5, 20.0], [0.25, 20.0], [0.25, 5.0], [0.375, 5.0], [0.75, 5.0]];
+        assert_eq!(curve(folder.path()).unwrap(), stairs);
+        let empty = tempfile::tempdir().unwrap();
+        let runs = [("angle = 40".to_owned(), folder.path()), ("angle = 60".to_owned(), empty.path())];
+        let drawn = overlay(&runs).unwrap().unwrap();
+        assert!(drawn.contains("angle = 40") && !drawn.contains("angle = 60"));
+        assert_eq!(overlay(&runs[1..]).unwrap(), None);
+    }
+}
