@@ -19,7 +19,7 @@ use crate::run::compare::CURVES;
 
 /// A report that cannot be written.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum ReportError {
+pub enum ReportError {
     /// A file.
     #[error(transparent)]
     File(#[from] FileError),
