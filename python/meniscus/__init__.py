@@ -5,7 +5,7 @@ All numbers are in SI units; angles are in degrees where a name ends in ``deg``.
 
 >>> import meniscus
 >>> result = meniscus.network("chip.svg", inlet="left", outlet="right", angle_deg=40, tension=0.0728)
->>> result.measures["breakthrough-pressure-pa"].value
+>>> result.measures["breakthrough-pressure-Pa"].value
 >>> result.throats["width_m"]
 """
 

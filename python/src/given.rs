@@ -6,6 +6,7 @@ use meniscus::case::NetworkOptions;
 use meniscus::geometry::import::Options;
 use meniscus::input::Problem;
 use meniscus::run::source::{self, Refusal, Source};
+use serde_json::Value;
 
 use crate::refused::{DICT, Refused};
 
@@ -55,35 +56,49 @@ impl Given {
 
     /// The changes as the command line takes them.
     fn overrides(&self) -> Result<Vec<String>, Refused> {
-        let table: toml::Table = read(&self.set, "set")?;
-        Ok(table.into_iter().map(|(key, value)| format!("{key}={value}")).collect())
+        Ok(table(&self.set)?.into_iter().map(|(key, value)| format!("{key}={value}")).collect())
     }
 
     fn import(&self) -> Result<Options, Refused> {
-        read(&self.import, "")
+        read(&self.import)
     }
 
     fn network(&self) -> Result<NetworkOptions, Refused> {
-        read(&self.options, "")
+        read(&self.options)
     }
 }
 
-/// A value of JSON; `place` is the parameter that it stands for.
-fn read<T: serde::de::DeserializeOwned>(json: &str, place: &str) -> Result<T, Refused> {
-    serde_json::from_str(json).map_err(|error| {
-        // The place in the JSON tells nothing to who wrote Python.
-        let text = error.to_string();
-        let text = text.split(" at line ").next().unwrap_or_default();
-        let problem = Problem { path: place.to_owned(), message: text.to_owned(), help: String::new() };
-        Refused::Case(Refusal::Options(vec![problem]))
-    })
+/// Parameters from a dict as JSON; each that cannot be one is told by its name.
+fn read<T: serde::de::DeserializeOwned>(json: &str) -> Result<T, Refused> {
+    let given: serde_json::Map<String, Value> = serde_json::from_str(json).map_err(|error| refused("", &error))?;
+    let alone = |(key, value): (&String, &Value)| {
+        let one = Value::Object([(key.clone(), value.clone())].into_iter().collect());
+        serde_json::from_value::<T>(one).err().map(|error| problem(key, &error))
+    };
+    let problems: Vec<Problem> = given.iter().filter_map(alone).collect();
+    if !problems.is_empty() {
+        return Err(Refusal::Options(problems).into());
+    }
+    serde_json::from_value(Value::Object(given)).map_err(|error| refused("", &error))
+}
+
+/// A table from a dict as JSON.
+fn table(json: &str) -> Result<toml::Table, Refused> {
+    serde_json::from_str(json).map_err(|error| refused("", &error))
 }
 
 /// A dict as a text in TOML, in which mistakes have their places.
 fn toml_of(json: &str) -> Result<String, Refused> {
-    let table: toml::Table = read(json, "")?;
-    toml::to_string(&table).map_err(|error| {
-        let problem = Problem { path: String::new(), message: error.to_string(), help: String::new() };
-        Refused::Case(Refusal::Options(vec![problem]))
-    })
+    toml::to_string(&table(json)?).map_err(|error| refused("", &error))
+}
+
+fn refused(key: &str, error: &dyn std::fmt::Display) -> Refused {
+    Refusal::Options(vec![problem(key, error)]).into()
+}
+
+fn problem(key: &str, error: &dyn std::fmt::Display) -> Problem {
+    // The place in the JSON tells nothing to who wrote Python.
+    let text = error.to_string();
+    let message = text.split(" at line ").next().unwrap_or_default().to_owned();
+    Problem { path: key.to_owned(), message, help: String::new() }
 }

@@ -87,13 +87,10 @@ impl Refused {
         let raised = match self {
             Self::Case(Refusal::Input(error)) => case_error(py, of_input(&error, None)),
             Self::Case(Refusal::Options(problems)) => {
-                let parameter = |path: &str| {
-                    path.trim_start_matches("network.").trim_start_matches("geometry.").replace(['.', '-'], "_")
-                };
                 let told = |problem: &meniscus::input::Problem| Told {
                     file: None,
                     place: None,
-                    key: Some(parameter(&problem.path)),
+                    key: Some(parameter(&problem.path)).filter(|key| !key.is_empty()),
                     message: problem.message.clone(),
                     help: problem.help.clone(),
                 };
@@ -131,12 +128,30 @@ fn case_error(py: Python<'_>, told: Vec<Told>) -> PyResult<Bound<'_, PyAny>> {
 fn key_at(text: &str, line: usize) -> Option<String> {
     let before: Vec<&str> = text.lines().take(line).collect();
     let header = before.iter().rfind(|line| line.starts_with('['));
-    let table = header.map(|line| line.trim_matches(['[', ']']));
     let key = before.last().filter(|line| !line.starts_with('[')).and_then(|line| line.split_once(" = "));
-    let table = table.map(|name| {
-        let count = before.iter().filter(|line| **line == format!("[[{name}]]")).count();
-        if count > 0 { format!("{name}[{}]", count - 1) } else { name.to_owned() }
-    });
-    let parts: Vec<String> = table.into_iter().chain(key.map(|(key, _)| key.to_owned())).collect();
+    let mut path = String::new();
+    let mut place = String::new();
+    for part in header.map_or("", |line| line.trim_matches(['[', ']'])).split('.').filter(|part| !part.is_empty()) {
+        let dot = if path.is_empty() { "" } else { "." };
+        path = format!("{path}{dot}{part}");
+        place = format!("{place}{dot}{part}");
+        // An element of an array has a header of its own.
+        let count = before.iter().filter(|line| **line == format!("[[{path}]]")).count();
+        if let Some(last) = count.checked_sub(1) {
+            place = format!("{place}[{last}]");
+        }
+    }
+    let parts: Vec<String> =
+        Some(place).filter(|it| !it.is_empty()).into_iter().chain(key.map(|(key, _)| key.to_owned())).collect();
     (!parts.is_empty()).then(|| parts.join("."))
+}
+
+/// The parameter of `meniscus.network` that a key of a case file stands for.
+fn parameter(key: &str) -> String {
+    match key.trim_start_matches("network.").trim_start_matches("geometry.") {
+        "wetting.young.contact-angle-deg" => "angle_deg".to_owned(),
+        "interface.tension" => "tension".to_owned(),
+        sides if sides.starts_with("sides") => "periodic".to_owned(),
+        other => other.replace(['.', '-'], "_"),
+    }
 }

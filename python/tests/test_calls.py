@@ -116,7 +116,7 @@ def test_a_bad_file_is_refused_with_all_mistakes_and_places(tmp_path):
     with pytest.raises(meniscus.CaseError) as caught:
         meniscus.run(path)
     error = caught.value
-    assert len(error.mistakes) == 2 and isinstance(error, ValueError)
+    assert len(error.mistakes) >= 2 and isinstance(error, ValueError)
     angle = error.mistakes[0]
     assert angle.file == str(path) and "600" in angle.message
     assert text.splitlines()[angle.line - 1].startswith("contact-angle-deg")
@@ -131,6 +131,10 @@ def test_a_bad_dict_and_bad_changes_are_refused_by_key():
     with pytest.raises(meniscus.CaseError) as caught:
         meniscus.run({"format": 1, "title": "t", "geometry": {"min": [0, 0], "max": [1e-3, -1e-3]}, "network": {}})
     assert {mistake.key for mistake in caught.value.mistakes} >= {"geometry.max"}, str(caught.value)
+    shapes = [{"disc": {"center": [0, y], "radius": radius}} for y, radius in ((0, 1e-3), (1, -1.0))]
+    with pytest.raises(meniscus.CaseError, match="above 0") as caught:
+        meniscus.network({"format": 1, "min": [-1, -1], "max": [1, 2], "solid": "inside", "shapes": shapes})
+    assert [mistake.key for mistake in caught.value.mistakes] == ["shapes[1].disc.radius"], str(caught.value)
     with pytest.raises(meniscus.CaseError, match=r"sph.spacing: expected .* above 0") as caught:
         meniscus.run(DROP, set={"sph.spacing": -1})
     assert (caught.value.key, caught.value.file) == ("sph.spacing", None)
@@ -145,8 +149,8 @@ def test_bad_parameters_of_a_network_are_refused_by_name():
     chip = ROOT / "geometries/chip.svg"
     with pytest.raises(meniscus.CaseError) as caught:
         meniscus.network(chip, inlet="left", outlet="right", angle_deg=400)
-    assert "angle" in caught.value.key and "400" in caught.value.message
-    with pytest.raises(meniscus.CaseError, match="unknown variant `west`"):
+    assert caught.value.key == "angle_deg" and "400" in caught.value.message
+    with pytest.raises(meniscus.CaseError, match="^inlet: unknown variant `west`, expected one of `left`"):
         meniscus.network(chip, inlet="west")
     with pytest.raises(meniscus.CaseError, match="unit"):
         meniscus.network(chip, unit="parsec")
