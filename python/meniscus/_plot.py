@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 CURVES = ("capillary-pressure", "pressure-difference")
 # Wetting, non-wetting, solid.
 PHASES = ("#4a90c4", "#f2d16b", "#8a8a8a")
-STROKES = {
+STROKES: dict[str, dict[str, Any]] = {
     "full": {},
     "thin": {"color": "0.7", "linewidth": 0.6},
     "dashed": {"color": "black", "linestyle": "--"},
@@ -36,7 +36,7 @@ def plot(result: Result, kind: str | None, field: str | None, ax: Axes | None) -
         raise ValueError(f"there is no {kind!r} of this result; there is {there}")
     diagram = result.diagrams[kind]
     for trace in diagram.traces:
-        style: dict[str, Any] = dict(STROKES[trace.stroke])
+        style = STROKES[trace.stroke]
         ax.plot(*trace.points.T, label=trace.name or None, **style)
     ax.set(title=diagram.title, xlabel=diagram.labels[0], ylabel=diagram.labels[1])
     for is_logarithmic, scale in zip(diagram.logarithmic, (ax.set_xscale, ax.set_yscale), strict=True):
@@ -56,7 +56,10 @@ def _picture(result: Result, field: str | None, ax: Axes) -> Axes:
     for part, color, width in ((result.solid, "black", 0.8), (frame.interface, "crimson", 1.2)):
         if part is not None:
             _lines(part, color, width, ax)
-    ax.set(xlabel="x (m)", ylabel="y (m)", title=result.report["case"]["title"], aspect="equal")
+    # A film is flat: its heights are magnified.
+    is_film = frame.particles is not None and "film-height" in frame.particles
+    aspect = "auto" if is_film else "equal"
+    ax.set(xlabel="x (m)", ylabel="y (m)", title=result.report["case"]["title"], aspect=aspect)
     ax.autoscale_view()
     return ax
 
@@ -77,7 +80,9 @@ def _regions(regions: Fields, field: str | None, ax: Axes) -> None:
 
 
 def _particles(particles: Fields, field: str | None, ax: Axes) -> None:
-    _color(ax.scatter(*particles.points.T, s=2, linewidths=0), particles, field, ax)
+    x, y = particles.points.T
+    # Dots that about fill axes of the usual size, in square points.
+    _color(ax.scatter(x, y, s=min(20.0, 3e4 / max(len(x), 1)), linewidths=0), particles, field, ax)
 
 
 def _color(artist: Any, fields: Fields, field: str | None, ax: Axes) -> None:

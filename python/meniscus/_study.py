@@ -113,9 +113,9 @@ def study(
         KeyboardInterrupt: Ctrl-C; the runs that were going on in this process have saved their state.
 
     """
-    file = os.path.abspath(os.fspath(path))
+    file = str(Path(path).absolute())
     plan = json.loads(_meniscus.study_plan(file, None if out is None else os.fspath(out)))
-    folder, tell = os.path.abspath(plan["folder"]), listener(progress)
+    folder, tell = str(Path(plan["folder"]).absolute()), listener(progress)
     threads = 1 if threads is None and executor is not None else threads
     token = uuid.uuid4().hex
     calls = [(file, folder, run["index"], run["digest"], threads, token) for run in plan["runs"]]

@@ -1,7 +1,7 @@
 //! The native part of the Python package `meniscus`: runs, checks and studies by the library, as the command line does them, without printing.
 //!
-//! [`call`](mod@call) looks after threads, signals and progress, [`given`] reads what a call is given, [`fields`] shows what a solver has, and [`data`] hands it over.
-//! What stands in front of it, with types, names and help, is Python: `python/meniscus`.
+//! [`call`](mod@call) looks after threads, signals and progress, [`given`] reads what a call is given, [`fields`] shows what a solver has, and [`data`] hands it
+//! over. What stands in front of it, with types, names and help, is Python: `python/meniscus`.
 
 mod call;
 mod data;

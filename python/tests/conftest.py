@@ -3,6 +3,7 @@
 import csv
 import os
 import subprocess
+from itertools import pairwise
 from pathlib import Path
 
 import meshio
@@ -90,5 +91,5 @@ def assert_same_vtk(fields, path: Path) -> None:
         assert_same_bits(fields[name], wanted, f"{path.name}: {name}")
     if fields.kind in ("lines", "polygons"):
         wanted = [list(cell) for block in mesh.cells for cell in block.data]
-        pairs = [list(pair) for cell in fields.cells for pair in zip(cell[:-1], cell[1:], strict=True)]
+        pairs = [list(pair) for cell in fields.cells for pair in pairwise(cell)]
         assert (pairs if fields.kind == "lines" else [list(cell) for cell in fields.cells]) == wanted

@@ -150,7 +150,7 @@ def test_bad_parameters_of_a_network_are_refused_by_name():
     with pytest.raises(meniscus.CaseError) as caught:
         meniscus.network(chip, inlet="left", outlet="right", angle_deg=400)
     assert caught.value.key == "angle_deg" and "400" in caught.value.message
-    with pytest.raises(meniscus.CaseError, match="^inlet: unknown variant `west`, expected one of `left`"):
+    with pytest.raises(meniscus.CaseError, match=r"^inlet: unknown variant `west`, expected one of `left`"):
         meniscus.network(chip, inlet="west")
     with pytest.raises(meniscus.CaseError, match="unit"):
         meniscus.network(chip, unit="parsec")
