@@ -56,6 +56,6 @@ pub(crate) use side::{SIDES, Side, SideName, Sides};
 pub(crate) use sph::Sph;
 pub(crate) use steady::{FEWEST_ROWS, SteadyStop};
 pub use surface_force::{LineDelta, SurfaceForce};
-pub(crate) use wetting::{PatchedWall, RawWetting, WettingPatch, on_plates};
+pub(crate) use wetting::{PatchedWall, WettingPatch, on_plates};
 #[cfg(test)]
 pub(crate) use {initial::Initial, sides::Walls};

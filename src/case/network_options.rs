@@ -2,8 +2,10 @@
 
 use serde::Deserialize;
 
+use super::fluid::RawInterface;
 use super::network::{RawNetwork, RawNetworkSide, RawNetworkSides, RawProcess};
-use super::{RawInterface, RawWetting, SideName};
+use super::side::SideName;
+use super::wetting::RawWetting;
 use crate::input::tables::Words;
 use crate::wetting::{Wetting, Young};
 
