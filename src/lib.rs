@@ -15,7 +15,8 @@ pub mod benchmarks;
 pub mod case;
 #[doc(hidden)]
 pub mod cli;
-pub(crate) mod diagram;
+#[doc(hidden)]
+pub mod diagram;
 #[doc(hidden)]
 pub mod geometry;
 #[doc(hidden)]
@@ -38,7 +39,8 @@ pub mod solver;
 pub mod sph;
 #[doc(hidden)]
 pub mod study;
-pub(crate) mod table;
+#[doc(hidden)]
+pub mod table;
 #[doc(hidden)]
 pub mod thin_film;
 #[doc(hidden)]

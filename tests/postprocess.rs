@@ -133,25 +133,3 @@ fn a_fresh_drainage_by_bursts_is_the_invasion_of_openpnm() {
     let same = printed.lines().find_map(|line| line.strip_prefix("same invaded pores"));
     assert_eq!(same.map(str::trim), Some("yes"), "{printed}");
 }
-
-#[test]
-fn the_notebook_runs_the_program_and_plots() {
-    let program = Path::new(env!("CARGO_BIN_EXE_meniscus")).parent().expect("a folder");
-    let path = std::env::join_paths(
-        std::iter::once(program.to_path_buf())
-            .chain(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default())),
-    );
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let copy = folder.path().join("cases");
-    std::fs::create_dir_all(&copy).expect("a folder for the case");
-    std::fs::copy(root().join("cases/sessile-drop.toml"), copy.join("sessile-drop.toml")).expect("a copy of the case");
-    let here = folder.path().join("postprocess");
-    std::fs::create_dir_all(&here).expect("a folder to work in");
-    let mut command = Command::new(interpreter());
-    command.arg(root().join("postprocess/tests/run_notebook.py")).arg(root().join("postprocess/sessile-drop.ipynb"));
-    command.current_dir(&here).env("PATH", path.expect("a path")).env("PYVISTA_OFF_SCREEN", "true");
-    let printed = run(&mut command, "the cells of the notebook must run");
-    for angle in [40, 90, 140] {
-        assert!(printed.contains(&format!("{angle} degrees asked, ")), "{printed}");
-    }
-}

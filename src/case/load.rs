@@ -60,6 +60,8 @@ enum Origin<'p> {
     /// The same, with the text of the state that the case begins with, whatever file it names.
     Started(&'p Path, &'p str),
     BuiltIn,
+    /// A text without a file; what it names is looked for in the working folder.
+    Given,
 }
 
 impl<'p> Origin<'p> {
@@ -67,7 +69,7 @@ impl<'p> Origin<'p> {
     fn path(&self) -> Option<&'p Path> {
         match *self {
             Self::Disk(path) | Self::Started(path, _) => Some(path),
-            Self::BuiltIn => None,
+            Self::BuiltIn | Self::Given => None,
         }
     }
 }
@@ -96,6 +98,14 @@ pub fn load_started(path: &Path, overrides: &Overrides, state: &str) -> Result<L
 /// Overrides that do not fit.
 pub fn load_default(overrides: &Overrides) -> Result<Loaded, InputError> {
     load_text(DEFAULT_CASE, DEFAULT_CASE_TEXT, overrides, &Origin::BuiltIn)
+}
+
+/// Loads and checks the text of a case that stands in no file; `name` is how it is called in messages.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_given(name: &str, text: &str, overrides: &Overrides) -> Result<Loaded, InputError> {
+    load_text(name, text, overrides, &Origin::Given)
 }
 
 /// Loads the text of a starter case, which names no file.
@@ -287,6 +297,17 @@ enum NotRead {
     File(InputError),
 }
 
+impl NotRead {
+    /// The same as mistakes of the file.
+    fn of_file(self, name: &str) -> InputError {
+        let of_key = |problem: Problem| Mistake::of_file(name, problem.message, &problem.help);
+        match self {
+            Self::Keys(problems) => InputError { mistakes: problems.into_iter().map(of_key).collect() },
+            Self::File(error) => error,
+        }
+    }
+}
+
 impl From<InputError> for NotRead {
     fn from(error: InputError) -> Self {
         Self::File(error)
@@ -343,11 +364,15 @@ fn each_part<T>(name: &str, path: &Path, parts: &[T], told: impl Fn(&T) -> (Stri
 /// All mistakes of the file or of the options, or why it cannot be read.
 pub fn load_shapes(path: &Path, options: &Options) -> Result<Imported, InputError> {
     let name = path.display().to_string();
-    let of_key = |problem: Problem| Mistake::of_file(&name, problem.message, &problem.help);
-    read_shapes(path, options, "check the path of the shape file").map_err(|error| match error {
-        NotRead::Keys(problems) => InputError { mistakes: problems.into_iter().map(of_key).collect() },
-        NotRead::File(error) => error,
-    })
+    read_shapes(path, options, "check the path of the shape file").map_err(|error| error.of_file(&name))
+}
+
+/// The same with the text of a shape file in TOML; `name` is how it is called in messages.
+///
+/// # Errors
+/// All mistakes of the text or of the options.
+pub(crate) fn load_shapes_text(name: &str, text: &str, options: &Options) -> Result<Imported, InputError> {
+    shape_text(name, text, options).map_err(|error| error.of_file(name))
 }
 
 fn shape_text(name: &str, text: &str, options: &Options) -> Result<Imported, NotRead> {

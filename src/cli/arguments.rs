@@ -166,13 +166,6 @@ pub(crate) struct NetworkArguments {
     pub(crate) import: ImportArguments,
 }
 
-impl NetworkArguments {
-    /// Whether menisci matter: something is displaced, or entry pressures are asked for.
-    pub(crate) fn has_interface(&self) -> bool {
-        self.inlet.is_some() || self.angle_deg.is_some() || self.tension.is_some()
-    }
-}
-
 /// Reads a word as a key of a case file has it.
 fn word<W: Words + Send + Sync>() -> impl TypedValueParser<Value = W> {
     let words =

@@ -7,13 +7,13 @@ use super::progress::ProgressDisplay;
 use super::run::built;
 use super::source;
 use crate::case::{Case, Model};
-use crate::run::advice::{self, Advice};
-use crate::run::description::{description, doubts};
+use crate::run::advice::Advice;
+use crate::run::checked::{self, Checked};
+use crate::run::description::description;
 use crate::run::execute::Mode;
 use crate::run::numbers::{self, Length, expected_speed};
 use crate::run::setup;
-use crate::run::trial::{Trial, trial};
-use crate::solver::{Series, Solver};
+use crate::solver::Solver;
 
 /// Bytes of a mebibyte.
 const BYTES_PER_MEBIBYTE: f64 = 1048576.0;
@@ -23,16 +23,12 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<u8, Failure> {
     let source = source::load_case(Some(&arguments.case), &arguments.overrides)?;
     let case = &source.case;
     let mut solver = built(&source, Mode::New)?;
-    // Those with which a run begins: they do not depend on how many steps are tried.
-    let mut warnings = setup::warnings(case, solver.as_ref(), &Series::default());
-    warnings.extend(doubts(case));
-    let found = tried(case, solver.as_mut())?;
-    let advice = advice::advice(case, Some(&found));
+    let checked = tried(case, solver.as_mut())?;
     if arguments.json {
-        let told = Told { trial: &found, warnings: &warnings, advice: advice.as_ref() };
-        say(told.json().map_err(|error| Failure::new(BUG, &error))?);
+        say(checked.json().map_err(|error| Failure::new(BUG, &error))?);
         return Ok(DONE);
     }
+    let Checked { trial: found, warnings, advice } = checked;
     say(&case.title);
     case.about_depth().iter().for_each(|depth| say(format_args!("  depth       {depth}")));
     description(case).iter().for_each(|(name, text)| say(format_args!("  {name:<11} {text}")));
@@ -105,25 +101,6 @@ fn say_warning(warning: &String) {
     say(format_args!("  WARNING     {warning}"));
 }
 
-/// What `--json` tells.
-struct Told<'a> {
-    trial: &'a Trial,
-    warnings: &'a [String],
-    advice: Option<&'a Advice>,
-}
-
-impl Told<'_> {
-    /// The keys of the trial, `warnings` and, where there is one, `advice`.
-    fn json(&self) -> Result<String, serde_json::Error> {
-        let mut told = serde_json::to_value(self.trial)?;
-        told["warnings"] = serde_json::to_value(self.warnings)?;
-        if let Some(advice) = self.advice {
-            told["advice"] = serde_json::to_value(advice)?;
-        }
-        serde_json::to_string_pretty(&told)
-    }
-}
-
 /// What both models would take, and which can answer.
 fn tell_advice(advice: &Advice) {
     let Advice { pores, throats, network_s, .. } = advice;
@@ -157,7 +134,7 @@ fn tell_advice(advice: &Advice) {
 }
 
 /// Tries the first steps; says so before and in between where they take long.
-fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Trial, Failure> {
+fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Checked, Failure> {
     /// From so many particles or nodes on a step takes a tenth of a second and more.
     const MANY: usize = 100_000;
     let unknowns = solver.statistics().unknowns;
@@ -165,7 +142,7 @@ fn tried(case: &Case, solver: &mut dyn Solver) -> Result<Trial, Failure> {
         tell(format_args!("the first steps of {unknowns} particles are tried: five, or as many as ten seconds allow"));
     }
     let mut display = ProgressDisplay::new();
-    let found = trial(case, solver, &mut |share| display.tried(share));
+    let found = checked::check(case, solver, &mut |share| display.tried(share));
     display.finish();
     found.map_err(|error| Failure::new(SOLVER_FAILED, &error))
 }

@@ -54,8 +54,8 @@ pub(crate) fn compare(arguments: &CompareArguments) -> Result<u8, Failure> {
         display.finish();
         found.map(Some).or_else(|error| match (&error, error.problems()) {
             (CompareError::Interrupted, _) => Ok(None),
-            (_, Some((Of::Network, problems))) => Err(network.refused_for(problems)),
-            (_, Some((Of::Direct, problems))) => Err(direct.refused_for(problems)),
+            (_, Some((Of::Network, problems))) => Err(network.refused_for(problems).into()),
+            (_, Some((Of::Direct, problems))) => Err(direct.refused_for(problems).into()),
             (CompareError::Run(_), _) => Err(Failure::new(USAGE, &error)),
             _ => Err(Failure::new(SOLVER_FAILED, &error)),
         })

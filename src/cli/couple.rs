@@ -8,13 +8,14 @@ use serde::Serialize;
 use super::exit::{BAD_INPUT, BUG, DONE, Failure, SOLVER_FAILED, USAGE};
 use super::output::{readable, say, tell};
 use super::run::{finish, new_folder};
-use super::source::{self, Source};
+use super::source;
 use crate::case::network::state::NetworkState;
 use crate::case::{Case, Drive, Model, SIDES, Side};
 use crate::io::{FileError, atomic};
 use crate::run::avalanche::{Avalanche, AvalancheError, Wanted, find, state_at_end};
 use crate::run::execute::Mode;
 use crate::run::folder;
+use crate::run::source::Source;
 
 /// `couple`.
 #[derive(Debug, Args)]
@@ -84,7 +85,7 @@ pub(crate) fn couple(arguments: &CoupleArguments) -> Result<u8, Failure> {
         let told = |case: &Case| case.depth.map_or("no depth".to_owned(), |depth| format!("a depth of {depth:e} m"));
         let message =
             format!("the network has {}, and the direct simulation {}", told(&network.case), told(&direct.case));
-        return Err(direct.refused_at("geometry.depth", &message, "give both the same"));
+        return Err(direct.refused_at("geometry.depth", &message, "give both the same").into());
     }
     let inlet = inlet_pressure(&direct, avalanche.inlet, direction * driving)?;
     source::load_started(&arguments.direct, std::slice::from_ref(&inlet), &start)?;
@@ -139,12 +140,14 @@ fn initial(key: &str, folder: &Path) -> Result<String, Failure> {
 /// The pressure at the inlet, `difference` in Pa above that at the outlet.
 fn inlet_pressure(direct: &Source, inlet: usize, difference: f64) -> Result<String, Failure> {
     let Model::Sph(sph) = &direct.case.model else {
-        return Err(direct.refused_at("", "the second case is no direct simulation", "give it [sph] with both phases"));
+        return Err(direct
+            .refused_at("", "the second case is no direct simulation", "give it [sph] with both phases")
+            .into());
     };
     if sph.initial.network.is_none() {
         let message = "the direct case does not begin with the state of a network";
         let help = "add [sph.initial] network = \"at-end.json\"; `couple` sets the file";
-        return Err(direct.refused_at("sph.initial", message, help));
+        return Err(direct.refused_at("sph.initial", message, help).into());
     }
     let sides = sph.sides.each();
     let pressure = |side: usize| match sph.open[side].map(|open| open.drive) {
@@ -161,11 +164,11 @@ fn inlet_pressure(direct: &Source, inlet: usize, difference: f64) -> Result<Stri
             let help = format!(
                 "set {name} = \"inlet\", and pressure = 0.0 in [sph.sides.open.{name}]; `couple` sets the value"
             );
-            Err(direct.refused_at(&format!("sph.sides.{name}"), &message, &help))
+            Err(direct.refused_at(&format!("sph.sides.{name}"), &message, &help).into())
         }
         (_, None) => {
             let help = "make the side of the network's outlet an outlet";
-            Err(direct.refused_at("sph.sides", "there is no outlet with a pressure", help))
+            Err(direct.refused_at("sph.sides", "there is no outlet with a pressure", help).into())
         }
     }
 }
@@ -186,7 +189,7 @@ fn same_elements(one: &NetworkState, other: &NetworkState) -> Option<f64> {
 
 fn failure(network: &Source, error: &AvalancheError) -> Failure {
     if let AvalancheError::Setup(misfit) = error {
-        return network.refused(misfit);
+        return network.refused(misfit).into();
     }
     let code = if matches!(error, AvalancheError::Solver(_)) { SOLVER_FAILED } else { BAD_INPUT };
     Failure::new(code, error)

@@ -36,8 +36,8 @@ pub(crate) fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>,
         let study = load(path).map_err(Failure::input)?;
         let runs = plan(&study).map_err(Failure::input)?;
         let folder = match out {
-            Some(out) if paths.len() > 1 => StudyFolder::new(&out.join(folder_name(&study))),
-            _ => folder(&study, out),
+            Some(out) if paths.len() > 1 => StudyFolder::new(&out.join(StudyFolder::name_of(&study))),
+            _ => StudyFolder::of(&study, out),
         };
         if let Some(other) = all.iter().find(|other| other.folder.root() == folder.root()) {
             let (name, root) = (&other.study.name, folder.root().display());
@@ -47,16 +47,6 @@ pub(crate) fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>,
         all.push(Opened { study, runs, folder, program: program(path)? });
     }
     Ok(all)
-}
-
-fn folder_name(study: &Study) -> String {
-    format!("study-{}", study.name)
-}
-
-/// The folder of a study: the one that was named, or `out/study-NAME`.
-pub(crate) fn folder(study: &Study, out: Option<&Path>) -> StudyFolder {
-    let named = out.map_or_else(|| Path::new("out").join(folder_name(study)), Path::to_path_buf);
-    StudyFolder::new(&named)
 }
 
 /// Does something with one study after the other. One that failed does not keep the next from its turn, an interruption does; the exit code

@@ -1,21 +1,33 @@
 //! Whether the processor has the instructions that the program was built with (`.cargo/config.toml`: x86-64-v3).
 
+/// What is told where they are missing.
+pub const INSUFFICIENT: &str = "this processor lacks instructions (AVX2) that the program was built with; build it without them: \
+                                RUSTFLAGS='-C target-cpu=x86-64' cargo build --release";
+
 /// Ends the program with a message where the processor lacks them: the first one would end it without a word.
 ///
 /// To be called first. Only functions of the standard library work here, which is built for any processor.
 #[inline(never)]
 pub fn require() {
-    #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
-    if !has_v3() {
+    if !is_sufficient() {
         use std::io::Write;
 
-        let message =
-            b"error: this processor lacks instructions (AVX2) that the program was built with; build it without them: \
-            RUSTFLAGS='-C target-cpu=x86-64' cargo build --release\n";
+        let mut err = std::io::stderr();
         // Nobody is left to tell.
-        let _ = std::io::stderr().write_all(message);
+        let _ = [b"error: ".as_slice(), INSUFFICIENT.as_bytes(), b"\n"]
+            .into_iter()
+            .try_for_each(|part| err.write_all(part));
         std::process::exit(i32::from(super::exit::USAGE));
     }
+}
+
+/// Whether the processor has them.
+#[inline(never)]
+pub fn is_sufficient() -> bool {
+    #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
+    return has_v3();
+    #[cfg(not(all(target_arch = "x86_64", target_feature = "avx2")))]
+    true
 }
 
 /// What the processor itself tells: the standard library's test takes what the program was built with for granted.

@@ -8,13 +8,13 @@ use clap::Args;
 use super::exit::{BUG, DONE, EXPECTATION_FAILED, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::output::{say, tell};
 use super::progress::ProgressDisplay;
-use super::source::Source;
 use super::summary::summary;
 use super::threads::pool;
 use super::{interrupt, source};
 use crate::case::Case;
 use crate::run::execute::{Finished, Job, Mode, RunError, execute};
 use crate::run::report::Status;
+use crate::run::source::Source;
 use crate::run::{folder, setup};
 use crate::solver::{Series, Solver};
 
@@ -92,7 +92,7 @@ pub(super) fn built(source: &Source, mode: Mode) -> Result<Box<dyn Solver>, Fail
         Mode::Resume => setup::build_to_resume(&source.case),
     };
     display.finish();
-    solver.map_err(|error| source.refused(&error))
+    solver.map_err(|error| source.refused(&error).into())
 }
 
 /// Tells what a reader should know before a long run rather than after it.

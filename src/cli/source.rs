@@ -4,18 +4,16 @@ use std::path::Path;
 
 use super::exit::{BAD_INPUT, Failure, USAGE};
 use super::output::tell;
-use crate::case::{self, Case, Loaded, Model};
-use crate::geometry::import::{self, Beyond, Imported, Options};
+use crate::case::{self, NetworkOptions};
+use crate::geometry::import::{Imported, Options};
 use crate::geometry::spec::GeometrySpec;
 use crate::geometry::throats::throats;
 use crate::geometry::{Geometry, GeometryError};
-use crate::input::{Document, InputError, Overrides, Problem, file};
+use crate::input::{Overrides, Problem};
 use crate::run::setup::{self, SetupError};
+use crate::run::source::{self, Refusal, Source, is_case_file};
 use crate::snapshot::{Grid, Lines};
 use crate::solver::{Measure, measure};
-
-/// Name of the output folder of the built-in case.
-const DEFAULT_NAME: &str = "four-discs";
 
 /// Nodes of the distance grid along the longer side of a shape file's domain.
 const GRID_NODES: f64 = 400.0;
@@ -25,41 +23,6 @@ const OUTLINE_ERROR: f64 = 1e-5;
 
 /// So many of the narrowest throats are told.
 const THROATS: usize = 10;
-
-/// A checked case with the name of its output folder.
-#[derive(Debug)]
-pub(crate) struct Source {
-    /// The case.
-    pub(crate) case: Case,
-    /// The case file with all that was filled in.
-    pub(crate) resolved: String,
-    /// Name of the case: that of its file without the ending.
-    pub(crate) name: String,
-    /// What the user should know of how its drawing was read.
-    pub(crate) notes: Vec<String>,
-    /// The text of the case file; none where the command line is the case.
-    pub(crate) document: Option<Document>,
-}
-
-impl Source {
-    /// A case that no solver can be made for, with the places in its file.
-    pub(crate) fn refused(&self, error: &SetupError) -> Failure {
-        let placed = self.document.as_ref().and_then(|document| document.refuse(error.problems()).err());
-        placed.map_or_else(|| Failure::new(BAD_INPUT, error), Failure::input)
-    }
-
-    /// A case with problems that were found later, each with its place in the file.
-    pub(crate) fn refused_for(&self, problems: Vec<Problem>) -> Failure {
-        let told = problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
-        let placed = self.document.as_ref().and_then(|document| document.refuse(problems).err());
-        placed.map_or_else(|| Failure::new(BAD_INPUT, &told), Failure::input)
-    }
-
-    /// A case that does not fit, with the place of the key that a user would change.
-    pub(crate) fn refused_at(&self, key: &str, message: &str, help: &str) -> Failure {
-        self.refused_for(vec![Problem::new(key, message, help)])
-    }
-}
 
 /// What can be told and drawn of a shape file.
 #[derive(Debug)]
@@ -78,61 +41,46 @@ pub(crate) struct Shapes {
     pub(crate) depth: Option<f64>,
 }
 
-/// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
-pub(crate) fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Failure> {
-    let source = sound(load(path, overrides).map_err(Failure::input)?, path)?;
-    source.notes.iter().for_each(tell);
-    Ok(source)
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        match refusal {
+            Refusal::Input(error) => Self::input(error),
+            Refusal::Options(problems) => of_options(&problems),
+            Refusal::Setup(text) => Self::new(BAD_INPUT, &text),
+        }
+    }
 }
 
-/// The case where it is right on its geometry.
-fn sound(loaded: Loaded, path: Option<&Path>) -> Result<Source, Failure> {
-    loaded.refuse(setup::problems(&loaded.case)).map_err(Failure::input)?;
-    let name = path.and_then(Path::file_stem).map_or_else(|| DEFAULT_NAME.into(), |stem| stem.to_string_lossy().into());
-    let Loaded { case, resolved, notes, document, .. } = loaded;
-    Ok(Source { case, resolved, name, notes, document: Some(document) })
+/// A case with its notes told.
+fn told(source: Source) -> Source {
+    source.notes.iter().for_each(tell);
+    source
+}
+
+/// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
+pub(crate) fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, Failure> {
+    source::load_case(path, overrides).map(told).map_err(Failure::input)
+}
+
+/// The network of a drawing or of a case file.
+pub(crate) fn load_network(path: &Path, import: &Options, options: &NetworkOptions) -> Result<Source, Failure> {
+    Ok(told(source::load_network(path, import, options)?))
 }
 
 /// Loads a case file as if the file of the state that it begins with held `state`.
 pub(crate) fn load_started(path: &Path, overrides: &[String], state: &str) -> Result<Source, Failure> {
-    let overrides = Overrides::parse(overrides).map_err(Failure::input)?;
-    sound(case::load_started(path, &overrides, state).map_err(Failure::input)?, Some(path))
-}
-
-fn load(path: Option<&Path>, overrides: &[String]) -> Result<Loaded, InputError> {
-    let overrides = Overrides::parse(overrides)?;
-    match path {
-        Some(path) => case::load(path, &overrides),
-        None => case::load_default(&overrides),
-    }
-}
-
-/// Whether a file is a case file, and no shape file, by its content.
-pub(crate) fn is_case_file(path: &Path) -> bool {
-    // What cannot be read as text is for the readers of shape files to tell.
-    let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    is_toml && file::read_text(path).is_ok_and(|text| case::is_case(&text))
-}
-
-/// Whether a case is one of a network.
-pub(crate) fn is_network(case: &Case) -> bool {
-    matches!(case.model, Model::Network(_))
+    source::load_started(path, overrides, state).map(told).map_err(Failure::input)
 }
 
 /// Loads a shape file.
-pub(crate) fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> Result<Imported, Failure> {
-    let mut read = case::load_shapes(path, options).map_err(Failure::input)?;
-    if options.window.is_some() {
-        let [x, y] = periodic;
-        let beyond = |is_joined| if is_joined { Beyond::Nothing } else { Beyond::Whole };
-        import::cut_at_sides(&mut read.spec, [x, x, y, y].map(beyond));
-    }
+fn geometry_of_file(path: &Path, options: &Options, periodic: [bool; 2]) -> Result<Imported, Failure> {
+    let read = source::load_drawing(path, options, periodic).map_err(Failure::input)?;
     read.notes.iter().for_each(tell);
     Ok(read)
 }
 
 /// Problems of keys that options of the command line stand for.
-pub(crate) fn of_options(problems: &[Problem]) -> Failure {
+fn of_options(problems: &[Problem]) -> Failure {
     let option =
         |path: &str| path.trim_start_matches("network.").trim_start_matches("geometry.").replace(['.', '_'], "-");
     let lines: Vec<String> = problems
@@ -168,7 +116,8 @@ pub(crate) fn load_shapes(
         }
         (true, None) => {
             let set: Vec<String> = depth.iter().map(|depth| format!("geometry.depth={depth:?}")).collect();
-            let loaded = load(Some(path), &set).map_err(Failure::input)?;
+            let overrides = Overrides::parse(&set).map_err(Failure::input)?;
+            let loaded = case::load(path, &overrides).map_err(Failure::input)?;
             loaded.notes.iter().for_each(tell);
             at("uniting the shapes");
             let geometry = setup::geometry(&loaded.case);

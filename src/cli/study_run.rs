@@ -8,18 +8,17 @@ use std::time::Duration;
 
 use super::exit::{BAD_INPUT, DONE, Failure, INTERRUPTED, SOLVER_FAILED, USAGE};
 use super::interrupt;
-use super::opened_study::{Opened, cores, each, finish, folder, open};
+use super::opened_study::{Opened, cores, each, finish, open};
 use super::output::{duration, say, tell};
 use super::progress::ProgressDisplay;
 use super::study_arguments::{Engine, StudyRunArguments};
 use super::threads::pool;
 use crate::study::engine::{End, Event, Work, free_memory, work};
 use crate::study::estimate::estimates;
-use crate::study::execute::{self, ExecuteError};
+use crate::study::execute::ExecuteError;
 use crate::study::folder::Share;
-use crate::study::load::load;
-use crate::study::run::{PlannedRun, Run};
-use crate::study::runs::runs;
+use crate::study::numbered::{Numbered, NumberedError};
+use crate::study::run::PlannedRun;
 use crate::study::slurm::{Array, submit};
 
 /// Bytes of a mebibyte.
@@ -134,30 +133,24 @@ fn cluster(arguments: &StudyRunArguments, opened: &Opened) -> Result<u8, Failure
 
 /// One run in this process.
 fn one(arguments: &StudyRunArguments, study: &Path, index: usize) -> Result<u8, Failure> {
-    let study = load(study).map_err(Failure::input)?;
-    let all: Vec<Run> = runs(&study);
-    let Some(run) = all.get(index - 1) else {
-        let message = format!("the study has {} runs, there is no run {index}", all.len());
-        return Err(Failure::new(USAGE, &message));
-    };
-    let planned = run.plan(&study).map_err(Failure::input)?;
-    if arguments.digest.as_ref().is_some_and(|digest| *digest != planned.digest()) {
-        let message = format!("the study or a case was changed while the study ran: run {index} is another one now");
-        return Err(Failure::new(BAD_INPUT, &message));
-    }
-    let folder = folder(&study, arguments.files.out.as_deref());
+    let out = arguments.files.out.as_deref();
+    let run = Numbered::open(study, out, index, arguments.digest.as_deref()).map_err(|error| match error {
+        NumberedError::Input(mistakes) => Failure::input(mistakes),
+        NumberedError::Absent { .. } => Failure::new(USAGE, &error),
+        NumberedError::Changed(_) => Failure::new(BAD_INPUT, &error),
+    })?;
     let _claim = match arguments.worker {
         true => None,
-        false => Some(folder.claim(Share::Together).map_err(|error| Failure::new(USAGE, &error))?),
+        false => Some(run.claim().map_err(failure)?),
     };
     let flag = interrupt::flag();
     if arguments.worker {
         stop_with_parent(&flag);
     }
     let pool = pool(Some(arguments.cores.threads))?;
-    tell(format_args!("run {index}: {} -> {}", run.name, folder.run(&run.name).display()));
+    tell(format_args!("run {index}: {} -> {}", run.name(), run.folder().display()));
     let mut display = ProgressDisplay::new();
-    let ending = pool.install(|| execute::run(&planned, &folder, &flag, &mut display));
+    let ending = pool.install(|| run.run(&flag, &mut display));
     display.finish();
     match ending.map_err(failure)? {
         end @ (End::WasComplete | End::Complete) => {

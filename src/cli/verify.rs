@@ -28,7 +28,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let bad = |error: &dyn std::fmt::Display| Failure::new(BAD_INPUT, &error);
     let usage = |error: &dyn std::fmt::Display| Failure::new(USAGE, &error);
     let subject = Subject::new(&source.case).map_err(|error| match error {
-        SubjectError::Setup(misfit) => source.refused(&misfit.into()),
+        SubjectError::Setup(misfit) => source.refused(&misfit.into()).into(),
         other => bad(&other),
     })?;
     let choices: Vec<Choice> = parsed(&arguments.throats)?;

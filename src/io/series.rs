@@ -12,22 +12,25 @@ use crate::solver::Series;
 /// Above this, whole numbers of a double are no longer exact and are printed with an exponent: 2^53.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
-/// The time series on disk and in memory.
-#[derive(Debug)]
+/// The time series in memory, and on disk where it has a file.
+#[derive(Debug, Default)]
 pub(crate) struct SeriesFile {
-    journal: Journal,
+    journal: Option<Journal>,
     series: Series,
 }
 
+/// Name of the file.
+const NAME: &str = "series.csv";
+
 /// The file in the folder of a run.
 pub(crate) fn path(folder: &Path) -> PathBuf {
-    folder.join("series.csv")
+    folder.join(NAME)
 }
 
 impl SeriesFile {
     /// A new, empty series in `folder`.
     pub(crate) fn new(folder: &Path) -> Self {
-        Self { journal: Journal::new(path(folder)), series: Series::default() }
+        Self { journal: Some(Journal::new(path(folder))), series: Series::default() }
     }
 
     /// The series that stands in `folder` before `mark`; what is behind it is cut off.
@@ -37,7 +40,7 @@ impl SeriesFile {
     pub(crate) fn resume(folder: &Path, mark: Mark) -> Result<Self, FileError> {
         let path = path(folder);
         let series = parse(&journal::read(&path, mark)?, &path)?;
-        Ok(Self { journal: Journal::resume(path, mark)?, series })
+        Ok(Self { journal: Some(Journal::resume(path, mark)?), series })
     }
 
     /// All rows so far.
@@ -45,9 +48,19 @@ impl SeriesFile {
         &self.series
     }
 
+    /// All rows, of which no more will come.
+    pub(crate) fn into_series(self) -> Series {
+        self.series
+    }
+
     /// How much of the file there is.
     pub(crate) fn mark(&self) -> Mark {
-        self.journal.mark()
+        self.journal.as_ref().map(Journal::mark).unwrap_or_default()
+    }
+
+    fn format(&self, what: String) -> FileError {
+        let path = self.journal.as_ref().map_or(Path::new(NAME), Journal::path);
+        FileError::Format { path: path.to_path_buf(), what }
     }
 
     /// Adds a row, `time_s` first. A row at or before the last time replaces what stands there; minus zero becomes zero.
@@ -61,7 +74,7 @@ impl SeriesFile {
         if self.series.columns != columns || row.len() != columns.len() {
             let what =
                 format!("it has the columns {}, the new row has {}", self.series.columns.join(","), columns.join(","));
-            return Err(FileError::Format { path: self.journal.path().to_path_buf(), what });
+            return Err(self.format(what));
         }
         let time = row.first().copied().unwrap_or(f64::NAN);
         // As it reads back: an infinite value does not exist either.
@@ -73,16 +86,18 @@ impl SeriesFile {
             self.series.rows.retain(|old| old.first().is_some_and(|&t| t < time));
         }
         self.series.rows.push(row);
-        if is_next {
-            let new = self.series.rows.len() - 1;
-            return self.journal.append(&self.text(None, new)?);
+        if self.journal.is_none() {
+            return Ok(());
         }
-        self.journal.replace(&self.text(Some(&self.series.columns), 0)?)
+        let new = self.series.rows.len() - 1;
+        let text = if is_next { self.text(None, new) } else { self.text(Some(&self.series.columns), 0) }?;
+        let Some(journal) = &mut self.journal else { return Ok(()) };
+        if is_next { journal.append(&text) } else { journal.replace(&text) }
     }
 
     /// The rows from one on, below the names of the columns where they are given.
     fn text(&self, columns: Option<&[String]>, from: usize) -> Result<Vec<u8>, FileError> {
-        let format = |what: String| FileError::Format { path: self.journal.path().to_path_buf(), what };
+        let format = |what: String| self.format(what);
         let mut writer = csv::Writer::from_writer(Vec::new());
         columns.map_or(Ok(()), |columns| writer.write_record(columns)).map_err(|error| format(error.to_string()))?;
         for row in &self.series.rows[from..] {

@@ -10,17 +10,18 @@ use super::folder;
 use super::folder_error::FolderError;
 use super::numbers::{self, Length};
 use super::processor_time::ProcessorTime;
+use super::records::Records;
 use super::report::{self, Machine, Reached, Report, SolverReport, Status, readings, verdicts, wall_time};
 use super::schedule::Schedule;
 use super::setup;
-use super::simulation::{Outcome, Records, Simulation, Watcher};
+use super::simulation::{Outcome, Simulation, Watcher};
 use super::sink::{Start, compression};
 use super::steady::Steadiness;
 use crate::case::Case;
 use crate::io::checksum::fnv1a;
 use crate::io::picture::{PictureError, mosaic_picture, picture};
 use crate::io::{FileError, atomic, diagram, table, vtk};
-use crate::solver::{Clock, Results, Solver, StateError};
+use crate::solver::{Clock, Results, Series, Solver, StateError};
 
 /// Whether a run is new or goes on with one that stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,6 +67,8 @@ pub enum RunError {
 pub struct Finished {
     /// The report, as written.
     pub report: Report,
+    /// The rows of `series.csv`.
+    pub series: Series,
     /// The output folder.
     pub folder: PathBuf,
     /// The picture, or why there is none.
@@ -102,18 +105,11 @@ pub fn execute(
     let steady = job.case.steady;
     let mut simulation = Simulation { solver, schedule, steady, records: &mut records, interrupt, watcher };
     let was_at_end = start != Start::New && simulation.is_at_end();
-    let begun = if start == Start::New { simulation.begin(&job.folder) } else { simulation.go_on(&job.folder) };
+    let begun = if start == Start::New { simulation.begin() } else { simulation.go_on() };
     let ended = begun.and_then(|()| simulation.run());
     let written = records.finish();
     let ended = ended.and_then(|outcome| written.map(|()| outcome));
-    let (status, error) = match &ended {
-        Ok(Outcome::Done) => (Status::Done, None),
-        Ok(Outcome::Interrupted) => (Status::Interrupted, None),
-        Ok(Outcome::Failed(error)) => (Status::Failed, Some(error.to_string())),
-        Err(error) => (Status::Failed, Some(error.to_string())),
-    };
-    let mut report = report(job, solver, &records, status);
-    report.error = error;
+    let mut report = report(job.case, job.resolved, solver, &records, &ended);
     report.wall_time_s.total = clock.elapsed().as_secs_f64();
     report.cpu_s = records.processor_time();
     // The report of the run that reached the end tells more: its wall time, its machine.
@@ -126,7 +122,7 @@ pub fn execute(
     let picture = draw(job, solver, &results)?;
     write_results(job, &results)?;
     draw_diagrams(job, solver)?;
-    Ok(Finished { report, folder: job.folder.clone(), picture, was_at_end })
+    Ok(Finished { report, series: records.into_series(), folder: job.folder.clone(), picture, was_at_end })
 }
 
 /// Makes the folder, or takes up the saved state in it; no other process may work in it meanwhile.
@@ -142,15 +138,27 @@ fn prepare(job: &Job<'_>, solver: &mut dyn Solver, hash: u64) -> Result<(Start, 
     }
 }
 
-fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status) -> Report {
+/// The report of a run that `ended` so, without its total times.
+pub(super) fn report(
+    case: &Case,
+    resolved: &str,
+    solver: &dyn Solver,
+    records: &Records,
+    ended: &Result<Outcome, FileError>,
+) -> Report {
+    let (mut status, error) = match ended {
+        Ok(Outcome::Done) => (Status::Done, None),
+        Ok(Outcome::Interrupted) => (Status::Interrupted, None),
+        Ok(Outcome::Failed(error)) => (Status::Failed, Some(error.to_string())),
+        Err(error) => (Status::Failed, Some(error.to_string())),
+    };
     let statistics = solver.statistics();
     let fastest = records.series().column("max_speed_m_per_s").filter(|speed| speed.is_finite()).fold(0.0, f64::max);
-    let length = Length::of(job.case);
-    let steady = job.case.steady.map(|steady| Steadiness::of(records.series(), &solver.watched(), &steady));
+    let length = Length::of(case);
+    let steady = case.steady.map(|steady| Steadiness::of(records.series(), &solver.watched(), &steady));
     let mut measures = readings(solver.measures(records.series()), records.series(), &solver.watched());
     measures.extend(steady.iter().map(report::steady_reading));
-    let mut expectations = verdicts(&job.case.expect, &measures);
-    let mut status = status;
+    let mut expectations = verdicts(&case.expect, &measures);
     if status != Status::Done {
         expectations.iter_mut().for_each(|verdict| verdict.pass = None);
     } else if expectations.iter().any(|verdict| verdict.pass == Some(false)) {
@@ -159,22 +167,22 @@ fn report(job: &Job<'_>, solver: &dyn Solver, records: &Records, status: Status)
     Report {
         version: env!("CARGO_PKG_VERSION"),
         status,
-        error: None,
+        error,
         time_s: (solver.clock() == Clock::TIME).then(|| solver.time()),
         clock: Reached { clock: solver.clock(), value: solver.time() },
         steps: solver.steps(),
         steady,
         measures,
         expectations,
-        numbers: numbers::numbers(job.case, length, fastest),
+        numbers: numbers::numbers(case, length, fastest),
         length_of_numbers: length,
-        depth: job.case.about_depth(),
-        case: job.case.clone(),
-        resolved_case: job.resolved.to_owned(),
+        depth: case.about_depth(),
+        case: case.clone(),
+        resolved_case: resolved.to_owned(),
         machine: Machine::present(),
         wall_time_s: wall_time(0.0, statistics.parts.iter().copied().chain(records.parts())),
         cpu_s: None,
-        warnings: setup::warnings(job.case, solver, records.series()),
+        warnings: setup::warnings(case, solver, records.series()),
         solver: SolverReport::from(&statistics),
     }
 }

@@ -6,6 +6,7 @@
 
 pub(crate) mod advice;
 pub(crate) mod avalanche;
+pub mod checked;
 pub(crate) mod claim;
 pub(crate) mod compare;
 pub(crate) mod description;
@@ -14,17 +15,20 @@ pub mod execute;
 mod extension;
 pub(crate) mod folder;
 pub(crate) mod folder_error;
+pub mod in_memory;
 pub(crate) mod memory;
 #[cfg(test)]
 pub(crate) mod mock;
 pub(crate) mod numbers;
 pub(crate) mod pressure_curves;
 pub(crate) mod processor_time;
+mod records;
 pub mod report;
 pub(crate) mod schedule;
 pub mod setup;
 pub mod simulation;
 pub(crate) mod sink;
+pub mod source;
 pub(crate) mod steady;
 pub(crate) mod trial;
 mod writer;

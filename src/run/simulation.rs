@@ -1,21 +1,13 @@
 //! The loop of a run: steps the solver to each stop of the schedule and records what is due.
 
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
-use super::processor_time::ProcessorTime;
+use super::records::Records;
 use super::schedule::{Due, Schedule};
-use super::sink::{Frame, SeriesSink, Start, VtkFiles, write_units};
 use super::steady::is_steady;
-use super::writer::{Record, Writer};
 use crate::case::SteadyStop;
-use crate::io::frames::{self, FrameList};
-use crate::io::journal::Mark;
-use crate::io::restart::Saved;
-use crate::io::vtk::Compression;
-use crate::io::{FileError, atomic, pvd, vtk};
-use crate::solver::{Clock, PartTime, Series, Solver, SolverError, StepInfo};
+use crate::io::FileError;
+use crate::solver::{Clock, Solver, SolverError, StepInfo};
 
 /// How a run ended.
 #[derive(Debug)]
@@ -64,6 +56,9 @@ pub trait Watcher {
     fn recorded(&mut self, _: &dyn Solver) -> Result<(), FileError> {
         Ok(())
     }
+
+    /// A frame is about to be recorded: the state that VTK files show.
+    fn framed(&mut self, _: &dyn Solver) {}
 }
 
 /// No one.
@@ -71,91 +66,6 @@ pub struct Unwatched;
 
 impl Watcher for Unwatched {
     fn stepped(&mut self, _: &Progress) {}
-}
-
-/// All that a run writes while it goes on, and the wall time it takes.
-pub(crate) struct Records {
-    series: SeriesSink,
-    writer: Writer,
-    processor_time: ProcessorTime,
-    case_hash: u64,
-    compression: Compression,
-    seconds: [f64; 3],
-}
-
-impl Records {
-    /// The records of a run in `folder`, which exists.
-    ///
-    /// # Errors
-    /// [`FileError`] where files of a resumed run cannot be read.
-    pub(crate) fn new(
-        folder: &Path,
-        case_hash: u64,
-        start: Start,
-        compression: Compression,
-        processor_time: ProcessorTime,
-    ) -> Result<Self, FileError> {
-        let (written, list) = match start {
-            Start::New => (Vec::new(), FrameList::new(folder)),
-            Start::Resumed { frames, .. } => (frames::read(folder, frames)?, FrameList::resume(folder, frames)?),
-        };
-        pvd::rebuild(folder, &written)?;
-        Ok(Self {
-            series: SeriesSink::new(folder, start)?,
-            writer: Writer::start(folder, VtkFiles::new(folder, written, compression), list)?,
-            processor_time,
-            case_hash,
-            compression,
-            seconds: [0.0; 3],
-        })
-    }
-
-    /// The rows of the series so far.
-    pub(crate) fn series(&self) -> &Series {
-        self.series.series()
-    }
-
-    /// Processor time in s of all processes that worked at the run; none where one did not tell.
-    pub(crate) fn processor_time(&self) -> Option<f64> {
-        self.processor_time.seconds()
-    }
-
-    /// Waits until all records are written.
-    ///
-    /// # Errors
-    /// [`FileError`] where one could not be written.
-    pub(crate) fn finish(&mut self) -> Result<(), FileError> {
-        self.writer.finish()
-    }
-
-    /// Wall time that records took from the solver, by part, in s.
-    pub(crate) fn parts(&self) -> Vec<PartTime> {
-        let names = ["output: series", "output: vtk", "output: restart"];
-        names.into_iter().zip(self.seconds).map(|(part, seconds)| PartTime { part, seconds }).collect()
-    }
-
-    /// Records what is due. The saved state comes last: it never runs ahead of the other files. Files other than the series are written while the
-    /// solver goes on.
-    fn record(&mut self, solver: &dyn Solver, due: Due) -> Result<(), FileError> {
-        let mut clock = Instant::now();
-        let mut lap = || std::mem::replace(&mut clock, Instant::now()).elapsed().as_secs_f64();
-        if due.series {
-            self.series.record(solver)?;
-        }
-        self.seconds[0] += lap();
-        if due.vtk {
-            self.writer.write(Record::Frame(Box::new(Frame::of(solver))))?;
-        }
-        self.seconds[1] += lap();
-        if due.restart {
-            let (time, step, state) = (solver.time(), solver.steps(), solver.state());
-            let (series, frames) = (self.series.mark(), Mark::default());
-            let saved = Saved { case_hash: self.case_hash, time, step, series, frames, state };
-            self.writer.write(Record::State(saved, self.processor_time.seconds()))?;
-        }
-        self.seconds[2] += lap();
-        Ok(())
-    }
 }
 
 /// A run in progress.
@@ -176,22 +86,15 @@ pub(crate) struct Simulation<'a> {
 
 impl Simulation<'_> {
     /// Writes `solid.vtu` and the record of time zero.
-    pub(crate) fn begin(&mut self, folder: &Path) -> Result<(), FileError> {
-        self.write_outline(folder)?;
+    pub(crate) fn begin(&mut self) -> Result<(), FileError> {
+        self.records.write_outline(self.solver)?;
         self.record(Due::ALL)
     }
 
     /// Writes anew what follows from the solver whatever its state: `solid.vtu` and `units.json`.
-    pub(crate) fn go_on(&mut self, folder: &Path) -> Result<(), FileError> {
-        self.write_outline(folder)?;
-        write_units(folder, &Frame::of(self.solver))
-    }
-
-    fn write_outline(&self, folder: &Path) -> Result<(), FileError> {
-        let path = folder.join("solid.vtu");
-        let outline = vtk::lines(&self.solver.outline(), self.records.compression)
-            .map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
-        atomic::write(&path, &outline)
+    pub(crate) fn go_on(&mut self) -> Result<(), FileError> {
+        self.records.write_outline(self.solver)?;
+        self.records.write_units(self.solver)
     }
 
     /// Whether the run ends here as it is steady: as its last row tells.
@@ -208,6 +111,9 @@ impl Simulation<'_> {
     fn record(&mut self, due: Due) -> Result<(), FileError> {
         if due.series {
             self.watcher.recorded(self.solver)?;
+        }
+        if due.vtk {
+            self.watcher.framed(self.solver);
         }
         self.records.record(self.solver, due)
     }

@@ -123,7 +123,8 @@ pub(crate) fn write_units(folder: &Path, frame: &Frame) -> Result<(), FileError>
     atomic::write(&path, (text + "\n").as_bytes())
 }
 
-/// `series.csv`.
+/// The series, and `series.csv` where the run writes files.
+#[derive(Default)]
 pub(crate) struct SeriesSink(SeriesFile);
 
 impl SeriesSink {
@@ -156,5 +157,10 @@ impl SeriesSink {
     /// All rows so far.
     pub(crate) fn series(&self) -> &Series {
         self.0.series()
+    }
+
+    /// All rows, of which no more will come.
+    pub(crate) fn into_series(self) -> Series {
+        self.0.into_series()
     }
 }

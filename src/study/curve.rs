@@ -15,7 +15,7 @@ const SIZE: (u32, u32) = (720, 480);
 /// A curve that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-pub(crate) struct CurveError(String);
+pub struct CurveError(String);
 
 /// A point of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]

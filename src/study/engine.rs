@@ -58,7 +58,7 @@ pub(crate) struct Work<'a> {
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum End {
+pub enum End {
     /// It was complete before.
     WasComplete,
     /// It is complete now.

@@ -19,7 +19,7 @@ use crate::run::simulation::Watcher;
 
 /// A run that cannot be done.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum ExecuteError {
+pub enum ExecuteError {
     /// The study folder.
     #[error(transparent)]
     Folder(#[from] FolderError),

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use super::definition::Study;
 use crate::io::{FileError, atomic};
 
 /// Name of the lock.
@@ -20,7 +21,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// A study folder that cannot be used.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum FolderError {
+pub enum FolderError {
     /// There are other files in it.
     #[error("the folder {} is not empty and no study is in it; choose another one with --out DIR", .0.display())]
     Foreign(PathBuf),
@@ -53,7 +54,7 @@ pub(crate) struct StudyFolder {
 
 /// The right to work in a folder or at a run; it ends when this is dropped.
 #[derive(Debug)]
-pub(crate) struct Claim {
+pub struct Claim {
     _lock: File,
 }
 
@@ -70,6 +71,16 @@ impl StudyFolder {
     /// The folder at a path; nothing is read or made.
     pub(crate) fn new(root: &Path) -> Self {
         Self { root: root.to_path_buf() }
+    }
+
+    /// The folder of a study: the one that was named, or `out/study-NAME`.
+    pub(crate) fn of(study: &Study, out: Option<&Path>) -> Self {
+        Self { root: out.map_or_else(|| Path::new("out").join(Self::name_of(study)), Path::to_path_buf) }
+    }
+
+    /// Name of the folder of a study.
+    pub(crate) fn name_of(study: &Study) -> String {
+        format!("study-{}", study.name)
     }
 
     /// The folder itself.

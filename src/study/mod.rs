@@ -1,9 +1,10 @@
 //! Parameter studies: from a study file to many runs, a table, curves and a page.
 //!
 //! [`load`] reads a study file into a [`definition::Study`]; [`runs`] makes its [`run`]s and checks their cases; [`estimate`] tells what
-//! each will take; [`execute`] does one of them, or a [`comparison`] of its case with a network, and [`engine`] all, each in a process of its own, or [`slurm`] hands them to
-//! a cluster; [`results`] reads their reports back, [`convergence`] and [`verdict`] judge them, and [`report`] writes [`table`]s, [`curve`]s and the
-//! [`page`]. Nothing here knows a solver or a model: a study is a matter of case files, folders and reports.
+//! each will take; [`execute`] does one of them, or a [`comparison`] of its case with a network, and [`engine`] all, each in a process of its own; [`slurm`]
+//! hands them to a cluster, and a Python program to its workers ([`numbered`], [`session`]). [`results`] reads their reports back, [`convergence`] and
+//! [`verdict`] judge them, and [`report`] writes [`table`]s, [`curve`]s and the [`page`]. Nothing here knows a solver or a model: a study is a matter of case
+//! files, folders and reports.
 
 mod axis;
 mod base_case;
@@ -14,13 +15,14 @@ pub(crate) mod curve;
 pub(crate) mod definition;
 pub(crate) mod engine;
 pub(crate) mod estimate;
-pub(crate) mod execute;
+pub mod execute;
 pub(crate) mod folder;
 pub mod load;
 mod measured;
 #[cfg(test)]
 mod mock;
 mod names;
+pub mod numbered;
 pub(crate) mod page;
 pub(crate) mod raw;
 pub(crate) mod report;
@@ -28,9 +30,11 @@ pub(crate) mod resolution;
 pub(crate) mod results;
 pub(crate) mod run;
 pub mod runs;
+pub mod session;
 pub(crate) mod slurm;
 pub(crate) mod table;
 pub(crate) mod values;
 pub(crate) mod verdict;
 
+pub use engine::End;
 pub use load::schema;

@@ -22,7 +22,7 @@ use crate::run::pressure_curves;
 
 /// A report that cannot be written.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum ReportError {
+pub enum ReportError {
     /// A file.
     #[error(transparent)]
     File(#[from] FileError),

@@ -30,6 +30,22 @@ pub fn peers_interpreter() -> PathBuf {
     environment("peers-venv", "benches/peers/requirements.txt", &[])
 }
 
+/// The same with the package `meniscus`, in `target/python-venv`: built by `pip install .` from the present source, with the library that these tests link.
+#[allow(dead_code, reason = "each test binary has its own copy of this module")]
+pub fn package_interpreter() -> PathBuf {
+    let python = environment("python-venv", "python/tests/requirements.txt", &[]);
+    // Two tests may come here at once, as above; what was built is installed again in seconds.
+    let lock = fs::File::create(root().join("target/python-package.lock")).expect("target is writable");
+    lock.lock().expect("the lock of the Python package");
+    let mut install = Command::new(&python);
+    install
+        .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--force-reinstall"])
+        .arg("--config-settings=build-args=--features as-tested")
+        .arg(root());
+    run(&mut install, "the package must be built: is the package index reachable for maturin?");
+    python
+}
+
 fn environment(name: &str, requirements: &str, options: &[&str]) -> PathBuf {
     let file = root().join(requirements);
     let text = fs::read_to_string(&file).unwrap_or_else(|error| panic!("{requirements}: {error}"));

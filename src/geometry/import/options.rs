@@ -1,5 +1,7 @@
 //! What a user says of a drawing beside its name: unit, window, layers, how masks and lists are read. All keys are optional.
 
+use serde::Deserialize;
+
 use crate::geometry::import::drawing::{Drawing, Unit};
 use crate::geometry::import::format::Format;
 use crate::geometry::import::units;
@@ -23,7 +25,8 @@ pub(crate) const PIXEL_SIZE: Key = SCALE;
 pub(crate) const SMOOTH_BELOW: Key = Key::within("an angle in degrees", 0.0, 90.0).help("0: none");
 
 /// Keys of `[geometry]` beside `file`, and options of the command line.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct Options {
     /// Name of the drawing unit, as in `mm`.
     pub unit: Option<String>,

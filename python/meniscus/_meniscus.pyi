@@ -1,0 +1,19 @@
+"""The native part."""
+
+from collections.abc import Callable
+from typing import Any
+
+__version__: str
+
+def run(
+    given: dict[str, str],
+    out: tuple[str, bool] | None,
+    threads: int | None,
+    progress: Callable[[float, str], object] | None,
+    keep_frames: bool,
+) -> dict[str, Any]: ...
+def check(given: dict[str, str], threads: int | None, progress: Callable[[float, str], object] | None) -> str: ...
+def study_plan(path: str, out: str | None) -> str: ...
+def study_run(path: str, out: str | None, run: tuple[int, str], threads: int | None, token: str) -> tuple[str, str]: ...
+def study_report(path: str, out: str | None) -> str: ...
+def stop(token: str) -> None: ...

@@ -1,0 +1,160 @@
+"""Parameter studies, their runs done by any executor."""
+
+from __future__ import annotations
+
+import json
+import os
+import uuid
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor, Future, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _meniscus
+from ._given import listener
+from .results import Measure, measure
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One run of a study."""
+
+    index: int
+    """Number, from 1."""
+    name: str
+    """Name, that of its folder."""
+    folder: Path
+    """The folder of its files."""
+    status: str
+    """``done``, ``partial``, ``failed`` or ``to do``."""
+    error: str
+    """Why it failed, else empty."""
+    parameters: dict[str, Any]
+    """What varies, by name."""
+    measures: dict[str, Measure]
+    """Measures by name, where it is done."""
+
+
+class Study(Sequence[Sample]):
+    """A study with its runs, in the order of their numbers."""
+
+    def __init__(self, title: str, folder: Path, samples: list[Sample]) -> None:
+        """Takes title, folder and runs."""
+        self.title, self.folder, self._samples = title, folder, samples
+
+    def __getitem__(self, place: Any) -> Any:
+        """A run, or several by a slice."""
+        return self._samples[place]
+
+    def __len__(self) -> int:
+        """The number of runs."""
+        return len(self._samples)
+
+    def __iter__(self) -> Iterator[Sample]:
+        """The runs."""
+        return iter(self._samples)
+
+    def __repr__(self) -> str:
+        """Title and standing."""
+        done = sum(sample.status == "done" for sample in self)
+        return f"<Study: {self.title}; {done} of {len(self)} runs done>"
+
+    def column(self, name: str) -> np.ndarray:
+        """A parameter or a measure of all runs, of shape (runs,); NaN where a measure is not there."""
+        if all(name in sample.parameters for sample in self):
+            return np.array([sample.parameters[name] for sample in self])
+        found = [sample.measures.get(name) for sample in self]
+        if not any(found):
+            raise KeyError(name)
+        return np.array([np.nan if one is None or one.value is None else one.value for one in found])
+
+    def table(self) -> dict[str, np.ndarray]:
+        """All parameters and measures by name, as ``pandas.DataFrame`` takes them."""
+        names = dict.fromkeys(name for sample in self for name in (*sample.parameters, *sample.measures))
+        return {"run": np.array([sample.name for sample in self]), **{name: self.column(name) for name in names}}
+
+
+def do_run(path: str, out: str, index: int, digest: str, threads: int | None, token: str) -> tuple[str, str]:
+    """One run of a study, which leaves its files in the folder of the study. All arguments are plain, so that any process can do it."""
+    return _meniscus.study_run(path, out, (index, digest), threads, token)
+
+
+def study(
+    path: str | os.PathLike[str],
+    executor: Executor | None = None,
+    *,
+    out: str | os.PathLike[str] | None = None,
+    threads: int | None = None,
+    progress: Any = None,
+) -> Study:
+    """Does all runs of a study that are not complete, and writes its report, as ``meniscus study run`` does.
+
+    Each run is one call of a function of this package with plain arguments, and leaves its files in the folder of the study, as ``report.html`` and
+    ``table.csv`` at the end: processes on other machines must see the study file and this folder under the same paths. After an interruption the same call
+    goes on; runs that are complete are not done again.
+
+    Args:
+        path: the study file.
+        executor: where the runs are done: any executor of the form of ``concurrent.futures``, such as ``ProcessPoolExecutor``, ``MPIPoolExecutor`` of
+            mpi4py, or ``client.get_executor()`` of Dask. Where there is none, they are done in this process, one after the other.
+        out: folder of the study, new or of this study; ``out/study-NAME`` where there is none.
+        threads: threads of each run; with an executor 1 where there is none, else all cores.
+        progress: as in `run`; it is told when a run has ended.
+
+    Returns:
+        The runs with their parameters and measures. One that failed keeps the others from nothing: see its ``status`` and ``error``.
+
+    Raises:
+        CaseError: the study or the case of a run is wrong; then nothing was run.
+        FolderError: the folder cannot be used.
+        KeyboardInterrupt: Ctrl-C; the runs that were going on in this process have saved their state.
+
+    """
+    file = str(Path(path).absolute())
+    plan = json.loads(_meniscus.study_plan(file, None if out is None else os.fspath(out)))
+    folder, tell = str(Path(plan["folder"]).absolute()), listener(progress)
+    threads = 1 if threads is None and executor is not None else threads
+    token = uuid.uuid4().hex
+    calls = [(file, folder, run["index"], run["digest"], threads, token) for run in plan["runs"]]
+    endings: dict[int, tuple[str, str]] = {}
+    for number, (index, ending) in enumerate(_endings(executor, calls, token), 1):
+        endings[index] = ending
+        if tell is not None:
+            tell(number / len(calls), f"run {index} of {len(calls)}: {ending[0]}")
+    if any(status == "interrupted" for status, _ in endings.values()):
+        raise KeyboardInterrupt
+    samples = [_sample(row, endings) for row in json.loads(_meniscus.study_report(file, folder))]
+    return Study(plan["title"], Path(folder), samples)
+
+
+def _endings(executor: Executor | None, calls: list[Any], token: str) -> Iterator[tuple[int, tuple[str, str]]]:
+    """The number of each run and how it ended, as they end."""
+    if executor is None:
+        yield from ((call[2], do_run(*call)) for call in calls)
+        return
+    futures: dict[Future[tuple[str, str]], int] = {executor.submit(do_run, *call): call[2] for call in calls}
+    try:
+        for future in as_completed(futures):
+            yield futures[future], future.result()
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        _meniscus.stop(token)
+        raise
+
+
+def _sample(row: dict[str, Any], endings: dict[int, tuple[str, str]]) -> Sample:
+    status, error = endings.get(row["index"], ("", ""))
+    failed = status == "failed"
+    return Sample(
+        index=row["index"],
+        name=row["name"],
+        folder=Path(row["folder"]),
+        status="failed" if failed else row["status"],
+        error=error,
+        parameters=row["parameters"],
+        measures={name: measure(one) for name, one in (row["measures"] or {}).items()},
+    )

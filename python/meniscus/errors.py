@@ -1,0 +1,69 @@
+"""What the functions of this package raise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .results import Result
+
+
+class MeniscusError(Exception):
+    """The common base of all errors of this package."""
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One mistake in a case, a drawing or a parameter."""
+
+    message: str
+    """What was expected and what was found."""
+    help: str = ""
+    """A way out; empty where the message says it all."""
+    file: str | None = None
+    """The file; None for a dict or a parameter."""
+    line: int | None = None
+    """Line in the file, from 1."""
+    column: int | None = None
+    """Column in the file, from 1."""
+    key: str | None = None
+    """Key path in a dict, or the parameter, such as ``sph.spacing``; None for a file."""
+
+
+class CaseError(MeniscusError, ValueError):
+    """A case, a drawing, a study or a parameter is wrong; ``str`` of it tells all mistakes with their places and ways out.
+
+    ``mistakes`` has all of them; ``file``, ``line``, ``column``, ``key``, ``message`` and ``help`` are those of the first.
+    """
+
+    def __init__(self, text: str, mistakes: Sequence[Mapping[str, Any] | Mistake] = ()) -> None:
+        """Takes the whole text and the mistakes."""
+        # All arguments stand in `args`, so that the error passes from process to process.
+        super().__init__(text, list(mistakes))
+        self.mistakes: tuple[Mistake, ...] = tuple(one if isinstance(one, Mistake) else Mistake(**one) for one in mistakes) or (Mistake(text),)
+        first = self.mistakes[0]
+        self.file, self.line, self.column = first.file, first.line, first.column
+        self.key, self.message, self.help = first.key, first.message, first.help
+
+    def __str__(self) -> str:
+        """All mistakes, each with its place, and below it the way out."""
+        return str(self.args[0])
+
+
+class SolverError(MeniscusError, RuntimeError):
+    """The solver failed. ``result`` is what there was until then, the last good state at its end; None where there was nothing."""
+
+    def __init__(self, text: str, result: Result | None = None) -> None:
+        """Takes the text and the result so far."""
+        super().__init__(text, result)
+        self.result = result
+
+    def __str__(self) -> str:
+        """Why, when and where."""
+        return str(self.args[0])
+
+
+class FolderError(MeniscusError, OSError):
+    """The folder for output is not empty, is in use, holds nothing to resume or cannot be written."""

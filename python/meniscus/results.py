@@ -1,0 +1,287 @@
+"""What a run leaves: numbers, series, fields, tables and diagrams, as arrays of numpy."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[Any]
+
+
+def _arrays(data: Any) -> Any:
+    """Arrays from what the native part hands over."""
+    if isinstance(data, tuple):
+        kind, columns, values = data
+        array = np.frombuffer(values, dtype=kind)
+        return array if columns == 1 else array.reshape(-1, columns)
+    if isinstance(data, dict):
+        return {name: _arrays(inner) for name, inner in data.items()}
+    return data
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A final result with its error bar."""
+
+    value: float | None
+    """Value in ``unit``; None where it could not be measured, ``method`` says why."""
+    unit: str
+    """Unit, empty for pure numbers."""
+    uncertainty: float | None
+    """One standard uncertainty in ``unit``; None where none is known."""
+    method: str
+    """How it was measured, in one sentence."""
+    rate: float | None = None
+    """How it still moves, in ``unit`` per s, where that is by more than its uncertainty."""
+
+
+class Fields(Mapping[str, Array]):
+    """Points of the plane, cells between them, and fields by name, each with one value, or one row of two components, per point or cell.
+
+    Names and units are those of the VTK files, in which points and vectors have a third component of zero.
+    """
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        """Takes what the native part hands over."""
+        self._fields: dict[str, Array] = _arrays(data["fields"])
+        self.units: dict[str, str] = dict(data["units"])
+        """Unit of each field, empty for pure numbers."""
+        self.kind: str = data.get("kind", "lines" if "ends" in data else "grid" if "counts" in data else "points")
+        """``points``, ``lines``, ``polygons`` or ``grid``."""
+        self.counts: tuple[int, int] | None = None
+        """Number of nodes along x and y of a grid; fields run along x first: ``field.reshape(counts[1], counts[0])``."""
+        if "counts" in data:
+            columns, rows = (int(count) for count in _arrays(data["counts"]))
+            self.counts = (columns, rows)
+            self._origin, self._spacing = _arrays(data["origin"]), _arrays(data["spacing"])
+        else:
+            self._points = _arrays(data["points"])
+        self._vertices, self._ends = _arrays(data.get("vertices")), _arrays(data.get("ends"))
+
+    def __getitem__(self, name: str) -> Array:
+        """The values of a field: shape (n,) or (n, 2)."""
+        return self._fields[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """The names of the fields."""
+        return iter(self._fields)
+
+    def __len__(self) -> int:
+        """The number of fields."""
+        return len(self._fields)
+
+    def __repr__(self) -> str:
+        """What there is."""
+        return f"<Fields: {len(self.points)} points, {', '.join(self._fields) or 'no fields'}>"
+
+    @property
+    def points(self) -> Array:
+        """Positions in m, of shape (n, 2); of a grid those of its nodes, along x first."""
+        if self.counts is None:
+            return self._points
+        columns, rows = self.counts
+        x = self._origin[0] + np.arange(columns) * self._spacing[0]
+        y = self._origin[1] + np.arange(rows) * self._spacing[1]
+        return np.stack(np.broadcast_arrays(x[None, :], y[:, None]), axis=-1).reshape(-1, 2)
+
+    @cached_property
+    def cells(self) -> list[Array]:
+        """Each line or polygon as indices into `points`; a line that repeats its first index at its end is closed. Empty for points and grids."""
+        return [] if self._ends is None else np.split(self._vertices, self._ends[:-1]) if len(self._ends) else []
+
+    def to_pyvista(self) -> Any:
+        """The same as a data set of pyvista, which must be installed: ``pip install meniscus[pyvista]``."""
+        from ._plot import to_pyvista
+
+        return to_pyvista(self)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The state at one time."""
+
+    time: float
+    """Time in s; of a quasi-static displacement the displaced pore volumes."""
+    particles: Fields | None
+    """Particles of a direct simulation, or particles or nodes of a thin film."""
+    grid: Fields | None
+    """The same fields on a regular grid, for direct simulations."""
+    interface: Fields | None
+    """The interface; of a thin film its profile: x and height in m; of a network the menisci."""
+    layers: dict[str, Fields] = field(default_factory=dict)
+    """Parts of a network: ``regions``, and at the end ``pores`` and ``throats``."""
+
+    @classmethod
+    def _of(cls, data: Mapping[str, Any]) -> Frame:
+        parts = {name: Fields(data[name]) if data[name] else None for name in ("particles", "grid", "interface")}
+        return cls(data["time"], **parts, layers={name: Fields(one) for name, one in data["layers"].items()})
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A line or dots of a diagram."""
+
+    name: str
+    """Its name in the legend; empty for none."""
+    stroke: str
+    """``full``, ``thin``, ``dashed`` or ``dots``."""
+    points: Array
+    """x and y, of shape (n, 2)."""
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """A diagram of the run, such as the capillary pressure over the saturation."""
+
+    title: str
+    """What it shows."""
+    labels: tuple[str, str]
+    """What stands along x and y, with units."""
+    logarithmic: tuple[bool, bool]
+    """Whether the axes are logarithmic."""
+    traces: list[Trace]
+    """The lines."""
+
+    @classmethod
+    def _of(cls, data: Mapping[str, Any]) -> Diagram:
+        traces = [Trace(one["name"], one["stroke"], _arrays(one["points"])) for one in data["traces"]]
+        x, y = (bool(flag) for flag in _arrays(data["logarithmic"]))
+        return cls(data["title"], tuple(data["labels"]), (x, y), traces)
+
+
+class Result:
+    """What a run left."""
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        """Takes what the native part hands over."""
+        self._data = data
+        end = data["end"]
+        self.series: dict[str, Array] = _arrays(data["series"])
+        """Columns of ``series.csv`` by name, each of shape (records,); NaN where there is no value."""
+        self.notes: list[str] = data["notes"]
+        """What to know of how the case and its drawing were read."""
+        self.folder: Path | None = None if data["folder"] is None else Path(data["folder"])
+        """The folder of the files; None where nothing was written."""
+        self.clock: tuple[str, str] = (end["clock"]["name"], end["clock"]["unit"])
+        """What the run went along, and its unit: ``("time", "s")`` for most."""
+        self.documents: dict[str, str] = dict(end["documents"])
+        """Texts by the name of their file, such as ``at-end.json``."""
+
+    @cached_property
+    def report(self) -> dict[str, Any]:
+        """The content of ``report.json``."""
+        return json.loads(self._data["report"])
+
+    @property
+    def status(self) -> str:
+        """``done`` or ``expectation-failed``; of the result of a `SolverError` ``failed``."""
+        return self.report["status"]
+
+    @cached_property
+    def measures(self) -> dict[str, Measure]:
+        """The final measures by name."""
+        return {name: measure(one) for name, one in self.report["measures"].items()}
+
+    @property
+    def warnings(self) -> list[str]:
+        """What to know before trusting the measures."""
+        return self.report["warnings"]
+
+    @cached_property
+    def frame(self) -> Frame:
+        """The state at the end."""
+        return Frame._of(self._data["end"]["frame"])
+
+    @cached_property
+    def frames(self) -> list[Frame]:
+        """The state at each time of ``[output.vtk]``, with ``keep_frames=True``; else that at the end alone."""
+        kept = [Frame._of(one) for one in self._data["frames"]]
+        return kept or [self.frame]
+
+    @property
+    def particles(self) -> Fields | None:
+        """Particles of a direct simulation, or particles or nodes of a thin film, at the end."""
+        return self.frame.particles
+
+    @property
+    def grid(self) -> Fields | None:
+        """Fields of a direct simulation on a regular grid, at the end."""
+        return self.frame.grid
+
+    @property
+    def interface(self) -> Fields | None:
+        """Interface of a direct simulation, profile of a thin film (x and height in m) or menisci of a network, at the end."""
+        return self.frame.interface
+
+    @cached_property
+    def solid(self) -> Fields:
+        """Outline of the solids."""
+        return Fields(self._data["end"]["solid"])
+
+    @cached_property
+    def tables(self) -> dict[str, dict[str, Array]]:
+        """Tables of a network by the name of their file, such as ``pores`` for ``pores.csv``.
+
+        Each has its columns by name: numbers, NaN where there is none; whole numbers, -1 where the file has an empty field; yes or no; words.
+        """
+        found = _arrays(self._data["end"]["tables"])
+        return {name: {head: np.asarray(column) for head, column in one.items()} for name, one in found.items()}
+
+    @property
+    def pores(self) -> dict[str, Array]:
+        """Columns of ``pores.csv``, each of shape (pores,)."""
+        return self.tables["pores"]
+
+    @property
+    def throats(self) -> dict[str, Array]:
+        """Columns of ``throats.csv``, each of shape (throats,)."""
+        return self.tables["throats"]
+
+    @property
+    def events(self) -> dict[str, Array]:
+        """Columns of ``events.csv``, each of shape (events,): the capillary pressure curve, event by event."""
+        return self.tables["events"]
+
+    @cached_property
+    def diagrams(self) -> dict[str, Diagram]:
+        """Diagrams by name, such as ``capillary-pressure``."""
+        return {name: Diagram._of(one) for name, one in self._data["end"]["diagrams"].items()}
+
+    def __repr__(self) -> str:
+        """Status and measures."""
+        numbers = ", ".join(f"{name} = {one.value} {one.unit}".rstrip() for name, one in self.measures.items())
+        return f"<Result: {self.status}; {numbers}>"
+
+    def plot(self, kind: str | None = None, *, field: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draws the result by matplotlib, which must be installed: ``pip install meniscus[plot]``.
+
+        Args:
+            kind: ``picture``, or the name of one of `diagrams`, such as ``capillary-pressure``. Where there is none, the curve of a network in which
+                something was displaced, else the picture.
+            field: the field that colors particles or regions in a picture; their phase where there is none.
+            ax: axes to draw on; new ones where there are none.
+
+        Returns:
+            The axes.
+
+        """
+        from ._plot import plot
+
+        return plot(self, kind, field, ax)
+
+
+def measure(reading: Mapping[str, Any]) -> Measure:
+    """A measure as the report has it."""
+    motion = reading.get("not-at-rest")
+    rate = None if motion is None else motion["rate"]
+    return Measure(reading["value"], reading["unit"], reading["uncertainty"], reading["method"], rate)

@@ -1,0 +1,183 @@
+//! A call from Python: the work goes on in threads of its own, without the interpreter's lock, while the thread that called looks after signals and progress.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::time::Duration;
+
+use meniscus::run::simulation::{Progress, Watcher};
+use meniscus::{Snapshot, Solver};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::ThreadPoolBuilder;
+
+use crate::data::Data;
+use crate::fields;
+
+/// Time between two looks at signals.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
+/// Looks between two calls of the progress function.
+const LOOKS_PER_REPORT: u32 = 5;
+
+/// Where the work stands: a share of it, and a text.
+type Standing = Mutex<Option<(f64, String)>>;
+
+/// Runs that are going on in this process, by the name that they were given.
+static GOING_ON: Mutex<Vec<(String, Arc<AtomicBool>)>> = Mutex::new(Vec::new());
+
+/// How a call is made.
+pub(crate) struct Call {
+    /// Number of threads; all cores where there is none.
+    pub(crate) threads: Option<usize>,
+    /// A function of a share from 0 to 1 and a text.
+    pub(crate) progress: Option<Py<PyAny>>,
+    /// A name by which [`stop`] finds it.
+    pub(crate) token: Option<String>,
+}
+
+/// What the work sees of its call.
+pub(crate) struct Work<'a> {
+    /// Set where the work is to stop.
+    pub(crate) interrupt: &'a AtomicBool,
+    standing: &'a Standing,
+}
+
+impl Work<'_> {
+    /// Tells where the work stands.
+    pub(crate) fn tell(&self, share: f64, text: impl FnOnce() -> String) {
+        let mut standing = self.standing.lock().unwrap_or_else(PoisonError::into_inner);
+        // A text that nobody asked for is not made.
+        if standing.is_none() {
+            *standing = Some((share, text()));
+        }
+    }
+
+    /// Whether the work is to stop.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
+    }
+}
+
+/// Asks the calls of a name to stop.
+pub(crate) fn stop(token: &str) {
+    let going_on = GOING_ON.lock().unwrap_or_else(PoisonError::into_inner);
+    going_on.iter().filter(|(name, _)| name == token).for_each(|(_, flag)| flag.store(true, Ordering::Relaxed));
+}
+
+/// The right to be found by [`stop`].
+struct Registered(Arc<AtomicBool>);
+
+impl Registered {
+    fn new(token: Option<String>) -> Self {
+        let flag = Arc::new(AtomicBool::new(false));
+        if let Some(token) = token {
+            GOING_ON.lock().unwrap_or_else(PoisonError::into_inner).push((token, Arc::clone(&flag)));
+        }
+        Self(flag)
+    }
+}
+
+impl Drop for Registered {
+    fn drop(&mut self) {
+        let mut going_on = GOING_ON.lock().unwrap_or_else(PoisonError::into_inner);
+        going_on.retain(|(_, flag)| !Arc::ptr_eq(flag, &self.0));
+    }
+}
+
+/// Cores of this machine that this process may use.
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Does the work in a pool of threads that ends with it: none is left that a process which is copied from this one would miss.
+///
+/// # Errors
+/// What a signal or the progress function raises, when the work has stopped.
+pub(crate) fn call<T: Send>(py: Python<'_>, call: Call, work: impl FnOnce(&Work<'_>) -> T + Send) -> PyResult<T> {
+    let Call { threads, progress, token } = call;
+    let asked = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok().filter(|threads| *threads > 0);
+    let threads = threads.or_else(asked).map_or_else(cores, |threads: usize| threads.min(cores()));
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| PyRuntimeError::new_err(format!("cannot start {threads} threads: {error}")))?;
+    let (standing, registered) = (Standing::default(), Registered::new(token));
+    let (done, is_done) = mpsc::channel();
+    let work_of = Work { interrupt: &registered.0, standing: &standing };
+    let (found, raised) = py.detach(|| {
+        let is_done = is_done;
+        pool.in_place_scope(|scope| {
+            let work_of = &work_of;
+            scope.spawn(move |_| {
+                // The receiver lives as long as this scope.
+                let _ = done.send(work(work_of));
+            });
+            let (mut raised, mut looks) = (None, 0);
+            loop {
+                match is_done.recv_timeout(BETWEEN_LOOKS) {
+                    Ok(found) => return (Some(found), raised),
+                    // It panicked: the scope passes that on.
+                    Err(mpsc::RecvTimeoutError::Disconnected) => return (None, raised),
+                    Err(mpsc::RecvTimeoutError::Timeout) => {}
+                }
+                looks += 1;
+                let is_due = looks % LOOKS_PER_REPORT == 0;
+                if raised.is_none()
+                    && let Err(error) = Python::attach(|py| look(py, progress.as_ref().filter(|_| is_due), &standing))
+                {
+                    registered.0.store(true, Ordering::Relaxed);
+                    raised = Some(error);
+                }
+            }
+        })
+    });
+    if let Some(error) = raised {
+        return Err(error);
+    }
+    if let Some(progress) = progress {
+        progress.call1(py, (1.0, "done"))?;
+    }
+    found.ok_or_else(|| PyRuntimeError::new_err("the work ended without a result"))
+}
+
+/// Lets Python handle signals, and tells where the work stands.
+fn look(py: Python<'_>, progress: Option<&Py<PyAny>>, standing: &Standing) -> PyResult<()> {
+    py.check_signals()?;
+    if let Some(progress) = progress {
+        let told = standing.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some((share, text)) = told {
+            progress.call1(py, (share, text))?;
+        }
+    }
+    Ok(())
+}
+
+/// Watches a run for a call, and keeps its frames where they are asked for.
+pub(crate) struct Observer<'a> {
+    work: &'a Work<'a>,
+    frames: Option<Vec<Data>>,
+}
+
+impl<'a> Observer<'a> {
+    /// One that keeps the frames or does not.
+    pub(crate) fn new(work: &'a Work<'a>, keeps_frames: bool) -> Self {
+        Self { work, frames: keeps_frames.then(Vec::new) }
+    }
+
+    /// The frames so far.
+    pub(crate) fn into_frames(self) -> Vec<Data> {
+        self.frames.unwrap_or_default()
+    }
+}
+
+impl Watcher for Observer<'_> {
+    fn stepped(&mut self, progress: &Progress) {
+        let Progress { clock, time, end, step, .. } = *progress;
+        let text = || format!("{} = {time:.3e} of {end:.3e} {}, step {step}", clock.symbol, clock.unit);
+        self.work.tell((time / end).clamp(0.0, 1.0), text);
+    }
+
+    fn framed(&mut self, solver: &dyn Solver) {
+        if let Some(frames) = &mut self.frames {
+            let snapshot: Snapshot<'_> = solver.snapshot();
+            frames.push(fields::frame(solver.time(), &snapshot, &solver.layers()));
+        }
+    }
+}

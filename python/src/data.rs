@@ -1,0 +1,81 @@
+//! Numbers and texts on their way to Python: made without the interpreter's lock, handed over as bytes that numpy takes as they are.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyByteArray, PyDict, PyList, PyString};
+
+/// What is handed over.
+pub(crate) enum Data {
+    /// Numbers in rows of so many.
+    Floats(Vec<f64>, usize),
+    /// Whole numbers in rows of so many.
+    Integers(Vec<i64>, usize),
+    /// Yes or no.
+    Flags(Vec<bool>),
+    /// Words, one per row.
+    Words(Vec<&'static str>),
+    /// A text.
+    Text(String),
+    /// A number.
+    Number(f64),
+    /// By name.
+    Group(Vec<(String, Data)>),
+    /// In a row.
+    List(Vec<Data>),
+    /// Nothing.
+    Absent,
+}
+
+impl Data {
+    /// A group.
+    pub(crate) fn group<const N: usize>(entries: [(&str, Self); N]) -> Self {
+        Self::Group(entries.into_iter().map(|(name, data)| (name.to_owned(), data)).collect())
+    }
+
+    /// A text.
+    pub(crate) fn text(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+
+    /// As Python has it: an array is a tuple of its type, the length of its rows and its bytes.
+    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        Ok(match self {
+            Self::Floats(values, columns) => array(py, "f8", columns, &values, |value| value.to_ne_bytes())?,
+            Self::Integers(values, columns) => array(py, "i8", columns, &values, |value| value.to_ne_bytes())?,
+            Self::Flags(values) => array(py, "?", 1, &values, |value| [u8::from(value)])?,
+            Self::Words(values) => PyList::new(py, values)?.into_any(),
+            Self::Text(text) => PyString::new(py, &text).into_any(),
+            Self::Number(value) => value.into_pyobject(py)?.into_any(),
+            Self::Group(entries) => {
+                let group = PyDict::new(py);
+                for (name, data) in entries {
+                    group.set_item(name, data.into_python(py)?)?;
+                }
+                group.into_any()
+            }
+            Self::List(items) => {
+                let list = PyList::empty(py);
+                for item in items {
+                    list.append(item.into_python(py)?)?;
+                }
+                list.into_any()
+            }
+            Self::Absent => py.None().into_bound(py),
+        })
+    }
+}
+
+fn array<'py, T: Copy, const N: usize>(
+    py: Python<'py>,
+    kind: &str,
+    columns: usize,
+    values: &[T],
+    bytes_of: impl Fn(T) -> [u8; N],
+) -> PyResult<Bound<'py, PyAny>> {
+    let bytes = PyByteArray::new_with(py, values.len() * N, |bytes| {
+        for (place, value) in bytes.chunks_exact_mut(N).zip(values) {
+            place.copy_from_slice(&bytes_of(*value));
+        }
+        Ok(())
+    })?;
+    Ok((kind, columns, bytes).into_pyobject(py)?.into_any())
+}

@@ -1,0 +1,153 @@
+//! What a solver shows, as data for Python, in the words and with the bits of the files that a run writes.
+
+use meniscus::diagram::{Diagram, Stroke};
+use meniscus::snapshot::{CellKind, Cloud, Field, Grid, Layer, Lines};
+use meniscus::table::{Cells, Table};
+use meniscus::{Series, Snapshot, Solver, Values, Vec2};
+
+use crate::data::Data;
+
+/// The state at one time: what VTK files of that time hold.
+pub(crate) fn frame(time: f64, snapshot: &Snapshot<'_>, layers: &[Layer<'_>]) -> Data {
+    Data::group([
+        ("time", Data::Number(time)),
+        ("particles", cloud(&snapshot.particles)),
+        ("grid", snapshot.grid.as_ref().map_or(Data::Absent, grid)),
+        ("interface", snapshot.interface.as_ref().map_or(Data::Absent, lines)),
+        ("layers", Data::Group(layers.iter().map(|it| (it.name.to_owned(), layer(it))).collect())),
+    ])
+}
+
+/// All that a solver shows at its end.
+pub(crate) fn all(solver: &dyn Solver) -> Data {
+    let mut results = solver.results();
+    let mut layers = solver.layers();
+    layers.append(&mut results.layers);
+    let clock = solver.clock();
+    Data::group([
+        ("frame", frame(solver.time(), &solver.snapshot(), &layers)),
+        ("clock", Data::group([("name", Data::text(clock.name)), ("unit", Data::text(clock.unit))])),
+        ("solid", lines(&solver.outline())),
+        ("tables", Data::Group(results.tables.iter().map(|it| (it.name.to_owned(), table(it))).collect())),
+        (
+            "documents",
+            Data::Group(results.documents.into_iter().map(|it| (it.name.to_owned(), Data::Text(it.text))).collect()),
+        ),
+        ("diagrams", Data::Group(solver.diagrams().iter().map(|it| (it.name.to_owned(), diagram(it))).collect())),
+    ])
+}
+
+/// The rows of the series, column by column.
+pub(crate) fn series(series: &Series) -> Data {
+    let column = |place: usize| series.rows.iter().map(|row| row[place]).collect();
+    let columns = series.columns.iter().enumerate();
+    Data::Group(columns.map(|(place, name)| (name.clone(), Data::Floats(column(place), 1))).collect())
+}
+
+fn points(points: &[Vec2]) -> Data {
+    Data::Floats(points.iter().flat_map(|x| [x.x, x.y]).collect(), 2)
+}
+
+fn cells<'c>(cells: impl Iterator<Item = &'c Vec<u32>>) -> [(&'static str, Data); 2] {
+    let (mut vertices, mut ends) = (Vec::new(), Vec::new());
+    for cell in cells {
+        vertices.extend(cell.iter().map(|&vertex| i64::from(vertex)));
+        ends.push(vertices.len() as i64);
+    }
+    [("vertices", Data::Integers(vertices, 1)), ("ends", Data::Integers(ends, 1))]
+}
+
+fn fields(fields: &[Field<'_>]) -> [(&'static str, Data); 2] {
+    let values = |field: &Field<'_>| match &field.values {
+        Values::Scalar(values) => Data::Floats(values.to_vec(), 1),
+        Values::Vector(values) => points(values),
+        Values::Integer(values) => Data::Integers(values.to_vec(), 1),
+    };
+    let named = |of: &dyn Fn(&Field<'_>) -> Data| {
+        Data::Group(fields.iter().map(|field| (field.name.to_owned(), of(field))).collect())
+    };
+    [("fields", named(&values)), ("units", named(&|field| Data::text(field.unit)))]
+}
+
+fn cloud(cloud: &Cloud<'_>) -> Data {
+    if cloud.points.is_empty() && cloud.fields.is_empty() {
+        return Data::Absent;
+    }
+    let [values, units] = fields(&cloud.fields);
+    Data::group([("points", points(&cloud.points)), values, units])
+}
+
+fn grid(grid: &Grid<'_>) -> Data {
+    let [values, units] = fields(&grid.fields);
+    Data::group([
+        ("origin", Data::Floats(vec![grid.origin.x, grid.origin.y], 1)),
+        ("spacing", Data::Floats(vec![grid.spacing.x, grid.spacing.y], 1)),
+        ("counts", Data::Integers(grid.counts.map(|count| count as i64).to_vec(), 1)),
+        values,
+        units,
+    ])
+}
+
+fn lines(lines: &Lines<'_>) -> Data {
+    let [values, units] = fields(&lines.fields);
+    let [vertices, ends] = cells(lines.lines.iter());
+    Data::group([("points", points(&lines.points)), vertices, ends, values, units])
+}
+
+fn layer(layer: &Layer<'_>) -> Data {
+    let [values, units] = fields(&layer.fields);
+    let [vertices, ends] = cells(layer.cells.iter());
+    let kind = match layer.kind {
+        CellKind::Points => "points",
+        CellKind::Lines => "lines",
+        CellKind::Polygons => "polygons",
+    };
+    Data::group([("kind", Data::text(kind)), ("points", points(&layer.points)), vertices, ends, values, units])
+}
+
+/// As the file has it: numbers that do not exist are NaN, absent places are -1, and minus zero is zero.
+fn table(table: &Table) -> Data {
+    let number = |value: &f64| if value.is_finite() { value + 0.0 } else { f64::NAN };
+    let column = |cells: &Cells| match cells {
+        Cells::Numbers(values) => Data::Floats(values.iter().map(number).collect(), 1),
+        Cells::Counts(values) => Data::Integers(values.iter().map(|&value| value as i64).collect(), 1),
+        Cells::Places(values) => {
+            Data::Integers(values.iter().map(|value| value.map_or(-1, |place| place as i64)).collect(), 1)
+        }
+        Cells::Flags(values) => Data::Flags(values.clone()),
+        Cells::Words(values) => Data::Words(values.clone()),
+    };
+    Data::Group(table.columns.iter().map(|it| (it.name.to_owned(), column(&it.cells))).collect())
+}
+
+fn diagram(diagram: &Diagram) -> Data {
+    let stroke = |stroke| match stroke {
+        Stroke::Full => "full",
+        Stroke::Thin => "thin",
+        Stroke::Dashed => "dashed",
+        Stroke::Dots => "dots",
+    };
+    let traces = diagram.traces.iter().map(|trace| {
+        Data::group([
+            ("name", Data::text(&trace.name)),
+            ("stroke", Data::text(stroke(trace.stroke))),
+            ("points", Data::Floats(trace.points.as_flattened().to_vec(), 2)),
+        ])
+    });
+    let map = diagram.map.as_ref().map_or(Data::Absent, |map| {
+        Data::group([
+            ("label", Data::text(map.label)),
+            ("x", Data::Floats(map.x.clone(), 1)),
+            ("y", Data::Floats(map.y.clone(), 1)),
+            ("values", Data::Floats(map.values.clone(), 1)),
+        ])
+    });
+    let logarithmic = vec![diagram.x.logarithmic, diagram.y.logarithmic];
+    Data::group([
+        ("title", Data::text(diagram.title)),
+        ("labels", Data::Words(vec![diagram.x.label, diagram.y.label])),
+        ("logarithmic", Data::Flags(logarithmic)),
+        ("traces", Data::List(traces.collect())),
+        ("map", map),
+    ])
+}

@@ -1,0 +1,170 @@
+//! From what a user gives, a case file, the text of one or a drawing with a few numbers, to a checked case that is held against its geometry.
+
+use std::path::Path;
+
+use super::setup::{self, SetupError};
+use crate::case::{self, Case, Loaded, Model, NetworkOptions};
+use crate::geometry::import::{self, Beyond, Imported, Options};
+use crate::geometry::spec::GeometrySpec;
+use crate::input::{Document, InputError, Overrides, Problem, file};
+
+/// Name of the output folder of the built-in case.
+const DEFAULT_NAME: &str = "four-discs";
+
+/// What is told where pressures are those of a tension that nobody gave.
+const WITHOUT_TENSION: &str = "no tension is given: pressures are those of a tension of 1 N/m; multiply them by yours";
+
+/// A checked case with its name.
+#[derive(Debug)]
+pub struct Source {
+    /// The case.
+    pub case: Case,
+    /// The case file with all that was filled in.
+    pub resolved: String,
+    /// Name of the case: that of its file without the ending.
+    pub name: String,
+    /// What the user should know of how it was read.
+    pub notes: Vec<String>,
+    /// The text of the case file; none where there is none.
+    pub document: Option<Document>,
+}
+
+/// What is wrong with what a user gave.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// Mistakes with their places in files.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// Mistakes in [`NetworkOptions`] and [`Options`], by the keys of a case file that these stand for.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    Options(Vec<Problem>),
+    /// A case without a file that no solver can be made for.
+    #[error("{0}")]
+    Setup(String),
+}
+
+impl Source {
+    /// Why no solver can be made for the case, with the places in its file.
+    pub fn refused(&self, error: &SetupError) -> Refusal {
+        let placed = self.document.as_ref().and_then(|document| document.refuse(error.problems()).err());
+        placed.map_or_else(|| Refusal::Setup(error.to_string()), Refusal::Input)
+    }
+
+    /// Problems of the case that were found later, each with its place in the file.
+    pub(crate) fn refused_for(&self, problems: Vec<Problem>) -> Refusal {
+        let told = problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+        let placed = self.document.as_ref().and_then(|document| document.refuse(problems).err());
+        placed.map_or(Refusal::Setup(told), Refusal::Input)
+    }
+
+    /// A case that does not fit, with the place of the key that a user would change.
+    pub(crate) fn refused_at(&self, key: &str, message: &str, help: &str) -> Refusal {
+        self.refused_for(vec![Problem::new(key, message, help)])
+    }
+}
+
+/// Loads a case file, or the built-in case where there is none, and holds it against its geometry.
+///
+/// # Errors
+/// All mistakes with their places.
+pub fn load_case(path: Option<&Path>, overrides: &[String]) -> Result<Source, InputError> {
+    let overrides = Overrides::parse(overrides)?;
+    let loaded = match path {
+        Some(path) => case::load(path, &overrides)?,
+        None => case::load_default(&overrides)?,
+    };
+    let name = path.and_then(Path::file_stem).map_or_else(|| DEFAULT_NAME.into(), |stem| stem.to_string_lossy().into());
+    sound(loaded, name)
+}
+
+/// The same with the text of a case, called `name`. The files that it names are looked for in the working folder.
+///
+/// # Errors
+/// All mistakes with their places.
+pub fn load_case_text(name: &str, text: &str, overrides: &[String]) -> Result<Source, InputError> {
+    sound(case::load_given(name, text, &Overrides::parse(overrides)?)?, name.to_owned())
+}
+
+/// Loads a case file as if the file of the state that it begins with held `state`.
+///
+/// # Errors
+/// All mistakes with their places.
+pub(crate) fn load_started(path: &Path, overrides: &[String], state: &str) -> Result<Source, InputError> {
+    let loaded = case::load_started(path, &Overrides::parse(overrides)?, state)?;
+    sound(loaded, path.file_stem().unwrap_or_default().to_string_lossy().into())
+}
+
+/// The case where it is right on its geometry.
+fn sound(loaded: Loaded, name: String) -> Result<Source, InputError> {
+    loaded.refuse(setup::problems(&loaded.case))?;
+    let Loaded { case, resolved, notes, document, .. } = loaded;
+    Ok(Source { case, resolved, name, notes, document: Some(document) })
+}
+
+/// Whether a file is a case file, and no shape file, by its content.
+pub fn is_case_file(path: &Path) -> bool {
+    // What cannot be read as text is for the readers of shape files to tell.
+    let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    is_toml && file::read_text(path).is_ok_and(|text| case::is_case(&text))
+}
+
+/// The shapes of a drawing; those that reach over a side that is joined to the opposite one are cut there.
+///
+/// # Errors
+/// All mistakes of the file or of the options, or why it cannot be read.
+pub fn load_drawing(path: &Path, options: &Options, periodic: [bool; 2]) -> Result<Imported, InputError> {
+    Ok(within_sides(case::load_shapes(path, options)?, options, periodic))
+}
+
+fn within_sides(mut read: Imported, options: &Options, [x, y]: [bool; 2]) -> Imported {
+    if options.window.is_some() {
+        let beyond = |is_joined| if is_joined { Beyond::Nothing } else { Beyond::Whole };
+        import::cut_at_sides(&mut read.spec, [x, x, y, y].map(beyond));
+    }
+    read
+}
+
+/// The network of a drawing, or of the geometry of a case file, with what is displaced in it. A case of a network keeps its other keys.
+///
+/// # Errors
+/// All mistakes of the file and of the options.
+pub fn load_network(path: &Path, import: &Options, options: &NetworkOptions) -> Result<Source, Refusal> {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    if !is_case_file(path) {
+        let read = load_drawing(path, import, options.periodic)?;
+        return network_of(&name, read, options);
+    }
+    let source = load_case(Some(path), &[])?;
+    if matches!(source.case.model, Model::Network(_)) {
+        return Ok(load_case(Some(path), &options.overrides())?);
+    }
+    let Source { case, notes, .. } = source;
+    network_of(&name, Imported { spec: case.geometry, depth: case.depth, notes }, options)
+}
+
+/// The same of the text of a shape file in TOML, called `name`.
+///
+/// # Errors
+/// All mistakes of the text and of the options.
+pub fn load_network_text(
+    name: &str,
+    text: &str,
+    import: &Options,
+    options: &NetworkOptions,
+) -> Result<Source, Refusal> {
+    let read = case::load_shapes_text(name, text, import)?;
+    network_of(name, within_sides(read, import, options.periodic), options)
+}
+
+/// The case of a network without a case file.
+fn network_of(name: &str, read: Imported, options: &NetworkOptions) -> Result<Source, Refusal> {
+    let Imported { spec, depth: of_file, mut notes } = read;
+    if options.has_interface() && options.tension.is_none() {
+        notes.push(WITHOUT_TENSION.to_owned());
+    }
+    let geometry: GeometrySpec = spec;
+    let title = format!("Network of {name}");
+    let depth = options.depth.or(of_file);
+    let (case, resolved) = case::quick(&title, geometry, depth, &options.table()).map_err(Refusal::Options)?;
+    Ok(Source { case, resolved, name: format!("{name}-network"), notes, document: None })
+}
