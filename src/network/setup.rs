@@ -1,111 +1,23 @@
 //! From a checked case to its network and the displacement in it.
 
 use std::sync::Arc;
-use std::time::Instant;
 
-use super::ExtractError;
 use super::angles::{angles, film_terms, met_by};
 use super::cycles::{Cycles, End, FluidPhase, HalfCycle};
 use super::displacement::{Beginning, Conditions, CornerFilms, Displacement, Element, Events, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{self, Drive, Dynamic, Terms};
-use super::graph::{Network, Pores};
+use super::graph::Network;
+pub(crate) use super::ground::{Ground, geometry};
 use super::model::Setting;
+pub use super::setup_error::SetupError;
 use super::solver::NetworkSolver;
 use super::state;
 use crate::case::network::measured::MeasuredThroat;
 use crate::case::network::state::{ElementState, Start};
 use crate::case::network::{DynamicDrive, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Stop, Trapping};
 use crate::case::{Case, SIDES, Side};
-use crate::geometry::{Geometry, GeometryError};
 use crate::solver::Solver;
-
-/// A network that cannot be set up.
-#[derive(Debug, thiserror::Error)]
-pub enum SetupError {
-    /// The shapes make no sense.
-    #[error(transparent)]
-    Geometry(#[from] GeometryError),
-    /// The pores cannot be told apart.
-    #[error("{0}")]
-    Extract(#[from] ExtractError),
-    /// Entry pressures that were measured in another geometry.
-    #[error(
-        "the measured entry pressures (network.measured) are those of another geometry: its hash is {expected}, that of this one is {found}; measure \
-         them anew with `meniscus network verify`, or leave the key out"
-    )]
-    OtherGeometry {
-        /// Hash of the geometry that they were measured in.
-        expected: String,
-        /// Hash of this one.
-        found: String,
-    },
-    /// The domain is solid.
-    #[error("there is no pore in the domain: the solids fill all of it")]
-    NoPore,
-    /// A state that does not belong to the network.
-    #[error(
-        "the state in {} (network.initial) has {found} elements, and this network has {expected}: {why}; run this case without \
-         network.initial, and take a state that it writes", file.display()
-    )]
-    OtherState {
-        /// Its file.
-        file: std::path::PathBuf,
-        /// Its elements.
-        found: usize,
-        /// Those of the network.
-        expected: usize,
-        /// What is different.
-        why: &'static str,
-    },
-    /// A displacement in time begins with more of the invading phase than its pores at the inlet hold.
-    #[error(
-        "at the beginning the invading phase would hold {asked:.4} of the pore space (network.dynamic.initial-saturation), and the pores that are open at \
-         the inlet are {found:.4} of it; take a share from 0 to that, or leave the key out: these pores are full then"
-    )]
-    InletTooSmall {
-        /// Share that is asked for.
-        asked: f64,
-        /// That of the pores at the inlet.
-        found: f64,
-    },
-    /// An open side is closed by solids.
-    #[error(
-        "no pore opens at the side `{side}`, which is the {role} (network.{role}): solids close all of it; choose another side, or \
-         cut the shapes there with a smaller domain"
-    )]
-    NoOpening {
-        /// The side.
-        side: &'static str,
-        /// `inlet` or `outlet`.
-        role: &'static str,
-    },
-}
-
-impl SetupError {
-    /// The key of the case that a user would change.
-    pub(crate) fn key(&self) -> String {
-        match self {
-            Self::Extract(ExtractError::NotOpen { .. }) => "network".to_owned(),
-            Self::Geometry(_) | Self::Extract(_) | Self::NoPore => "geometry".to_owned(),
-            Self::OtherGeometry { .. } => "network.measured".to_owned(),
-            Self::OtherState { .. } => "network.initial".to_owned(),
-            Self::InletTooSmall { .. } => "network.dynamic.initial-saturation".to_owned(),
-            Self::NoOpening { role, .. } => format!("network.{role}"),
-        }
-    }
-}
-
-/// The solids of a case as its network sees them: periodic sides joined, wall sides closed.
-///
-/// # Errors
-/// [`SetupError::Geometry`] with what is wrong with the shapes.
-pub(crate) fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupError> {
-    let sides = network.sides.each();
-    let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
-    let walls = sides.map(|side| side == Side::Wall);
-    Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
-}
 
 /// The solver of a case with nothing displaced yet.
 pub(crate) fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
@@ -125,31 +37,17 @@ pub(crate) fn build_in_time(case: &Case, wanted: &PoreNetwork) -> Result<Option<
 
 /// The same as a quasi-static displacement; without one where the case asks for a displacement in time.
 pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
-    let clock = Instant::now();
-    let geometry = geometry(case, wanted)?;
-    let sides = wanted.sides.each();
-    let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
-    let network = Network { depth: case.depth, ..super::extract(&geometry, open)? };
-    if network.regions.is_empty() {
-        return Err(SetupError::NoPore);
-    }
-    for (side, kind) in sides.into_iter().enumerate() {
-        let role = match kind {
-            Side::Inlet => "inlet",
-            Side::Outlet => "outlet",
-            _ => continue,
-        };
-        if network.openings.iter().all(|opening| opening.side != side) {
-            return Err(SetupError::NoOpening { side: SIDES[side], role });
-        }
-    }
-    let pores = Pores::merged(&network, wanted.persistence);
-    let extraction = clock.elapsed().as_secs_f64();
+    build_on(&Ground::of(case, wanted)?, wanted, case.depth)
+}
+
+/// The same on a ground that is known, that of a case of the same geometry, sides and persistence ratio, at the depth in m of the case.
+pub(crate) fn build_on(ground: &Ground, wanted: &PoreNetwork, depth: Option<f64>) -> Result<NetworkSolver, SetupError> {
+    let network = ground.with_depth(depth);
     let initial = match wanted.displacement.as_ref().and_then(|displacement| displacement.initial.as_ref()) {
-        Some(start) => Some(Arc::new(beginning(start, wanted, &geometry, (&network, &pores))?)),
+        Some(start) => Some(Arc::new(beginning(start, wanted, ground, &network)?)),
         None => None,
     };
-    let solver = assemble(wanted, &geometry, (network, pores), initial).timed(extraction);
+    let solver = assemble(wanted, ground, network, initial).timed(ground.seconds);
     let found = &solver.setting().geometry_hash;
     match wanted.measured.as_ref().map(|measured| &measured.geometry_hash) {
         Some(expected) if expected != found => {
@@ -169,17 +67,9 @@ fn measured(wanted: &PoreNetwork) -> Vec<MeasuredBurst> {
     wanted.measured.iter().flat_map(|measured| &measured.throats).map(burst).collect()
 }
 
-/// Largest distance of the drawn walls from the walls, over the longer side of the domain: far below what a picture shows.
-const OUTLINE_ERROR: f64 = 1e-5;
-
 /// The phases of a state for the first half cycle.
-fn beginning(
-    start: &Start,
-    wanted: &PoreNetwork,
-    geometry: &Geometry,
-    (network, pores): (&Network, &Pores),
-) -> Result<Beginning, SetupError> {
-    let walls = geometry.shape_count() as usize + SIDES.len();
+fn beginning(start: &Start, wanted: &PoreNetwork, ground: &Ground, network: &Network) -> Result<Beginning, SetupError> {
+    let (walls, pores) = (ground.walls(), &ground.pores);
     let half = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) => {
             half_cycles(displacement, interface, wanted.sides.each(), (walls, network, &measured(wanted)))
@@ -209,14 +99,13 @@ fn beginning(
 }
 
 /// The solver of a network that is known; `initial` are the phases that its displacement begins with.
-pub(crate) fn assemble(
+fn assemble(
     wanted: &PoreNetwork,
-    geometry: &Geometry,
-    (network, pores): (Network, Pores),
+    ground: &Ground,
+    network: Arc<Network>,
     initial: Option<Arc<Beginning>>,
 ) -> NetworkSolver {
-    let (network, pores) = (Arc::new(network), Arc::new(pores));
-    let walls = geometry.shape_count() as usize + SIDES.len();
+    let (walls, pores) = (ground.walls(), Arc::clone(&ground.pores));
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) if displacement.dynamic.is_none() => {
             half_cycles(displacement, interface, wanted.sides.each(), (walls, &network, &measured(wanted)))
@@ -233,32 +122,33 @@ pub(crate) fn assemble(
         measured: measured(wanted),
         films: CornerFilms::Absent,
     });
+    let division = half_cycles.first().and_then(|half| ground.division(half.conditions.events));
     let setting = Setting {
         network: Arc::clone(&network),
         pores: Arc::clone(&pores),
-        bounds: geometry.bounds(),
-        periodic: geometry.periodic(),
+        bounds: ground.geometry.bounds(),
+        periodic: ground.geometry.periodic(),
         inlet: wanted.sides.each().iter().position(|&side| side == Side::Inlet),
         outlet: wanted.sides.each().iter().position(|&side| side == Side::Outlet),
-        outline: geometry.outline_within(OUTLINE_ERROR * geometry.bounds().size().max()),
-        porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / geometry.bounds().area(),
+        outline: Arc::clone(&ground.outline),
+        porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / ground.geometry.bounds().area(),
         tension: wanted.interface.as_ref().map(|interface| interface.tension),
         depth: network.depth.zip(wanted.interface.as_ref()).map(|(depth, interface)| {
             [FluidPhase::NonWetting, FluidPhase::Wetting].map(|invading| met_by(invading, depth, interface))
         }),
         viscosities: [wanted.wetting, wanted.non_wetting].map(|fluid| fluid.map(|fluid| fluid.viscosity)),
         entry,
-        geometry_hash: format!("{:016x}", geometry.hash()),
+        geometry_hash: ground.hash.clone(),
         sides: wanted.sides.each(),
     };
-    NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles, initial))
+    NetworkSolver::new(setting, Cycles::new(network, pores, half_cycles, (initial, division)))
 }
 
 /// A displacement in time with the phase that invades and its end.
-type InTime = (Dynamic, FluidPhase, dynamic::solver::End);
+pub(crate) type InTime = (Dynamic, FluidPhase, dynamic::solver::End);
 
 /// The displacement in time that a case asks for.
-fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Result<Option<InTime>, SetupError> {
+pub(crate) fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Result<Option<InTime>, SetupError> {
     let Some((displacement, interface, driven, viscosities)) = asked_in_time(wanted) else { return Ok(None) };
     let setting = still.setting();
     let invading =

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use super::convergence::Convergence;
 use super::definition::Study;
+use super::page_of_samples::Uncertainty;
 use super::results::{RunResult, Standing, moving};
 use super::table::{Table, shown_measures};
 use super::values::shown;
@@ -31,6 +32,8 @@ pub(crate) struct Content<'a> {
     pub(crate) diagrams: &'a [Vec<String>],
     /// Capillary pressure over saturation of both models as SVG, one per run that was compared with a network and is complete.
     pub(crate) comparisons: &'a [(&'a RunResult, String)],
+    /// What the samples say, where there are any.
+    pub(crate) uncertainty: Option<&'a Uncertainty<'a>>,
 }
 
 /// The page as HTML.
@@ -41,11 +44,12 @@ pub(crate) fn page(content: &Content<'_>) -> String {
         0 => String::new(),
         some => format!(" {some} of them with measures not at rest, marked in the table and hollow in curves."),
     };
-    let mut html = format!(
-        "<h1>{title}</h1>\n<p>{done} of {} runs done.{moving} The same table with all digits: \
-         <a href=\"table.csv\">table.csv</a>.</p>\n",
-        content.results.len()
-    );
+    let all = if content.uncertainty.is_some() {
+        "All samples with all digits: <a href=\"samples.csv\">samples.csv</a>."
+    } else {
+        "The same table with all digits: <a href=\"table.csv\">table.csv</a>."
+    };
+    let mut html = format!("<h1>{title}</h1>\n<p>{done} of {} runs done.{moving} {all}</p>\n", content.results.len());
     push_failures(&mut html, content.results);
     push_judgments(&mut html, content.judgments);
     push_convergences(&mut html, content.convergences);
@@ -53,6 +57,10 @@ pub(crate) fn page(content: &Content<'_>) -> String {
         html += "<h2>Curves</h2>\n<div class=\"curves\">\n";
         html.extend(content.curves.iter().map(String::as_str));
         html += "\n</div>\n";
+    }
+    if let Some(uncertainty) = content.uncertainty {
+        html += &uncertainty.html();
+        return html::page(&content.study.title, &html);
     }
     html += "<h2>Table</h2>\n<div class=\"wide\">\n";
     html += &content.table.html();
