@@ -1,8 +1,9 @@
 //! What samples say: moments, quantiles, and how the variance is shared among independent inputs (Sobol indices).
 
-/// Mean of some values.
+/// Mean of some values; that of equal ones is the same to the last bit.
 pub(crate) fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
+    let Some(&first) = values.first() else { return f64::NAN };
+    first + values.iter().map(|value| value - first).sum::<f64>() / values.len() as f64
 }
 
 /// Standard deviation, with the number of values less one.
@@ -65,6 +66,7 @@ mod tests {
         assert_eq!(quantile(&[f64::NEG_INFINITY, 1.0], 0.5), f64::NEG_INFINITY);
         assert!(quantile(&[], 0.5).is_nan());
         assert_eq!((mean(&[1.0, 3.0]), deviation(&[1.0, 3.0])), (2.0, 2.0_f64.sqrt()));
+        assert_eq!((mean(&[0.1; 7]), deviation(&[0.1; 7])), (0.1, 0.0));
     }
 
     #[test]

@@ -20,6 +20,9 @@ use crate::math::{Bounds, Vec2, perpendicular};
 /// Turn of a corner in rad below which two curves run on smoothly.
 const SMOOTH: f64 = 1e-6;
 
+/// Gaps at corners below this share of the domain are closed by moving both ends: an arc so short would be lost to rounding.
+const SHORTEST: f64 = 1e-8;
+
 /// Lengths below this share of the domain count as none.
 const TOLERANCE: f64 = 1e-9;
 
@@ -48,8 +51,9 @@ impl GeometrySpec {
             );
             return Err(Problem::new(format!("shapes[{first}]"), message, help));
         }
+        let shortest = SHORTEST * (Vec2::from(self.max) - Vec2::from(self.min)).max();
         let move_one = |(index, shape): (usize, &ShapeSpec)| {
-            shape.grown(growth).map_err(|(message, help)| Problem::new(at(index, shape), message, help))
+            shape.grown(growth, shortest).map_err(|(message, help)| Problem::new(at(index, shape), message, help))
         };
         let shapes = self.shapes.iter().enumerate().map(move_one).collect::<Result<_, _>>()?;
         let etched = Self { shapes, ..self.clone() };
@@ -96,8 +100,8 @@ fn at(index: usize, shape: &ShapeSpec) -> String {
 }
 
 impl ShapeSpec {
-    /// The shape with its outline moved outwards by `by` in m, below 0 inwards.
-    fn grown(&self, by: f64) -> Result<Self, Refused> {
+    /// The shape with its outline moved outwards by `by` in m, below 0 inwards, with no arc about a corner shorter than `shortest` in m.
+    fn grown(&self, by: f64, shortest: f64) -> Result<Self, Refused> {
         Ok(match self {
             Self::Disc(disc) => Self::Disc(Disc { radius: left(disc.radius + by, "disc")?, ..disc.clone() }),
             Self::Capsule(capsule) => {
@@ -118,7 +122,7 @@ impl ShapeSpec {
                 gap: left(throat.gap - 2.0 * by, "gap")?,
                 ..throat.clone()
             }),
-            Self::Rectangle(rectangle) => grown_rectangle(rectangle, by)?,
+            Self::Rectangle(rectangle) => grown_rectangle(rectangle, by, shortest)?,
             Self::Polygon(polygon) => {
                 let straight = |ring: &Vec<[f64; 2]>| ring.iter().map(|&[x, y]| [x, y, 0.0]).collect();
                 let Polygon { outer, holes, position, rotation_deg } = polygon;
@@ -128,9 +132,9 @@ impl ShapeSpec {
                     position: *position,
                     rotation_deg: *rotation_deg,
                 };
-                Self::CurvedPolygon(grown_polygon(&polygon, by)?)
+                Self::CurvedPolygon(grown_polygon(&polygon, by, shortest)?)
             }
-            Self::CurvedPolygon(polygon) => Self::CurvedPolygon(grown_polygon(polygon, by)?),
+            Self::CurvedPolygon(polygon) => Self::CurvedPolygon(grown_polygon(polygon, by, shortest)?),
             Self::ThroatCosine(_) => {
                 return Err((
                     "a wall at a constant distance from a cosine is no cosine".to_owned(),
@@ -149,7 +153,7 @@ fn left(size: f64, what: &str) -> Result<f64, Refused> {
     if size > 0.0 { Ok(size) } else { Err((format!("nothing is left of the {what}"), SMALLER)) }
 }
 
-fn grown_rectangle(rectangle: &Rectangle, by: f64) -> Result<ShapeSpec, Refused> {
+fn grown_rectangle(rectangle: &Rectangle, by: f64, shortest: f64) -> Result<ShapeSpec, Refused> {
     let Rectangle { center, size: [width, height], rotation_deg } = rectangle;
     if by < 0.0 {
         let size = [left(width + 2.0 * by, "rectangle")?, left(height + 2.0 * by, "rectangle")?];
@@ -162,11 +166,11 @@ fn grown_rectangle(rectangle: &Rectangle, by: f64) -> Result<ShapeSpec, Refused>
         position: *center,
         rotation_deg: *rotation_deg,
     };
-    Ok(ShapeSpec::CurvedPolygon(grown_polygon(&polygon, by)?))
+    Ok(ShapeSpec::CurvedPolygon(grown_polygon(&polygon, by, shortest)?))
 }
 
-fn grown_polygon(polygon: &CurvedPolygon, by: f64) -> Result<CurvedPolygon, Refused> {
-    let ring = |ring: &Vec<[f64; 3]>| grown_ring(&bulged_ring(ring).collect::<Vec<_>>(), by);
+fn grown_polygon(polygon: &CurvedPolygon, by: f64, shortest: f64) -> Result<CurvedPolygon, Refused> {
+    let ring = |ring: &Vec<[f64; 3]>| grown_ring(&bulged_ring(ring).collect::<Vec<_>>(), by, shortest);
     let holes = polygon.holes.iter().map(ring).collect::<Result<_, _>>()?;
     Ok(CurvedPolygon { outer: ring(&polygon.outer)?, holes, ..polygon.clone() })
 }
@@ -203,14 +207,14 @@ enum Joint {
 }
 
 /// The ring of these curves moved out of the solid, as vertices with bulges.
-fn grown_ring(ring: &[Curve], by: f64) -> Result<Vec<[f64; 3]>, Refused> {
+fn grown_ring(ring: &[Curve], by: f64, shortest: f64) -> Result<Vec<[f64; 3]>, Refused> {
     let parts = ring.iter().map(|curve| moved(curve, by)).collect::<Result<Vec<_>, _>>()?;
     let count = parts.len();
     let joint = |first: usize| {
         let second = (first + 1) % count;
         let (from, to) = (ring[first].tangent(1.0), ring[second].tangent(0.0));
         let turn = cross(from, to).atan2(from.dot(&to));
-        if turn.abs() < SMOOTH {
+        if turn.abs() < SMOOTH || (turn * by).abs() < shortest {
             Ok(Joint::Cut(0.5 * (parts[first].point(1.0) + parts[second].point(0.0))))
         } else if turn * by > 0.0 {
             Ok(Joint::Arc((0.25 * turn).tan()))

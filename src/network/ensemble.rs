@@ -269,6 +269,11 @@ impl Reference {
         &self.processes
     }
 
+    /// The moment that maps show.
+    pub(crate) fn moment(&self) -> &'static str {
+        if self.setting.outlet.is_some() { "at breakthrough" } else { "at the end of the first half cycle" }
+    }
+
     /// Number of its parts.
     pub(crate) fn len(&self) -> usize {
         self.elements.len()

@@ -101,6 +101,11 @@ impl Ground {
 }
 
 impl Map {
+    /// The moment that it shows.
+    pub(crate) fn moment(&self) -> &'static str {
+        self.0.moment()
+    }
+
     /// Number of its parts.
     pub(crate) fn len(&self) -> usize {
         self.0.len()

@@ -108,7 +108,7 @@ pub(crate) fn write(
                 |part: usize| kept.iter().filter(|kept| kept.is_invaded(part)).count() as f64 / kept.len() as f64;
             let probability: Vec<f64> = (0..map.len()).map(share).collect();
             let values = if group.name.is_empty() { String::new() } else { format!(", {}", group.name) };
-            let note = format!("at breakthrough, {} samples{values}", kept.len());
+            let note = format!("{}, {} samples{values}", map.moment(), kept.len());
             map.write(folder, &suffix, &probability, (&study.title, note))?;
             figures.map = Some(format!("invasion{suffix}.png"));
         }
