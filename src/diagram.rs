@@ -20,6 +20,8 @@ pub enum Stroke {
     Dashed,
     /// Dots of its own color.
     Dots,
+    /// The area within a closed line, in a light tone of the color of the next line.
+    Band,
 }
 
 /// Points in the order in which they are joined.

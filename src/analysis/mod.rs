@@ -2,7 +2,7 @@
 //!
 //! Particles are interpolated onto any nodes ([`resample`]) that a contour needs ([`near_level`]), by the neighbors of a place ([`cells`]); sums over particles
 //! ([`phases`]), connected parts ([`blobs`]) and parts that are not resolved ([`resolution`]). Observed orders of
-//! convergence ([`convergence`]), and [`roots`] by bisection.
+//! convergence ([`convergence`]), [`roots`] by bisection, moments, quantiles and Sobol indices of [`samples`].
 
 pub(crate) mod blobs;
 pub(crate) mod cells;
@@ -12,3 +12,4 @@ pub mod phases;
 pub mod resample;
 pub(crate) mod resolution;
 pub(crate) mod roots;
+pub(crate) mod samples;

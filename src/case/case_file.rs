@@ -9,6 +9,7 @@ use super::sph::{RawSph, Sph};
 use super::steady::{self, SteadyStop};
 use crate::geometry::spec::GeometrySpec;
 use crate::input::tables::{Key, tables};
+use crate::math::fnv1a;
 
 tables! {
     /// A case file. SI units everywhere; angles in degrees in keys that end in `-deg`, through the wetting phase.
@@ -101,6 +102,11 @@ impl Model {
 pub(super) fn text(case: &Case) -> String {
     // Every value of a checked case can be written as TOML: numbers, texts and tables with text keys.
     toml::to_string(&raw(case)).unwrap_or_default()
+}
+
+/// A hash of a case and of the hash of its shapes, which many cases may share.
+pub(crate) fn digest(case: &Case, shapes: u64) -> u64 {
+    fnv1a(shapes, text(case).bytes())
 }
 
 fn raw(case: &Case) -> RawCase {

@@ -67,6 +67,8 @@ tables! {
         pub shapes: Vec<ShapeSpec>,
         /// Distance of floor and lid in m (default: that of a TOML shape file; without one everything is per meter of depth).
         pub depth: f64 => DEPTH,
+        /// Distance in m by which every wall of the drawing moves into the pore; below 0 into the solid (default 0.0).
+        pub etch_offset: f64,
     }
 }
 
@@ -226,6 +228,23 @@ pub(super) fn with_domain(checker: &mut Checker, mut spec: GeometrySpec, raw: &R
         }
     }
     (checker.problems.len() == before).then_some(spec)
+}
+
+/// The geometry with its walls moved by an etch offset in m, where there is one.
+pub(super) fn etched(checker: &mut Checker, spec: GeometrySpec, offset: Option<f64>) -> Option<GeometrySpec> {
+    const KEY: &str = "geometry.etch-offset";
+    let Some(offset) = offset.filter(|offset| *offset != 0.0) else { return Some(spec) };
+    if !offset.is_finite() {
+        checker.refuse(KEY, format!("expected a distance in m, found {offset:?}"), "etch-offset = 1.0e-6 # m");
+        return None;
+    }
+    match spec.etched(offset) {
+        Ok(spec) => Some(spec),
+        Err(problem) => {
+            checker.refuse(KEY, format!("{}: {}", problem.path, problem.message), problem.help);
+            None
+        }
+    }
 }
 
 /// Refuses shapes whose images beyond periodic sides would be too many.

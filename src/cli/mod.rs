@@ -27,6 +27,7 @@ mod stages;
 mod study;
 mod study_arguments;
 mod study_run;
+mod study_samples;
 mod summary;
 mod threads;
 mod verify;

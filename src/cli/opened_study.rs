@@ -8,6 +8,7 @@ use super::study_arguments::CoresArguments;
 use super::threads::{self, within_cores};
 use crate::study::child::Program;
 use crate::study::definition::Study;
+use crate::study::ensemble::plan::{Ensemble, plan as plan_ensemble};
 use crate::study::estimate::Cores;
 use crate::study::folder::StudyFolder;
 use crate::study::load::load;
@@ -17,12 +18,17 @@ use crate::study::run::PlannedRun;
 use crate::study::runs::plan;
 use crate::study::verdict::Verdict;
 
+/// Failed runs that are told one by one.
+const MOST_FAILURES: usize = 20;
+
 /// A study with its checked runs and its folder.
 pub(crate) struct Opened {
     /// The study.
     pub(crate) study: Study,
-    /// Its runs.
+    /// Its checked runs; none where samples are run within this process.
     pub(crate) runs: Vec<PlannedRun>,
+    /// Samples that are run within this process.
+    pub(crate) ensemble: Option<Ensemble>,
     /// Where the results go.
     pub(crate) folder: StudyFolder,
     /// This program with the study file.
@@ -34,7 +40,8 @@ pub(crate) fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>,
     let mut all: Vec<Opened> = Vec::new();
     for path in paths {
         let study = load(path).map_err(Failure::input)?;
-        let runs = plan(&study).map_err(Failure::input)?;
+        let ensemble = plan_ensemble(&study).map_err(Failure::input)?;
+        let runs = if ensemble.is_none() { plan(&study).map_err(Failure::input)? } else { Vec::new() };
         let folder = match out {
             Some(out) if paths.len() > 1 => StudyFolder::new(&out.join(StudyFolder::name_of(&study))),
             _ => StudyFolder::of(&study, out),
@@ -44,7 +51,7 @@ pub(crate) fn open(paths: &[PathBuf], out: Option<&Path>) -> Result<Vec<Opened>,
             let message = format!("two studies of the name {name} would both write to {root}; name them one at a time");
             return Err(Failure::new(USAGE, &message));
         }
-        all.push(Opened { study, runs, folder, program: program(path)? });
+        all.push(Opened { study, runs, ensemble, folder, program: program(path)? });
     }
     Ok(all)
 }
@@ -79,9 +86,14 @@ pub(crate) fn cores(arguments: &CoresArguments) -> Cores {
 /// Writes the report, tells it, and says how the study stands by the exit code.
 pub(crate) fn finish(opened: &Opened) -> Result<u8, Failure> {
     let written = report(&opened.study, &opened.runs, &opened.folder).map_err(|error| Failure::new(USAGE, &error))?;
+    Ok(told(opened, &written))
+}
+
+/// Tells a report, and how the study stands by the exit code.
+pub(crate) fn told(opened: &Opened, written: &StudyReport) -> u8 {
     say(&opened.study.title);
     say(written.table.markdown().trim_end());
-    tell_judgments(&written);
+    tell_judgments(written);
     for convergence in &written.convergences {
         let order = convergence.order_text();
         let (measure, along, of) = (&convergence.measure, &convergence.along, &convergence.of);
@@ -98,21 +110,24 @@ pub(crate) fn finish(opened: &Opened) -> Result<u8, Failure> {
         say(format_args!("  note        {note}"));
     }
     say(format_args!("  page        {}", written.page.display()));
-    say(format_args!("  table       {}", opened.folder.root().join("table.csv").display()));
+    say(format_args!("  table       {}", written.csv.display()));
     let failed: Vec<&RunResult> =
         written.results.iter().filter(|result| matches!(result.standing, Standing::Failed(_))).collect();
-    for result in &failed {
+    for result in failed.iter().take(MOST_FAILURES) {
         if let Standing::Failed(report) = &result.standing {
             let why = report.error.as_deref().unwrap_or("the solver failed");
             say(format_args!("  FAILED      run {} ({}): {why}", result.run.index, result.run.name));
         }
     }
+    if failed.len() > MOST_FAILURES {
+        say(format_args!("  FAILED      {} more runs", failed.len() - MOST_FAILURES));
+    }
     let missed = written.judgments.iter().any(|judgment| judgment.verdict == Verdict::Missed);
-    Ok(match (failed.is_empty(), missed) {
+    match (failed.is_empty(), missed) {
         (false, _) => SOLVER_FAILED,
         (true, true) => EXPECTATION_FAILED,
         (true, false) => DONE,
-    })
+    }
 }
 
 fn tell_judgments(written: &StudyReport) {

@@ -6,7 +6,7 @@ use super::exit::{DONE, Failure, USAGE};
 use super::opened_study::{Opened, cores, each, finish, open};
 use super::output::{duration, readable, say};
 use super::study_arguments::{StudyCommand, StudyFiles, StudyPlanArguments};
-use super::study_run;
+use super::{study_run, study_samples};
 use crate::run::trial::Trial;
 use crate::study::definition::{Study, Target};
 use crate::study::engine::memory_of;
@@ -33,6 +33,9 @@ fn tell_plan(arguments: &StudyPlanArguments) -> Result<u8, Failure> {
 }
 
 fn tell_one_plan(opened: &Opened, cores: Cores) -> Result<u8, Failure> {
+    if let Some(ensemble) = &opened.ensemble {
+        return Ok(study_samples::plan(opened, ensemble));
+    }
     let never = AtomicBool::new(false);
     let kept = opened.folder.estimates();
     let found = estimates(&opened.runs, &opened.program, cores, (&kept, false), &never);
@@ -114,6 +117,9 @@ fn write_report(files: &StudyFiles) -> Result<u8, Failure> {
                 format!("there is no study in {folder}; start it with `meniscus study run`, or name --out DIR");
             return Err(Failure::new(USAGE, &message));
         }
-        finish(opened)
+        match &opened.ensemble {
+            Some(ensemble) => study_samples::report(opened, ensemble),
+            None => finish(opened),
+        }
     })
 }

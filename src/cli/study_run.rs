@@ -12,6 +12,7 @@ use super::opened_study::{Opened, cores, each, finish, open};
 use super::output::{duration, say, tell};
 use super::progress::ProgressDisplay;
 use super::study_arguments::{Engine, StudyRunArguments};
+use super::study_samples;
 use super::threads::pool;
 use crate::study::engine::{End, Event, Work, free_memory, work};
 use crate::study::estimate::estimates;
@@ -34,6 +35,9 @@ pub(crate) fn run(arguments: &StudyRunArguments) -> Result<u8, Failure> {
     }
     each(&open(&arguments.files.studies, arguments.files.out.as_deref())?, |opened| {
         let _claim = opened.folder.claim(Share::Alone).map_err(|error| Failure::new(USAGE, &error))?;
+        if let Some(ensemble) = &opened.ensemble {
+            return study_samples::run(arguments, opened, ensemble);
+        }
         match arguments.place.engine {
             Engine::Local => here(arguments, opened),
             Engine::Slurm => cluster(arguments, opened),

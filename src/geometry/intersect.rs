@@ -18,18 +18,19 @@ pub(crate) fn meeting_places(curve: &Curve, other: &Curve, tolerance: f64, found
         keep(other.point(0.0));
         keep(other.point(1.0));
     }
+    crossings(curve, other).into_iter().for_each(keep);
+}
+
+/// The places where the lines and circles that two curves are parts of cross.
+pub(crate) fn crossings(curve: &Curve, other: &Curve) -> Vec<Vec2> {
     match (*curve, *other) {
-        (Curve::Segment { a, b }, Curve::Segment { a: c, b: d }) => {
-            if let Some(x) = line_line(a, b - a, c, d - c) {
-                keep(x);
-            }
-        }
+        (Curve::Segment { a, b }, Curve::Segment { a: c, b: d }) => line_line(a, b - a, c, d - c).into_iter().collect(),
         (Curve::Segment { a, b }, Curve::Arc { center, radius, .. })
         | (Curve::Arc { center, radius, .. }, Curve::Segment { a, b }) => {
-            line_circle(a, b - a, center, radius).into_iter().flatten().for_each(keep);
+            line_circle(a, b - a, center, radius).into_iter().flatten().collect()
         }
         (Curve::Arc { center, radius, .. }, Curve::Arc { center: c, radius: r, .. }) => {
-            circle_circle(center, radius, c, r).into_iter().flatten().for_each(keep);
+            circle_circle(center, radius, c, r).into_iter().flatten().collect()
         }
     }
 }

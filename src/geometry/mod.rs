@@ -11,6 +11,7 @@ pub(crate) mod critical;
 pub mod curve;
 pub(crate) mod curve_set;
 pub(crate) mod elements;
+mod etch;
 pub mod export;
 pub(crate) mod extent;
 #[cfg(test)]

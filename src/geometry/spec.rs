@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::input::Range;
 use crate::input::tables::{Key, Value, describe, tables};
+use crate::math::{FNV1A_BASIS, fnv1a};
 
 /// One shape, closed and solid, in m. In TOML: `disc = { center = [0.0, 0.0], radius = 1.0e-3 }`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -260,3 +261,12 @@ pub struct GeometrySpec {
 
 impl Value for ShapeSpec {}
 impl Value for SolidSide {}
+
+impl GeometrySpec {
+    /// A hash of the domain and of all shapes as they are written.
+    pub(crate) fn digest(&self) -> u64 {
+        // Numbers, words and lists of them can always be encoded.
+        let bytes = postcard::to_stdvec(self).unwrap_or_default();
+        fnv1a(FNV1A_BASIS, bytes)
+    }
+}

@@ -13,6 +13,8 @@ const BANDS: usize = 16;
 /// Lightest and darkest band.
 const LIGHT: [f64; 3] = [235.0, 243.0, 250.0];
 const DARK: [f64; 3] = [8.0, 48.0, 107.0];
+/// Share of its color that a band has more than the one below it.
+const BAND_SHARE: f64 = 0.25;
 const GRAY: RGBColor = RGBColor(150, 150, 150);
 
 /// A diagram that cannot be drawn.
@@ -83,6 +85,12 @@ fn band_color(band: usize) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
+/// A share of a color on white.
+fn lightened(color: RGBColor, share: f64) -> RGBColor {
+    let mix = |part: u8| (255.0 - share.min(1.0) * (255.0 - f64::from(part))).round() as u8;
+    RGBColor(mix(color.0), mix(color.1), mix(color.2))
+}
+
 /// Rectangles of one band each: from and to corner.
 fn bands(map: &Map, x: &[f64], y: &[f64]) -> Vec<([(f64, f64); 2], usize)> {
     let highest = map.values.iter().copied().fold(0.0, f64::max);
@@ -109,14 +117,24 @@ fn draw<'a>(
     y: impl NumberAxis,
 ) -> Result<(), DrawingError<'a>> {
     let mut colors = 0..;
-    let colored: Vec<(&Trace, RGBColor)> = traces
-        .iter()
-        .map(|trace| match trace.stroke {
-            Stroke::Thin => (trace, GRAY),
-            Stroke::Dashed => (trace, BLACK),
-            Stroke::Full | Stroke::Dots => (trace, color_of(colors.next().unwrap_or(0))),
-        })
-        .collect();
+    let mut stacked = 0;
+    let mut colored: Vec<(&Trace, RGBColor)> = Vec::new();
+    for trace in traces {
+        let color = match trace.stroke {
+            Stroke::Thin => GRAY,
+            Stroke::Dashed => BLACK,
+            Stroke::Full | Stroke::Dots => color_of(colors.next().unwrap_or(0)),
+            // Each lies upon the one before.
+            Stroke::Band => {
+                stacked += 1;
+                lightened(color_of(colors.start), BAND_SHARE * f64::from(stacked))
+            }
+        };
+        if trace.stroke != Stroke::Band {
+            stacked = 0;
+        }
+        colored.push((trace, color));
+    }
     let mut names: Vec<(String, RGBColor)> = colored
         .iter()
         .filter(|(trace, _)| !trace.name.is_empty())
@@ -168,6 +186,9 @@ fn draw<'a>(
             Stroke::Dashed => {
                 chart.draw_series(DashedLineSeries::new(points(), 6, 4, color.stroke_width(2))).map(drop)?;
             }
+            Stroke::Band => {
+                chart.draw_series([Polygon::new(points().collect::<Vec<_>>(), color.filled())]).map(drop)?;
+            }
             Stroke::Dots => {
                 chart.draw_series(points().map(|point| Circle::new(point, 3, color.filled()))).map(drop)?;
             }
@@ -187,7 +208,7 @@ mod tests {
 
     #[test]
     fn lines_and_their_names_are_drawn_and_what_a_scale_cannot_show_is_left_out() {
-        let strokes = [Stroke::Full, Stroke::Thin, Stroke::Dashed, Stroke::Dots];
+        let strokes = [Stroke::Full, Stroke::Thin, Stroke::Dashed, Stroke::Dots, Stroke::Band];
         let trace = |stroke| Trace {
             name: format!("{stroke:?}"),
             stroke,

@@ -8,9 +8,13 @@ use crate::table::{Cells, Table};
 
 /// Writes `NAME.csv` in `folder`.
 pub fn write(folder: &Path, table: &Table) -> Result<(), FileError> {
-    let path = folder.join(format!("{}.csv", table.name));
-    let text = text(table).map_err(|error| FileError::Format { path: path.clone(), what: error.to_string() })?;
-    atomic::write(&path, &text)
+    write_at(&folder.join(format!("{}.csv", table.name)), table)
+}
+
+/// Writes the table as this file.
+pub(crate) fn write_at(path: &Path, table: &Table) -> Result<(), FileError> {
+    let text = text(table).map_err(|error| FileError::Format { path: path.to_path_buf(), what: error.to_string() })?;
+    atomic::write(path, &text)
 }
 
 fn text(table: &Table) -> Result<Vec<u8>, csv::Error> {

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::displacement::{Beginning, Displacement, EventKind, Phase};
+use super::displacement::{Beginning, Displacement, Division, EventKind, Phase};
 use super::films::{CurvePoint, Films};
 use super::graph::{Network, Pores};
 pub(crate) use super::half_cycle::{End, HalfCycle};
@@ -102,19 +102,21 @@ pub(super) fn tidy(saturation: f64) -> f64 {
 
 impl Cycles {
     /// The beginning of the first of the half cycles, in a pore space full of the defending phase or in the phases of `initial`; none where
-    /// there is no half cycle. Saturations are those of the areas that `count` gives.
+    /// there is no half cycle. A `division` that is known is that of the network for the events of the half cycles. Saturations are those of the areas
+    /// that `count` gives.
     pub(crate) fn new(
         network: Arc<Network>,
         pores: Arc<Pores>,
         half_cycles: Vec<HalfCycle>,
-        initial: Option<Arc<Beginning>>,
+        (initial, division): (Option<Arc<Beginning>>, Option<&Division>),
         count: impl FnOnce(&Displacement) -> Counted,
     ) -> Option<Self> {
         let first = half_cycles.first()?;
         let conditions = first.conditions.clone();
-        let displacement = match &initial {
-            Some(initial) => Displacement::beginning(&network, &pores, conditions, initial),
-            None => Displacement::new(&network, &pores, conditions),
+        let displacement = match (&initial, division) {
+            (Some(initial), _) => Displacement::beginning(&network, &pores, conditions, initial),
+            (None, Some(division)) => Displacement::within(division, conditions),
+            (None, None) => Displacement::new(&network, &pores, conditions),
         };
         let area = |element: usize| displacement.elements()[element].area;
         let elements = displacement.elements().len();
@@ -207,7 +209,8 @@ impl Cycles {
     pub(crate) fn restarted(&self) -> Option<Self> {
         let initial = self.initial.clone();
         let counted = Counted::clone(&self.counted);
-        Self::new(Arc::clone(&self.network), Arc::clone(&self.pores), self.half_cycles.clone(), initial, |_| counted)
+        let (network, pores) = (Arc::clone(&self.network), Arc::clone(&self.pores));
+        Self::new(network, pores, self.half_cycles.clone(), (initial, None), |_| counted)
     }
 
     /// Does the next event, or turns to the next half cycle; none where the displacement is over.

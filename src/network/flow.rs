@@ -43,8 +43,9 @@ fn of_phase(model: &Model, drive: Drive, holds: &[bool]) -> Result<f64, FlowErro
 
 /// Permeability of the whole pore space along an axis in m2; NaN where its sides are closed or the flow cannot be solved.
 pub(crate) fn along(model: &Model, axis: usize) -> f64 {
-    let everywhere = vec![true; model.setting.network.regions.len()];
-    drive(&model.setting, axis).and_then(|drive| of_phase(model, drive, &everywhere).ok()).unwrap_or(f64::NAN)
+    let everywhere = || vec![true; model.setting.network.regions.len()];
+    let find = || drive(&model.setting, axis).and_then(|drive| of_phase(model, drive, &everywhere()).ok());
+    model.permeability(axis, || find().unwrap_or(f64::NAN))
 }
 
 /// For each region whether the wetting phase held most of it when these invasions of the last half cycle had taken place, and its saturation.

@@ -1,6 +1,7 @@
 //! The network as VTK sees it: pores as points, throats as lines, regions as polygons, menisci as lines.
 
 use super::cycles::{FluidPhase, Invasion};
+use super::displacement::Element;
 use super::model::{Model, Setting};
 use super::occupation::Occupation;
 use super::summary::PoreStates;
@@ -66,6 +67,17 @@ pub(crate) fn regions(setting: &Setting, occupation: Option<&Occupation>) -> Lay
         fields.push(scalar("film-volume", "m3", films.volume.iter().copied()));
     }
     Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
+}
+
+/// The parts of the pore space with the probability that each is invaded.
+pub(crate) fn invasion(setting: &Setting, elements: &[Element], probability: &[f64]) -> Layer<'static> {
+    let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
+    let fields = vec![
+        integer("pore", elements.iter().map(|element| setting.pores.pore_of[element.region] as i64)),
+        scalar("area", "m2", elements.iter().map(|element| element.area)),
+        scalar("invasion-probability", "", probability.iter().copied()),
+    ];
+    Layer { name: "invasion", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
 
 fn plain_regions(setting: &Setting) -> Layer<'static> {

@@ -29,7 +29,7 @@ pub struct Setting {
     /// The side that is the outlet.
     pub outlet: Option<usize>,
     /// The walls, for pictures.
-    pub outline: Lines<'static>,
+    pub outline: Arc<Lines<'static>>,
     /// Pore area over the area of the domain or of its region.
     pub porosity: f64,
     /// Interfacial tension in N/m.
@@ -92,12 +92,36 @@ pub(crate) struct Model {
     pub(crate) cycles: Option<Cycles>,
     entry_curvatures: OnceCell<Vec<f64>>,
     conductances: OnceCell<Vec<f64>>,
+    permeabilities: [OnceCell<f64>; 2],
 }
 
 impl Model {
     /// A network with nothing displaced yet.
     pub(crate) fn new(setting: Setting, cycles: Option<Cycles>) -> Self {
-        Self { setting, cycles, entry_curvatures: OnceCell::new(), conductances: OnceCell::new() }
+        Self {
+            setting,
+            cycles,
+            entry_curvatures: OnceCell::new(),
+            conductances: OnceCell::new(),
+            permeabilities: Default::default(),
+        }
+    }
+
+    /// The same with permeabilities along x and y that are known.
+    pub(crate) fn with_permeabilities(mut self, permeabilities: [f64; 2]) -> Self {
+        self.permeabilities = permeabilities.map(OnceCell::from);
+        self
+    }
+
+    /// The permeability along an axis, as `find` finds it.
+    pub(super) fn permeability(&self, axis: usize, find: impl FnOnce() -> f64) -> f64 {
+        *self.permeabilities[axis].get_or_init(find)
+    }
+
+    /// The same with conductances that are known.
+    pub(crate) fn with_conductances(mut self, conductances: Vec<f64>) -> Self {
+        self.conductances = OnceCell::from(conductances);
+        self
     }
 
     /// Curvatures at which drainage enters the throats of the network, in 1/m; none where no angle is known.

@@ -1,6 +1,7 @@
 //! The capillary pressure curve and the maps of a network, as data.
 
 use super::cycles::{Cycles, Entry, FluidPhase};
+use super::displacement::Element;
 use super::model::{Model, Setting};
 use super::occupation::Occupation;
 use super::tables::{kept, radius};
@@ -237,6 +238,21 @@ fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
         areas,
         menisci: ("menisci", menisci),
         strips: ("films", strips.collect()),
+        ..empty(setting)
+    }
+}
+
+/// The parts of the pore space by the probability that each is invaded.
+pub(crate) fn invasion(setting: &Setting, elements: &[Element], probability: &[f64], note: String) -> Mosaic {
+    let areas = elements.iter().zip(probability).flat_map(|(element, &probability)| {
+        let tone = Tone::Value(probability);
+        images(setting, &element.outline).into_iter().map(move |boundary| Area { boundary, tone })
+    });
+    Mosaic {
+        name: "invasion-probability",
+        note,
+        label: "probability of invasion",
+        areas: areas.collect(),
         ..empty(setting)
     }
 }

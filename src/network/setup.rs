@@ -1,14 +1,14 @@
 //! From a checked case to its network and the displacement in it.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use super::angles::{angles, film_terms, met_by};
 use super::cycles::{Cycles, End, FluidPhase, HalfCycle};
 use super::displacement::{Beginning, Conditions, CornerFilms, Displacement, Element, Events, MeasuredBurst};
 use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{self, Drive, Dynamic, Terms};
-use super::graph::{Network, Pores};
+use super::graph::Network;
+pub(crate) use super::ground::{Ground, geometry};
 use super::model::Setting;
 use super::region::{Counted, porosity};
 pub use super::setup_error::SetupError;
@@ -20,19 +20,7 @@ use crate::case::network::{
     DynamicDrive, NetworkDisplacement, NetworkInterface, PoreNetwork, Process, Region, Stop, Trapping,
 };
 use crate::case::{Case, SIDES, Side};
-use crate::geometry::Geometry;
 use crate::solver::Solver;
-
-/// The solids of a case as its network sees them: periodic sides joined, wall sides closed.
-///
-/// # Errors
-/// [`SetupError::Geometry`] with what is wrong with the shapes.
-pub(crate) fn geometry(case: &Case, network: &PoreNetwork) -> Result<Geometry, SetupError> {
-    let sides = network.sides.each();
-    let periodic = [sides[0] == Side::Periodic, sides[2] == Side::Periodic];
-    let walls = sides.map(|side| side == Side::Wall);
-    Ok(Geometry::new(&case.geometry)?.with_sides(periodic, walls))
-}
 
 /// The solver of a case with nothing displaced yet.
 pub(crate) fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
@@ -52,31 +40,17 @@ pub(crate) fn build_in_time(case: &Case, wanted: &PoreNetwork) -> Result<Option<
 
 /// The same as a quasi-static displacement; without one where the case asks for a displacement in time.
 pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
-    let clock = Instant::now();
-    let geometry = geometry(case, wanted)?;
-    let sides = wanted.sides.each();
-    let open = sides.map(|side| matches!(side, Side::Inlet | Side::Outlet));
-    let network = Network { depth: case.depth, ..super::extract(&geometry, open)? };
-    if network.regions.is_empty() {
-        return Err(SetupError::NoPore);
-    }
-    for (side, kind) in sides.into_iter().enumerate() {
-        let role = match kind {
-            Side::Inlet => "inlet",
-            Side::Outlet => "outlet",
-            _ => continue,
-        };
-        if network.openings.iter().all(|opening| opening.side != side) {
-            return Err(SetupError::NoOpening { side: SIDES[side], role });
-        }
-    }
-    let pores = Pores::merged(&network, wanted.persistence);
-    let extraction = clock.elapsed().as_secs_f64();
+    build_on(&Ground::of(case, wanted)?, wanted, case.depth)
+}
+
+/// The same on a ground that is known, that of a case of the same geometry, sides and persistence ratio, at the depth in m of the case.
+pub(crate) fn build_on(ground: &Ground, wanted: &PoreNetwork, depth: Option<f64>) -> Result<NetworkSolver, SetupError> {
+    let network = ground.with_depth(depth);
     let initial = match wanted.displacement.as_ref().and_then(|displacement| displacement.initial.as_ref()) {
-        Some(start) => Some(Arc::new(beginning(start, wanted, &geometry, (&network, &pores))?)),
+        Some(start) => Some(Arc::new(beginning(start, wanted, ground, &network)?)),
         None => None,
     };
-    let solver = assemble(wanted, &geometry, (network, pores), initial).timed(extraction);
+    let solver = assemble(wanted, ground, network, initial).timed(ground.seconds);
     if let Some(region) = wanted.region.filter(|_| solver.cycles().is_some_and(|cycles| !(cycles.counted().sum > 0.0)))
     {
         return Err(SetupError::EmptyRegion { min: region.min, max: region.max });
@@ -100,17 +74,9 @@ fn measured(wanted: &PoreNetwork) -> Vec<MeasuredBurst> {
     wanted.measured.iter().flat_map(|measured| &measured.throats).map(burst).collect()
 }
 
-/// Largest distance of the drawn walls from the walls, over the longer side of the domain: far below what a picture shows.
-const OUTLINE_ERROR: f64 = 1e-5;
-
 /// The phases of a state for the first half cycle.
-fn beginning(
-    start: &Start,
-    wanted: &PoreNetwork,
-    geometry: &Geometry,
-    (network, pores): (&Network, &Pores),
-) -> Result<Beginning, SetupError> {
-    let walls = geometry.shape_count() as usize + SIDES.len();
+fn beginning(start: &Start, wanted: &PoreNetwork, ground: &Ground, network: &Network) -> Result<Beginning, SetupError> {
+    let (walls, pores) = (ground.walls(), &ground.pores);
     let half = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) => {
             half_cycles(displacement, interface, wanted.sides.each(), (walls, network, &measured(wanted)))
@@ -140,14 +106,13 @@ fn beginning(
 }
 
 /// The solver of a network that is known; `initial` are the phases that its displacement begins with.
-pub(crate) fn assemble(
+fn assemble(
     wanted: &PoreNetwork,
-    geometry: &Geometry,
-    (network, pores): (Network, Pores),
+    ground: &Ground,
+    network: Arc<Network>,
     initial: Option<Arc<Beginning>>,
 ) -> NetworkSolver {
-    let (network, pores) = (Arc::new(network), Arc::new(pores));
-    let walls = geometry.shape_count() as usize + SIDES.len();
+    let (walls, pores) = (ground.walls(), Arc::clone(&ground.pores));
     let half_cycles = match (&wanted.displacement, &wanted.interface) {
         (Some(displacement), Some(interface)) if displacement.dynamic.is_none() => {
             half_cycles(displacement, interface, wanted.sides.each(), (walls, &network, &measured(wanted)))
@@ -164,22 +129,23 @@ pub(crate) fn assemble(
         measured: measured(wanted),
         films: CornerFilms::Absent,
     });
+    let division = half_cycles.first().and_then(|half| ground.division(half.conditions.events));
     let mut setting = Setting {
         network: Arc::clone(&network),
         pores: Arc::clone(&pores),
-        bounds: geometry.bounds(),
-        periodic: geometry.periodic(),
+        bounds: ground.geometry.bounds(),
+        periodic: ground.geometry.periodic(),
         inlet: wanted.sides.each().iter().position(|&side| side == Side::Inlet),
         outlet: wanted.sides.each().iter().position(|&side| side == Side::Outlet),
-        outline: geometry.outline_within(OUTLINE_ERROR * geometry.bounds().size().max()),
-        porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / geometry.bounds().area(),
+        outline: Arc::clone(&ground.outline),
+        porosity: network.regions.iter().map(|region| region.area).sum::<f64>() / ground.geometry.bounds().area(),
         tension: wanted.interface.as_ref().map(|interface| interface.tension),
         depth: network.depth.zip(wanted.interface.as_ref()).map(|(depth, interface)| {
             [FluidPhase::NonWetting, FluidPhase::Wetting].map(|invading| met_by(invading, depth, interface))
         }),
         viscosities: [wanted.wetting, wanted.non_wetting].map(|fluid| fluid.map(|fluid| fluid.viscosity)),
         entry,
-        geometry_hash: format!("{:016x}", geometry.hash()),
+        geometry_hash: ground.hash.clone(),
         sides: wanted.sides.each(),
         region: wanted.region.map(Region::bounds),
         tables: wanted.tables,
@@ -188,7 +154,7 @@ pub(crate) fn assemble(
         Some(region) => Counted::within(displacement, region, setting.periods()),
         None => Counted::everywhere(displacement),
     };
-    let cycles = Cycles::new(Arc::clone(&network), pores, half_cycles, initial, counted);
+    let cycles = Cycles::new(Arc::clone(&network), pores, half_cycles, (initial, division), counted);
     if let Some(region) = setting.region {
         setting.porosity = porosity(&network, region, setting.periods());
     }
@@ -196,10 +162,10 @@ pub(crate) fn assemble(
 }
 
 /// A displacement in time with the phase that invades and its end.
-type InTime = (Dynamic, FluidPhase, dynamic::solver::End);
+pub(crate) type InTime = (Dynamic, FluidPhase, dynamic::solver::End);
 
 /// The displacement in time that a case asks for.
-fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Result<Option<InTime>, SetupError> {
+pub(crate) fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Result<Option<InTime>, SetupError> {
     let Some((displacement, interface, driven, viscosities)) = asked_in_time(wanted) else { return Ok(None) };
     let setting = still.setting();
     let invading =

@@ -103,7 +103,7 @@ impl Solver for NetworkSolver {
     }
 
     fn outline(&self) -> Lines<'_> {
-        self.model.setting.outline.clone()
+        self.model.setting.outline.as_ref().clone()
     }
 
     fn sample(&self) -> Vec<Sample> {

@@ -11,6 +11,7 @@ pub(crate) mod claim;
 pub(crate) mod compare;
 pub(crate) mod description;
 pub(crate) mod drift;
+pub(crate) mod ensemble;
 pub mod execute;
 mod extension;
 pub(crate) mod folder;

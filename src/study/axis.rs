@@ -107,7 +107,8 @@ fn column_of(checker: &mut Checker, raw: &RawColumn, at: &str) -> Option<Column>
         }
         (values, _) => {
             let found = if values.is_some() { "both" } else { "neither" };
-            checker.refuse(at, format!("expected `values` or `range`, found {found}"), "values = [1.0, 2.0]");
+            let help = "values = [1.0, 2.0]; a `distribution` stands beside the `key` of an axis";
+            checker.refuse(at, format!("expected `values` or `range`, found {found}"), help);
             return None;
         }
     };
@@ -141,7 +142,7 @@ fn target(checker: &mut Checker, raw: &RawColumn, at: &str) -> Target {
 }
 
 /// `contact-angle-deg` of `sph.wetting.young.contact-angle-deg`.
-fn last_part(key: &str) -> String {
+pub(super) fn last_part(key: &str) -> String {
     let last = key.rsplit('.').next().unwrap_or(key);
     last.split('[').next().unwrap_or(last).to_owned()
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::definition::Assignment;
-use crate::case::{self, Loaded};
+use crate::case::{self, Case, KeptGeometry, Loaded};
 use crate::input::{InputError, Overrides};
 use crate::run::setup;
 
@@ -26,4 +26,15 @@ pub(super) fn load(case: &Path, assignments: &[Assignment]) -> Result<Loaded, In
     let loaded = case::load(case, &overrides)?;
     loaded.refuse(setup::problems(&loaded.case))?;
     Ok(loaded)
+}
+
+/// Loads a case of a network with these values, not written out; `kept` has the geometry of the case before.
+///
+/// # Errors
+/// All mistakes.
+pub(super) fn load_with(case: &Path, assignments: &[Assignment], kept: &KeptGeometry) -> Result<Case, InputError> {
+    let overrides = Overrides::parse(&overrides(assignments))?;
+    let (case, document) = case::load_with(case, &overrides, kept)?;
+    document.refuse(setup::problems(&case))?;
+    Ok(case)
 }

@@ -22,6 +22,8 @@ pub struct Study {
     pub set: Vec<Assignment>,
     /// What varies; the first one varies slowest.
     pub axes: Vec<Axis>,
+    /// How uncertain values are sampled; absent where none is.
+    pub sampling: Option<Sampling>,
     /// Measures that must come out as said.
     pub expectations: Vec<Expectation>,
     /// Errors that must fall.
@@ -47,6 +49,49 @@ pub struct Assignment {
     pub text: String,
     /// Where it comes from: a key path in the study file.
     pub origin: String,
+}
+
+/// How uncertain values are sampled. One axis has the samples: a row for each of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sampling {
+    /// Number of samples; with indices each is so many runs more.
+    pub count: usize,
+    /// Whether the rows are those of Sobol indices: for each sample a row of A, one of B, and one of A with the column of B for each input.
+    pub indices: bool,
+    /// Whether samples of networks are processes too.
+    pub processes: bool,
+    /// The uncertain values.
+    pub inputs: Vec<Input>,
+}
+
+impl Sampling {
+    /// Number of rows of a sample.
+    pub(crate) fn rows(&self) -> usize {
+        if self.indices { self.inputs.len() + 2 } else { 1 }
+    }
+
+    /// Number of rows of a sample, the first ones, that are independent draws of all inputs.
+    pub(crate) fn draws(&self) -> usize {
+        if self.indices { 2 } else { 1 }
+    }
+
+    /// Whether a parameter is one of an axis of samples.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        name == SAMPLE || (self.indices && name == MATRIX) || self.inputs.iter().any(|input| input.name == name)
+    }
+}
+
+/// The parameters of the axis of samples beside the inputs: the number of its row, and with indices what the row is for.
+pub(crate) const SAMPLE: &str = "sample";
+pub(crate) const MATRIX: &str = "matrix";
+
+/// An uncertain value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Input {
+    /// Name of its parameter.
+    pub name: String,
+    /// Keys of the case that take it.
+    pub keys: Vec<String>,
 }
 
 /// What varies together.

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::axis::axis;
-use super::definition::{Assignment, Axis, ComparisonPlan, Expectation, Study, Target, Trend};
+use super::definition::{Assignment, Axis, Column, ComparisonPlan, Expectation, Sampling, Study, Target, Trend};
 use super::names::Names;
 use super::raw::{RawComparison, RawStudy};
 use super::results::RUN_NUMBERS;
+use super::sampling::{SampledAxis, sampled};
 use crate::case::{other_than_a_study, read};
 use crate::input::{Checker, Document, InputError, Overrides};
 
@@ -41,8 +42,7 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
     let mut checker = Checker::default();
     let raw = &std::mem::take(&mut reading.value).in_range(&mut checker, "");
     checker.format(raw.format);
-    let axes: Vec<Option<Axis>> =
-        raw.axis.iter().flatten().enumerate().map(|(index, raw)| axis(&mut checker, raw, index, folder)).collect();
+    let (axes, sampling) = read_axes(&mut checker, raw, folder);
     let all_axes = axes.iter().all(Option::is_some);
     let axes: Vec<Axis> = axes.into_iter().flatten().collect();
     check_axes(&mut checker, &axes);
@@ -76,7 +76,33 @@ pub fn load(path: &Path) -> Result<Study, InputError> {
         return Err(InputError { mistakes });
     };
     let name = path.file_stem().map_or_else(|| "study".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    Ok(Study { name, title, case, compare, set, axes, expectations, trends, report, document })
+    Ok(Study { name, title, case, compare, set, axes, sampling, expectations, trends, report, document })
+}
+
+/// The axes, those with a distribution joined to one where the first of them stands; none for each that has a mistake.
+fn read_axes(checker: &mut Checker, raw: &RawStudy, folder: &Path) -> (Vec<Option<Axis>>, Option<Sampling>) {
+    let written = raw.axis.as_deref().unwrap_or_default();
+    let samples = sampled(checker, written, raw.sampling.as_ref());
+    let (place, mut samples, sampling) = match samples {
+        Some(Some(SampledAxis { axis, place, sampling })) => (Some(place), Some(axis), Some(sampling)),
+        Some(None) => (None, None, None),
+        None => (written.iter().position(|raw| raw.distribution.is_some()), None, None),
+    };
+    let mut axes = Vec::new();
+    for (index, raw) in written.iter().enumerate() {
+        if raw.distribution.is_none() {
+            axes.push(axis(checker, raw, index, folder));
+        } else if Some(index) == place {
+            axes.push(samples.take());
+        }
+    }
+    (axes, sampling)
+}
+
+/// The key path of the axis of a parameter: `axis[2]` of `axis[2].values[0]`.
+fn place_of(column: &Column) -> &str {
+    let origin = column.origins.first().map_or("axis", String::as_str);
+    origin.find(']').map_or(origin, |end| &origin[..=end])
 }
 
 /// What the cases are compared with, where the file says so.
@@ -92,20 +118,18 @@ fn comparison(checker: &mut Checker, raw: Option<&RawComparison>, folder: &Path)
 
 /// Refuses parameters of one name and too many runs.
 fn check_axes(checker: &mut Checker, axes: &[Axis]) {
-    let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
-    for (index, column) in
-        axes.iter().enumerate().flat_map(|(index, axis)| axis.columns.iter().map(move |c| (index, c)))
-    {
-        let at = format!("axis[{index}]");
+    let mut seen: BTreeMap<&str, &str> = BTreeMap::new();
+    for column in axes.iter().flat_map(|axis| &axis.columns) {
+        let at = place_of(column);
         let name = column.name.as_str();
         let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
         if !is_bare {
-            checker.refuse(&at, format!("`{name}` is not a name of a parameter"), "letters, digits, `-` and `_`");
+            checker.refuse(at, format!("`{name}` is not a name of a parameter"), "letters, digits, `-` and `_`");
         } else if TAKEN.contains(&name) || RUN_NUMBERS.contains(&name) {
-            checker.refuse(&at, format!("`{name}` is the name of a column of the report"), "give another `name`");
-        } else if let Some(other) = seen.insert(name, index) {
+            checker.refuse(at, format!("`{name}` is the name of a column of the report"), "give another `name`");
+        } else if let Some(other) = seen.insert(name, at) {
             let help = "give one of them another `name`";
-            checker.refuse(&at, format!("two parameters are called `{name}`, the other one in axis[{other}]"), help);
+            checker.refuse(at, format!("two parameters are called `{name}`, the other one in {other}"), help);
         }
     }
     let runs = axes.iter().try_fold(1_usize, |runs, axis| runs.checked_mul(axis.len().max(1)));
@@ -132,15 +156,15 @@ fn assignments(checker: &mut Checker, texts: &[String]) -> Vec<Assignment> {
 fn check_keys(checker: &mut Checker, axes: &[Axis], set: &[Assignment]) {
     let mut seen: Vec<&str> =
         set.iter().filter_map(|one| one.text.split_once('=')).map(|(key, _)| key.trim()).collect();
-    for (index, axis) in axes.iter().enumerate() {
+    for axis in axes {
         for column in &axis.columns {
             let Target::Keys(keys) = &column.target else { continue };
-            let at = format!("axis[{index}]");
+            let at = place_of(column);
             for key in keys {
                 if Overrides::parse(&[format!("{key}=0")]).is_err() {
-                    checker.refuse(&at, format!("`{key}` is not a key path"), "as in geometry.shapes[0].disc.radius");
+                    checker.refuse(at, format!("`{key}` is not a key path"), "as in geometry.shapes[0].disc.radius");
                 } else if seen.contains(&key.as_str()) {
-                    checker.refuse(&at, format!("`{key}` is set twice"), "keep it in one axis, or in `set`");
+                    checker.refuse(at, format!("`{key}` is set twice"), "keep it in one axis, or in `set`");
                 }
                 seen.push(key);
             }

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use super::convergence::Convergence;
 use super::definition::Study;
+use super::page_of_samples::Uncertainty;
 use super::results::{RunResult, Standing, moving};
 use super::table::{Table, shown_measures};
 use super::values::shown;
@@ -33,6 +34,8 @@ pub(crate) struct Content<'a> {
     pub(crate) diagrams: &'a [Vec<String>],
     /// Capillary pressure over saturation of both models as SVG, one per run that was compared with a network and is complete.
     pub(crate) comparisons: &'a [(&'a RunResult, String)],
+    /// What the samples say, where there are any.
+    pub(crate) uncertainty: Option<&'a Uncertainty<'a>>,
 }
 
 /// The page as HTML.
@@ -43,11 +46,12 @@ pub(crate) fn page(content: &Content<'_>) -> String {
         0 => String::new(),
         some => format!(" {some} of them with measures not at rest, marked in the table and hollow in curves."),
     };
-    let mut html = format!(
-        "<h1>{title}</h1>\n<p>{done} of {} runs done.{moving} The same table with all digits: \
-         <a href=\"table.csv\">table.csv</a>.</p>\n",
-        content.results.len()
-    );
+    let all = if content.uncertainty.is_some() {
+        "All samples with all digits: <a href=\"samples.csv\">samples.csv</a>."
+    } else {
+        "The same table with all digits: <a href=\"table.csv\">table.csv</a>."
+    };
+    let mut html = format!("<h1>{title}</h1>\n<p>{done} of {} runs done.{moving} {all}</p>\n", content.results.len());
     push_failures(&mut html, content.results);
     push_judgments(&mut html, content.judgments);
     push_convergences(&mut html, content.convergences);
@@ -58,6 +62,10 @@ pub(crate) fn page(content: &Content<'_>) -> String {
     }
     if let Some(curves) = content.pressures {
         html += &format!("<h2>Capillary pressure of all runs</h2>\n<div class=\"curves\">\n{curves}\n</div>\n");
+    }
+    if let Some(uncertainty) = content.uncertainty {
+        html += &uncertainty.html();
+        return html::page(&content.study.title, &html);
     }
     html += "<h2>Table</h2>\n<div class=\"wide\">\n";
     html += &content.table.html();

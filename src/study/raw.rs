@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use crate::input::Range;
 use crate::input::tables::{Key, Value, tables};
 
 tables! {
@@ -20,6 +21,8 @@ tables! {
         pub compare: RawComparison,
         /// What varies; every value of an axis is combined with every value of the others.
         pub axis: Vec<RawAxis>,
+        /// How the axes with a distribution are sampled.
+        pub sampling: RawSampling,
         /// Measures expected of every run.
         pub expect: Vec<RawExpectation>,
         /// Errors that must fall with a parameter.
@@ -36,12 +39,84 @@ tables! {
         pub records: usize,
     }
 
-    /// What varies: one key with `values` or a `range`, several keys that vary together (`pair`), the rows of a CSV file
+    /// Samples of the axes that have a distribution.
+    pub(crate) struct RawSampling {
+        /// Number of samples, 2 to 10 000; a power of two makes the most of the sequence (required).
+        pub count: usize => Key::required("count = 256"),
+        /// Chooses the samples: the same ones on every machine (default 1).
+        pub seed: u32,
+        /// Estimates first-order and total Sobol indices, which takes (inputs + 2) `count` runs (default false).
+        pub indices: bool,
+        /// Correlations between inputs, by a Gaussian copula; inputs that are not named are independent.
+        pub correlation: Vec<RawCorrelation>,
+        /// Runs samples of networks as processes too, each with a folder of output (default false).
+        pub processes: bool,
+    }
+
+    /// A correlation of two inputs.
+    pub(crate) struct RawCorrelation {
+        /// Names of the two parameters (required).
+        pub axes: Vec<String> => Key::required("axes = [\"angle\", \"tension\"]"),
+        /// Correlation of the underlying normal variables, above -1 and below 1 (required).
+        pub value: f64 => Key::number("a correlation", Range::Between(-1.0, 1.0)).example("value = 0.5"),
+    }
+
+    /// How an uncertain value is distributed; exactly one of these.
+    pub(crate) struct RawDistribution {
+        /// A normal distribution, truncated where ends are given.
+        pub normal: RawNormal,
+        /// A lognormal distribution: its logarithm is normal.
+        pub lognormal: RawLognormal,
+        /// Every value between two ends is equally likely.
+        pub uniform: RawUniform,
+        /// A density that rises linearly to its mode and falls linearly behind it.
+        pub triangular: RawTriangular,
+    }
+
+    /// A normal distribution.
+    pub(crate) struct RawNormal {
+        /// Mean, before it is truncated (required).
+        pub mean: f64 => Key::required("mean = 40.0"),
+        /// Standard deviation, before it is truncated (required).
+        pub deviation: f64 => Key::positive("a standard deviation").example("deviation = 5.0"),
+        /// No value lies below (default: none).
+        pub at_least: f64,
+        /// No value lies above (default: none).
+        pub at_most: f64,
+    }
+
+    /// A lognormal distribution.
+    pub(crate) struct RawLognormal {
+        /// Median (required).
+        pub median: f64 => Key::positive("a median").example("median = 1.0e-9"),
+        /// Geometric standard deviation: the factor between the median and one standard deviation above it, above 1 (required).
+        pub geometric_deviation: f64 => GEOMETRIC_DEVIATION,
+    }
+
+    /// A uniform distribution.
+    pub(crate) struct RawUniform {
+        /// Smallest value (required).
+        pub from: f64 => Key::required("from = 0.07"),
+        /// Largest value (required).
+        pub to: f64 => Key::required("to = 0.08"),
+    }
+
+    /// A triangular distribution.
+    pub(crate) struct RawTriangular {
+        /// Smallest value (required).
+        pub from: f64 => Key::required("from = 0.07"),
+        /// Most likely value (required).
+        pub mode: f64 => Key::required("mode = 0.072"),
+        /// Largest value (required).
+        pub to: f64 => Key::required("to = 0.08"),
+    }
+
+    /// What varies: one key with `values`, a `range` or a `distribution`, several keys that vary together (`pair`), the rows of a CSV file
     /// (`table`), or several base cases (`cases`).
     pub(crate) struct RawAxis {
         /// Name of the parameter: letters, digits, `-` and `_` (default: last part of the key).
         pub name: String,
-        /// Key path in the case file, as in `--set`; with `values` or `range`.
+        /// Key path in the case file, as in `--set`; with `values`, `range` or `distribution`.
         pub key: String,
         /// Further key paths that take the same values.
         pub also: Vec<String>,
@@ -50,6 +125,8 @@ tables! {
         pub values: Vec<toml::Value>,
         /// Values of the key as a range of numbers.
         pub range: RawRange,
+        /// Distribution of an uncertain value of the key; `[sampling]` says how many samples are drawn.
+        pub distribution: RawDistribution,
         /// Parameters that vary together, with equally many values.
         pub pair: Vec<RawColumn>,
         /// CSV file with a header line: a run per row, a parameter per column; `#` begins a comment.
@@ -155,6 +232,10 @@ tables! {
         pub y_scale: RawScale,
     }
 }
+
+/// The geometric standard deviation of a lognormal distribution.
+const GEOMETRIC_DEVIATION: Key =
+    Key::number("a geometric standard deviation", Range::Above(1.0)).example("geometric-deviation = 1.5");
 
 /// Equal steps or equal ratios.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]

@@ -6,8 +6,11 @@ use std::path::{Path, PathBuf};
 use super::convergence::{self, Convergence};
 use super::curve::{CurveError, svg};
 use super::definition::Study;
+use super::ensemble::bands::{Figures, distribution};
+use super::ensemble::statistics::{groups, statistics};
 use super::folder::StudyFolder;
 use super::page::{Content, page};
+use super::page_of_samples::Uncertainty;
 use super::resolution::Resolution;
 use super::results::{RUN_NUMBERS, RunResult, Standing, measures, moving, results};
 use super::run::PlannedRun;
@@ -39,8 +42,10 @@ pub enum ReportError {
 pub(crate) struct StudyReport {
     /// The runs and where they stand.
     pub(crate) results: Vec<RunResult>,
-    /// The table for people.
+    /// The table for people, of samples their quantiles.
     pub(crate) table: Table,
+    /// The table for programs.
+    pub(crate) csv: PathBuf,
     /// The expectations.
     pub(crate) judgments: Vec<Judgment>,
     /// Errors along spacings, with their orders.
@@ -87,13 +92,45 @@ fn pressures(study: &Study, results: &[RunResult], folder: &StudyFolder) -> Resu
 
 /// Writes `table.csv`, `table.md`, `curve-1.svg` and so on, and `report.html`.
 pub(crate) fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -> Result<StudyReport, ReportError> {
-    let results = results(runs, folder);
+    report_of(study, results(runs, folder), folder, &[])
+}
+
+/// Writes the tables of samples and tells what the page shows of them; none where nothing is sampled.
+fn uncertainty<'f>(
+    study: &Study,
+    results: &[RunResult],
+    folder: &StudyFolder,
+    figures: &'f [Figures],
+) -> Result<Option<Uncertainty<'f>>, ReportError> {
+    let (Some(sampling), Some(statistics)) = (&study.sampling, statistics(study, results)) else { return Ok(None) };
+    let path = |name: &str| folder.root().join(name);
+    atomic::write(&path("quantiles.csv"), &statistics.quantiles.csv()?)?;
+    atomic::write(&path("convergence.csv"), &statistics.convergence.csv()?)?;
+    if let Some(indices) = &statistics.indices {
+        atomic::write(&path("indices.csv"), &indices.csv()?)?;
+    }
+    let distribution = distribution(sampling, &groups(study, results), folder.root())?;
+    Ok(Some(Uncertainty { statistics, distribution, figures }))
+}
+
+/// Writes the same of runs that stand so, with `figures` of an ensemble; of samples `samples.csv` in place of `table.csv`, and tables of their statistics.
+pub(crate) fn report_of(
+    study: &Study,
+    results: Vec<RunResult>,
+    folder: &StudyFolder,
+    figures: &[Figures],
+) -> Result<StudyReport, ReportError> {
     let judgments = judgments(study, &results);
     let convergences = convergence::all(study, &results);
     let resolution = Resolution::of(study, &results);
-    let table = table::short(study, &results, &resolution);
+    let uncertainty = uncertainty(study, &results, folder, figures)?;
+    let table = match &uncertainty {
+        Some(uncertainty) => uncertainty.statistics.short.clone(),
+        None => table::short(study, &results, &resolution),
+    };
     let path = |name: &str| folder.root().join(name);
-    atomic::write(&path("table.csv"), &table::full(study, &results, &resolution).csv()?)?;
+    let csv = path(if uncertainty.is_some() { "samples.csv" } else { "table.csv" });
+    atomic::write(&csv, &table::full(study, &results, &resolution).csv()?)?;
     atomic::write(&path("table.md"), table.markdown().as_bytes())?;
     let mut curves = Vec::new();
     for (number, curve) in study.report.curves.iter().enumerate() {
@@ -119,12 +156,13 @@ pub(crate) fn report(study: &Study, runs: &[PlannedRun], folder: &StudyFolder) -
         curves: &curves,
         judgments: &judgments,
         convergences: &convergences,
+        uncertainty: uncertainty.as_ref(),
     };
     let place = path("report.html");
     atomic::write(&place, page(&content).as_bytes())?;
     let unknown = unknown(study, &results);
     let moving = moving(&results, &table::shown_measures(study, &results));
-    Ok(StudyReport { moving, results, table, judgments, convergences, unknown, page: place })
+    Ok(StudyReport { moving, results, table, csv, judgments, convergences, unknown, page: place })
 }
 
 /// Names that no run has; which measures there are is known when a run is complete.

@@ -8,9 +8,24 @@ use super::base_case;
 use super::comparison::{self, DirectRun, NetworkRun, PlannedNetwork};
 use super::definition::{Assignment, Choice, Quantity, Study};
 use super::values::{number_of, same};
-use crate::case::{Case, Loaded};
+use crate::case::{Case, KeptGeometry, Loaded};
 use crate::input::{Document, InputError, Problem};
 use crate::io::checksum::fnv1a;
+
+/// How the message of a mistake in a sampled value begins.
+pub(super) const SAMPLE_MISTAKE: &str = "a sample is refused: ";
+
+/// How the place of such a value ends.
+const OF_DISTRIBUTION: &str = ".distribution";
+
+/// The way out.
+const IN_RANGE: &str =
+    "truncate a normal distribution by `at-least` and `at-most`, or take one that ends within the range";
+
+/// A text that another one follows.
+fn joined(text: &str) -> String {
+    if text.is_empty() { String::new() } else { format!("{text}; ") }
+}
 
 /// A parameter with its value in a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,6 +109,14 @@ impl Run {
         self.load(study).map_err(|error| self.placed(study, error))
     }
 
+    /// Loads the case of the run, one of a network, without writing it out; `kept` has the geometry of the run before.
+    ///
+    /// # Errors
+    /// As [`plan`](Self::plan).
+    pub(crate) fn case(&self, study: &Study, kept: &KeptGeometry) -> Result<Case, InputError> {
+        base_case::load_with(&self.case, &self.assignments, kept).map_err(|error| self.placed(study, error))
+    }
+
     fn load(&self, study: &Study) -> Result<PlannedRun, InputError> {
         let (loaded, network) = match &self.network {
             Some(network) => {
@@ -121,6 +144,10 @@ impl Run {
             let is_missing = |case: &Path| mistake.place.is_none() && mistake.name == case.display().to_string();
             let missing_case = cases().find(|(case, _)| is_missing(case));
             let problem = match set_here {
+                Some(one) if one.origin.ends_with(OF_DISTRIBUTION) => {
+                    let message = format!("{SAMPLE_MISTAKE}{} (in `{}`)", mistake.message, one.text);
+                    Some(Problem::new(&one.origin, message, format!("{}{IN_RANGE}", joined(mistake.help_text()))))
+                }
                 Some(one) => {
                     let message = format!("{} (in `{}`)", mistake.message, one.text);
                     Some(Problem::new(&one.origin, message, mistake.help_text()))

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use toml::Value;
 
 use super::definition::{Assignment, Study, Target};
-use super::run::{Parameter, PlannedRun, Run};
+use super::run::{Parameter, PlannedRun, Run, SAMPLE_MISTAKE};
 use super::values::shown;
 use super::{comparison, measured};
 use crate::input::{InputError, Mistake};
@@ -87,30 +87,62 @@ fn free_name(name: String, taken: &mut BTreeSet<String>) -> String {
     candidate
 }
 
+/// The mistakes of the cases of many runs, each told once.
+#[derive(Default)]
+pub(super) struct Mistakes {
+    found: Vec<Mistake>,
+    /// The same mistake of other samples, at the place of a distribution.
+    more: Vec<usize>,
+}
+
+impl Mistakes {
+    /// Adds those of a run.
+    pub(super) fn add(&mut self, error: InputError) {
+        for mistake in error.mistakes {
+            // Samples of a distribution differ in their values, and so in their messages.
+            let is_sample = mistake.message.starts_with(SAMPLE_MISTAKE);
+            let same = self.found.iter().position(|other| {
+                (&other.name, other.place) == (&mistake.name, mistake.place)
+                    && (other.message == mistake.message || is_sample && other.message.starts_with(SAMPLE_MISTAKE))
+            });
+            match same {
+                Some(same) => self.more[same] += usize::from(is_sample),
+                None if self.found.len() < MOST_MISTAKES => {
+                    self.found.push(mistake);
+                    self.more.push(0);
+                }
+                None => {}
+            }
+        }
+    }
+
+    /// # Errors
+    /// The mistakes, if there are any.
+    pub(super) fn finish(self) -> Result<(), InputError> {
+        let told = |(mut mistake, more): (Mistake, usize)| {
+            if more > 0 {
+                mistake.message += &format!("; {more} more samples are refused here");
+            }
+            mistake
+        };
+        let mistakes: Vec<Mistake> = self.found.into_iter().zip(self.more).map(told).collect();
+        if mistakes.is_empty() { Ok(()) } else { Err(InputError { mistakes }) }
+    }
+}
+
 /// All runs with their cases checked.
 ///
 /// # Errors
 /// All mistakes of all cases, each told once; then measures that the runs do not have.
 pub fn plan(study: &Study) -> Result<Vec<PlannedRun>, InputError> {
-    let (mut planned, mut mistakes) = (Vec::new(), Vec::<Mistake>::new());
+    let (mut planned, mut mistakes) = (Vec::new(), Mistakes::default());
     for run in runs(study) {
         match run.plan(study) {
             Ok(run) => planned.push(run),
-            Err(error) => {
-                for mistake in error.mistakes {
-                    let told = mistakes.iter().any(|other: &Mistake| {
-                        (&other.name, other.place, &other.message) == (&mistake.name, mistake.place, &mistake.message)
-                    });
-                    if !told && mistakes.len() < MOST_MISTAKES {
-                        mistakes.push(mistake);
-                    }
-                }
-            }
+            Err(error) => mistakes.add(error),
         }
     }
-    if !mistakes.is_empty() {
-        return Err(InputError { mistakes });
-    }
+    mistakes.finish()?;
     study.refuse(measured::problems(study, &planned))?;
     Ok(planned)
 }

@@ -48,7 +48,7 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
             "io",
         ],
     ),
-    ("study", &["input", "case", "analysis", "io", "run"]),
+    ("study", &["diagram", "input", "case", "analysis", "io", "run"]),
     ("verify", &["math", "input", "geometry", "case", "interface", "network", "io", "study"]),
     (
         "cli",

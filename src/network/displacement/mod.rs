@@ -33,6 +33,7 @@ pub use self::conditions::{Conditions, CornerFilms, MeasuredBurst};
 pub(crate) use self::driven::{Advance, FrontId, GateFacts};
 pub use self::event::EventKind;
 pub(crate) use self::involved::{Place, Scene};
+pub(crate) use self::progress::Division;
 pub use self::progress::{Displacement, Element, Phase};
 pub use self::sequence::Event;
 pub(crate) use self::standing::{Beginning, Standing};

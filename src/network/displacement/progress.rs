@@ -70,20 +70,40 @@ pub struct Displacement {
     has_reached_outlet: bool,
 }
 
-impl Displacement {
-    /// The pore space full of the defending phase, except the elements that are open at an inlet: openings hold nothing back.
-    pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
-        let mesh = match conditions.events {
+/// The pore space as events fill it, whatever the angles are.
+#[derive(Debug, Clone)]
+pub(crate) struct Division {
+    mesh: Arc<Mesh>,
+    elements: Arc<Vec<Element>>,
+    centers: Arc<Vec<Vec2>>,
+}
+
+impl Division {
+    /// That of a network for these events.
+    pub(crate) fn of(network: &Network, pores: &Pores, events: Events) -> Self {
+        let mesh = match events {
             Events::All => Mesh::divided(network),
             Events::Burst => Mesh::of_pores(network, pores),
         };
-        let invaded = vec![false; mesh.elements.len()];
         let centers = Arc::new(network.regions.iter().map(|region| region.center).collect());
         let element =
             |k: usize| Element { region: mesh.region_of[k], area: mesh.area[k], outline: outline(&mesh.loops[k]) };
         let elements = Arc::new((0..mesh.loops.len()).map(element).collect());
-        let closed = vec![false; mesh.gates.len()];
-        Self::begun((Arc::new(mesh), elements, centers), conditions, invaded, closed)
+        Self { mesh: Arc::new(mesh), elements, centers }
+    }
+}
+
+impl Displacement {
+    /// The pore space full of the defending phase, except the elements that are open at an inlet: openings hold nothing back.
+    pub fn new(network: &Network, pores: &Pores, conditions: Conditions) -> Self {
+        Self::within(&Division::of(network, pores, conditions.events), conditions)
+    }
+
+    /// The same in a pore space that is divided for these events.
+    pub(crate) fn within(division: &Division, conditions: Conditions) -> Self {
+        let Division { mesh, elements, centers } = division.clone();
+        let (invaded, closed) = (vec![false; mesh.elements.len()], vec![false; mesh.gates.len()]);
+        Self::begun((mesh, elements, centers), conditions, invaded, closed)
     }
 
     /// The other phase invades from the state that is left. What it holds and is not connected to an inlet takes no part until it is

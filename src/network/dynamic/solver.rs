@@ -8,8 +8,9 @@ use super::{Breakthrough, Drive, Dynamic, StepEnd};
 use crate::diagram::Diagram;
 use crate::math::Vec2;
 use crate::network::cycles::FluidPhase;
-use crate::network::displacement::EventKind;
+use crate::network::displacement::{Element, EventKind};
 use crate::network::laplacian::FlowError;
+use crate::network::model::Model;
 use crate::network::solver::{NetworkSolver, results_with};
 use crate::network::{layers, summary, warnings};
 use crate::snapshot::{Cloud, Layer, Lines, Snapshot};
@@ -48,6 +49,16 @@ impl DynamicSolver {
     /// By element: the share of it that the invading phase holds.
     pub(crate) fn shares(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.model.dynamic.displacement().elements().len()).map(|element| self.model.dynamic.share(element))
+    }
+
+    /// The network, with nothing displaced.
+    pub(crate) fn still(&self) -> &Model {
+        &self.model.still
+    }
+
+    /// The parts of the pore space.
+    pub(crate) fn elements(&self) -> &[Element] {
+        self.model.dynamic.displacement().elements()
     }
 
     /// When the invading phase reached the outlet.
@@ -122,7 +133,7 @@ impl Solver for DynamicSolver {
     }
 
     fn outline(&self) -> Lines<'_> {
-        self.model.still.setting.outline.clone()
+        self.model.still.setting.outline.as_ref().clone()
     }
 
     fn sample(&self) -> Vec<Sample> {

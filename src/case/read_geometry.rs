@@ -1,0 +1,233 @@
+//! The geometry of a case from the file that it names, or as it is written in the case; and texts of files.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use super::shapes::{self, RawGeometry, RawShapeFile};
+use crate::geometry::ShapeFileError;
+use crate::geometry::import::{self, Format, Imported, Options};
+use crate::input::{Checker, Document, InputError, Mistake, Overrides, Problem, file};
+
+/// The shape file of the built-in case, as that case names it.
+const DEFAULT_SHAPES: &str = "../geometries/four-discs.toml";
+const DEFAULT_SHAPES_TEXT: &str = include_str!("../../geometries/four-discs.toml");
+
+/// Where the files of a case come from.
+pub(super) enum Origin<'p> {
+    Disk(&'p Path),
+    /// The same, with the text of the state that the case begins with, whatever file it names.
+    Started(&'p Path, &'p str),
+    BuiltIn,
+    /// A text without a file; what it names is looked for in the working folder.
+    Given,
+}
+
+impl<'p> Origin<'p> {
+    /// The case file, where there is one.
+    pub(super) fn path(&self) -> Option<&'p Path> {
+        match *self {
+            Self::Disk(path) | Self::Started(path, _) => Some(path),
+            Self::BuiltIn | Self::Given => None,
+        }
+    }
+}
+
+/// The geometry that was read last, so that the cases of a study read the same files once.
+#[derive(Debug, Default)]
+pub(crate) struct KeptGeometry(Mutex<Option<(RawGeometry, Imported)>>);
+
+impl KeptGeometry {
+    /// What was read for these keys; no other key of `[geometry]` has a part in reading.
+    pub(super) fn find(&self, raw: &RawGeometry) -> Option<Imported> {
+        let kept = self.0.lock().ok()?;
+        kept.as_ref().filter(|(key, _)| *key == Self::key(raw)).map(|(_, read)| read.clone())
+    }
+
+    pub(super) fn keep(&self, raw: &RawGeometry, read: &Imported) {
+        if let Ok(mut kept) = self.0.lock() {
+            *kept = Some((Self::key(raw), read.clone()));
+        }
+    }
+
+    fn key(raw: &RawGeometry) -> RawGeometry {
+        RawGeometry { depth: None, etch_offset: None, ..raw.clone() }
+    }
+}
+
+/// Reads the geometry of a case; mistakes of another file go to `elsewhere`.
+pub(super) fn read_geometry(
+    checker: &mut Checker,
+    raw: &RawGeometry,
+    origin: &Origin,
+    sources: &mut Vec<PathBuf>,
+    elsewhere: &mut Vec<Mistake>,
+) -> Option<Imported> {
+    let Some(file) = &raw.file else {
+        shapes::refuse_keys_of_import(checker, raw);
+        return shapes::inline(checker, "geometry", raw).map(|spec| Imported { spec, depth: None, notes: Vec::new() });
+    };
+    shapes::refuse_keys_of_file(checker, raw);
+    let options = shapes::options(raw);
+    let loaded = match origin {
+        Origin::BuiltIn if file == Path::new(DEFAULT_SHAPES) => {
+            shape_text("geometries/four-discs.toml", DEFAULT_SHAPES_TEXT, &options)
+        }
+        _ => {
+            let folder = origin.path().and_then(Path::parent).unwrap_or(Path::new(""));
+            shapes_at(&folder.join(file), &options, sources)
+        }
+    };
+    match loaded {
+        Ok(read) => {
+            let spec = shapes::with_domain(checker, read.spec, raw)?;
+            let mut notes = read.notes;
+            if raw.min.is_some() || raw.max.is_some() {
+                // The case says the domain itself.
+                notes.retain(|note| !note.starts_with("domain "));
+            }
+            Some(Imported { spec, depth: read.depth, notes })
+        }
+        Err(NotRead::Keys(problems)) => {
+            for problem in problems {
+                checker.refuse(format!("geometry.{}", problem.path), problem.message, problem.help);
+            }
+            None
+        }
+        Err(NotRead::File(error)) => {
+            for mistake in error.mistakes {
+                // A file that cannot be read is a mistake of the key that names it.
+                match mistake.place {
+                    None => checker.refuse("geometry.file", mistake.message.clone(), mistake.help_text()),
+                    Some(_) => elsewhere.push(mistake),
+                }
+            }
+            None
+        }
+    }
+}
+
+/// Why shapes are not read.
+enum NotRead {
+    /// Keys that tell how the file is read, by name.
+    Keys(Vec<Problem>),
+    /// The file itself.
+    File(InputError),
+}
+
+impl NotRead {
+    /// The same as mistakes of the file.
+    fn of_file(self, name: &str) -> InputError {
+        let of_key = |problem: Problem| Mistake::of_file(name, problem.message, &problem.help);
+        match self {
+            Self::Keys(problems) => InputError { mistakes: problems.into_iter().map(of_key).collect() },
+            Self::File(error) => error,
+        }
+    }
+}
+
+impl From<InputError> for NotRead {
+    fn from(error: InputError) -> Self {
+        Self::File(error)
+    }
+}
+
+/// Where the user should look for a shape file that is not there.
+const BESIDE: &str = "the shape file is looked for beside the case file";
+
+fn shapes_at(path: &Path, options: &Options, sources: &mut Vec<PathBuf>) -> Result<Imported, NotRead> {
+    sources.push(path.to_path_buf());
+    read_shapes(path, options, BESIDE)
+}
+
+/// The shapes of a file; `help` tells where the user should look when there is none.
+fn read_shapes(path: &Path, options: &Options, help: &str) -> Result<Imported, NotRead> {
+    let name = path.display().to_string();
+    if Format::of(path) == Some(Format::Toml) {
+        return shape_text(&name, &read(path, help)?, options);
+    }
+    crate::geometry::load(path, options).map_err(|error| match error {
+        ShapeFileError::Keys { problems, .. } => NotRead::Keys(problems),
+        ShapeFileError::Read { path, source } => NotRead::File(unreadable(&name, &path, &source, help)),
+        ShapeFileError::Parts { path, refusals } => NotRead::File(each_part(&name, &path, &refusals, |refusal| {
+            (format!("{}: found {}", refusal.place, refusal.found), format!("expected {}", refusal.expected))
+        })),
+        ShapeFileError::Shapes { path, problems } => NotRead::File(each_part(&name, &path, &problems, |problem| {
+            (format!("{}: {}", problem.path, problem.message), problem.help.clone())
+        })),
+        error => NotRead::File(Mistake::of_file(&name, error.to_string(), "").into()),
+    })
+}
+
+/// Most parts of a file that are told.
+const MOST_PARTS: usize = 50;
+
+/// A mistake for each part of a file that is refused.
+fn each_part<T>(name: &str, path: &Path, parts: &[T], told: impl Fn(&T) -> (String, String)) -> InputError {
+    let one = |part: &T| {
+        let (message, help) = told(part);
+        Mistake::of_file(name, format!("{}, {message}", path.display()), &help)
+    };
+    let mut mistakes: Vec<Mistake> = parts.iter().take(MOST_PARTS).map(one).collect();
+    if parts.len() > MOST_PARTS {
+        let more = format!("{}: there are {} more mistakes", path.display(), parts.len() - MOST_PARTS);
+        mistakes.push(Mistake::of_file(name, more, ""));
+    }
+    InputError { mistakes }
+}
+
+/// Loads a shape file; the ending of its name says its format.
+///
+/// # Errors
+/// All mistakes of the file or of the options, or why it cannot be read.
+pub fn load_shapes(path: &Path, options: &Options) -> Result<Imported, InputError> {
+    let name = path.display().to_string();
+    read_shapes(path, options, "check the path of the shape file").map_err(|error| error.of_file(&name))
+}
+
+/// The same with the text of a shape file in TOML; `name` is how it is called in messages.
+///
+/// # Errors
+/// All mistakes of the text or of the options.
+pub(crate) fn load_shapes_text(name: &str, text: &str, options: &Options) -> Result<Imported, InputError> {
+    shape_text(name, text, options).map_err(|error| error.of_file(name))
+}
+
+fn shape_text(name: &str, text: &str, options: &Options) -> Result<Imported, NotRead> {
+    let problems = options.problems(Format::Toml);
+    if !problems.is_empty() {
+        return Err(NotRead::Keys(problems));
+    }
+    let document = Document::parse(name, text, &Overrides::default())?;
+    let mut reading = document.read::<RawShapeFile>();
+    let mut checker = Checker::default();
+    let found = shapes::shape_file(&mut checker, std::mem::take(&mut reading.value));
+    let mistakes = reading.refuse(checker.problems);
+    let Some((spec, depth)) = found.filter(|_| mistakes.is_empty()) else { return Err(InputError { mistakes }.into()) };
+    let read = import::windowed(spec, options).map_err(NotRead::Keys)?;
+    Ok(Imported { depth, ..read })
+}
+
+/// The text of a file; `help` tells where the user should look when there is none.
+pub(crate) fn read(path: &Path, help: &str) -> Result<String, InputError> {
+    file::read_text(path).map_err(|error| unreadable(&path.display().to_string(), path, &error, help))
+}
+
+/// The way out where a file is not text.
+const UTF_8: &str = "save it as text in UTF-8; is it the right file?";
+
+fn unreadable(name: &str, path: &Path, error: &std::io::Error, help: &str) -> InputError {
+    let resolved = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let message = match error.kind() {
+        std::io::ErrorKind::NotFound => format!("there is no file {}", resolved.display()),
+        std::io::ErrorKind::InvalidData => {
+            return Mistake::of_file(
+                name,
+                format!("{} is not text in UTF-8 from {error} on", resolved.display()),
+                UTF_8,
+            )
+            .into();
+        }
+        _ => format!("{} cannot be read: {error}", resolved.display()),
+    };
+    Mistake::of_file(name, message, help).into()
+}

@@ -1,0 +1,351 @@
+//! One network of many that differ in uncertain values: what is kept of it, and maps of all of them.
+//!
+//! Capillary pressures are read at the same saturations of the wetting phase in each, and the state when the invading phase reaches the outlet, or at
+//! the end of the first half cycle where it does not, by the parts of the pore space of the first of them.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::cycles::{Cycles, FluidPhase};
+use super::displacement::{Element, Phase};
+use super::dynamic::solver::DynamicSolver;
+use super::films::CurvePoint;
+use super::flow::along;
+use super::locate::{inner_point, located};
+use super::model::{Model, Setting};
+use super::setup::{Ground, SetupError, build_on, in_time};
+use super::solver::NetworkSolver;
+use super::{layers, measures, pictures, tables};
+use crate::case::Case;
+use crate::case::network::PoreNetwork;
+use crate::diagram::Mosaic;
+use crate::math::Vec2;
+use crate::snapshot::Layer;
+use crate::solver::{Measure, Series, Solver, SolverError};
+use crate::table::Table;
+
+/// Saturations of the wetting phase at which capillary pressures are read, from 0 to 1.
+pub(crate) const SATURATIONS: usize = 101;
+
+/// Saturations that differ by less are the same: sums of areas.
+const ROUNDING: f64 = 1e-9;
+
+/// Steps between two looks at an interrupt.
+const BETWEEN_LOOKS: u64 = 64;
+
+/// A network before its displacement.
+pub(crate) enum Sample {
+    /// Quasi-static, or without a displacement.
+    Still(Box<NetworkSolver>),
+    /// In time.
+    InTime(Box<DynamicSolver>),
+}
+
+/// What is kept of a network.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Observed {
+    /// All measures.
+    pub(crate) measures: Vec<Measure>,
+    /// For each half cycle the capillary pressure in Pa at each of the saturations, infinite where the saturation is not reached or needs no pressure.
+    pub(crate) curves: Vec<Vec<f64>>,
+    /// Which parts of the reference the invading phase held.
+    pub(crate) invaded: Vec<bool>,
+    /// Number of events or steps.
+    pub(crate) steps: u64,
+    /// Number of pores.
+    pub(crate) pores: usize,
+}
+
+/// The parts of the pore space that a map shows, those of one of the networks.
+pub(crate) struct Reference {
+    setting: Setting,
+    elements: Vec<Element>,
+    probes: Vec<Vec2>,
+    processes: Vec<&'static str>,
+}
+
+impl Sample {
+    /// The network of a case on a ground that is its own or that of a case of the same geometry, sides and persistence ratio.
+    ///
+    /// # Errors
+    /// [`SetupError`] where there is no such network.
+    pub(crate) fn on(ground: &Ground, case: &Case, wanted: &PoreNetwork) -> Result<Self, SetupError> {
+        let mut still = build_on(ground, wanted, case.depth)?;
+        if case.depth == ground.network.depth {
+            still.model = still.model.with_conductances(ground.conductances().to_vec());
+            let found = ground.permeabilities(|| [0, 1].map(|axis| along(&still.model, axis)));
+            still.model = still.model.with_permeabilities(found);
+        }
+        Ok(match in_time(wanted, &still)? {
+            Some((dynamic, invading, end)) => Self::InTime(Box::new(DynamicSolver::new(still, dynamic, invading, end))),
+            None => Self::Still(Box::new(still)),
+        })
+    }
+
+    fn model(&self) -> &Model {
+        match self {
+            Self::Still(solver) => &solver.model,
+            Self::InTime(solver) => solver.still(),
+        }
+    }
+
+    fn elements(&self) -> &[Element] {
+        match self {
+            Self::Still(solver) => solver.cycles().map_or(&[][..], |cycles| cycles.displacement().elements()),
+            Self::InTime(solver) => solver.elements(),
+        }
+    }
+
+    /// The parts of its pore space.
+    pub(crate) fn reference(&self) -> Reference {
+        let elements = self.elements().to_vec();
+        let probes = elements.iter().map(|element| inner_point(&element.outline)).collect();
+        let processes = match self {
+            Self::Still(solver) => solver
+                .cycles()
+                .map_or(Vec::new(), |cycles| cycles.half_cycles().iter().map(|half| half.name()).collect()),
+            Self::InTime(_) => Vec::new(),
+        };
+        Reference { setting: self.model().setting.clone(), elements, probes, processes }
+    }
+
+    /// Does the displacement; none where it was interrupted. `stop` tells for a displacement in time the next time in s at which it halts, and whether
+    /// its state is recorded there.
+    ///
+    /// # Errors
+    /// [`SolverError`] of a displacement in time.
+    pub(crate) fn observed(
+        self,
+        reference: &Reference,
+        stop: &dyn Fn(f64) -> Option<(f64, bool)>,
+        interrupt: &AtomicBool,
+    ) -> Result<Option<Observed>, SolverError> {
+        let places = reference.places(&self.model().setting, self.elements());
+        match self {
+            Self::Still(solver) => Ok(still(*solver, &places, interrupt)),
+            Self::InTime(solver) => in_its_time(*solver, &places, stop, interrupt),
+        }
+    }
+}
+
+fn still(mut solver: NetworkSolver, places: &[Option<usize>], interrupt: &AtomicBool) -> Option<Observed> {
+    let mut invaded = Vec::new();
+    if let Some(cycles) = &mut solver.model.cycles {
+        let mut half_cycle = 0;
+        while cycles.advance().is_some() {
+            if cycles.steps() % BETWEEN_LOOKS == 0 && interrupt.load(Ordering::Relaxed) {
+                return None;
+            }
+            if half_cycle == 0 && cycles.half_cycle_index() == 1 {
+                half_cycle = 1;
+                invaded = at_turn(cycles);
+            }
+        }
+        if let Some(moment) = cycles.breakthrough() {
+            let displacement = &moment.displacement;
+            let holds = |element| displacement.phase(element) == Phase::Invading;
+            // Of the first half cycle alone: the phases of others are the other way round.
+            if moment.half_cycle == 0 {
+                invaded = (0..displacement.elements().len()).map(holds).collect();
+            }
+        }
+        if invaded.is_empty() {
+            let displacement = cycles.displacement();
+            invaded = (0..displacement.elements().len()).map(|e| displacement.phase(e) == Phase::Invading).collect();
+        }
+    }
+    let setting = &solver.model.setting;
+    let curves = solver.cycles().map_or(Vec::new(), |cycles| curves(setting, cycles));
+    Some(Observed {
+        curves,
+        invaded: places.iter().map(|place| place.is_some_and(|place| invaded[place])).collect(),
+        measures: measures::all(&solver.model),
+        steps: solver.steps(),
+        pores: setting.pores.main_region.len(),
+    })
+}
+
+/// What the phase that invaded first holds when the first half cycle has just turned.
+fn at_turn(cycles: &Cycles) -> Vec<bool> {
+    let displacement = cycles.displacement();
+    let holds = |element: usize| match displacement.phase(element) {
+        Phase::Defending => true,
+        // The beginning of the next half cycle has taken it.
+        Phase::Invading => cycles.invasions()[element].is_some(),
+    };
+    (0..displacement.elements().len()).map(holds).collect()
+}
+
+fn in_its_time(
+    mut solver: DynamicSolver,
+    places: &[Option<usize>],
+    stop: &dyn Fn(f64) -> Option<(f64, bool)>,
+    interrupt: &AtomicBool,
+) -> Result<Option<Observed>, SolverError> {
+    let mut series = Series::default();
+    let record = |solver: &DynamicSolver, series: &mut Series| {
+        let (columns, row): (Vec<&str>, Vec<f64>) = solver.sample().iter().map(|it| (it.name, it.value)).unzip();
+        series.columns = columns.into_iter().map(str::to_owned).collect();
+        series.rows.push(row);
+    };
+    let held = |solver: &DynamicSolver| solver.shares().map(|share| share > 0.5).collect::<Vec<bool>>();
+    record(&solver, &mut series);
+    let mut invaded = None;
+    'run: while let Some((until, is_recorded)) = stop(solver.time()).filter(|_| !solver.is_done()) {
+        while solver.time() < until {
+            if interrupt.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            solver.step(until)?;
+            if invaded.is_none() && solver.breakthrough().is_some() {
+                invaded = Some(held(&solver));
+            }
+            if solver.is_done() {
+                record(&solver, &mut series);
+                break 'run;
+            }
+        }
+        if is_recorded {
+            record(&solver, &mut series);
+        }
+    }
+    let invaded = invaded.unwrap_or_else(|| held(&solver));
+    Ok(Some(Observed {
+        curves: Vec::new(),
+        invaded: places.iter().map(|place| place.is_some_and(|place| invaded[place])).collect(),
+        measures: solver.measures(&series),
+        steps: solver.steps(),
+        pores: solver.still().setting.pores.main_region.len(),
+    }))
+}
+
+/// For each half cycle that has begun the capillary pressure at each of the saturations.
+fn curves(setting: &Setting, cycles: &Cycles) -> Vec<Vec<f64>> {
+    let Some(tension) = setting.tension else { return Vec::new() };
+    let of_half = |(half_cycle, outcome): (usize, &super::cycles::Outcome)| {
+        let invading = cycles.half_cycles()[half_cycle].invading;
+        let first = outcome.first_saturation[1];
+        if cycles.has_films() {
+            let points = cycles.curve().iter().filter(|point| point.half_cycle == half_cycle);
+            let points: Vec<[f64; 2]> =
+                points.map(|point: &CurvePoint| [point.saturation, tension * point.curvature]).collect();
+            return at_saturations(invading, first, &points, true);
+        }
+        let entries = cycles.history().iter().filter(|entry| entry.half_cycle == half_cycle);
+        let points: Vec<[f64; 2]> =
+            entries.map(|entry| [entry.saturation, setting.pressure(invading, entry.applied)]).collect();
+        at_saturations(invading, first, &points, false)
+    };
+    cycles.outcomes().iter().enumerate().map(of_half).collect()
+}
+
+/// The pressure at which a half cycle that begins at the saturation `first` has come to each saturation. An event brings all saturations that it passes
+/// at its own pressure; between the `points` of a curve that `is_continuous` it is interpolated. What is there at the beginning needs none, and what
+/// is never reached is beyond any: both are infinite, of the sign that the pressure would have on its way.
+fn at_saturations(invading: FluidPhase, first: f64, points: &[[f64; 2]], is_continuous: bool) -> Vec<f64> {
+    let sign = if invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
+    // Both phases alike: the saturation falls and the pressure rises.
+    let falls: Vec<[f64; 2]> = points.iter().map(|[s, p]| [sign * s, sign * p]).collect();
+    let at = |k: usize| {
+        let wanted = sign * k as f64 / (SATURATIONS - 1) as f64;
+        if wanted >= sign * first - ROUNDING {
+            return sign * f64::NEG_INFINITY;
+        }
+        let Some(reached) = falls.iter().position(|[s, _]| *s <= wanted + ROUNDING) else {
+            return sign * f64::INFINITY;
+        };
+        let [s, pressure] = falls[reached];
+        let before = reached.checked_sub(1).map(|before| falls[before]).filter(|_| is_continuous);
+        sign * before.map_or(pressure, |[s0, p0]| {
+            let share = if s0 > s { ((s0 - wanted) / (s0 - s)).clamp(0.0, 1.0) } else { 1.0 };
+            p0 + share * (pressure - p0)
+        })
+    };
+    (0..SATURATIONS).map(at).collect()
+}
+
+impl Reference {
+    /// Names of the half cycles.
+    pub(crate) fn processes(&self) -> &[&'static str] {
+        &self.processes
+    }
+
+    /// The moment that maps show.
+    pub(crate) fn moment(&self) -> &'static str {
+        if self.setting.outlet.is_some() { "at breakthrough" } else { "at the end of the first half cycle" }
+    }
+
+    /// Number of its parts.
+    pub(crate) fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// For each of its parts the one of another network at the same place; none where the walls are.
+    fn places(&self, setting: &Setting, elements: &[Element]) -> Vec<Option<usize>> {
+        let is_same = setting.geometry_hash == self.setting.geometry_hash
+            && elements.len() == self.elements.len()
+            && elements.iter().zip(&self.elements).all(|(one, other)| one.area == other.area);
+        if is_same {
+            return (0..elements.len()).map(Some).collect();
+        }
+        let size = setting.bounds.size();
+        let periods = [0, 1].map(|axis| setting.periodic[axis].then_some(size[axis]));
+        located(elements, &self.probes, periods)
+    }
+
+    /// The probability that a random place of each pore is invaded, as a table of the pores.
+    pub(crate) fn table(&self, probability: &[f64]) -> Table {
+        let setting = &self.setting;
+        let pores = setting.pores.main_region.len();
+        let mut sums = vec![[0.0; 2]; pores];
+        for (element, probability) in self.elements.iter().zip(probability) {
+            let [weighted, area] = &mut sums[setting.pores.pore_of[element.region]];
+            *weighted += element.area * probability;
+            *area += element.area;
+        }
+        let centers = || (0..pores).map(|pore| tables::center(setting, pore));
+        Table {
+            name: "invasion",
+            columns: vec![
+                tables::counts("pore", 0..pores),
+                tables::numbers("x_m", centers().map(|center| center.x)),
+                tables::numbers("y_m", centers().map(|center| center.y)),
+                tables::numbers("inscribed_radius_m", (0..pores).map(|pore| tables::radius(setting, pore))),
+                tables::numbers("area_m2", setting.pores.area.iter().copied()),
+                tables::numbers("invasion_probability", sums.iter().map(|[weighted, area]| weighted / area)),
+            ],
+        }
+    }
+
+    /// The same by parts of the pore space.
+    pub(crate) fn layer(&self, probability: &[f64]) -> Layer<'static> {
+        layers::invasion(&self.setting, &self.elements, probability)
+    }
+
+    /// The same as a picture; `note` stands below its title.
+    pub(crate) fn mosaic(&self, probability: &[f64], note: String) -> Mosaic {
+        pictures::invasion(&self.setting, &self.elements, probability, note)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_saturation_has_the_pressure_of_the_event_that_passes_it() {
+        let events = [[0.5, 10.0], [0.25, 20.0]];
+        let curve = at_saturations(FluidPhase::NonWetting, 0.9, &events, false);
+        assert_eq!((curve[100], curve[90], curve[89]), (f64::NEG_INFINITY, f64::NEG_INFINITY, 10.0));
+        assert_eq!((curve[50], curve[49], curve[25], curve[24]), (10.0, 20.0, 20.0, f64::INFINITY));
+        // Imbibition the other way: the pressure falls while the wetting phase comes.
+        let curve = at_saturations(FluidPhase::Wetting, 0.25, &[[0.5, 20.0], [0.75, -10.0]], false);
+        assert_eq!((curve[25], curve[26], curve[50], curve[51]), (f64::INFINITY, 20.0, 20.0, -10.0));
+        assert_eq!(curve[76], f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn a_curve_with_films_is_interpolated() {
+        let curve = at_saturations(FluidPhase::NonWetting, 1.0, &[[1.0, 0.0], [0.5, 10.0]], true);
+        assert!((curve[75] - 5.0).abs() < 1e-9 && curve[50] == 10.0);
+    }
+}

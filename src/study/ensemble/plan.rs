@@ -1,0 +1,129 @@
+//! The samples of networks with their cases checked, those of the same shapes with one geometry.
+
+use std::sync::Arc;
+
+use crate::case::{Case, KeptGeometry, digest};
+use crate::input::InputError;
+use crate::io::checksum::fnv1a;
+use crate::run::ensemble::{is_of_network, shared_by};
+use crate::study::definition::Study;
+use crate::study::measured;
+use crate::study::run::Run;
+use crate::study::runs::{Mistakes, runs};
+use crate::study::values::shown;
+
+/// A sample.
+pub(crate) struct PlannedSample {
+    /// Its run.
+    pub(crate) run: Run,
+    /// Tells whether a result is of this case and of this map.
+    pub(crate) digest: u64,
+    /// Index of the values of all other axes.
+    pub(crate) group: usize,
+    /// The case without its shapes, and the index of these; absent where shapes are uncertain too, and each case is read when it is run.
+    pub(crate) known: Option<(Case, usize)>,
+}
+
+/// All samples that have the same values along the other axes.
+pub(crate) struct Group {
+    /// These values, as people read them; empty where there are no other axes.
+    pub(crate) name: String,
+    /// Index of the first sample, whose pore space is that of the map.
+    pub(crate) first: usize,
+}
+
+/// Samples of networks.
+pub(crate) struct Ensemble {
+    /// The samples in the order of the runs.
+    pub(crate) samples: Vec<PlannedSample>,
+    /// Their groups.
+    pub(crate) groups: Vec<Group>,
+    /// A case for each geometry, where samples share it.
+    pub(crate) grounds: Vec<Case>,
+    /// What the cases were read with.
+    pub(crate) kept: KeptGeometry,
+}
+
+/// The geometry of the cases, with what else makes a network.
+type Key = (u64, String);
+
+/// The samples of a study that runs within this process: one of networks with uncertain values. None where runs are processes.
+///
+/// # Errors
+/// All mistakes of the cases of all samples.
+pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
+    let Some(sampling) = study.sampling.as_ref().filter(|it| !it.processes && study.compare.is_none()) else {
+        return Ok(None);
+    };
+    let is_of_shapes = |key: &String| key.starts_with("geometry.") && key != "geometry.depth";
+    let shapes_vary = sampling.inputs.iter().any(|input| input.keys.iter().any(is_of_shapes));
+    let kept = KeptGeometry::default();
+    let mut mistakes = Mistakes::default();
+    let mut ensemble =
+        Ensemble { samples: Vec::new(), groups: Vec::new(), grounds: Vec::new(), kept: KeptGeometry::default() };
+    let mut keys: Vec<Key> = Vec::new();
+    let mut representatives = Vec::new();
+    for (index, run) in runs(study).into_iter().enumerate() {
+        let mut case = match run.case(study, &kept) {
+            Ok(case) => case,
+            Err(error) => {
+                mistakes.add(error);
+                continue;
+            }
+        };
+        if !is_of_network(&case) {
+            return Ok(None);
+        }
+        let name = name_of_group(study, &run);
+        let group = ensemble.groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
+            ensemble.groups.push(Group { name, first: index });
+            representatives.push(run.clone());
+            ensemble.groups.len() - 1
+        });
+        let shapes = case.geometry.digest();
+        let whole = (!shapes_vary).then(|| case.clone());
+        case.geometry.shapes = Vec::new();
+        let own = digest(&case, shapes);
+        let known = whole.map(|whole| {
+            let key = (shapes, shared_by(&whole));
+            let ground = keys.iter().position(|other| *other == key).unwrap_or_else(|| {
+                keys.push(key);
+                ensemble.grounds.push(whole);
+                keys.len() - 1
+            });
+            (case, ground)
+        });
+        let first =
+            ensemble.samples.get(ensemble.groups[group].first).map_or(own, |first: &PlannedSample| first.digest);
+        let digest = fnv1a(&[own.to_le_bytes(), first.to_le_bytes()].concat());
+        // That of a first sample is what others refer to.
+        let digest = if ensemble.groups[group].first == index { own } else { digest };
+        ensemble.samples.push(PlannedSample { run, digest, group, known });
+    }
+    mistakes.finish()?;
+    let planned = representatives.iter().map(|run| run.plan(study)).collect::<Result<Vec<_>, _>>()?;
+    study.refuse(measured::problems(study, &planned))?;
+    ensemble.kept = kept;
+    Ok(Some(ensemble))
+}
+
+/// The values of a run along all axes but that of the samples, as people read them.
+pub(crate) fn name_of_group(study: &Study, run: &Run) -> String {
+    let is_other = |name: &str| study.sampling.as_ref().is_none_or(|sampling| !sampling.has(name));
+    let others = run.parameters.iter().filter(|parameter| is_other(&parameter.name));
+    others.map(|one| format!("{} = {}", one.name, shown(&one.value))).collect::<Vec<_>>().join(", ")
+}
+
+impl Ensemble {
+    /// The case of a sample, with the index of its geometry where it shares that.
+    ///
+    /// # Errors
+    /// The mistakes of a case that has changed since it was checked.
+    pub(crate) fn case(&self, study: &Study, index: usize) -> Result<(Arc<Case>, Option<usize>), InputError> {
+        let sample = &self.samples[index];
+        match &sample.known {
+            Some((case, ground)) => Ok((Arc::new(case.clone()), Some(*ground))),
+            None => Ok((Arc::new(sample.run.case(study, &self.kept)?), None)),
+        }
+    }
+}
