@@ -70,7 +70,7 @@ pub(crate) type Color = [u8; 3];
 
 /// The colors of all pictures, which color-blind eyes keep apart (Okabe and Ito 2008). `postprocess/colors.py` has the same.
 pub(crate) mod colors {
-    use super::Color;
+    use crate::diagram::Color;
 
     /// The wetting phase; darker where it is trapped.
     pub(crate) const WETTING: Color = [86, 180, 233];

@@ -94,7 +94,9 @@ pub(crate) fn cells(text: &str, separator: Option<char>) -> Vec<&str> {
     // A unit in brackets belongs to the name before it.
     let mut found: Vec<&str> = Vec::new();
     let mut from = 0;
-    for (at, _) in text.match_indices(char::is_whitespace).chain([(text.len(), "")]) {
+    // Of spaces in a row the first one decides.
+    let gaps = text.match_indices(char::is_whitespace).filter(|(at, _)| !text[..*at].ends_with(char::is_whitespace));
+    for (at, _) in gaps.chain([(text.len(), "")]) {
         let rest = text[at..].trim_start();
         if !rest.starts_with(['(', '[']) || text[from..at].trim().is_empty() {
             found.extend(Some(text[from..at].trim()).filter(|cell| !cell.is_empty()));
