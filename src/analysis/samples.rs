@@ -61,7 +61,8 @@ mod tests {
     #[test]
     fn quantiles_lie_between_order_statistics() {
         let values = [1.0, 2.0, 4.0, f64::INFINITY];
-        assert_eq!((quantile(&values, 0.0), quantile(&values, 0.5), quantile(&values, 0.6)), (1.0, 3.0, 3.6));
+        assert_eq!((quantile(&values, 0.0), quantile(&values, 0.5)), (1.0, 3.0));
+        assert!((quantile(&values, 0.6) - 3.6).abs() < 1e-15);
         assert_eq!((quantile(&values, 0.9), quantile(&values, 1.0)), (f64::INFINITY, f64::INFINITY));
         assert_eq!(quantile(&[f64::NEG_INFINITY, 1.0], 0.5), f64::NEG_INFINITY);
         assert!(quantile(&[], 0.5).is_nan());

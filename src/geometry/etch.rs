@@ -18,7 +18,7 @@ use crate::input::problem::Problem;
 use crate::math::{Bounds, Vec2, perpendicular};
 
 /// Turn of a corner in rad below which two curves run on smoothly.
-const SMOOTH: f64 = 1e-6;
+const SMOOTH: f64 = 1e-4;
 
 /// Gaps at corners below this share of the domain are closed by moving both ends: an arc so short would be lost to rounding.
 const SHORTEST: f64 = 1e-8;

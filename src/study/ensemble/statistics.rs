@@ -78,6 +78,8 @@ impl<'r> Group<'r> {
             .draws(sampling, samples)
             .filter_map(|result| result.number(measure))
             .filter(|it| it.is_finite())
+            // Adding zero turns minus zero into zero.
+            .map(|number| number + 0.0)
             .collect();
         values.sort_by(f64::total_cmp);
         values
