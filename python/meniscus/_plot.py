@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 CURVES = ("capillary-pressure", "pressure-difference")
 # Wetting, non-wetting, solid.
-PHASES = ("#4a90c4", "#f2d16b", "#8a8a8a")
+PHASES = ("#56b4e9", "#e69f00", "#8a8a8a")
 STROKES: dict[str, dict[str, Any]] = {
     "full": {},
     "thin": {"color": "0.7", "linewidth": 0.6},
@@ -36,6 +36,9 @@ def plot(result: Result, kind: str | None, field: str | None, ax: Axes | None) -
         raise ValueError(f"there is no {kind!r} of this result; there is {there}")
     diagram = result.diagrams[kind]
     for trace in diagram.traces:
+        if trace.stroke == "band":
+            ax.fill(*trace.points.T, label=trace.name or None, alpha=0.3)
+            continue
         style = STROKES[trace.stroke]
         ax.plot(*trace.points.T, label=trace.name or None, **style)
     ax.set(title=diagram.title, xlabel=diagram.labels[0], ylabel=diagram.labels[1])

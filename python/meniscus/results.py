@@ -134,7 +134,7 @@ class Trace:
     name: str
     """Its name in the legend; empty for none."""
     stroke: str
-    """``full``, ``thin``, ``dashed`` or ``dots``."""
+    """``full``, ``thin``, ``dashed``, ``dots``, or ``band``: the area within the points."""
     points: Array
     """x and y, of shape (n, 2)."""
 

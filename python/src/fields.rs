@@ -126,6 +126,7 @@ fn diagram(diagram: &Diagram) -> Data {
         Stroke::Thin => "thin",
         Stroke::Dashed => "dashed",
         Stroke::Dots => "dots",
+        Stroke::Band => "band",
     };
     let traces = diagram.traces.iter().map(|trace| {
         Data::group([
