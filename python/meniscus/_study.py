@@ -102,7 +102,7 @@ def study(
             mpi4py, or ``client.get_executor()`` of Dask. Where there is none, they are done in this process, one after the other.
         out: folder of the study, new or of this study; ``out/study-NAME`` where there is none.
         threads: threads of each run; with an executor 1 where there is none, else all cores.
-        progress: as in `run`; it is told when a run has ended.
+        progress: as in `run`; it is called when a run has ended.
 
     Returns:
         The runs with their parameters and measures. One that failed keeps the others from nothing: see its ``status`` and ``error``.

@@ -68,7 +68,7 @@ impl Given {
     }
 }
 
-/// Parameters from a dict as JSON; each that cannot be one is told by its name.
+/// Parameters from a dict as JSON; each that cannot be one is named in the error.
 fn read<T: serde::de::DeserializeOwned>(json: &str) -> Result<T, Refused> {
     let given: serde_json::Map<String, Value> = serde_json::from_str(json).map_err(|error| refused("", &error))?;
     let alone = |(key, value): (&String, &Value)| {

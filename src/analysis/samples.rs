@@ -1,6 +1,6 @@
 //! What samples say: moments, quantiles, and how the variance is shared among independent inputs (Sobol indices).
 
-/// Mean of some values; that of equal ones is the same to the last bit.
+/// Mean of some values; that of equal ones is exact.
 pub(crate) fn mean(values: &[f64]) -> f64 {
     let Some(&first) = values.first() else { return f64::NAN };
     first + values.iter().map(|value| value - first).sum::<f64>() / values.len() as f64

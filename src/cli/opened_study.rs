@@ -1,4 +1,4 @@
-//! What all study commands share: a study with its runs, its folder, and how it is told.
+//! What all study commands share: a study with its runs, its folder, and what they print of it.
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Whether the processor has the instructions that the program was built with (`.cargo/config.toml`: x86-64-v3).
 
-/// What is told where they are missing.
+/// The message where they are missing.
 pub const INSUFFICIENT: &str = "this processor lacks instructions (AVX2) that the program was built with; build it without them: \
                                 RUSTFLAGS='-C target-cpu=x86-64' cargo build --release";
 

@@ -96,7 +96,7 @@ pub(crate) fn sound_depth(depth: Option<f64>, spec: &GeometrySpec) -> Result<(),
     depth.and_then(|depth| case::none_of(depth, spec)).map_or(Ok(()), |problem| Err(of_options(&[problem])))
 }
 
-/// Loads and measures a shape file, or the geometry of a case with the case's sides, of a `depth` in m where that is given; `at` is told what is being done.
+/// Loads and measures a shape file, or the geometry of a case with the case's sides, of a `depth` in m where that is given; `at` receives what is being done.
 pub(crate) fn load_shapes(
     path: &Path,
     options: &Options,

@@ -18,7 +18,7 @@ pub struct Checked {
     pub(crate) advice: Option<Advice>,
 }
 
-/// Tries the first steps of a case with its solver at time zero, without any file; `tried` is told the share of them that is done.
+/// Tries the first steps of a case with its solver at time zero, without any file; `tried` receives the share of them that is done.
 ///
 /// # Errors
 /// [`SolverError`] of a step that fails.

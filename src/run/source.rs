@@ -11,7 +11,7 @@ use crate::input::{Document, InputError, Overrides, Problem, file};
 /// Name of the output folder of the built-in case.
 const DEFAULT_NAME: &str = "four-discs";
 
-/// What is told where pressures are those of a tension that nobody gave.
+/// The note where pressures are those of a tension that nobody gave.
 const WITHOUT_TENSION: &str = "no tension is given: pressures are those of a tension of 1 N/m; multiply them by yours";
 
 /// A checked case with its name.

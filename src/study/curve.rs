@@ -43,7 +43,7 @@ pub(crate) struct Line {
     pub reference: Vec<(f64, f64)>,
 }
 
-/// The parameters by whose values a curve is told into lines: its series and, where a line would have two values at one x, others that vary.
+/// The parameters whose values separate the lines of a curve: its series and, where a line would have two values at one x, others that vary.
 fn series(curve: &Curve, results: &[RunResult]) -> Vec<String> {
     let mut names: Vec<String> = curve.series.iter().cloned().collect();
     let all = || results.iter().flat_map(|result| &result.run.parameters).map(|parameter| &parameter.name);

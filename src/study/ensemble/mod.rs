@@ -1,4 +1,4 @@
-//! What becomes of the samples of uncertain values: networks are run within this process, and of any model it is told how sure the results are.
+//! Samples of uncertain values: runs of networks within this process, and statistics of the results of any model.
 //!
 //! [`plan`] checks all cases of networks, [`engine`] runs them, and [`store`] keeps what is done. [`statistics`] tells of the samples of any model
 //! quantiles, Sobol indices and how both settle; [`bands`] draws curves and maps of networks.

@@ -24,7 +24,7 @@ pub(crate) struct Group<'r> {
     pub(crate) results: Vec<&'r RunResult>,
 }
 
-/// What is told of a measure.
+/// The columns of the table of a measure.
 struct Summary {
     group: String,
     measure: String,
