@@ -13,6 +13,20 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 # A drop on a wall with few particles, which runs for some tens of steps.
 DROP = ROOT / "cases/sessile-drop.toml"
+
+# A study of angles of a small drop, by base case and angles.
+STUDY = """
+format = 1
+title = "Angles of a small drop"
+case = "{case}"
+set = ["sph.spacing=1e-4", "time.end=2e-4", "expect=[]"]
+
+[[axis]]
+key = "sph.wetting.young.contact-angle-deg"
+name = "angle"
+values = [{values}]
+"""
+
 DROP_SET = {"sph.spacing": 1e-4, "time.end": 2e-4, "expect": [], "output.vtk.every-time": 1e-4}
 
 

@@ -3,19 +3,7 @@
 import re
 
 import pytest
-from conftest import ROOT
-
-STUDY = """
-format = 1
-title = "Angles of a small drop"
-case = "cases/sessile-drop.toml"
-set = ["sph.spacing=1e-4", "time.end=2e-4", "expect=[]"]
-
-[[axis]]
-key = "sph.wetting.young.contact-angle-deg"
-name = "angle"
-values = [60.0, 90.0]
-"""
+from conftest import ROOT, STUDY
 
 
 def test_the_code_of_the_tutorial_runs(tmp_path, monkeypatch, capsys):
@@ -23,7 +11,7 @@ def test_the_code_of_the_tutorial_runs(tmp_path, monkeypatch, capsys):
     matplotlib.use("Agg")
     for folder in ("cases", "geometries"):
         (tmp_path / folder).symlink_to(ROOT / folder)
-    (tmp_path / "angles.toml").write_text(STUDY)
+    (tmp_path / "angles.toml").write_text(STUDY.format(case="cases/sessile-drop.toml", values="60.0, 90.0"))
     monkeypatch.chdir(tmp_path)
     page = (ROOT / "docs/tutorials/python.md").read_text()
     code = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)

@@ -5,21 +5,9 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from conftest import DROP
+from conftest import DROP, STUDY
 
 import meniscus
-
-STUDY = """
-format = 1
-title = "Angles of a small drop"
-case = "{case}"
-set = ["sph.spacing=1e-4", "time.end=2e-4", "expect=[]"]
-
-[[axis]]
-key = "sph.wetting.young.contact-angle-deg"
-name = "angle"
-values = [{values}]
-"""
 
 
 @pytest.fixture

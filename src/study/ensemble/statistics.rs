@@ -24,7 +24,7 @@ pub(crate) struct Group<'r> {
     pub(crate) results: Vec<&'r RunResult>,
 }
 
-/// The columns of the table of a measure.
+/// Moments and quantiles of a measure.
 struct Summary {
     group: String,
     measure: String,
