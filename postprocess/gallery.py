@@ -200,10 +200,10 @@ def store(root: Path, name: str, directory: Path, picture: dict) -> None:
     writer = csv.writer(rows_text, lineterminator="\n")
     writer.writerow(head)
     writer.writerows([row[:measures] + [shortened(text) for text in row[measures:]] for row in complete])
-    seconds = sum(report["cpu-s"] for report in reports)
+    made_by, seconds = " and ".join(programs(root, directory)), sum(report["cpu-s"] for report in reports)
     lines = [
         f"# meniscus study run {study}",
-        f"# program {' and '.join(programs(root, directory))}, {len(complete)} of {len(rows)} runs, {seconds:.{1 if seconds < 10 else 0}f} s",
+        f"# program {made_by}, {len(complete)} of {len(rows)} runs, {seconds:.{1 if seconds < 10 else 0}f} s",
         *[stamp(root, path) for path in [*inputs(root, study), *figures]],
         f"# {checksum(rows_text.getvalue().encode())} rows",
     ]
