@@ -39,6 +39,9 @@ A cell is text with fields `{NAME}`, `{NAME:.3f}` or `{NAME / 2e-4 - 1:+.1%}`, w
 of a column of the study's table, and arithmetic goes from left to right. ` ±` at the end of the format adds the error
 bar, that by the spacing included. A column without a head is named by its field.
 
+`write` also writes the table of all cases and studies with the sections that show them, between
+`<!-- generated: cases and studies -->` and `<!-- end of generated -->`.
+
 A stored result names the program that made it by a hash of its source: the first ten digits of the SHA-256 of the
 sorted paths and contents of `src` and of `Cargo.lock`, at the time of `run`. `write --check` lists the tables whose
 program has another source than the present one; that is no failure.
@@ -65,6 +68,7 @@ LAYOUTS = RESULTS / "tables.toml"
 FIGURES = Path("docs/figures")
 BLOCK = re.compile(r"^(<!-- results: (\S+) -->\n)(.*?)^<!-- end of results -->", re.DOTALL | re.MULTILINE)
 FIELD = re.compile(r"\{([^{}:]+)(?::([^{}]*))?\}")
+INDEX = re.compile(r"^(<!-- generated: cases and studies -->\n).*?^<!-- end of generated -->", re.DOTALL | re.MULTILINE)
 # Parts of a study or case that change no run.
 REMARKS = ("[[expect", "[[trend", "[report", "[[report")
 DIGITS = 7
@@ -325,12 +329,72 @@ def written(root: Path, block: re.Match, tables: dict[str, dict]) -> str:
     return f"{block[1]}{body}<!-- end of results -->"
 
 
+def sections(root: Path) -> list[tuple[str, str, str]]:
+    """Title, address seen from the gallery, and text: of sections of the validation pages, then of the other pages."""
+    summary = (root / "docs/SUMMARY.md").read_text(encoding="utf-8")
+    pages = re.findall(r"\]\(([^)]+)\)", summary)
+    found = []
+    for page in sorted(pages, key=lambda page: not page.startswith("validation/")):
+        text = INDEX.sub("", (root / "docs" / page).read_text(encoding="utf-8"))
+        is_validation = page.startswith("validation/")
+        address = page.removeprefix("validation/") if is_validation else f"../{page}"
+        for part in re.split(r"^(?=## )", text, flags=re.MULTILINE) if is_validation else [text]:
+            title = part.split("\n")[0].lstrip("# ")
+            anchor = re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-")
+            found.append((title, f"{address}#{anchor}" if part.startswith("## ") else address, part))
+    return found
+
+
+def index(root: Path) -> list[str]:
+    """The lines of the table of all cases and studies, with the sections that show them."""
+    tables, parts = layouts(root), sections(root)
+    order = {address: number for number, (_, address, _) in reversed(list(enumerate(parts)))}
+    nowhere = ("", "")
+    shown = {
+        study: (title, address)
+        for title, address, text in reversed(parts)
+        for block in BLOCK.finditer(text)
+        for study in layout_of(tables, block[2])["studies"]
+    }
+
+    def place(path: str) -> tuple[str, str]:
+        if path.startswith("studies/") and Path(path).stem in shown:
+            return shown[Path(path).stem]
+        named = re.compile(rf"(?<!/){re.escape(path)}")
+        return next(((title, address) for title, address, text in parts if named.search(text)), nowhere)
+
+    def key(entry: tuple) -> tuple:
+        return order.get(entry[0][1], len(parts)), entry[1]
+
+    studies: dict[str, list] = {}
+    for path in sorted(file.relative_to(root).as_posix() for file in (root / "studies").rglob("*.toml")):
+        case = tomllib.loads((root / path).read_text(encoding="utf-8")).get("case")
+        case = case and ((root / path).parent / case).resolve().relative_to(root.resolve()).as_posix()
+        studies.setdefault(case or "", []).append((place(path), path))
+    groups = [(*entry, [entry]) for entry in studies.get("", [])]
+    for path in sorted(file.relative_to(root).as_posix() for file in (root / "cases").rglob("*.toml")):
+        own = sorted(studies.get(path, []), key=key)
+        groups.append((own[0][0] if own else place(path), path, own or [(place(path), "")]))
+    lines, last = ["| section | case | study |", "|---|---|---|"], None
+    for _, path, own in sorted(groups, key=key):
+        for number, (at, study) in enumerate(own):
+            link = f"[{at[0]}]({at[1]})" if at != nowhere else "others"
+            link = "" if at == last else link
+            case = f"`{path}`" if number == 0 and path != study else ""
+            lines.append(f"| {link} | {case} | {f'`{study}`' if study else ''} |")
+            last = at
+    return lines
+
+
 def write(root: Path, check: bool = False) -> list[Path]:
     """Writes the tables of all pages, or only looks; returns the pages that change."""
     changed, tables = [], layouts(root)
-    for page in sorted({page for page, _ in blocks(root)}):
+    for page in sorted((root / "docs").rglob("*.md")):
         text = page.read_text(encoding="utf-8")
         renewed = BLOCK.sub(lambda block: written(root, block, tables), text)
+        if INDEX.search(text):
+            body = "\n".join(index(root))
+            renewed = INDEX.sub(lambda found: f"{found[1]}\n{body}\n\n<!-- end of generated -->", renewed)
         if renewed != text:
             changed.append(page)
             if not check:

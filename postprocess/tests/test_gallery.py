@@ -146,6 +146,27 @@ class Gallery(unittest.TestCase):
         with self.assertRaisesRegex(SystemExit, r"tables.toml has no \[angles\]"):
             gallery.write(self.root)
 
+    def test_the_index_lists_each_case_and_study_with_its_section(self):
+        """A section of a validation page, the title of another page, or neither."""
+        self.stored()
+        files = {
+            "docs/SUMMARY.md": "[Other](other.md)\n[Gallery](validation/gallery.md)\n[Drops](validation/drops.md)\n",
+            "docs/other.md": "# Other\n\n`cases/rest.toml` and `cases/drop.toml`.\n",
+            "docs/validation/drops.md": "# Drops\n\n## A drop's angle\n\n" + PAGE,
+            "docs/validation/gallery.md": "<!-- generated: cases and studies -->\n<!-- end of generated -->\n",
+            "cases/rest.toml": "format = 1\n",
+        }
+        for name, text in files.items():
+            (self.root / name).write_text(text, encoding="utf-8")
+        gallery.write(self.root)
+        lines = (self.root / "docs/validation/gallery.md").read_text(encoding="utf-8").splitlines()
+        expected = [
+            "| [A drop's angle](drops.md#a-drops-angle) | `cases/drop.toml` | `studies/drop.toml` |",
+            "| [Other](../other.md) | `cases/rest.toml` |  |",
+            "| others | `cases/disc.toml` |  |",
+        ]
+        self.assertEqual(lines[4:7], expected)
+
     def test_two_runs_that_differ_do_not_fit_in_a_cell(self):
         """The message names the column."""
         self.stored()
