@@ -9,20 +9,24 @@ Usage: gallery.py run [NAME ...] [--program meniscus] [--out out/gallery]
 figures and tables. `write` writes all tables from the stored results. `stamp` takes over an edit of a study or case
 that changes no number. A name is that of a study file; without names it is every study of a page.
 
-The layout of a table is TOML in a comment above it:
+A page shows a table between two comments:
 
-    <!-- results: STUDY [STUDY ...]
+    <!-- results: NAME -->
+    <!-- end of results -->
+
+Its layout is the table NAME in `docs/validation/results/tables.toml`:
+
+    [sessile-angle]
     rows = "angle"
     cell = "{contact-angle-deg:.2f ±} ({height-ratio:.3f})"
     columns = [
         { head = "angle", cell = "{angle}" },
         { head = "12.5 spacings", spacing = 8e-5 },
     ]
-    -->
-    <!-- end of results -->
 
 | key | meaning |
 |---|---|
+| `studies` | names of the studies whose runs it shows; by default the study NAME |
 | `rows` | parameters whose values make a row each; a row per run without it |
 | `where` | parameter values of the runs that count, as far as they have these parameters |
 | `columns` | `head`, `cell`, the study `of` several, and parameter values of the runs that the column shows |
@@ -34,10 +38,18 @@ The layout of a table is TOML in a comment above it:
 A cell is text with fields `{NAME}`, `{NAME:.3f}` or `{NAME / 2e-4 - 1:+.1%}`, where a name is that of a parameter or
 of a column of the study's table, and arithmetic goes from left to right. ` ±` at the end of the format adds the error
 bar, that by the spacing included. A column without a head is named by its field.
+
+`write` also writes the table of all cases and studies with the sections that show them, between
+`<!-- generated: cases and studies -->` and `<!-- end of generated -->`.
+
+A stored result names the program that made it by a hash of its source: the first ten digits of the SHA-256 of the
+sorted paths and contents of `src` and of `Cargo.lock`, at the time of `run`. `write --check` lists the tables whose
+program has another source than the present one; that is no failure.
 """
 
 import argparse
 import csv
+import hashlib
 import io
 import json
 import math
@@ -52,12 +64,17 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = Path("docs/validation/results")
+LAYOUTS = RESULTS / "tables.toml"
 FIGURES = Path("docs/figures")
-BLOCK = re.compile(r"^(<!-- results: ([^\n]+)\n(.*?)-->\n)(.*?)^<!-- end of results -->", re.DOTALL | re.MULTILINE)
+BLOCK = re.compile(r"^(<!-- results: (\S+) -->\n)(.*?)^<!-- end of results -->", re.DOTALL | re.MULTILINE)
 FIELD = re.compile(r"\{([^{}:]+)(?::([^{}]*))?\}")
+INDEX = re.compile(r"^(<!-- generated: cases and studies -->\n).*?^<!-- end of generated -->", re.DOTALL | re.MULTILINE)
 # Parts of a study or case that change no run.
 REMARKS = ("[[expect", "[[trend", "[report", "[[report")
 DIGITS = 7
+HASH_DIGITS = 10
+# File of a study folder with the programs that have worked on it.
+PROGRAMS = "programs.txt"
 OPERATIONS = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
 # Keys of a column that are no parameters.
 RESERVED = ("head", "cell", "of")
@@ -66,6 +83,28 @@ RESERVED = ("head", "cell", "of")
 def checksum(data: bytes) -> str:
     """CRC-32 in hexadecimal digits."""
     return f"{zlib.crc32(data):08x}"
+
+
+def program(root: Path) -> str:
+    """The hash of the present source of the program."""
+    files = [path for path in (root / "src").rglob("*") if path.is_file()] + [root / "Cargo.lock"]
+    digest = hashlib.sha256()
+    for name, path in sorted((path.relative_to(root).as_posix(), path) for path in files):
+        digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()[:HASH_DIGITS]
+
+
+def note_program(root: Path, directory: Path) -> None:
+    """Notes in a study folder that the present program is about to work on it."""
+    directory.mkdir(parents=True, exist_ok=True)
+    noted = programs(root, directory) if (directory / PROGRAMS).is_file() else []
+    (directory / PROGRAMS).write_text("\n".join(dict.fromkeys([*noted, program(root)])) + "\n", encoding="utf-8")
+
+
+def programs(root: Path, directory: Path) -> list[str]:
+    """The programs that have worked on a study folder; the present one where none is noted."""
+    noted = directory / PROGRAMS
+    return noted.read_text(encoding="utf-8").split() if noted.is_file() else [program(root)]
 
 
 def essence(text: str) -> str:
@@ -105,6 +144,18 @@ def study_file(root: Path, name: str) -> str:
     return found[0]
 
 
+def layouts(root: Path) -> dict[str, dict]:
+    """The layouts of all tables."""
+    return tomllib.loads((root / LAYOUTS).read_text(encoding="utf-8"))
+
+
+def layout_of(tables: dict[str, dict], name: str) -> dict:
+    """The layout of a table, with its studies."""
+    if name not in tables:
+        raise SystemExit(f"{LAYOUTS.as_posix()} has no [{name}]")
+    return {"studies": [name]} | tables[name]
+
+
 def blocks(root: Path) -> list[tuple[Path, re.Match]]:
     """The blocks of all pages."""
     pages = sorted((root / "docs").rglob("*.md"))
@@ -113,11 +164,11 @@ def blocks(root: Path) -> list[tuple[Path, re.Match]]:
 
 def used(root: Path) -> dict[str, dict]:
     """The studies of the pages, each with the keys of its picture."""
-    pictures: dict[str, dict] = {}
+    tables, pictures = layouts(root), {}
     for _, block in blocks(root):
-        names, picture = block[2].split(), tomllib.loads(block[3]).get("picture", {})
-        for name in names:
-            pictures.setdefault(name, {}).update(picture if name == names[0] else {})
+        layout = layout_of(tables, block[2])
+        for name in layout["studies"]:
+            pictures.setdefault(name, {}).update(layout.get("picture", {}) if name == layout["studies"][0] else {})
     return pictures
 
 
@@ -153,11 +204,10 @@ def store(root: Path, name: str, directory: Path, picture: dict) -> None:
     writer = csv.writer(rows_text, lineterminator="\n")
     writer.writerow(head)
     writer.writerows([row[:measures] + [shortened(text) for text in row[measures:]] for row in complete])
-    version = " and ".join(sorted({report["version"] for report in reports}))
-    seconds = sum(report["cpu-s"] for report in reports)
+    made_by, seconds = " and ".join(programs(root, directory)), sum(report["cpu-s"] for report in reports)
     lines = [
         f"# meniscus study run {study}",
-        f"# version {version}, {len(complete)} of {len(rows)} runs, {seconds:.{1 if seconds < 10 else 0}f} s",
+        f"# program {made_by}, {len(complete)} of {len(rows)} runs, {seconds:.{1 if seconds < 10 else 0}f} s",
         *[stamp(root, path) for path in [*inputs(root, study), *figures]],
         f"# {checksum(rows_text.getvalue().encode())} rows",
     ]
@@ -257,34 +307,94 @@ def table(layout: dict, results: dict[str, list[dict[str, str]]]) -> list[str]:
 
 
 def sources(paths: list[Path]) -> str:
-    """What stands below a table: versions, commands and processor times of its results."""
+    """What stands below a table: programs, commands and processor times of its results."""
     commands: dict[str, list[str]] = {}
     for path in paths:
         command, about = [line.lstrip("# ") for line in path.read_text(encoding="utf-8").splitlines()[:2]]
-        version, runs, seconds = about.split(", ")
+        made_by, runs, seconds = about.split(", ")
         part = "" if runs.split()[0] == runs.split()[2] else f"{runs}, "
-        commands.setdefault(version, []).append(f"`{command}` ({part}{seconds} of processor time)")
-    return "; ".join(f"{version}: {', '.join(told)}" for version, told in commands.items()).capitalize() + "."
+        commands.setdefault(made_by, []).append(f"`{command}` ({part}{seconds} of processor time)")
+    return "; ".join(f"{made_by}: {', '.join(told)}" for made_by, told in commands.items()).capitalize() + "."
 
 
-def written(root: Path, block: re.Match) -> str:
-    """A block with its table, and the commands and versions of its results."""
-    names = block[2].split()
-    paths = [root / RESULTS / f"{name}.csv" for name in names]
+def written(root: Path, block: re.Match, tables: dict[str, dict]) -> str:
+    """A block with its table, and the commands and programs of its results."""
+    layout = layout_of(tables, block[2])
+    paths = [root / RESULTS / f"{name}.csv" for name in layout["studies"]]
     if not all(path.is_file() for path in paths):
         return block[0]
-    lines = table(tomllib.loads(block[3]), {path.stem: measure(path) for path in paths})
+    lines = table(layout, {path.stem: measure(path) for path in paths})
     lines += ["", sources(paths)]
     body = "\n" + "\n".join(lines).lstrip() + "\n\n"
     return f"{block[1]}{body}<!-- end of results -->"
 
 
+def sections(root: Path) -> list[tuple[str, str, str]]:
+    """Title, address seen from the gallery, and text: of sections of the validation pages, then of the other pages."""
+    summary = (root / "docs/SUMMARY.md").read_text(encoding="utf-8")
+    pages = re.findall(r"\]\(([^)]+)\)", summary)
+    found = []
+    for page in sorted(pages, key=lambda page: not page.startswith("validation/")):
+        text = INDEX.sub("", (root / "docs" / page).read_text(encoding="utf-8"))
+        is_validation = page.startswith("validation/")
+        address = page.removeprefix("validation/") if is_validation else f"../{page}"
+        for part in re.split(r"^(?=## )", text, flags=re.MULTILINE) if is_validation else [text]:
+            title = part.split("\n")[0].lstrip("# ")
+            anchor = re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-")
+            found.append((title, f"{address}#{anchor}" if part.startswith("## ") else address, part))
+    return found
+
+
+def index(root: Path) -> list[str]:
+    """The lines of the table of all cases and studies, with the sections that show them."""
+    tables, parts = layouts(root), sections(root)
+    order = {address: number for number, (_, address, _) in reversed(list(enumerate(parts)))}
+    nowhere = ("", "")
+    shown = {
+        study: (title, address)
+        for title, address, text in reversed(parts)
+        for block in BLOCK.finditer(text)
+        for study in layout_of(tables, block[2])["studies"]
+    }
+
+    def place(path: str) -> tuple[str, str]:
+        if path.startswith("studies/") and Path(path).stem in shown:
+            return shown[Path(path).stem]
+        named = re.compile(rf"(?<!/){re.escape(path)}")
+        return next(((title, address) for title, address, text in parts if named.search(text)), nowhere)
+
+    def key(entry: tuple) -> tuple:
+        return order.get(entry[0][1], len(parts)), entry[1]
+
+    studies: dict[str, list] = {}
+    for path in sorted(file.relative_to(root).as_posix() for file in (root / "studies").rglob("*.toml")):
+        case = tomllib.loads((root / path).read_text(encoding="utf-8")).get("case")
+        case = case and ((root / path).parent / case).resolve().relative_to(root.resolve()).as_posix()
+        studies.setdefault(case or "", []).append((place(path), path))
+    groups = [(*entry, [entry]) for entry in studies.get("", [])]
+    for path in sorted(file.relative_to(root).as_posix() for file in (root / "cases").rglob("*.toml")):
+        own = sorted(studies.get(path, []), key=key)
+        groups.append((own[0][0] if own else place(path), path, own or [(place(path), "")]))
+    lines, last = ["| section | case | study |", "|---|---|---|"], None
+    for _, path, own in sorted(groups, key=key):
+        for number, (at, study) in enumerate(own):
+            link = f"[{at[0]}]({at[1]})" if at != nowhere else "others"
+            link = "" if at == last else link
+            case = f"`{path}`" if number == 0 and path != study else ""
+            lines.append(f"| {link} | {case} | {f'`{study}`' if study else ''} |")
+            last = at
+    return lines
+
+
 def write(root: Path, check: bool = False) -> list[Path]:
     """Writes the tables of all pages, or only looks; returns the pages that change."""
-    changed = []
-    for page in sorted({page for page, _ in blocks(root)}):
+    changed, tables = [], layouts(root)
+    for page in sorted((root / "docs").rglob("*.md")):
         text = page.read_text(encoding="utf-8")
-        renewed = BLOCK.sub(lambda block: written(root, block), text)
+        renewed = BLOCK.sub(lambda block: written(root, block, tables), text)
+        if INDEX.search(text):
+            body = "\n".join(index(root))
+            renewed = INDEX.sub(lambda found: f"{found[1]}\n{body}\n\n<!-- end of generated -->", renewed)
         if renewed != text:
             changed.append(page)
             if not check:
@@ -293,23 +403,33 @@ def write(root: Path, check: bool = False) -> list[Path]:
 
 
 def stale(root: Path) -> list[str]:
-    """What of the stored results is not of the present files, version and pages."""
-    version = tomllib.loads((root / "Cargo.toml").read_text(encoding="utf-8"))["package"]["version"]
+    """What of the stored results is not of the present files and pages."""
     shown = set(used(root))
     stored = {
         path.stem: path.read_text(encoding="utf-8").splitlines(keepends=True) for path in (root / RESULTS).glob("*.csv")
     }
     found = [f"{name}: on no page, or not stored" for name in sorted(shown ^ stored.keys())]
+    on_pages = {block[2] for _, block in blocks(root)}
+    found += [f"{LAYOUTS.as_posix()}: no page shows [{name}]" for name in sorted(layouts(root).keys() - on_pages)]
     for name, lines in sorted(stored.items()):
         head = [line.strip() for line in lines if line.startswith("#")]
-        if not head[1].startswith(f"# version {version},"):
-            found.append(f"{name}: {head[1]} is not {version}")
         rows = "".join(lines[len(head) :])
         kept = [f"# {checksum(rows.encode())} rows"]
         kept += [stamp(root, path) for path in inputs(root, study_file(root, name))]
         told = [line for line in head[2:] if line.split()[-1].startswith("docs/figures/")]
         kept += [stamp(root, line.split()[-1]) for line in told]
         found += [f"{name}: {line}" for line in sorted(set(kept) ^ set(head[2:]))]
+    return found
+
+
+def of_other_programs(root: Path) -> list[str]:
+    """The names of the tables that a program of another source than the present one made, at least in part."""
+    present, tables, found = program(root), layouts(root), []
+    for name in sorted({block[2] for _, block in blocks(root)}):
+        studies = layout_of(tables, name)["studies"]
+        heads = [(root / RESULTS / f"{study}.csv").read_text(encoding="utf-8") for study in studies]
+        if not all(head.splitlines()[1].startswith(f"# program {present},") for head in heads):
+            found.append(name)
     return found
 
 
@@ -332,6 +452,7 @@ def main() -> None:
     for name in asked.names or pictures:
         directory = asked.out / f"study-{name}"
         if asked.what == "run":
+            note_program(ROOT, directory)
             command = [asked.program, "study", "run", study_file(ROOT, name), "--out", str(directory.resolve())]
             subprocess.run(command, cwd=ROOT, check=False)  # expectations that miss are for the page to tell
         if asked.what in ("run", "store"):
@@ -344,6 +465,9 @@ def main() -> None:
     if asked.check:
         found = stale(ROOT)
         print(*found, sep="\n", end="\n" if found else "")
+        older = [] if found else of_other_programs(ROOT)
+        if older:
+            print(f"of another program than that of the present src ({program(ROOT)}): {', '.join(older)}")
         if changed or found:
             raise SystemExit(
                 "not the tables of stored results, or not results of the present files: gallery.py run NAME"

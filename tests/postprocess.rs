@@ -23,10 +23,12 @@ fn the_scripts_pass_their_own_tests() {
 
 #[test]
 fn the_tables_of_the_validation_pages_are_those_of_stored_results_of_the_present_files() {
-    run(
+    let printed = run(
         script("gallery.py").args(["write", "--check"]),
         "no number is edited by hand, and no result is of another case",
     );
+    // Which tables an older program has made: no failure.
+    println!("{printed}");
 }
 
 #[test]

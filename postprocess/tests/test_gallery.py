@@ -30,9 +30,8 @@ c,90,8e-5,done,,,-1e-5
 d,90,5e-5,to do,,,
 """
 
-PAGE = """# Drop
-
-<!-- results: drop
+LAYOUTS = """[angles]
+studies = ["drop"]
 rows = "angle"
 cell = "{contact-angle-deg:.2f ±} ({height-ratio - 1:+.1%})"
 columns = [
@@ -40,7 +39,11 @@ columns = [
     { head = "coarse", spacing = 8e-5 },
     { head = "fine", spacing = 5e-5 },
 ]
--->
+"""
+
+PAGE = """# Drop
+
+<!-- results: angles -->
 <!-- end of results -->
 
 The end.
@@ -59,11 +62,14 @@ class Gallery(unittest.TestCase):
             "studies/drop.toml": STUDY,
             "cases/drop.toml": 'format = 1 # one\nfile = "disc.toml"\n',
             "cases/disc.toml": "shapes = []\n",
+            "src/lib.rs": "",
+            "Cargo.lock": "",
+            gallery.LAYOUTS.as_posix(): LAYOUTS,
             "docs/drop.md": PAGE,
             "out/table.csv": TABLE,
         }
         for run in "abc":
-            files[f"out/runs/{run}/report.json"] = json.dumps({"version": "0.1.0", "cpu-s": 2.0})
+            files[f"out/runs/{run}/report.json"] = json.dumps({"cpu-s": 2.0})
         for name, text in files.items():
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             (self.root / name).write_text(text, encoding="utf-8")
@@ -77,11 +83,11 @@ class Gallery(unittest.TestCase):
         gallery.store(self.root, "drop", self.out, {})
         return (self.root / gallery.RESULTS / "drop.csv").read_text(encoding="utf-8")
 
-    def test_a_stored_result_tells_command_version_files_and_complete_runs(self):
+    def test_a_stored_result_tells_command_program_files_and_complete_runs(self):
         """Seven digits of each measure are stored."""
         lines = self.stored().splitlines()
         self.assertEqual(lines[0], "# meniscus study run studies/drop.toml")
-        self.assertEqual(lines[1], "# version 0.1.0, 3 of 4 runs, 6.0 s")
+        self.assertEqual(lines[1], f"# program {gallery.program(self.root)}, 3 of 4 runs, 6.0 s")
         names = [line.split()[-1] for line in lines[2:5]]
         self.assertEqual(names, ["studies/drop.toml", "cases/drop.toml", "cases/disc.toml"])
         self.assertEqual(lines[7], "a,60,8e-5,done,59.87654,0.12,0.99")
@@ -95,9 +101,8 @@ class Gallery(unittest.TestCase):
         text = page.read_text(encoding="utf-8")
         self.assertIn("| 60 | 59.88 ± 0.12 (\u22121.0 %) | 60.04 (+0.1 %) |\n", text)
         self.assertIn("| 90 | none (\u2212100.0 %) |  |\n", text)
-        self.assertIn(
-            "Version 0.1.0: `meniscus study run studies/drop.toml` (3 of 4 runs, 6.0 s of processor time).", text
-        )
+        self.assertIn("`meniscus study run studies/drop.toml` (3 of 4 runs, 6.0 s of processor time).", text)
+        self.assertIn(f"\nProgram {gallery.program(self.root)}: `meniscus", text)
         self.assertTrue(text.endswith("The end.\n"))
         self.assertEqual(gallery.write(self.root), [])
         page.write_text(text.replace("59.88", "60.00"), encoding="utf-8")
@@ -119,11 +124,54 @@ class Gallery(unittest.TestCase):
         changed = [new for old, new in zip(before.splitlines(), after, strict=True) if old != new]
         self.assertEqual([line.split()[-1] for line in changed], ["cases/disc.toml"])
 
+    def test_a_table_of_another_program_is_named(self):
+        """A study folder remembers the programs that have worked on it."""
+        self.stored()
+        self.assertEqual(gallery.of_other_programs(self.root), [])
+        gallery.note_program(self.root, self.out)
+        first = gallery.program(self.root)
+        (self.root / "src/lib.rs").write_text("// changed\n", encoding="utf-8")
+        self.assertEqual(gallery.of_other_programs(self.root), ["angles"])
+        self.assertEqual(gallery.stale(self.root), [])
+        gallery.note_program(self.root, self.out)
+        self.assertEqual(gallery.programs(self.root, self.out), [first, gallery.program(self.root)])
+
+    def test_every_layout_is_on_a_page_and_every_table_has_a_layout(self):
+        """A check tells the one, and a table without layout ends the script."""
+        self.stored()
+        layouts = self.root / gallery.LAYOUTS
+        layouts.write_text(LAYOUTS + "[more]\n", encoding="utf-8")
+        self.assertEqual(gallery.stale(self.root), ["docs/validation/results/tables.toml: no page shows [more]"])
+        layouts.write_text("[more]\n", encoding="utf-8")
+        with self.assertRaisesRegex(SystemExit, r"tables.toml has no \[angles\]"):
+            gallery.write(self.root)
+
+    def test_the_index_lists_each_case_and_study_with_its_section(self):
+        """A section of a validation page, the title of another page, or neither."""
+        self.stored()
+        files = {
+            "docs/SUMMARY.md": "[Other](other.md)\n[Gallery](validation/gallery.md)\n[Drops](validation/drops.md)\n",
+            "docs/other.md": "# Other\n\n`cases/rest.toml` and `cases/drop.toml`.\n",
+            "docs/validation/drops.md": "# Drops\n\n## A drop's angle\n\n" + PAGE,
+            "docs/validation/gallery.md": "<!-- generated: cases and studies -->\n<!-- end of generated -->\n",
+            "cases/rest.toml": "format = 1\n",
+        }
+        for name, text in files.items():
+            (self.root / name).write_text(text, encoding="utf-8")
+        gallery.write(self.root)
+        lines = (self.root / "docs/validation/gallery.md").read_text(encoding="utf-8").splitlines()
+        expected = [
+            "| [A drop's angle](drops.md#a-drops-angle) | `cases/drop.toml` | `studies/drop.toml` |",
+            "| [Other](../other.md) | `cases/rest.toml` |  |",
+            "| others | `cases/disc.toml` |  |",
+        ]
+        self.assertEqual(lines[4:7], expected)
+
     def test_two_runs_that_differ_do_not_fit_in_a_cell(self):
         """The message names the column."""
         self.stored()
-        page = self.root / "docs/drop.md"
-        page.write_text(PAGE.replace(", spacing = 8e-5", ""), encoding="utf-8")
+        layouts = self.root / gallery.LAYOUTS
+        layouts.write_text(LAYOUTS.replace(", spacing = 8e-5", ""), encoding="utf-8")
         with self.assertRaisesRegex(SystemExit, "drop: 2 runs for .*coarse"):
             gallery.write(self.root)
 

@@ -13,7 +13,7 @@ use crate::geometry::Geometry;
 use crate::network;
 use crate::network::graph::Pores;
 
-/// Spacings across a throat from which its entry pressure holds (measured: `docs/validation/throat-entry.md`).
+/// Spacings across a throat from which its entry pressure holds (measured: `docs/validation/angles-at-rest.md`).
 const ACROSS: f64 = 8.0;
 /// Share of a width that is rounding of where shapes stand.
 const ROUNDING: f64 = 1e-9;

@@ -68,7 +68,7 @@ fn layers_in_a_chip_have_the_relative_permeability_of_ducts() {
     }
 }
 
-/// Exact by postprocess/stokes_permeability.py at `--across 10`. Eight spacings between disc and drop leave 4.5 % (docs/validation/relative-permeability.md).
+/// Exact by postprocess/stokes_permeability.py at `--across 10`. Eight spacings between disc and drop leave 4.5 % (docs/validation/viscous-flow.md).
 #[test]
 fn trapped_drops_hold_the_flow_back_as_solids_do_and_carry_nothing() {
     let found = measures_of("relative-permeability-array.toml", &[]);
