@@ -34,7 +34,7 @@ impl Geometry {
 pub fn throats(geometry: &Geometry) -> Vec<Throat> {
     let walls = Walls::new(geometry, Sides::Beyond);
     let even = vec![1.0; walls.walls.len()];
-    let mut all: Vec<Throat> = CriticalPoints::find(&walls, &even)
+    let mut all: Vec<Throat> = CriticalPoints::find(&walls, &even, &[])
         .saddles
         .iter()
         .map(|at| Throat { width: 2.0 * at.half, ends: at.contacts.map(|c| c.point), center: at.center })

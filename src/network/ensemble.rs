@@ -11,6 +11,7 @@ use super::dynamic::solver::DynamicSolver;
 use super::films::CurvePoint;
 use super::flow::along;
 use super::locate::{inner_point, located};
+use super::measures::Costly;
 use super::model::{Model, Setting};
 use super::setup::{Ground, SetupError, build_on, in_time};
 use super::solver::NetworkSolver;
@@ -68,9 +69,9 @@ impl Sample {
     ///
     /// # Errors
     /// [`SetupError`] where there is no such network.
-    pub(crate) fn on(ground: &Ground, case: &Case, wanted: &PoreNetwork) -> Result<Self, SetupError> {
+    pub(crate) fn on(ground: &Ground, case: &Case, wanted: &PoreNetwork, costly: Costly) -> Result<Self, SetupError> {
         let mut still = build_on(ground, wanted, case.depth)?;
-        if case.depth == ground.network.depth {
+        if costly.permeabilities && case.depth == ground.network.depth {
             still.model = still.model.with_conductances(ground.conductances().to_vec());
             let found = ground.permeabilities(|| [0, 1].map(|axis| along(&still.model, axis)));
             still.model = still.model.with_permeabilities(found);
@@ -108,7 +109,7 @@ impl Sample {
         Reference { setting: self.model().setting.clone(), elements, probes, processes }
     }
 
-    /// Does the displacement; none where it was interrupted. `stop` tells for a displacement in time the next time in s at which it halts, and whether
+    /// Does the displacement, and finds the measures of a quasi-static one but the costly ones that are left out; none where it was interrupted. `stop` tells for a displacement in time the next time in s at which it halts, and whether
     /// its state is recorded there.
     ///
     /// # Errors
@@ -116,18 +117,24 @@ impl Sample {
     pub(crate) fn observed(
         self,
         reference: &Reference,
+        costly: Costly,
         stop: &dyn Fn(f64) -> Option<(f64, bool)>,
         interrupt: &AtomicBool,
     ) -> Result<Option<Observed>, SolverError> {
         let places = reference.places(&self.model().setting, self.elements());
         match self {
-            Self::Still(solver) => Ok(still(*solver, &places, interrupt)),
+            Self::Still(solver) => Ok(still(*solver, &places, costly, interrupt)),
             Self::InTime(solver) => in_its_time(*solver, &places, stop, interrupt),
         }
     }
 }
 
-fn still(mut solver: NetworkSolver, places: &[Option<usize>], interrupt: &AtomicBool) -> Option<Observed> {
+fn still(
+    mut solver: NetworkSolver,
+    places: &[Option<usize>],
+    costly: Costly,
+    interrupt: &AtomicBool,
+) -> Option<Observed> {
     let mut invaded = Vec::new();
     if let Some(cycles) = &mut solver.model.cycles {
         let mut half_cycle = 0;
@@ -158,7 +165,7 @@ fn still(mut solver: NetworkSolver, places: &[Option<usize>], interrupt: &Atomic
     Some(Observed {
         curves,
         invaded: places.iter().map(|place| place.is_some_and(|place| invaded[place])).collect(),
-        measures: measures::all(&solver.model),
+        measures: measures::with_costly(&solver.model, costly),
         steps: solver.steps(),
         pores: setting.pores.main_region.len(),
     })

@@ -9,10 +9,43 @@ use super::tables::kept;
 use super::warnings::notes_on_permeability;
 use crate::solver::{Measure, measure};
 
+/// Measures that need the conductance of every throat.
+const PERMEABILITIES: [&str; 4] =
+    ["permeability-x-m2", "permeability-y-m2", "relative-permeability-wetting", "relative-permeability-non-wetting"];
+
+/// Measures that need the entry pressure of every throat.
+const ENTRY_PRESSURES: [&str; 3] =
+    ["smallest-entry-pressure-Pa", "median-entry-pressure-Pa", "largest-entry-pressure-Pa"];
+
+/// Which of the measures are found that take as long as the displacement itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Costly {
+    /// Permeabilities, absolute and relative.
+    pub(crate) permeabilities: bool,
+    /// The distribution of the entry pressures.
+    pub(crate) entry_pressures: bool,
+}
+
+impl Costly {
+    /// All of them.
+    pub(crate) const ALL: Self = Self { permeabilities: true, entry_pressures: true };
+
+    /// Those of which a name is wanted.
+    pub(crate) fn wanted(is_wanted: impl Fn(&str) -> bool) -> Self {
+        let any = |names: &[&str]| names.iter().any(|name| is_wanted(name));
+        Self { permeabilities: any(&PERMEABILITIES), entry_pressures: any(&ENTRY_PRESSURES) }
+    }
+}
+
 /// All measures.
 pub(crate) fn all(model: &Model) -> Vec<Measure> {
+    with_costly(model, Costly::ALL)
+}
+
+/// All measures but the costly ones that are left out.
+pub(crate) fn with_costly(model: &Model, costly: Costly) -> Vec<Measure> {
     let setting = &model.setting;
-    let mut found = of_network_with_flow(model);
+    let mut found = of_network_with(model, costly);
     found.extend(replaced(model));
     if let Some(cycles) = &model.cycles {
         found.extend(of_displacement(setting, cycles));
@@ -22,9 +55,17 @@ pub(crate) fn all(model: &Model) -> Vec<Measure> {
 
 /// The measures that know no displacement.
 pub(crate) fn of_network_with_flow(model: &Model) -> Vec<Measure> {
+    of_network_with(model, Costly::ALL)
+}
+
+fn of_network_with(model: &Model, costly: Costly) -> Vec<Measure> {
     let mut found = of_network(&model.setting);
-    found.extend(permeabilities(model));
-    found.extend(entry_pressures(model));
+    if costly.permeabilities {
+        found.extend(permeabilities(model));
+    }
+    if costly.entry_pressures {
+        found.extend(entry_pressures(model));
+    }
     found
 }
 

@@ -21,7 +21,7 @@ mod flow;
 mod half_cycle;
 mod layers;
 mod locate;
-mod measures;
+pub(crate) mod measures;
 mod merge;
 mod model;
 pub(crate) mod moment;

@@ -14,6 +14,7 @@ use crate::network::ensemble::{Reference, Sample};
 use crate::network::setup;
 
 pub(crate) use crate::network::ensemble::SATURATIONS;
+pub(crate) use crate::network::measures::Costly;
 
 /// The network of a case; none where it has another model.
 fn network(case: &Case) -> Option<&PoreNetwork> {
@@ -54,6 +55,9 @@ pub(crate) struct Outcome {
     pub(crate) pores: usize,
 }
 
+/// No measure that takes long.
+const NONE: Costly = Costly { permeabilities: false, entry_pressures: false };
+
 /// The error of a case that is none of a network.
 const NO_NETWORK: &str = "the case has no network";
 
@@ -74,22 +78,29 @@ impl Ground {
     /// # Errors
     /// What is wrong, in words.
     pub(crate) fn map(&self, case: &Case) -> Result<Map, String> {
-        Ok(Map(self.sample(case)?.reference()))
+        Ok(Map(self.sample(case, NONE)?.reference()))
     }
 
-    fn sample(&self, case: &Case) -> Result<Sample, String> {
+    fn sample(&self, case: &Case, costly: Costly) -> Result<Sample, String> {
         let network = network(case).ok_or(NO_NETWORK)?;
-        Sample::on(&self.0, case, network).map_err(|error| error.to_string())
+        Sample::on(&self.0, case, network, costly).map_err(|error| error.to_string())
     }
 
-    /// Runs a case on this network; none where it was interrupted.
+    /// Runs a case on this network, without the costly measures that are left out; none where it was interrupted.
     ///
     /// # Errors
     /// What is wrong, in words.
-    pub(crate) fn run(&self, case: &Case, map: &Map, interrupt: &AtomicBool) -> Result<Option<Outcome>, String> {
+    pub(crate) fn run(
+        &self,
+        case: &Case,
+        map: &Map,
+        costly: Costly,
+        interrupt: &AtomicBool,
+    ) -> Result<Option<Outcome>, String> {
         let schedule = Schedule::new(&case.output, case.end);
         let stop = |time: f64| schedule.next_after(time).map(|stop| (stop.time, stop.due.series));
-        let observed = self.sample(case)?.observed(&map.0, &stop, interrupt).map_err(|error| error.to_string())?;
+        let sample = self.sample(case, costly)?;
+        let observed = sample.observed(&map.0, costly, &stop, interrupt).map_err(|error| error.to_string())?;
         Ok(observed.map(|observed| Outcome {
             measures: observed.measures.into_iter().map(|one| (one.name, one.unit, one.value)).collect(),
             curves: observed.curves,

@@ -158,31 +158,46 @@ pub(crate) fn candidates(walls: &Walls, samples: &Samples) -> (Vec<Pair>, Vec<Tr
             }
         }
     }
+    (pairs, triples)
+}
+
+/// All pairs of some images of pieces.
+pub(crate) fn all_pairs(walls: &Walls, images: &[(usize, Shift)]) -> Vec<Pair> {
+    let middle = |&(wall, shift): &(usize, Shift)| walls.curve(wall, shift).point(0.5);
+    let mut pairs = Vec::new();
+    for (k, a) in images.iter().enumerate() {
+        images[..k].iter().for_each(|b| pairs.extend(pair(walls, *a, *b, 0.5 * (middle(a) + middle(b)))));
+    }
+    pairs
+}
+
+/// Pairs sorted by their pieces, then by position.
+pub(crate) fn sorted(mut pairs: Vec<Pair>) -> Vec<Pair> {
     let key = |pair: &Pair| (pair.walls, pair.shift);
     pairs.sort_by(|a, b| {
-        let place = a.between.x.total_cmp(&b.between.x).then(a.between.y.total_cmp(&b.between.y));
-        key(a).cmp(&key(b)).then(place)
+        let position = a.between.x.total_cmp(&b.between.x).then(a.between.y.total_cmp(&b.between.y));
+        key(a).cmp(&key(b)).then(position)
     });
-    (pairs, triples)
+    pairs
 }
 
 /// Adds the pairs of pieces that two samples stand for: a vertex stands for both of its pieces.
 fn add_pairs(walls: &Walls, a: &Sample, b: &Sample, pairs: &mut Vec<Pair>) {
     let between = 0.5 * (a.point + b.point);
     for p in pieces(walls, a) {
-        for q in pieces(walls, b) {
-            if p == q {
-                continue;
-            }
-            let (first, second) = if (p.0, q.1) <= (q.0, p.1) && p.0 <= q.0 { (p, q) } else { (q, p) };
-            let walls_of = [first.0, second.0];
-            pairs.push(Pair {
-                walls: walls_of,
-                shift: minus(second.1, first.1),
-                between: between - walls.offset(first.1),
-            });
-        }
+        pairs.extend(pieces(walls, b).filter_map(|q| pair(walls, p, q, between)));
     }
+}
+
+/// The pair of two images of pieces with a point between them; `None` where they are one.
+fn pair(walls: &Walls, p: (usize, Shift), q: (usize, Shift), between: Vec2) -> Option<Pair> {
+    let (first, second) = if (p.0, q.1) <= (q.0, p.1) && p.0 <= q.0 { (p, q) } else { (q, p) };
+    let of_first = || Pair {
+        walls: [first.0, second.0],
+        shift: minus(second.1, first.1),
+        between: between - walls.offset(first.1),
+    };
+    (p != q).then(of_first)
 }
 
 fn pieces(walls: &Walls, sample: &Sample) -> impl Iterator<Item = (usize, Shift)> + use<> {

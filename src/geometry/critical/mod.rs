@@ -13,7 +13,7 @@ pub(crate) mod shift;
 pub(crate) mod slope;
 pub(crate) mod walls;
 
-use crate::geometry::critical::candidates::{Pair, Samples, candidates};
+use crate::geometry::critical::candidates::{Pair, Samples, candidates, sorted};
 use crate::geometry::critical::level::{Classifier, Kind};
 use crate::geometry::critical::maxima::{Maximum, center_of_arc, maximum};
 use crate::geometry::critical::opposite::{Opposite, TIE, opposite_points};
@@ -34,11 +34,13 @@ pub(crate) struct CriticalPoints {
 }
 
 impl CriticalPoints {
-    /// The critical points of the distance from `walls`; `density` multiplies the samples on each piece.
-    pub(crate) fn find(walls: &Walls, density: &[f64]) -> Self {
+    /// The critical points of the distance from `walls`; `density` multiplies the samples on each piece, `further` are pairs to look at besides
+    /// those that the samples offer.
+    pub(crate) fn find(walls: &Walls, density: &[f64], further: &[Pair]) -> Self {
         let samples = Samples::new(walls, density);
-        let (pairs, triples) = candidates(walls, &samples);
-        let (saddles, mut maxima) = between_two(walls, &pairs);
+        let (mut pairs, triples) = candidates(walls, &samples);
+        pairs.extend(further);
+        let (saddles, mut maxima) = between_two(walls, &sorted(pairs));
         maxima.extend(triples.iter().filter_map(|triple| maximum(walls, triple)));
         maxima.extend((0..walls.walls.len()).filter_map(|wall| center_of_arc(walls, wall)));
         let maxima = one_of_each(maxima, |maximum| (walls.folded(maximum.center), maximum.radius));
@@ -148,7 +150,7 @@ mod tests {
             for (periodic, sides) in [([false; 2], Sides::Cut), ([false; 2], Sides::Beyond), ([true; 2], Sides::Cut)] {
                 let geometry = geometry.clone().with_periodic(periodic);
                 let walls = Walls::new(&geometry, sides);
-                let found = CriticalPoints::find(&walls, &vec![1.0; walls.walls.len()]).saddles;
+                let found = CriticalPoints::find(&walls, &vec![1.0; walls.walls.len()], &[]).saddles;
                 let expected = between_two(&walls, &all_pairs(&walls)).0;
                 assert_eq!(found.len(), expected.len(), "scene {scene} {periodic:?} {sides:?}");
                 for (a, b) in found.iter().zip(&expected) {

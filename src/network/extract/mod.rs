@@ -3,7 +3,8 @@
 //! Chords, the segments between the two wall contacts of a throat, cut the pore space into regions that tile it exactly, one around each
 //! maximum: along a chord the distance falls to both walls at slope one, so that it is the watershed between both. The certificate of a
 //! network is that every region holds exactly one maximum, that regions are simply connected, that their areas sum to that of the pore space and
-//! that no throat is wider than its pores. Where it fails, the walls of the regions concerned are sampled more densely, and all is done again.
+//! that no throat is wider than its pores. Where it fails, the walls of the regions concerned are sampled more densely, in the end all their pairs are
+//! looked at, and all is done again.
 //!
 //! At a side that is neither wall nor periodic the domain ends: regions end there with openings. The largest inscribed circle of such a region
 //! may have its center on the side.
@@ -17,9 +18,12 @@ mod sides;
 
 pub use error::ExtractError;
 
+use std::collections::BTreeSet;
+
 use crate::case::SIDES;
 use crate::geometry::Geometry;
 use crate::geometry::critical::CriticalPoints;
+use crate::geometry::critical::candidates::all_pairs;
 use crate::geometry::critical::walls::{Sides, Walls};
 use crate::network::extract::loops::Loops;
 use crate::network::extract::regions::{Attempt, attempt};
@@ -28,6 +32,13 @@ use crate::network::graph::Network;
 
 /// How often the sampling is doubled where the certificate fails. A circle then has 24 * 2^8 samples.
 const ROUNDS: usize = 8;
+
+/// From this round on all pairs of the walls around a region are candidates: rounding can turn an edge of the triangulation of samples, however
+/// dense they are.
+const ALL_PAIRS_FROM: usize = 2;
+
+/// Walls around a region, at most, whose pairs are all looked at.
+const FEW: usize = 1000;
 
 /// The network of all maxima. `open_sides` (left, right, bottom, top) are those through which fluids come and go; a side that is neither wall nor
 /// periodic is cut in the same way whether it is open or not, and its openings are listed.
@@ -53,16 +64,22 @@ pub fn extract(geometry: &Geometry, open_sides: [bool; 4]) -> Result<Network, Ex
 /// The network of walls, their samples multiplied by `density`, and by more where the certificate fails.
 fn certified(walls: &Walls, perimeter: &Perimeter, density: f64) -> Result<Network, ExtractError> {
     let mut density = vec![density; walls.walls.len()];
+    let mut further = Vec::new();
     let mut round = 0;
     loop {
-        let points = CriticalPoints::find(walls, &density);
+        let points = CriticalPoints::find(walls, &density, &further);
         let loops = Loops::trace(walls, &points.saddles, perimeter);
         match attempt(walls, &points, &loops) {
             Attempt::Certified(network) => return Ok(network),
             Attempt::Failed { places, .. } if round == ROUNDS => return Err(ExtractError::NoCertificate { places }),
-            Attempt::Failed { walls_of, .. } => {
+            Attempt::Failed { images, .. } => {
+                let walls_of: BTreeSet<usize> = images.iter().flatten().map(|image| image.0).collect();
                 walls_of.into_iter().for_each(|wall| density[wall] *= 2.0);
                 round += 1;
+                if round >= ALL_PAIRS_FROM {
+                    let few = images.iter().filter(|images| images.len() <= FEW);
+                    further = few.flat_map(|images| all_pairs(walls, images)).collect();
+                }
             }
         }
     }

@@ -1,8 +1,10 @@
 //! Regions and throats from loops and maxima, and the certificate.
 
+use std::collections::BTreeSet;
+
 use crate::geometry::critical::CriticalPoints;
 use crate::geometry::critical::opposite::SAME_DIRECTION;
-use crate::geometry::critical::shift::{Shift, minus};
+use crate::geometry::critical::shift::{Shift, minus, plus};
 use crate::geometry::critical::slope::curvature;
 use crate::geometry::critical::walls::{Contact, Walls};
 use crate::math::Vec2;
@@ -19,8 +21,8 @@ pub(super) enum Attempt {
     Failed {
         /// Where, in m.
         places: Vec<Vec2>,
-        /// The walls around them.
-        walls_of: Vec<usize>,
+        /// The walls around each of them.
+        images: Vec<Vec<(usize, Shift)>>,
     },
 }
 
@@ -217,7 +219,7 @@ fn is_certified(walls: &Walls, region: &Region, maxima: usize) -> bool {
 
 /// Where the certificate fails: the first point of each loop, and all its walls.
 fn failure<'a>(walls: &Walls, points: &CriticalPoints, loops: impl Iterator<Item = &'a Loop>) -> Attempt {
-    let (mut places, mut walls_of) = (Vec::new(), Vec::new());
+    let (mut places, mut images) = (Vec::new(), Vec::new());
     for ring in loops {
         let place = ring.steps.iter().find_map(|step| match *step {
             Step::Wall { wall, from, to, .. } => Some(walls.walls[wall].curve.point(0.5 * (from + to))),
@@ -225,15 +227,17 @@ fn failure<'a>(walls: &Walls, points: &CriticalPoints, loops: impl Iterator<Item
             Step::Side { .. } => None,
         });
         places.extend(place);
+        let mut around = BTreeSet::new();
         for step in &ring.steps {
             match *step {
-                Step::Wall { wall, .. } => walls_of.push(wall),
-                Step::Chord { throat, .. } => walls_of.extend(points.saddles[throat].contacts.map(|c| c.wall)),
+                Step::Wall { wall, shift, .. } => around.extend([(wall, shift)]),
+                Step::Chord { throat, shift, .. } => {
+                    around.extend(points.saddles[throat].contacts.map(|c| (c.wall, plus(c.shift, shift))));
+                }
                 Step::Side { .. } => {}
             }
         }
+        images.push(around.into_iter().collect());
     }
-    walls_of.sort_unstable();
-    walls_of.dedup();
-    Attempt::Failed { places, walls_of }
+    Attempt::Failed { places, images }
 }

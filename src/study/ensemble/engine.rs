@@ -126,7 +126,7 @@ impl<'a> Engine<'a> {
     fn one(&self, index: usize, maps: &[Map], interrupt: &AtomicBool) -> Option<Done> {
         let PlannedSample { digest, group, .. } = self.ensemble.samples[index];
         let clock = Instant::now();
-        let ended = self.with(index, |case, ground| ground.run(case, &maps[group], interrupt));
+        let ended = self.with(index, |case, ground| ground.run(case, &maps[group], self.ensemble.costly, interrupt));
         let ended = ended.transpose()?.map(|outcome| Kept::of(outcome, clock.elapsed().as_secs_f64()));
         Some(Done { digest, ended })
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::case::{Case, KeptGeometry, digest};
 use crate::input::InputError;
 use crate::io::checksum::fnv1a;
-use crate::run::ensemble::{is_of_network, shared_by};
+use crate::run::ensemble::{Costly, is_of_network, shared_by};
 use crate::study::definition::Study;
 use crate::study::measured;
 use crate::study::run::Run;
@@ -42,6 +42,8 @@ pub(crate) struct Ensemble {
     pub(crate) grounds: Vec<Case>,
     /// What the cases were read with.
     pub(crate) kept: KeptGeometry,
+    /// Which of the measures that take long the study names.
+    pub(crate) costly: Costly,
 }
 
 /// The geometry of the cases, with what else makes a network.
@@ -59,8 +61,10 @@ pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
     let shapes_vary = sampling.inputs.iter().any(|input| input.keys.iter().any(is_of_shapes));
     let kept = KeptGeometry::default();
     let mut mistakes = Mistakes::default();
-    let mut ensemble =
-        Ensemble { samples: Vec::new(), groups: Vec::new(), grounds: Vec::new(), kept: KeptGeometry::default() };
+    let names = measured::names(study);
+    let costly = names.map_or(Costly::ALL, |names| Costly::wanted(|name| names.contains(&name)));
+    let (samples, groups, grounds) = (Vec::new(), Vec::new(), Vec::new());
+    let mut ensemble = Ensemble { samples, groups, grounds, kept: KeptGeometry::default(), costly };
     let mut keys: Vec<Key> = Vec::new();
     let mut representatives = Vec::new();
     for (index, run) in runs(study).into_iter().enumerate() {
@@ -83,7 +87,8 @@ pub(crate) fn plan(study: &Study) -> Result<Option<Ensemble>, InputError> {
         let shapes = case.geometry.digest();
         let whole = (!shapes_vary).then(|| case.clone());
         case.geometry.shapes = Vec::new();
-        let own = digest(&case, shapes);
+        let own = digest(&case, shapes).to_le_bytes();
+        let own = fnv1a(&[&own[..], &[costly.permeabilities.into(), costly.entry_pressures.into()]].concat());
         let known = whole.map(|whole| {
             let key = (shapes, shared_by(&whole));
             let ground = keys.iter().position(|other| *other == key).unwrap_or_else(|| {
