@@ -140,7 +140,7 @@ pub(crate) type Strip = (Vec<[f64; 2]>, f64);
 
 /// A map of the plane: areas colored by a number, with lines over them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mosaic {
+pub struct RegionMap {
     /// Its file is `picture-NAME.png`; that of the first one `picture.png`.
     pub name: &'static str,
     /// What stands below the title: where the run stands.

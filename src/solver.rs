@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::diagram::{Diagram, Mosaic};
+use crate::diagram::{Diagram, RegionMap};
 use crate::math::Vec2;
 use crate::snapshot::{Layer, Lines, Snapshot};
 use crate::table::{Document, Table};
@@ -33,7 +33,7 @@ pub struct Results<'a> {
     /// Texts, written as they are.
     pub documents: Vec<Document>,
     /// Maps of the plane; the first one is the picture of the run.
-    pub mosaics: Vec<Mosaic>,
+    pub region_maps: Vec<RegionMap>,
 }
 
 /// One named number of the time series.

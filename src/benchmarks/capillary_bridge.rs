@@ -24,7 +24,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let neck = contour().map(across).fold(f64::INFINITY, f64::min);
     let exact = disc_pair(s).and_then(|pair| pair.bridge(s.seen.areas.wetting));
     let ratio = |found: f64, exact: Option<f64>| exact.map_or(f64::NAN, |exact| found / exact);
-    let tension = s.flow.setting.method.tension;
+    let tension = s.flow.config.method.tension;
     let pressure = s.seen.capillary_pressure.value;
     vec![
         measure(

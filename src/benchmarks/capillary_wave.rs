@@ -53,7 +53,7 @@ impl CapillaryWave {
 
 /// Amplitude in m of the first Fourier mode along x of the area of the wetting phase, crest in the middle of the box.
 fn columns(flow: &Flow, _: &Observation) -> Columns {
-    let (bounds, fluids) = (flow.setting.domain.bounds, flow.state.particles.fluids);
+    let (bounds, fluids) = (flow.config.domain.bounds, flow.state.particles.fluids);
     let length = bounds.size().x;
     let mode = |a: usize| {
         let x = flow.state.particles.position[a].x - bounds.center().x;
@@ -64,9 +64,9 @@ fn columns(flow: &Flow, _: &Observation) -> Columns {
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let m = &s.flow.setting.method;
+    let m = &s.flow.config.method;
     let wave = CapillaryWave {
-        length: s.flow.setting.domain.bounds.size().x,
+        length: s.flow.config.domain.bounds.size().x,
         tension: m.tension,
         density: m.wetting_fluid.density,
         viscosity: m.wetting_fluid.viscosity,

@@ -13,7 +13,7 @@ pub(crate) const GROUP: Group = Group::of(measures);
 const POINTS: usize = 400;
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (flow, bounds) = (s.flow, s.flow.setting.domain.bounds);
+    let (flow, bounds) = (s.flow, s.flow.config.domain.bounds);
     let lid = s.wall_speeds[3];
     let velocity = &flow.state.particles.velocity[..flow.state.particles.fluids];
     let on_line = |axis: usize| {

@@ -9,8 +9,8 @@ use crate::sph::measures::{Group, Subject, measure};
 pub(crate) const GROUP: Group = Group::of(measures);
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (flow, m) = (s.flow, &s.flow.setting.method);
-    let area = flow.setting.domain.bounds.area();
+    let (flow, m) = (s.flow, &s.flow.config.method);
+    let area = flow.config.domain.bounds.area();
     let p = &flow.state.particles;
     let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.bulk.volume[a] * p.velocity[a]).sum();
     let force = m.wetting_fluid.density * m.gravity;
@@ -18,7 +18,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let along = force.try_normalize(0.0).unwrap_or_else(Vec2::x);
     let mean = flux.dot(&along) / area;
     // Side walls take their part; whatever stands within the cell takes the rest.
-    let bounds = flow.setting.domain.bounds;
+    let bounds = flow.config.domain.bounds;
     let is_side = |x: Vec2| !bounds.contains(x);
     let mu_u = m.wetting_fluid.viscosity * mean;
     let drag = (force.norm() * area - flow.view().friction(|_, x| is_side(x)).dot(&along)) / mu_u;

@@ -106,7 +106,7 @@ pub(crate) fn disc_pair(s: &Subject) -> Option<DiscPair> {
     let distance = |b: &&DiscOf| (b.center - a.center).norm();
     let b = rest.iter().min_by(|b, c| distance(b).total_cmp(&distance(c)))?;
     let half_gap = 0.5 * distance(&b) - a.radius;
-    let angle = s.flow.setting.method.wetting?.static_angle();
+    let angle = s.flow.config.method.wetting?.static_angle();
     ((a.radius - b.radius).abs() < 1e-9 * a.radius).then_some(DiscPair { radius: a.radius, half_gap, angle })
 }
 

@@ -44,7 +44,7 @@ pub(crate) fn drop_on_disc(area: f64, angle: f64, disc_radius: f64) -> Option<Dr
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (Some(disc), Some(wetting)) = (s.discs.first(), s.flow.setting.method.wetting) else { return vec![] };
+    let (Some(disc), Some(wetting)) = (s.discs.first(), s.flow.config.method.wetting) else { return vec![] };
     let ends: Vec<_> = s.seen.lines_with_angle().collect();
     let half = match ends[..] {
         [a, b] => 0.5 * (a.position - disc.center).angle(&(b.position - disc.center)),

@@ -30,7 +30,7 @@ struct Balance {
 
 impl Balance {
     fn of(s: &Subject) -> Self {
-        let (tension, series) = (s.flow.setting.method.tension, s.series);
+        let (tension, series) = (s.flow.config.method.tension, s.series);
         // A mean of cosines: a line that lets go now and then has not the cosine of its mean angle.
         let cosine = |column: &str| average(series, column, |angle| angle.to_radians().cos());
         let pull = |advancing: &str, receding: &str| tension * (cosine(receding) - cosine(advancing));
@@ -66,12 +66,12 @@ pub(crate) fn warnings(s: &Subject) -> Vec<String> {
 
 /// The angles at the wall and the balance of the forces along it.
 pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
-    let (tension, series) = (s.flow.setting.method.tension, s.series);
+    let (tension, series) = (s.flow.config.method.tension, s.series);
     let balance = Balance::of(s);
     let (seen, at_wall, drag) = (balance.retention, balance.wall_retention, balance.net_drag);
     let model = "angle at which the wetting model asks the interface to meet the wall; mean over the last quarter of the records";
     let angles = ["advancing_wall_angle_deg", "receding_wall_angle_deg"].map(|column| last_mean(series, column));
-    let static_angle = s.flow.setting.method.wetting.map_or(f64::NAN, |model| model.static_angle());
+    let static_angle = s.flow.config.method.wetting.map_or(f64::NAN, |model| model.static_angle());
     let retention = "tension times (cosine of the receding less that of the advancing angle), mean over the last three quarters of the time";
     vec![
         measure("advancing-wall-angle-deg", angles[0].0, "deg", Some(angles[0].1), model),

@@ -15,8 +15,8 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let error = spread.hypot(of_fits);
     let exact = disc_pair(s).and_then(|pair| pair.liquid_between_four(s.seen.areas.wetting));
     let over_exact = |curvature: f64| exact.map_or(f64::NAN, |exact| curvature / exact.curvature);
-    let (pressure, tension) = (s.seen.capillary_pressure, s.flow.setting.method.tension);
-    let pressure_error = pressure.uncertainty(tension, s.flow.setting.method.kernel.h);
+    let (pressure, tension) = (s.seen.capillary_pressure, s.flow.config.method.tension);
+    let pressure_error = pressure.uncertainty(tension, s.flow.config.method.kernel.h);
     vec![
         measure(
             "interface-curvature-per-m",

@@ -13,8 +13,8 @@ pub(crate) fn jurin_mean_height(width: f64, capillary_length: f64, angle: f64) -
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (Some(plate), Some(wetting)) = (s.plates.first(), s.flow.setting.method.wetting) else { return vec![] };
-    let (flow, bounds, m) = (s.flow, s.flow.setting.domain.bounds, &s.flow.setting.method);
+    let (Some(plate), Some(wetting)) = (s.plates.first(), s.flow.config.method.wetting) else { return vec![] };
+    let (flow, bounds, m) = (s.flow, s.flow.config.domain.bounds, &s.flow.config.method);
     let widths = [plate.min.x - bounds.min.x, bounds.max.x - plate.max.x];
     let mut areas = [0.0; 2];
     for a in 0..flow.state.particles.fluids {

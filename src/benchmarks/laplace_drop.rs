@@ -22,28 +22,25 @@ fn measures(s: &Subject) -> Vec<Measure> {
         points: &flow.state.particles.position[..fluids],
         pressures: &flow.state.particles.pressure[..fluids],
         colors: &colors,
-        smoothing_length: flow.setting.method.kernel.h,
-        period: flow.setting.domain.periods(),
+        smoothing_length: flow.config.method.kernel.h,
+        period: flow.config.domain.periods(),
     };
     let jump = laplace_jump(&samples, center(s), radius);
     // Between floor and lid the curvature over the depth acts too.
-    let plates = flow.setting.method.plates;
+    let plates = flow.config.method.plates;
     let curvature = plates.map_or(1.0 / radius, |plates| -plates.depth.curvature_of_drop(-1.0 / radius));
-    let scale = flow.setting.method.tension * curvature;
+    let scale = flow.config.method.tension * curvature;
     let speeds = last(s.series, "max_speed_m_per_s", LAST);
     let speed = speeds.into_iter().map(|(_, speed)| speed).fold(f64::NAN, f64::max);
-    let capillary = flow.setting.method.wetting_fluid.viscosity * speed / flow.setting.method.tension;
+    let capillary = flow.config.method.wetting_fluid.viscosity * speed / flow.config.method.tension;
     vec![
         measure(
             "laplace-jump-ratio",
             jump.mean / scale,
             "",
             Some(
-                jump.error.hypot(resolution_error(
-                    jump.mean,
-                    flow.setting.method.tension,
-                    flow.setting.method.kernel.h,
-                )) / scale,
+                jump.error.hypot(resolution_error(jump.mean, flow.config.method.tension, flow.config.method.kernel.h))
+                    / scale,
             ),
             "mean p over r < R - 3h less mean p over r > R + 3h, over tension/R with R from the drop's area",
         ),
@@ -68,7 +65,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
 fn scatter(s: &Subject) -> f64 {
     let center = center(s);
     let points = s.seen.interface.iter().flat_map(|line| &line.points);
-    let radii: Vec<f64> = points.map(|x| s.flow.setting.domain.separation(*x, center).norm()).collect();
+    let radii: Vec<f64> = points.map(|x| s.flow.config.domain.separation(*x, center).norm()).collect();
     let mean = radii.iter().sum::<f64>() / radii.len() as f64;
     (radii.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / radii.len() as f64).sqrt() / mean
 }

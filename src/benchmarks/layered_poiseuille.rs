@@ -46,7 +46,7 @@ impl LayeredPoiseuille {
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (flow, bounds, m) = (s.flow, s.flow.setting.domain.bounds, &s.flow.setting.method);
+    let (flow, bounds, m) = (s.flow, s.flow.config.domain.bounds, &s.flow.config.method);
     let p = &flow.state.particles;
     let height = bounds.size().y;
     let below = height * s.seen.areas.saturation();

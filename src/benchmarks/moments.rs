@@ -50,12 +50,12 @@ fn wetting_points(flow: &Flow) -> Vec<Vec2> {
     let fluids = flow.state.particles.fluids;
     let wetting = |a: &usize| flow.state.particles.phase[*a] == Phase::Wetting;
     let inside: Vec<Vec2> = (0..fluids).filter(wetting).map(|a| flow.state.particles.position[a]).collect();
-    let middle = Vec2::from_fn(|axis, _| match flow.setting.domain.periods()[axis] {
+    let middle = Vec2::from_fn(|axis, _| match flow.config.domain.periods()[axis] {
         Some(period) => mean_on_circle(inside.iter().map(|x| x[axis]), period),
         None => 0.0,
     });
     // Points of a drop wider than half a period are still within half a period of its middle.
-    inside.into_iter().map(|x| middle + flow.setting.domain.separation(x, middle)).collect()
+    inside.into_iter().map(|x| middle + flow.config.domain.separation(x, middle)).collect()
 }
 
 /// The mean direction of coordinates that repeat with `period`, in m.

@@ -16,7 +16,7 @@ use crate::sph::flow::Flow;
 use crate::sph::measures::{Columns, Group, Subject, measure, stream};
 use crate::sph::observe::Observation;
 use crate::sph::particles::Phase;
-use crate::sph::wetting::lines::{Line, nearest};
+use crate::sph::wetting::lines::{TrackedLine, nearest};
 
 /// Share of the contour next to a line that is fitted, where the drop has advancing and receding lines, which the flow bends unlike. A meniscus
 /// that moves as a whole is fitted as a whole.
@@ -39,11 +39,12 @@ struct Ends {
 }
 
 /// Where the drop is driven to along the wall of its lines; none where neither a force nor a stream is given and the lines have not moved.
-fn ahead(flow: &Flow, lines: &[Line]) -> Option<Vec2> {
+fn ahead(flow: &Flow, lines: &[TrackedLine]) -> Option<Vec2> {
     let along = lines.first()?.outward;
-    let m = &flow.setting.method;
+    let m = &flow.config.method;
     let weight = (m.wetting_fluid.density - m.other_fluid.density) * m.gravity;
-    let wall = lines.iter().map(|line| flow.setting.spots.velocity(line.position)).sum::<Vec2>() / lines.len() as f64;
+    let wall =
+        lines.iter().map(|line| flow.config.wall_properties.velocity(line.position)).sum::<Vec2>() / lines.len() as f64;
     let given = [weight, stream::given(flow, wall)].into_iter();
     let driving = given.chain(flow.state.gone).find(|by| by.dot(&along).abs() > DRIVEN * by.norm())?;
     Some(along * driving.dot(&along).signum())
@@ -66,12 +67,12 @@ fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
         add(end, 2, line.speed);
         add(end, 3, line.angle.to_degrees());
     }
-    let reach = SAME_LINE * flow.setting.method.kernel.h;
+    let reach = SAME_LINE * flow.config.method.kernel.h;
     let forward = lines.iter().filter(|line| line.outward.dot(&ahead) > 0.0).count();
     let window = if forward == 0 || forward == lines.len() { f64::INFINITY } else { WINDOW };
     for found in fitted(flow, seen, window) {
-        let same = |outward: Vec2| nearest(lines, &flow.setting.domain, found.position, outward, reach);
-        let distance = |line: &&Line| flow.setting.domain.separation(line.position, found.position).norm();
+        let same = |outward: Vec2| nearest(lines, &flow.config.domain, found.position, outward, reach);
+        let distance = |line: &&TrackedLine| flow.config.domain.separation(line.position, found.position).norm();
         let near = [ahead, -ahead].into_iter().filter_map(same).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         if let Some(line) = near {
             add(usize::from(line.outward.dot(&ahead) < 0.0), 0, found.angle_deg);
@@ -83,8 +84,8 @@ fn ends(flow: &Flow, seen: &Observation) -> Option<Ends> {
 
 /// The ends of the interface, by fits to the share `window` of the contour next to each.
 fn fitted(flow: &Flow, seen: &Observation, window: f64) -> Vec<MeniscusEnd> {
-    let m = &flow.setting.method;
-    let wall = |x: Vec2| WallPoint::from((flow.setting.wall)(x));
+    let m = &flow.config.method;
+    let wall = |x: Vec2| WallPoint::from((flow.config.wall)(x));
     let force = (m.wetting_fluid.density - m.other_fluid.density) / m.tension * m.gravity;
     let fit = |contour: &Polyline| {
         let window = window * contour.length();
@@ -96,7 +97,7 @@ fn fitted(flow: &Flow, seen: &Observation, window: f64) -> Vec<MeniscusEnd> {
 
 /// Body force on the drop less buoyancy, and viscous force of the walls on it, in N/m.
 fn forces(flow: &Flow) -> [Vec2; 2] {
-    let (p, f, m) = (&flow.state.particles, &flow.fields.bulk, &flow.setting.method);
+    let (p, f, m) = (&flow.state.particles, &flow.fields.bulk, &flow.config.method);
     let is_drop = |a: usize| a < p.fluids && p.phase[a] == Phase::Wetting;
     let area: f64 = (0..p.fluids).filter(|&a| is_drop(a)).map(|a| f.volume[a]).sum();
     let drive = (m.wetting_fluid.density - m.other_fluid.density) * area * m.gravity;
@@ -108,7 +109,7 @@ fn columns(flow: &Flow, seen: &Observation) -> Columns {
     let nan = f64::NAN;
     let ends = ends(flow, seen).unwrap_or(Ends { ahead: Vec2::repeat(nan), lines: [[nan; 4]; 2] });
     let [[advancing, way, speed, at_wall], [receding, way_behind, speed_behind, at_wall_behind]] = ends.lines;
-    let (p, m) = (&flow.state.particles, &flow.setting.method);
+    let (p, m) = (&flow.state.particles, &flow.config.method);
     let mass = m.wetting_fluid.density * m.volume;
     let drop = (0..p.fluids).filter(|&a| p.phase[a] == Phase::Wetting);
     let momentum = mass * drop.map(|a| p.velocity[a]).sum::<Vec2>();
@@ -143,7 +144,7 @@ fn last_slope(series: &Series, column: &str) -> f64 {
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let m = &s.flow.setting.method;
+    let m = &s.flow.config.method;
     let fit = "static meniscus under the body force fitted to the half of the contour next to the line (a meniscus that moves as a \
                whole: to all of it), 2h from the wall left out; mean over the last quarter of the records";
     let (advancing, advancing_scatter) = last_mean(s.series, "advancing_angle_deg");

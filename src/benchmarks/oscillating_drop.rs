@@ -87,7 +87,7 @@ pub(super) fn columns(flow: &Flow, _: &Observation) -> Columns {
 
 /// The drop at rest as the linear theory takes it; fluids that differ have no closed form here.
 pub(super) fn drop(s: &Subject) -> OscillatingDrop {
-    let m = &s.flow.setting.method;
+    let m = &s.flow.config.method;
     OscillatingDrop {
         radius: (s.seen.areas.wetting / PI).sqrt(),
         tension: m.tension,
@@ -101,7 +101,7 @@ pub(super) fn drop(s: &Subject) -> OscillatingDrop {
 /// The solution is fitted at the same times in the same way: beside its mode it has a part that decays as a power of time, by
 /// which the half periods of a viscous drop differ by some percent.
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (m, drop) = (&s.flow.setting.method, drop(s));
+    let (m, drop) = (&s.flow.config.method, drop(s));
     let inviscid = drop.frequency();
     let (times, values) = pairs(s.series, "elongation");
     let from = times.iter().position(|t| *t >= LEFT_OUT * TAU / inviscid).unwrap_or(times.len());

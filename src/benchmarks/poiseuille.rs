@@ -63,25 +63,25 @@ impl Poiseuille {
 
 /// The force per volume in N/m³ that drives the flow, and whether it does so from time zero on.
 fn force(s: &Subject) -> (f64, bool) {
-    let (flow, size) = (s.flow, s.flow.setting.domain.bounds.size());
-    let fluid = flow.setting.method.wetting_fluid;
-    let weight = fluid.density * flow.setting.method.gravity.x;
-    let inlets = flow.setting.open.sides.iter().chain(&flow.setting.open.through);
+    let (flow, size) = (s.flow, s.flow.config.domain.bounds.size());
+    let fluid = flow.config.method.wetting_fluid;
+    let weight = fluid.density * flow.config.method.gravity.x;
+    let inlets = flow.config.open.sides.iter().chain(&flow.config.open.through);
     for side in inlets {
         if let Drive::Velocity(profile) = &side.drive {
             return (12.0 * fluid.viscosity * profile.mean * side.inwards() / size.y.powi(2), false);
         }
     }
     let pressure = |number| {
-        let side = flow.setting.open.sides.iter().find(|side| side.number == number);
+        let side = flow.config.open.sides.iter().find(|side| side.number == number);
         side.and_then(OpenSide::given_pressure).unwrap_or(0.0)
     };
     (weight + (pressure(0) - pressure(1)) / size.x, true)
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (flow, bounds) = (s.flow, s.flow.setting.domain.bounds);
-    let fluid = flow.setting.method.wetting_fluid;
+    let (flow, bounds) = (s.flow, s.flow.config.domain.bounds);
+    let fluid = flow.config.method.wetting_fluid;
     let (force, starts_up) = force(s);
     let height = bounds.size().y;
     let law = Poiseuille {
@@ -89,7 +89,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
         viscosity: fluid.viscosity,
         density: fluid.density,
         height,
-        slip_length: flow.setting.method.no_slip.slip_length,
+        slip_length: flow.config.method.no_slip.slip_length,
     };
     let (mut error, mut size) = (0.0, 0.0);
     // Least squares of u = a y (H − y) + c.

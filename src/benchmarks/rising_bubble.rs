@@ -27,7 +27,7 @@ fn columns(flow: &Flow, seen: &Observation) -> Columns {
 
 /// Unit vector against gravity; along y without gravity.
 fn up(flow: &Flow) -> Vec2 {
-    (-flow.setting.method.gravity).try_normalize(0.0).unwrap_or_else(Vec2::y)
+    (-flow.config.method.gravity).try_normalize(0.0).unwrap_or_else(Vec2::y)
 }
 
 fn speed(flow: &Flow) -> f64 {

@@ -123,7 +123,7 @@ impl Extent {
     /// What is seen of it, with the image of its half beyond a symmetry side.
     fn of(flow: &Flow, seen: &Observation) -> Self {
         // As for the angle: the contour may lie off by so much, to one side all along. That moves both ends outward, those of a flat drop the farther.
-        let off = ACCURACY * flow.setting.method.kernel.h;
+        let off = ACCURACY * flow.config.method.kernel.h;
         let lines: Vec<ContactLine> = seen.lines_with_angle().copied().chain(image(flow, seen)).collect();
         // Contours go on beyond a periodic side, so the two ends of one drop need no shortest way.
         let [a, b] = &lines[..] else {
@@ -150,9 +150,9 @@ fn mirror(flow: &Flow, seen: &Observation) -> Option<Mirror> {
     let ends = [*interface.points.first()?, *interface.points.last()?];
     let distance =
         |mirror: &Mirror| ends.map(|x| (x[mirror.axis] - mirror.at).abs()).into_iter().fold(f64::INFINITY, f64::min);
-    let symmetric = flow.setting.domain.mirrors.iter().filter(|mirror| mirror.image == ImageVelocity::Mirrored);
+    let symmetric = flow.config.domain.mirrors.iter().filter(|mirror| mirror.image == ImageVelocity::Mirrored);
     let nearest = symmetric.copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    (distance(&nearest) < flow.setting.method.kernel.support()).then_some(nearest)
+    (distance(&nearest) < flow.config.method.kernel.support()).then_some(nearest)
 }
 
 /// The image of the contact line of a half drop.
@@ -178,7 +178,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
     let Extent { base, height } = Extent::of(s.flow, s.seen);
     let of_base = "distance of the two contact points of the fitted meniscus";
     let of_height = "largest distance of the c = 0.5 contour from the line through both contact points";
-    let (exact, over) = if s.flow.setting.method.gravity == Vec2::zeros() { as_a_cap(s) } else { under_gravity(s) };
+    let (exact, over) = if s.flow.config.method.gravity == Vec2::zeros() { as_a_cap(s) } else { under_gravity(s) };
     let (of_base_ratio, of_height_ratio) = (format!("base {over}"), format!("height {over}"));
     let over_base = |length: f64| length / exact.base;
     let over_height = |length: f64| length / exact.height;
@@ -195,7 +195,7 @@ fn measures(s: &Subject) -> Vec<Measure> {
 
 /// The exact drop of either phase without gravity, and what it is.
 fn as_a_cap(s: &Subject) -> (SessileDrop, &'static str) {
-    let through_wetting = s.flow.setting.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
+    let through_wetting = s.flow.config.method.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
     let is_wetting = s.seen.lines_with_angle().map(|line| line.curvature).sum::<f64>() > 0.0;
     let [wetting, non_wetting] = areas(s);
     let exact = if is_wetting {
@@ -209,9 +209,9 @@ fn as_a_cap(s: &Subject) -> (SessileDrop, &'static str) {
 
 /// The exact drop on a level floor under gravity, NaN on others, and what it is.
 fn under_gravity(s: &Subject) -> (SessileDrop, &'static str) {
-    let m = &s.flow.setting.method;
+    let m = &s.flow.config.method;
     let force = m.curvature_gradient();
-    let is_on_floor = |line: &ContactLine| -(s.flow.setting.wall)(line.position).1.dot(&force.normalize()) > LEVEL;
+    let is_on_floor = |line: &ContactLine| -(s.flow.config.wall)(line.position).1.dot(&force.normalize()) > LEVEL;
     let asked_for = m.wetting.map_or(f64::NAN, |wetting| wetting.static_angle());
     let exact = sessile_drop(areas(s)[0], force.norm().sqrt().recip(), asked_for);
     let exact = exact.filter(|_| s.seen.lines_with_angle().all(is_on_floor));

@@ -10,7 +10,7 @@ pub(crate) const GROUP: Group = Group { columns, ..Group::of(measures) };
 
 /// Deformation of a drop between walls that move against each other.
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (m, height) = (&s.flow.setting.method, s.flow.setting.domain.bounds.size().y);
+    let (m, height) = (&s.flow.config.method, s.flow.config.domain.bounds.size().y);
     let [_, _, bottom, top] = s.wall_speeds;
     let rate = (top - bottom).abs() / height;
     let capillary = m.other_fluid.viscosity * rate * drop(s).radius / m.tension;

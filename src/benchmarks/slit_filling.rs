@@ -73,12 +73,12 @@ impl SlitFilling {
 
 /// The side that the wetting phase comes in through: the first open one that it stands at or that it enters through.
 pub(super) fn entry(flow: &Flow) -> Option<&OpenSide> {
-    flow.setting.open.sides.iter().find(|side| side.main == Phase::Wetting)
+    flow.config.open.sides.iter().find(|side| side.main == Phase::Wetting)
 }
 
 /// Width of the domain across the slit in m.
 fn across(flow: &Flow, side: &OpenSide) -> f64 {
-    flow.setting.domain.bounds.size()[1 - side.axis()]
+    flow.config.domain.bounds.size()[1 - side.axis()]
 }
 
 /// `filled_length_m`: area of the wetting phase over the width.
@@ -89,15 +89,15 @@ fn columns(flow: &Flow, seen: &Observation) -> Columns {
 
 /// The exact law of the slit; none where the sides are not those of a slit.
 fn law(s: &Subject) -> Option<SlitFilling> {
-    let (flow, m) = (s.flow, &s.flow.setting.method);
+    let (flow, m) = (s.flow, &s.flow.config.method);
     let side = entry(flow)?;
-    let exit = flow.setting.open.sides.iter().find(|other| other.number != side.number)?;
-    let is_half = flow.setting.domain.mirrors.iter().any(|mirror| mirror.image == ImageVelocity::Mirrored);
+    let exit = flow.config.open.sides.iter().find(|other| other.number != side.number)?;
+    let is_half = flow.config.domain.mirrors.iter().any(|mirror| mirror.image == ImageVelocity::Mirrored);
     let width = across(flow, side) * if is_half { 2.0 } else { 1.0 };
     let capillary = 2.0 * m.tension * m.wetting?.static_angle().cos() / width;
     Some(SlitFilling {
         width,
-        length: flow.setting.domain.bounds.size()[side.axis()],
+        length: flow.config.domain.bounds.size()[side.axis()],
         pressure: capillary + side.given_pressure()? - exit.given_pressure()?,
         densities: [m.wetting_fluid.density, m.other_fluid.density],
         viscosities: [m.wetting_fluid.viscosity, m.other_fluid.viscosity],

@@ -15,10 +15,10 @@ pub(crate) fn taylor_green_decay(kinematic_viscosity: f64, length: f64, time: f6
 
 fn measures(s: &Subject) -> Vec<Measure> {
     let flow = s.flow;
-    let fluid = flow.setting.method.wetting_fluid;
+    let fluid = flow.config.method.wetting_fluid;
     let mut energy = s.series.column("kinetic_energy_J_per_m");
     let (first, last) = (energy.next().unwrap_or(f64::NAN), energy.last().unwrap_or(f64::NAN));
-    let length = flow.setting.domain.bounds.size().x;
+    let length = flow.config.domain.bounds.size().x;
     let exact = taylor_green_decay(fluid.viscosity / fluid.density, length, flow.state.time).ln();
     let error = 0.5 * (last / first).ln() / exact - 1.0;
     let method = "rate of decay of the square root of the kinetic energy over the run, over 8 pi^2 nu/L^2, less 1";

@@ -20,7 +20,7 @@ pub(crate) fn entry_curvature(radii: [f64; 2], distance: f64, angle: f64) -> Opt
 }
 
 fn measures(s: &Subject) -> Vec<Measure> {
-    let (tension, h) = (s.flow.setting.method.tension, s.flow.setting.method.kernel.h);
+    let (tension, h) = (s.flow.config.method.tension, s.flow.config.method.kernel.h);
     let found = &s.seen.capillary_pressure;
     let pressure = measure(
         "entry-pressure-Pa",
@@ -29,11 +29,11 @@ fn measures(s: &Subject) -> Vec<Measure> {
         Some(found.uncertainty(tension, h)),
         "capillary pressure p_n - p_w at the end: the entry pressure where the invading phase fills up to its meniscus of largest curvature",
     );
-    let ([a, b], Some(wetting)) = (s.discs, s.flow.setting.method.wetting) else { return vec![pressure] };
+    let ([a, b], Some(wetting)) = (s.discs, s.flow.config.method.wetting) else { return vec![pressure] };
     let distance = (b.center - a.center).norm();
     // The phase of the larger pressure is the one that invades; the angle is that through the other one.
     let angle = wetting.static_angle();
-    let depth = s.flow.setting.method.plates.map(|plates| plates.depth);
+    let depth = s.flow.config.method.plates.map(|plates| plates.depth);
     let in_plane = depth.map_or(found.value, |depth| depth.plane(found.value / tension));
     let [defending, sign] = if in_plane < 0.0 { [PI - angle, -1.0] } else { [angle, 1.0] };
     let exact = entry_curvature([a.radius, b.radius], distance, defending).map(|curvature| sign * curvature);

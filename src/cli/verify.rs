@@ -13,13 +13,13 @@ use crate::study::load::load;
 use crate::study::results::{RunResult, results};
 use crate::study::runs::plan as plan_runs;
 use crate::verify::choose::{Choice, choose};
-use crate::verify::cut_out::Impossible;
 use crate::verify::event_results::{EventRow, event_row};
 use crate::verify::events::{EventChoice, choose_events};
 use crate::verify::fluids::Fluids;
 use crate::verify::plan::{self, Plan, Planned, RUNS};
 use crate::verify::report;
 use crate::verify::results::{Row, Status, row};
+use crate::verify::subdomain::Impossible;
 use crate::verify::subject::{Subject, SubjectError};
 
 /// Chooses, writes, runs, and tells.
@@ -44,13 +44,13 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     let plan = Plan { throats: &planned, events: &events, fluids: &fluids, spacings: &spacings, network: &name };
     let written = plan::write(&folder, &plan).map_err(|error| usage(&error))?;
     for (place, why) in written.refused {
-        planned[place].cut_out = Err(Impossible::Case(why));
+        planned[place].subdomain = Err(Impossible::Case(why));
     }
     for (place, why) in written.refused_events {
-        events[place].cut_out = Err(Impossible::Case(why));
+        events[place].subdomain = Err(Impossible::Case(why));
     }
-    let throats = planned.iter().map(|one| ("throat", one.chosen.number, one.cut_out.as_ref().err()));
-    let all = throats.chain(events.iter().map(|one| ("event", one.number, one.cut_out.as_ref().err())));
+    let throats = planned.iter().map(|one| ("throat", one.chosen.number, one.subdomain.as_ref().err()));
+    let all = throats.chain(events.iter().map(|one| ("event", one.number, one.subdomain.as_ref().err())));
     for (what, number, why) in all {
         if let Some(why) = why {
             tell(format_args!("{what} {number}: cut-out impossible: {why}"));
@@ -59,11 +59,11 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<u8, Failure> {
     for kept in &written.kept {
         tell(format_args!("{} was changed by hand, and is run as it is", kept.display()));
     }
-    let cut_out = planned.iter().filter(|one| one.cut_out.is_ok()).count();
-    tell(format_args!("{} throats, {cut_out} with a cut-out -> {}", planned.len(), folder.display()));
+    let subdomain = planned.iter().filter(|one| one.subdomain.is_ok()).count();
+    tell(format_args!("{} throats, {subdomain} with a cut-out -> {}", planned.len(), folder.display()));
     if !events.is_empty() {
-        let cut_out = events.iter().filter(|one| one.cut_out.is_ok()).count();
-        tell(format_args!("{} events, {cut_out} with a cut-out", events.len()));
+        let subdomain = events.iter().filter(|one| one.subdomain.is_ok()).count();
+        tell(format_args!("{} events, {subdomain} with a cut-out", events.len()));
     }
     let runs_in = folder.join(RUNS);
     let mut code = DONE;

@@ -12,13 +12,13 @@ use super::films::CurvePoint;
 use super::flow::along;
 use super::locate::{inner_point, located};
 use super::measures::Costly;
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::setup::{Ground, SetupError, build_on, in_time};
 use super::solver::NetworkSolver;
 use super::{layers, measures, pictures, tables};
 use crate::case::Case;
 use crate::case::network::PoreNetwork;
-use crate::diagram::Mosaic;
+use crate::diagram::RegionMap;
 use crate::math::Vec2;
 use crate::snapshot::Layer;
 use crate::solver::{Measure, Series, Solver, SolverError};
@@ -36,7 +36,7 @@ const BETWEEN_LOOKS: u64 = 64;
 /// A network before its displacement.
 pub(crate) enum Sample {
     /// Quasi-static, or without a displacement.
-    Still(Box<NetworkSolver>),
+    QuasiStatic(Box<NetworkSolver>),
     /// In time.
     InTime(Box<DynamicSolver>),
 }
@@ -58,7 +58,7 @@ pub(crate) struct Observed {
 
 /// The parts of the pore space that a map shows, those of one of the networks.
 pub(crate) struct Reference {
-    setting: Setting,
+    config: Configuration,
     elements: Vec<Element>,
     probes: Vec<Vec2>,
     processes: Vec<&'static str>,
@@ -70,28 +70,30 @@ impl Sample {
     /// # Errors
     /// [`SetupError`] where there is no such network.
     pub(crate) fn on(ground: &Ground, case: &Case, wanted: &PoreNetwork, costly: Costly) -> Result<Self, SetupError> {
-        let mut still = build_on(ground, wanted, case.depth)?;
+        let mut quasi_static = build_on(ground, wanted, case.depth)?;
         if costly.permeabilities && case.depth == ground.network.depth {
-            still.model = still.model.with_conductances(ground.conductances().to_vec());
-            let found = ground.permeabilities(|| [0, 1].map(|axis| along(&still.model, axis)));
-            still.model = still.model.with_permeabilities(found);
+            quasi_static.model = quasi_static.model.with_conductances(ground.conductances().to_vec());
+            let found = ground.permeabilities(|| [0, 1].map(|axis| along(&quasi_static.model, axis)));
+            quasi_static.model = quasi_static.model.with_permeabilities(found);
         }
-        Ok(match in_time(wanted, &still)? {
-            Some((dynamic, invading, end)) => Self::InTime(Box::new(DynamicSolver::new(still, dynamic, invading, end))),
-            None => Self::Still(Box::new(still)),
+        Ok(match in_time(wanted, &quasi_static)? {
+            Some((dynamic, invading, end)) => {
+                Self::InTime(Box::new(DynamicSolver::new(quasi_static, dynamic, invading, end)))
+            }
+            None => Self::QuasiStatic(Box::new(quasi_static)),
         })
     }
 
     fn model(&self) -> &Model {
         match self {
-            Self::Still(solver) => &solver.model,
-            Self::InTime(solver) => solver.still(),
+            Self::QuasiStatic(solver) => &solver.model,
+            Self::InTime(solver) => solver.quasi_static(),
         }
     }
 
     fn elements(&self) -> &[Element] {
         match self {
-            Self::Still(solver) => solver.cycles().map_or(&[][..], |cycles| cycles.displacement().elements()),
+            Self::QuasiStatic(solver) => solver.cycles().map_or(&[][..], |cycles| cycles.displacement().elements()),
             Self::InTime(solver) => solver.elements(),
         }
     }
@@ -101,16 +103,16 @@ impl Sample {
         let elements = self.elements().to_vec();
         let probes = elements.iter().map(|element| inner_point(&element.outline)).collect();
         let processes = match self {
-            Self::Still(solver) => solver
+            Self::QuasiStatic(solver) => solver
                 .cycles()
                 .map_or(Vec::new(), |cycles| cycles.half_cycles().iter().map(|half| half.name()).collect()),
             Self::InTime(_) => Vec::new(),
         };
-        Reference { setting: self.model().setting.clone(), elements, probes, processes }
+        Reference { config: self.model().config.clone(), elements, probes, processes }
     }
 
-    /// Does the displacement, and finds the measures of a quasi-static one but the costly ones that are left out; none where it was interrupted. `stop` tells for a displacement in time the next time in s at which it halts, and whether
-    /// its state is recorded there.
+    /// Does the displacement and finds its measures, of a quasi-static one without the costly ones that are left out; `None` if it was interrupted.
+    /// `stop` gives the next time in s at which a displacement in time halts, and whether its state is recorded there.
     ///
     /// # Errors
     /// [`SolverError`] of a displacement in time.
@@ -121,15 +123,15 @@ impl Sample {
         stop: &dyn Fn(f64) -> Option<(f64, bool)>,
         interrupt: &AtomicBool,
     ) -> Result<Option<Observed>, SolverError> {
-        let places = reference.places(&self.model().setting, self.elements());
+        let places = reference.places(&self.model().config, self.elements());
         match self {
-            Self::Still(solver) => Ok(still(*solver, &places, costly, interrupt)),
+            Self::QuasiStatic(solver) => Ok(quasi_static(*solver, &places, costly, interrupt)),
             Self::InTime(solver) => in_its_time(*solver, &places, stop, interrupt),
         }
     }
 }
 
-fn still(
+fn quasi_static(
     mut solver: NetworkSolver,
     places: &[Option<usize>],
     costly: Costly,
@@ -160,14 +162,14 @@ fn still(
             invaded = (0..displacement.elements().len()).map(|e| displacement.phase(e) == Phase::Invading).collect();
         }
     }
-    let setting = &solver.model.setting;
-    let curves = solver.cycles().map_or(Vec::new(), |cycles| curves(setting, cycles));
+    let config = &solver.model.config;
+    let curves = solver.cycles().map_or(Vec::new(), |cycles| curves(config, cycles));
     Some(Observed {
         curves,
         invaded: places.iter().map(|place| place.is_some_and(|place| invaded[place])).collect(),
         measures: measures::with_costly(&solver.model, costly),
         steps: solver.steps(),
-        pores: setting.pores.main_region.len(),
+        pores: config.pores.main_region.len(),
     })
 }
 
@@ -221,13 +223,13 @@ fn in_its_time(
         invaded: places.iter().map(|place| place.is_some_and(|place| invaded[place])).collect(),
         measures: solver.measures(&series),
         steps: solver.steps(),
-        pores: solver.still().setting.pores.main_region.len(),
+        pores: solver.quasi_static().config.pores.main_region.len(),
     }))
 }
 
 /// For each half cycle that has begun the capillary pressure at each of the saturations.
-fn curves(setting: &Setting, cycles: &Cycles) -> Vec<Vec<f64>> {
-    let Some(tension) = setting.tension else { return Vec::new() };
+fn curves(config: &Configuration, cycles: &Cycles) -> Vec<Vec<f64>> {
+    let Some(tension) = config.tension else { return Vec::new() };
     let of_half = |(half_cycle, outcome): (usize, &super::cycles::Outcome)| {
         let invading = cycles.half_cycles()[half_cycle].invading;
         let first = outcome.first_saturation[1];
@@ -239,7 +241,7 @@ fn curves(setting: &Setting, cycles: &Cycles) -> Vec<Vec<f64>> {
         }
         let entries = cycles.history().iter().filter(|entry| entry.half_cycle == half_cycle);
         let points: Vec<[f64; 2]> =
-            entries.map(|entry| [entry.saturation, setting.pressure(invading, entry.applied)]).collect();
+            entries.map(|entry| [entry.saturation, config.pressure(invading, entry.applied)]).collect();
         at_saturations(invading, first, &points, false)
     };
     cycles.outcomes().iter().enumerate().map(of_half).collect()
@@ -278,7 +280,7 @@ impl Reference {
 
     /// The moment that maps show.
     pub(crate) fn moment(&self) -> &'static str {
-        if self.setting.outlet.is_some() { "at breakthrough" } else { "at the end of the first half cycle" }
+        if self.config.outlet.is_some() { "at breakthrough" } else { "at the end of the first half cycle" }
     }
 
     /// Number of its parts.
@@ -287,37 +289,37 @@ impl Reference {
     }
 
     /// For each of its parts the one of another network at the same place; none where the walls are.
-    fn places(&self, setting: &Setting, elements: &[Element]) -> Vec<Option<usize>> {
-        let is_same = setting.geometry_hash == self.setting.geometry_hash
+    fn places(&self, config: &Configuration, elements: &[Element]) -> Vec<Option<usize>> {
+        let is_same = config.geometry_hash == self.config.geometry_hash
             && elements.len() == self.elements.len()
             && elements.iter().zip(&self.elements).all(|(one, other)| one.area == other.area);
         if is_same {
             return (0..elements.len()).map(Some).collect();
         }
-        let size = setting.bounds.size();
-        let periods = [0, 1].map(|axis| setting.periodic[axis].then_some(size[axis]));
+        let size = config.bounds.size();
+        let periods = [0, 1].map(|axis| config.periodic[axis].then_some(size[axis]));
         located(elements, &self.probes, periods)
     }
 
     /// The probability that a random place of each pore is invaded, as a table of the pores.
     pub(crate) fn table(&self, probability: &[f64]) -> Table {
-        let setting = &self.setting;
-        let pores = setting.pores.main_region.len();
+        let config = &self.config;
+        let pores = config.pores.main_region.len();
         let mut sums = vec![[0.0; 2]; pores];
         for (element, probability) in self.elements.iter().zip(probability) {
-            let [weighted, area] = &mut sums[setting.pores.pore_of[element.region]];
+            let [weighted, area] = &mut sums[config.pores.pore_of[element.region]];
             *weighted += element.area * probability;
             *area += element.area;
         }
-        let centers = || (0..pores).map(|pore| tables::center(setting, pore));
+        let centers = || (0..pores).map(|pore| tables::center(config, pore));
         Table {
             name: "invasion",
             columns: vec![
                 tables::counts("pore", 0..pores),
                 tables::numbers("x_m", centers().map(|center| center.x)),
                 tables::numbers("y_m", centers().map(|center| center.y)),
-                tables::numbers("inscribed_radius_m", (0..pores).map(|pore| tables::radius(setting, pore))),
-                tables::numbers("area_m2", setting.pores.area.iter().copied()),
+                tables::numbers("inscribed_radius_m", (0..pores).map(|pore| tables::radius(config, pore))),
+                tables::numbers("area_m2", config.pores.area.iter().copied()),
                 tables::numbers("invasion_probability", sums.iter().map(|[weighted, area]| weighted / area)),
             ],
         }
@@ -325,12 +327,12 @@ impl Reference {
 
     /// The same by parts of the pore space.
     pub(crate) fn layer(&self, probability: &[f64]) -> Layer<'static> {
-        layers::invasion(&self.setting, &self.elements, probability)
+        layers::invasion(&self.config, &self.elements, probability)
     }
 
     /// The same as a picture; `note` stands below its title.
-    pub(crate) fn mosaic(&self, probability: &[f64], note: String) -> Mosaic {
-        pictures::invasion(&self.setting, &self.elements, probability, note)
+    pub(crate) fn region_map(&self, probability: &[f64], note: String) -> RegionMap {
+        pictures::invasion(&self.config, &self.elements, probability, note)
     }
 }
 

@@ -6,7 +6,7 @@
 use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::displacement::Phase;
 use super::laplacian::FlowError;
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::permeability::{Drive, Paths, permeability};
 use super::tables::numbers;
 use crate::table::Table;
@@ -18,9 +18,9 @@ const STATES: u32 = 9;
 pub(crate) const LEAST_SOLID: f64 = 0.3;
 
 /// What can drive a flow along an axis; none where its sides are closed.
-pub(crate) fn drive(setting: &Setting, axis: usize) -> Option<Drive> {
-    let opens = |side: usize| setting.network.openings.iter().any(|opening| opening.side == side);
-    if setting.periodic[axis] {
+pub(crate) fn drive(config: &Configuration, axis: usize) -> Option<Drive> {
+    let opens = |side: usize| config.network.openings.iter().any(|opening| opening.side == side);
+    if config.periodic[axis] {
         Some(Drive::Periodic(axis))
     } else {
         (opens(2 * axis) && opens(2 * axis + 1)).then_some(Drive::Sides(axis))
@@ -29,29 +29,29 @@ pub(crate) fn drive(setting: &Setting, axis: usize) -> Option<Drive> {
 
 /// Permeability in m2 for a phase that holds the regions of which `holds` is true.
 fn of_phase(model: &Model, drive: Drive, holds: &[bool]) -> Result<f64, FlowError> {
-    let setting = &model.setting;
+    let config = &model.config;
     let is_open = |regions: [usize; 2]| regions.iter().all(|&region| holds[region]);
-    let conductance: Vec<f64> = setting
+    let conductance: Vec<f64> = config
         .network
         .throats
         .iter()
         .zip(model.conductances())
         .map(|(throat, &conductance)| if is_open(throat.regions) { conductance } else { 0.0 })
         .collect();
-    permeability(&setting.network, Paths { conductance: &conductance, holds }, setting.bounds, drive)
+    permeability(&config.network, Paths { conductance: &conductance, holds }, config.bounds, drive)
 }
 
 /// Permeability of the whole pore space along an axis in m2; NaN where its sides are closed or the flow cannot be solved.
 pub(crate) fn along(model: &Model, axis: usize) -> f64 {
-    let everywhere = || vec![true; model.setting.network.regions.len()];
-    let find = || drive(&model.setting, axis).and_then(|drive| of_phase(model, drive, &everywhere()).ok());
+    let everywhere = || vec![true; model.config.network.regions.len()];
+    let find = || drive(&model.config, axis).and_then(|drive| of_phase(model, drive, &everywhere()).ok());
     model.permeability(axis, || find().unwrap_or(f64::NAN))
 }
 
 /// For each region whether the wetting phase held most of it when these invasions of the last half cycle had taken place, and its saturation.
-fn wetting_regions(setting: &Setting, cycles: &Cycles, has_come: impl Fn(&Invasion) -> bool) -> (Vec<bool>, f64) {
+fn wetting_regions(config: &Configuration, cycles: &Cycles, has_come: impl Fn(&Invasion) -> bool) -> (Vec<bool>, f64) {
     let invading = cycles.half_cycle().invading;
-    let regions = setting.network.regions.len();
+    let regions = config.network.regions.len();
     let (mut wetting, mut all) = (vec![0.0; regions], vec![0.0; regions]);
     let counted = cycles.counted();
     let mut counted_wetting = 0.0;
@@ -66,7 +66,7 @@ fn wetting_regions(setting: &Setting, cycles: &Cycles, has_come: impl Fn(&Invasi
             counted_wetting += counted.areas[index];
         }
     }
-    let saturation = match setting.region {
+    let saturation = match config.region {
         Some(_) => counted_wetting / counted.sum,
         None => wetting.iter().sum::<f64>() / all.iter().sum::<f64>(),
     };
@@ -91,30 +91,27 @@ pub(super) fn relative_after(model: &Model, events: &[Option<usize>]) -> Vec<[f6
 }
 
 /// With a region, both phases pass what opens at the inlet and the outlet, which has no saturation.
-fn with_manifolds(setting: &Setting, mut holds: Vec<bool>) -> Vec<bool> {
-    let ends = [setting.inlet, setting.outlet];
-    let openings = setting
-        .network
-        .openings
-        .iter()
-        .filter(|opening| setting.region.is_some() && ends.contains(&Some(opening.side)));
+fn with_manifolds(config: &Configuration, mut holds: Vec<bool>) -> Vec<bool> {
+    let ends = [config.inlet, config.outlet];
+    let openings =
+        config.network.openings.iter().filter(|opening| config.region.is_some() && ends.contains(&Some(opening.side)));
     openings.for_each(|opening| holds[opening.region] = true);
     holds
 }
 
 /// The same at states that are told by which invasions have taken place.
 fn along_displacement<F: Fn(&Invasion) -> bool>(model: &Model, states: impl Iterator<Item = F>) -> Vec<[f64; 3]> {
-    let setting = &model.setting;
-    let drive = setting.inlet.and_then(|inlet| drive(setting, inlet / 2));
+    let config = &model.config;
+    let drive = config.inlet.and_then(|inlet| drive(config, inlet / 2));
     let (Some(cycles), Some(drive)) = (model.cycles.as_ref(), drive) else { return Vec::new() };
-    let whole = along(model, setting.inlet.unwrap_or_default() / 2);
+    let whole = along(model, config.inlet.unwrap_or_default() / 2);
     if !(whole > 0.0) {
         return Vec::new();
     }
     let state = |has_come: F| {
-        let (wetting, saturation) = wetting_regions(setting, cycles, has_come);
+        let (wetting, saturation) = wetting_regions(config, cycles, has_come);
         let other: Vec<bool> = wetting.iter().map(|wetting| !wetting).collect();
-        let [wetting, other] = [wetting, other].map(|holds| with_manifolds(setting, holds));
+        let [wetting, other] = [wetting, other].map(|holds| with_manifolds(config, holds));
         // What a phase carries that is not joined from side to side is rounding.
         const ROUNDING: f64 = 1.0e-12;
         let ratio = |holds: Vec<bool>| of_phase(model, drive, &holds).unwrap_or(f64::NAN) / whole;

@@ -2,7 +2,7 @@
 
 use super::cycles::{FluidPhase, Invasion};
 use super::displacement::Element;
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::summary::PoreStates;
 use super::tables::{arms, center, kept, length, pores_of, radius};
@@ -43,12 +43,12 @@ pub(crate) fn menisci(menisci: Vec<Vec<Vec2>>) -> Lines<'static> {
 }
 
 /// The parts of the pore space that events fill, with pore, phase, sequence and capillary pressure at invasion.
-pub(crate) fn regions(setting: &Setting, occupation: Option<&Occupation>) -> Layer<'static> {
-    let pores = &setting.pores;
-    let Some(occupation) = occupation else { return plain_regions(setting) };
+pub(crate) fn regions(config: &Configuration, occupation: Option<&Occupation>) -> Layer<'static> {
+    let pores = &config.pores;
+    let Some(occupation) = occupation else { return plain_regions(config) };
     let elements = occupation.elements;
     let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
-    let pressure = |invasion: &Invasion| setting.pressure(occupation.invading, invasion.applied);
+    let pressure = |invasion: &Invasion| config.pressure(occupation.invading, invasion.applied);
     let invasions = || occupation.invasions.iter();
     let mut fields = vec![
         integer("pore", elements.iter().map(|element| pores.pore_of[element.region] as i64)),
@@ -70,38 +70,38 @@ pub(crate) fn regions(setting: &Setting, occupation: Option<&Occupation>) -> Lay
 }
 
 /// The parts of the pore space with the probability that each is invaded.
-pub(crate) fn invasion(setting: &Setting, elements: &[Element], probability: &[f64]) -> Layer<'static> {
+pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability: &[f64]) -> Layer<'static> {
     let (points, cells) = joined(elements.iter().map(|element| element.outline.clone()));
     let fields = vec![
-        integer("pore", elements.iter().map(|element| setting.pores.pore_of[element.region] as i64)),
+        integer("pore", elements.iter().map(|element| config.pores.pore_of[element.region] as i64)),
         scalar("area", "m2", elements.iter().map(|element| element.area)),
         scalar("invasion-probability", "", probability.iter().copied()),
     ];
     Layer { name: "invasion", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
 
-fn plain_regions(setting: &Setting) -> Layer<'static> {
-    let (points, cells) = joined(setting.network.regions.iter().map(super::displacement::outline));
-    let pores = &setting.pores.pore_of;
+fn plain_regions(config: &Configuration) -> Layer<'static> {
+    let (points, cells) = joined(config.network.regions.iter().map(super::displacement::outline));
+    let pores = &config.pores.pore_of;
     let fields = vec![
         integer("pore", pores.iter().map(|&pore| pore as i64)),
-        scalar("inscribed-radius", "m", pores.iter().map(|&pore| radius(setting, pore))),
+        scalar("inscribed-radius", "m", pores.iter().map(|&pore| radius(config, pore))),
     ];
     Layer { name: "regions", kind: CellKind::Polygons, points: points.into(), cells, fields }
 }
 
 /// `pores.vtu` and `throats.vtu`.
 pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) -> Vec<Layer<'static>> {
-    let setting = &model.setting;
-    let count = setting.pores.main_region.len();
-    let centers: Vec<Vec2> = (0..count).map(|pore| center(setting, pore)).collect();
+    let config = &model.config;
+    let count = config.pores.main_region.len();
+    let centers: Vec<Vec2> = (0..count).map(|pore| center(config, pore)).collect();
     let mut fields = vec![
         integer("pore", 0..count as i64),
-        scalar("inscribed-radius", "m", (0..count).map(|pore| radius(setting, pore))),
-        scalar("area", "m2", setting.pores.area.iter().copied()),
+        scalar("inscribed-radius", "m", (0..count).map(|pore| radius(config, pore))),
+        scalar("area", "m2", config.pores.area.iter().copied()),
     ];
     if let Some(occupation) = occupation {
-        let states = PoreStates::new(setting, occupation).0;
+        let states = PoreStates::new(config, occupation).0;
         fields.extend([
             integer("phase", states.iter().map(|state| phase(state.fluid))),
             integer("trapped", states.iter().map(|state| i64::from(state.is_trapped))),
@@ -118,21 +118,21 @@ pub(crate) fn pores_and_throats(model: &Model, occupation: Option<&Occupation>) 
 
 /// Two lines each, from the pore centers to the middle of the throat.
 fn throats(model: &Model) -> Layer<'static> {
-    let setting = &model.setting;
+    let config = &model.config;
     let (points, cells) =
-        joined(kept(setting).flat_map(|throat| {
-            arms(setting, throat).map(|to_center| vec![throat.middle() + to_center, throat.middle()])
+        joined(kept(config).flat_map(|throat| {
+            arms(config, throat).map(|to_center| vec![throat.middle() + to_center, throat.middle()])
         }));
-    let both = || kept(setting).flat_map(|throat| [throat, throat]);
+    let both = || kept(config).flat_map(|throat| [throat, throat]);
     let mut fields = vec![
-        integer("throat", (0..setting.pores.throats.len() as i64).flat_map(|throat| [throat, throat])),
-        integer("pore-1", both().map(|throat| pores_of(setting, throat)[0] as i64)),
-        integer("pore-2", both().map(|throat| pores_of(setting, throat)[1] as i64)),
+        integer("throat", (0..config.pores.throats.len() as i64).flat_map(|throat| [throat, throat])),
+        integer("pore-1", both().map(|throat| pores_of(config, throat)[0] as i64)),
+        integer("pore-2", both().map(|throat| pores_of(config, throat)[1] as i64)),
         scalar("width", "m", both().map(|throat| throat.width)),
-        scalar("length", "m", both().map(|throat| length(setting, throat))),
+        scalar("length", "m", both().map(|throat| length(config, throat))),
     ];
     if let Some(pressures) = model.entry_pressures() {
-        let both = setting.pores.throats.iter().flat_map(|&throat| [pressures[throat]; 2]);
+        let both = config.pores.throats.iter().flat_map(|&throat| [pressures[throat]; 2]);
         fields.push(scalar("entry-pressure", "Pa", both));
     }
     Layer { name: "throats", kind: CellKind::Lines, points: points.into(), cells, fields }

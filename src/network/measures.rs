@@ -3,7 +3,7 @@
 use super::cycles::{Cycles, FluidPhase};
 use super::displacement::EventKind;
 use super::flow::{along, drive, relative};
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::permeability::Drive;
 use super::tables::kept;
 use super::warnings::notes_on_permeability;
@@ -44,11 +44,11 @@ pub(crate) fn all(model: &Model) -> Vec<Measure> {
 
 /// All measures but the costly ones that are left out.
 pub(crate) fn with_costly(model: &Model, costly: Costly) -> Vec<Measure> {
-    let setting = &model.setting;
+    let config = &model.config;
     let mut found = of_network_with(model, costly);
     found.extend(replaced(model));
     if let Some(cycles) = &model.cycles {
-        found.extend(of_displacement(setting, cycles));
+        found.extend(of_displacement(config, cycles));
     }
     found
 }
@@ -59,7 +59,7 @@ pub(crate) fn of_network_with_flow(model: &Model) -> Vec<Measure> {
 }
 
 fn of_network_with(model: &Model, costly: Costly) -> Vec<Measure> {
-    let mut found = of_network(&model.setting);
+    let mut found = of_network(&model.config);
     if costly.permeabilities {
         found.extend(permeabilities(model));
     }
@@ -69,19 +69,19 @@ fn of_network_with(model: &Model, costly: Costly) -> Vec<Measure> {
     found
 }
 
-fn of_network(setting: &Setting) -> Vec<Measure> {
-    let pores = &setting.pores;
+fn of_network(config: &Configuration) -> Vec<Measure> {
+    let pores = &config.pores;
     let ratio = pores.persistence;
-    let widths = || kept(setting).map(|throat| throat.width);
+    let widths = || kept(config).map(|throat| throat.width);
     let (narrowest, widest) =
         widths().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), width| (low.min(width), high.max(width)));
     let number = |value: f64| if value.is_finite() { value } else { f64::NAN };
-    let porosity = match setting.region {
+    let porosity = match config.region {
         Some(_) => "area of the pore space in network.region in closed form over that of the region",
         None => "sum of the pore areas in closed form over the area of the domain",
     };
     vec![
-        measure("porosity", setting.porosity, "", porosity),
+        measure("porosity", config.porosity, "", porosity),
         measure(
             "pores",
             pores.main_region.len() as f64,
@@ -100,14 +100,14 @@ fn of_network(setting: &Setting) -> Vec<Measure> {
 }
 
 fn permeabilities(model: &Model) -> Vec<Measure> {
-    let setting = &model.setting;
+    let config = &model.config;
     let of_axis = |axis: usize, name| {
-        let method = match drive(setting, axis) {
+        let method = match drive(config, axis) {
             Some(Drive::Periodic(_)) => "flow through all throats under a mean gradient, periodic sides joined",
             Some(Drive::Sides(_)) => "flow through all throats between the open sides",
             None => "both sides along this axis would have to be open or periodic",
         };
-        let notes: String = notes_on_permeability(setting, axis).iter().map(|note| format!("; {note}")).collect();
+        let notes: String = notes_on_permeability(config, axis).iter().map(|note| format!("; {note}")).collect();
         measure(name, along(model, axis), "m2", format!("{method}{notes}"))
     };
     let mut found = vec![of_axis(0, "permeability-x-m2"), of_axis(1, "permeability-y-m2")];
@@ -120,9 +120,9 @@ fn permeabilities(model: &Model) -> Vec<Measure> {
 }
 
 fn entry_pressures(model: &Model) -> Vec<Measure> {
-    let setting = &model.setting;
+    let config = &model.config;
     let Some(all) = model.entry_pressures() else { return Vec::new() };
-    let mut pressures: Vec<f64> = setting.pores.throats.iter().map(|&throat| all[throat]).collect();
+    let mut pressures: Vec<f64> = config.pores.throats.iter().map(|&throat| all[throat]).collect();
     pressures.sort_by(f64::total_cmp);
     let at = |index: Option<usize>| index.and_then(|index| pressures.get(index)).copied().unwrap_or(f64::NAN);
     let last = pressures.len().checked_sub(1);
@@ -137,7 +137,7 @@ fn entry_pressures(model: &Model) -> Vec<Measure> {
 /// How many entry pressures were measured, where any are given.
 fn replaced(model: &Model) -> Option<Measure> {
     let first = model.cycles.as_ref().map(|cycles| &cycles.half_cycles()[0].conditions);
-    let conditions = first.or(model.setting.entry.as_ref()).filter(|conditions| !conditions.measured.is_empty())?;
+    let conditions = first.or(model.config.entry.as_ref()).filter(|conditions| !conditions.measured.is_empty())?;
     let given = conditions.measured.len();
     let method = format!(
         "throats whose entry pressure is the measured one in the first half cycle, of {given} that are given; the others are of another angle or have none"
@@ -145,10 +145,10 @@ fn replaced(model: &Model) -> Option<Measure> {
     Some(measure("measured-entry-pressures", model.measured_throats(conditions) as f64, "", method))
 }
 
-fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
+fn of_displacement(config: &Configuration, cycles: &Cycles) -> Vec<Measure> {
     let first = &cycles.half_cycles()[0];
     let (pressure, saturation) = cycles.outcomes()[0].breakthrough.unwrap_or((f64::NAN, f64::NAN));
-    let reached = if setting.outlet.is_none() {
+    let reached = if config.outlet.is_none() {
         "there is no outlet"
     } else if saturation.is_nan() {
         "the invading phase did not reach the outlet"
@@ -157,7 +157,7 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
     } else {
         "at the event by which the invading phase reached the outlet"
     };
-    let (name, space) = (first.name(), setting.space());
+    let (name, space) = (first.name(), config.space());
     let invading = cycles.half_cycle().invading;
     let wetting = cycles.saturation();
     let (left, of) = match invading {
@@ -167,12 +167,12 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
     let ending = if cycles.is_done() { "at the end" } else { "so far, the displacement goes on" };
     let largest = cycles.history().iter().filter(|entry| entry.half_cycle == 0);
     let applied = largest.map(|entry| entry.applied).chain(cycles.outcomes()[0].last);
-    let largest = applied.map(|applied| setting.curvature(first.invading, applied));
+    let largest = applied.map(|applied| config.curvature(first.invading, applied));
     let largest = largest.fold(f64::NAN, |a, b| if a.abs() > b.abs() { a } else { b });
     let mut found = vec![
         measure(
             "breakthrough-pressure-Pa",
-            setting.pressure(first.invading, pressure),
+            config.pressure(first.invading, pressure),
             "Pa",
             format!("capillary pressure p_n - p_w of the first {name}, {reached}"),
         ),
@@ -202,7 +202,7 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
         ),
         measure(
             "largest-capillary-pressure-Pa",
-            setting.tension.unwrap_or(f64::NAN) * largest,
+            config.tension.unwrap_or(f64::NAN) * largest,
             "Pa",
             format!("p_n - p_w applied at the end of the first {name}"),
         ),
@@ -223,20 +223,20 @@ fn of_displacement(setting: &Setting, cycles: &Cycles) -> Vec<Measure> {
         let closed = cycles.history().iter().filter(|entry| entry.kind == EventKind::SnapOff).count();
         found.push(measure("snap-offs", closed as f64, "", "throats that films in corners closed, in all half cycles"));
     }
-    if let Some(loss) = hysteresis(setting, cycles) {
+    if let Some(loss) = hysteresis(config, cycles) {
         found.push(loss);
     }
     found
 }
 
 /// What a cycle of drainage and imbibition dissipates.
-fn hysteresis(setting: &Setting, cycles: &Cycles) -> Option<Measure> {
+fn hysteresis(config: &Configuration, cycles: &Cycles) -> Option<Measure> {
     if cycles.half_cycles().len() < 2 || !cycles.is_done() {
         return None;
     }
     let last = cycles.half_cycles().len() - 2;
-    let work = if cycles.has_films() { work_on_curve(cycles, last) } else { work_of_events(setting, cycles, last) };
-    let value = setting.tension? * work;
+    let work = if cycles.has_films() { work_on_curve(cycles, last) } else { work_of_events(config, cycles, last) };
+    let value = config.tension? * work;
     Some(measure(
         "hysteresis-work-J-per-m3",
         value,
@@ -256,13 +256,13 @@ fn work_on_curve(cycles: &Cycles, first: usize) -> f64 {
 }
 
 /// The same where saturations change at events alone.
-fn work_of_events(setting: &Setting, cycles: &Cycles, last: usize) -> f64 {
+fn work_of_events(config: &Configuration, cycles: &Cycles, last: usize) -> f64 {
     let mut work = 0.0;
     for (half, outcome) in cycles.outcomes().iter().enumerate().skip(last) {
         // No pressure holds back what enters through openings at the beginning of either.
         let mut before = outcome.first_saturation[1];
         for entry in cycles.history().iter().filter(|entry| entry.half_cycle == half) {
-            work -= setting.curvature(cycles.half_cycles()[half].invading, entry.applied) * (entry.saturation - before);
+            work -= config.curvature(cycles.half_cycles()[half].invading, entry.applied) * (entry.saturation - before);
             before = entry.saturation;
         }
     }

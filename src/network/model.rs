@@ -15,7 +15,7 @@ use crate::snapshot::Lines;
 
 /// What stands still: the network and what is known of its walls and fluids.
 #[derive(Debug, Clone)]
-pub struct Setting {
+pub struct Configuration {
     /// The network.
     pub network: Arc<Network>,
     /// Its regions joined to pores.
@@ -50,7 +50,7 @@ pub struct Setting {
     pub(crate) tables: Tables,
 }
 
-impl Setting {
+impl Configuration {
     /// Capillary pressure p_n - p_w in Pa where a phase invades, of a meniscus with this curvature in the plane (1/m), above 0 where it bulges into the
     /// wetting phase; NaN where no tension is given.
     pub(crate) fn pressure(&self, invading: FluidPhase, curvature: f64) -> f64 {
@@ -87,7 +87,7 @@ impl Setting {
 #[derive(Debug, Clone)]
 pub(crate) struct Model {
     /// What stands still.
-    pub(crate) setting: Setting,
+    pub(crate) config: Configuration,
     /// The displacement; none where the network is extracted only.
     pub(crate) cycles: Option<Cycles>,
     entry_curvatures: OnceCell<Vec<f64>>,
@@ -97,9 +97,9 @@ pub(crate) struct Model {
 
 impl Model {
     /// A network with nothing displaced yet.
-    pub(crate) fn new(setting: Setting, cycles: Option<Cycles>) -> Self {
+    pub(crate) fn new(config: Configuration, cycles: Option<Cycles>) -> Self {
         Self {
-            setting,
+            config,
             cycles,
             entry_curvatures: OnceCell::new(),
             conductances: OnceCell::new(),
@@ -126,7 +126,7 @@ impl Model {
 
     /// Curvatures at which drainage enters the throats of the network, in 1/m; none where no angle is known.
     pub(crate) fn entry_curvatures(&self) -> Option<&[f64]> {
-        let Setting { network, pores, entry, .. } = &self.setting;
+        let Configuration { network, pores, entry, .. } = &self.config;
         let conditions = entry.as_ref()?;
         let throats = network.throats.len();
         let find = || {
@@ -139,7 +139,7 @@ impl Model {
 
     /// Number of throats of the network whose measured entry pressure takes the place of that of the formula under some conditions.
     pub(crate) fn measured_throats(&self, conditions: &Conditions) -> usize {
-        let Setting { network, pores, .. } = &self.setting;
+        let Configuration { network, pores, .. } = &self.config;
         let (throats, formula) = (network.throats.len(), Conditions { measured: Vec::new(), ..conditions.clone() });
         let displacement = Displacement::new(network, pores, formula.clone());
         let [with, without] = [conditions, &formula].map(|given| displacement.entry_curvatures(given, throats));
@@ -148,13 +148,13 @@ impl Model {
 
     /// Entry pressures in Pa of all throats of the network; none where no angle or no tension is known.
     pub(crate) fn entry_pressures(&self) -> Option<Vec<f64>> {
-        self.setting.tension?;
-        let pressure = |&curvature: &f64| self.setting.pressure(FluidPhase::NonWetting, curvature);
+        self.config.tension?;
+        let pressure = |&curvature: &f64| self.config.pressure(FluidPhase::NonWetting, curvature);
         Some(self.entry_curvatures()?.iter().map(pressure).collect())
     }
 
     /// The conductances of all throats of the network.
     pub(crate) fn conductances(&self) -> &[f64] {
-        self.conductances.get_or_init(|| conductances(&self.setting.network))
+        self.conductances.get_or_init(|| conductances(&self.config.network))
     }
 }

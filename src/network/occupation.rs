@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::cycles::{Cycles, FluidPhase, Invasion};
 use super::displacement::{Element, Phase};
 use super::films::SeenFilms;
-use super::model::Setting;
+use super::model::Configuration;
 use crate::math::Vec2;
 
 /// Which fluid holds what, and how it came there.
@@ -68,12 +68,12 @@ impl Cycles {
     }
 
     /// All interfaces at the applied pressure, those around trapped regions included, each a polyline in m.
-    pub(crate) fn all_menisci(&self, setting: &Setting) -> Vec<Vec<Vec2>> {
+    pub(crate) fn all_menisci(&self, config: &Configuration) -> Vec<Vec<Vec2>> {
         const POINTS: u32 = 17;
         let (displacement, half) = (self.displacement(), self.half_cycle());
         let resting =
             displacement.resting_curvature(self.applied().map_or(0.0, |applied| half.towards_wetting(applied)));
-        let interfaces = displacement.interfaces(resting, setting.bounds, setting.periodic);
+        let interfaces = displacement.interfaces(resting, config.bounds, config.periodic);
         let point = |k: u32| f64::from(k) / f64::from(POINTS - 1);
         interfaces.menisci.iter().map(|it| (0..POINTS).map(|k| it.curve.point(point(k))).collect()).collect()
     }

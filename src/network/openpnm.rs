@@ -6,7 +6,7 @@
 
 use super::conductance::opening_conductances;
 use super::graph::{Opening, Throat};
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::tables::{center, finite, flags, kept, length, numbers, openings, pores_of, radius, wall_lengths};
 use crate::case::SIDES;
 use crate::math::Vec2;
@@ -23,13 +23,13 @@ struct Connection<'a> {
     link: Link<'a>,
 }
 
-fn connections(setting: &Setting) -> Vec<Connection<'_>> {
-    let pores = setting.pores.main_region.len();
-    let throats = setting.pores.throats.iter().zip(kept(setting)).filter_map(|(&index, throat)| {
-        let [a, b] = pores_of(setting, throat);
+fn connections(config: &Configuration) -> Vec<Connection<'_>> {
+    let pores = config.pores.main_region.len();
+    let throats = config.pores.throats.iter().zip(kept(config)).filter_map(|(&index, throat)| {
+        let [a, b] = pores_of(config, throat);
         (a != b).then_some(Connection { ends: [a.min(b), a.max(b)], link: Link::Throat { index, throat } })
     });
-    let openings = openings(setting).enumerate().map(|(index, (opening, pore))| Connection {
+    let openings = openings(config).enumerate().map(|(index, (opening, pore))| Connection {
         ends: [pore, pores + index],
         link: Link::Opening { index, opening },
     });
@@ -44,10 +44,10 @@ impl Connection<'_> {
         }
     }
 
-    fn length(&self, setting: &Setting) -> f64 {
+    fn length(&self, config: &Configuration) -> f64 {
         match &self.link {
-            Link::Throat { throat, .. } => length(setting, throat),
-            Link::Opening { opening, .. } => (center(setting, self.ends[0]) - place(opening)).norm(),
+            Link::Throat { throat, .. } => length(config, throat),
+            Link::Opening { opening, .. } => (center(config, self.ends[0]) - place(opening)).norm(),
         }
     }
 
@@ -65,35 +65,35 @@ fn place(opening: &Opening) -> Vec2 {
 
 /// The table.
 pub(crate) fn table(model: &Model) -> Table {
-    let setting = &model.setting;
-    let mut columns = pore_columns(setting);
+    let config = &model.config;
+    let mut columns = pore_columns(config);
     columns.extend(throat_columns(model));
     Table { name: "openpnm", columns }
 }
 
 /// How many of floor and lid bound the flow: both, or none in the plane.
-fn plates(setting: &Setting) -> f64 {
-    if setting.network.depth.is_some() { 2.0 } else { 0.0 }
+fn plates(config: &Configuration) -> f64 {
+    if config.network.depth.is_some() { 2.0 } else { 0.0 }
 }
 
-fn pore_columns(setting: &Setting) -> Vec<Column> {
-    let inner = || 0..setting.pores.main_region.len();
-    let outer = || setting.network.openings.iter();
+fn pore_columns(config: &Configuration) -> Vec<Column> {
+    let inner = || 0..config.pores.main_region.len();
+    let outer = || config.network.openings.iter();
     let all = |name, of_pore: &dyn Fn(usize) -> f64, of_opening: &dyn Fn(&Opening) -> f64| {
         numbers(name, inner().map(of_pore).chain(outer().map(of_opening)))
     };
-    let area = |pore: usize| setting.pores.area[pore];
-    let diameter = |pore: usize| 2.0 * radius(setting, pore);
+    let area = |pore: usize| config.pores.area[pore];
+    let diameter = |pore: usize| 2.0 * radius(config, pore);
     let width = |opening: &Opening| (opening.ends[1] - opening.ends[0]).norm();
-    let walls = wall_lengths(setting);
+    let walls = wall_lengths(config);
     let zero = |_: &Opening| 0.0;
-    let (depth, plates) = (setting.thickness(), plates(setting));
+    let (depth, plates) = (config.thickness(), plates(config));
     let volume = |pore: usize| depth * area(pore);
     let surface = |pore: usize| depth * walls[pore] + plates * area(pore);
     let round = |pore: usize| (4.0 * area(pore) / std::f64::consts::PI).sqrt();
     let mut columns = vec![
-        all("pore.coords[0]", &|pore| center(setting, pore).x, &|opening| place(opening).x),
-        all("pore.coords[1]", &|pore| center(setting, pore).y, &|opening| place(opening).y),
+        all("pore.coords[0]", &|pore| center(config, pore).x, &|opening| place(opening).x),
+        all("pore.coords[1]", &|pore| center(config, pore).y, &|opening| place(opening).y),
         all("pore.coords[2]", &|_| 0.0, &zero),
         all("pore.diameter", &diameter, &width),
         all("pore.inscribed_diameter", &diameter, &width),
@@ -105,8 +105,8 @@ fn pore_columns(setting: &Setting) -> Vec<Column> {
     ];
     let label = |name, holds: &dyn Fn(&Opening) -> bool| flags(name, inner().map(|_| false).chain(outer().map(holds)));
     columns.push(label("pore.boundary", &|_| true));
-    columns.push(label("pore.inlet", &|opening| Some(opening.side) == setting.inlet));
-    columns.push(label("pore.outlet", &|opening| Some(opening.side) == setting.outlet));
+    columns.push(label("pore.inlet", &|opening| Some(opening.side) == config.inlet));
+    columns.push(label("pore.outlet", &|opening| Some(opening.side) == config.outlet));
     for (side, name) in ["pore.left", "pore.right", "pore.bottom", "pore.top"].into_iter().enumerate().take(SIDES.len())
     {
         columns.push(label(name, &|opening| opening.side == side));
@@ -115,12 +115,12 @@ fn pore_columns(setting: &Setting) -> Vec<Column> {
 }
 
 fn throat_columns(model: &Model) -> Vec<Column> {
-    let setting = &model.setting;
-    let (depth, plates) = (setting.thickness(), plates(setting));
-    let all = connections(setting);
+    let config = &model.config;
+    let (depth, plates) = (config.thickness(), plates(config));
+    let all = connections(config);
     let column = |name, value: &dyn Fn(&Connection<'_>) -> f64| numbers(name, all.iter().map(value));
     let end = |name, side: usize| Column { name, cells: Cells::Counts(all.iter().map(|it| it.ends[side]).collect()) };
-    let direct = |it: &Connection<'_>| it.length(setting);
+    let direct = |it: &Connection<'_>| it.length(config);
     let mut columns = vec![
         end("throat.conns[0]", 0),
         end("throat.conns[1]", 1),
@@ -138,8 +138,8 @@ fn throat_columns(model: &Model) -> Vec<Column> {
         column("throat.wall_1", &|it| it.of_throat(|throat| f64::from(throat.shapes[0]), f64::NAN)),
         column("throat.wall_2", &|it| it.of_throat(|throat| f64::from(throat.shapes[1]), f64::NAN)),
     ];
-    let (conductances, of_openings) = (model.conductances(), opening_conductances(&setting.network));
-    let viscosity = setting.viscosities[0].unwrap_or(1.0);
+    let (conductances, of_openings) = (model.conductances(), opening_conductances(&config.network));
+    let viscosity = config.viscosities[0].unwrap_or(1.0);
     columns.push(column("throat.hydraulic_conductance", &|it| match it.link {
         Link::Throat { index, .. } => depth * conductances[index] / viscosity,
         Link::Opening { index, .. } => depth * of_openings[index] / viscosity,

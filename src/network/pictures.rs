@@ -2,11 +2,11 @@
 
 use super::cycles::{Cycles, Entry, FluidPhase};
 use super::displacement::Element;
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::tables::{kept, radius};
 use crate::case::Side;
-use crate::diagram::{Area, Axis, Color, Diagram, Frame, Mosaic, Stroke, Through, Tone, Trace, colors};
+use crate::diagram::{Area, Axis, Color, Diagram, Frame, RegionMap, Stroke, Through, Tone, Trace, colors};
 use crate::math::Vec2;
 
 /// Steps of the curve shorter than this share of an axis are not drawn.
@@ -44,15 +44,15 @@ fn look(phase: FluidPhase) -> &'static Look {
 
 /// The diagrams of a displacement.
 pub(crate) fn diagrams(model: &Model) -> Vec<Diagram> {
-    model.cycles.as_ref().and_then(|cycles| capillary_pressure(&model.setting, cycles)).into_iter().collect()
+    model.cycles.as_ref().and_then(|cycles| capillary_pressure(&model.config, cycles)).into_iter().collect()
 }
 
 /// Capillary pressure over the saturation of the wetting phase, a line for each half cycle: the pressure rises at constant saturation
 /// and the saturation changes at constant pressure. Each line begins where the one before it ends, so that cycles are joined loops.
-fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
-    setting.tension?;
-    let pressure_at = |entry: &Entry| setting.pressure(cycles.half_cycles()[entry.half_cycle].invading, entry.applied);
-    let on_curve = cycles.curve().iter().map(|point| setting.tension.unwrap_or(f64::NAN) * point.curvature.abs());
+fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Diagram> {
+    config.tension?;
+    let pressure_at = |entry: &Entry| config.pressure(cycles.half_cycles()[entry.half_cycle].invading, entry.applied);
+    let on_curve = cycles.curve().iter().map(|point| config.tension.unwrap_or(f64::NAN) * point.curvature.abs());
     let applied = cycles.history().iter().map(|entry| pressure_at(entry).abs()).chain(on_curve);
     let (label, unit) = if applied.fold(0.0, f64::max) > KILO {
         ("capillary pressure p_n - p_w in kPa", 1.0e-3)
@@ -65,7 +65,7 @@ fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Diagram> {
         let last = traces.last().and_then(|trace| trace.points.last().copied());
         if cycles.has_films() {
             let of_half = cycles.curve().iter().filter(|point| point.half_cycle == index);
-            let tension = setting.tension?;
+            let tension = config.tension?;
             let points = of_half.map(|point| [point.saturation, unit * tension * point.curvature]);
             let points = last.into_iter().chain(points).collect();
             traces.push(Trace { name, stroke: Stroke::Full, points });
@@ -149,15 +149,15 @@ fn pair(point: Vec2) -> [f64; 2] {
 }
 
 /// A line or an outline as often as it is seen in the domain: at each whole number of periods at which it reaches into it.
-fn images(setting: &Setting, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
-    let domain = setting.bounds;
+fn images(config: &Configuration, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
+    let domain = config.bounds;
     let ends = line.iter().fold(None, |ends: Option<[Vec2; 2]>, point| {
         Some(ends.map_or([*point; 2], |[low, high]| [low.inf(point), high.sup(point)]))
     });
     let Some([low, high]) = ends else { return Vec::new() };
     let shifts = [0, 1].map(|axis| {
         let size = domain.size()[axis];
-        if !setting.periodic[axis] || !(size > 0.0) {
+        if !config.periodic[axis] || !(size > 0.0) {
             return vec![0.0];
         }
         let first = ((domain.min[axis] - high[axis]) / size).ceil() as i32;
@@ -169,15 +169,15 @@ fn images(setting: &Setting, line: &[Vec2]) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// The maps: the order of invasion, or the pores by their size where nothing is displaced.
-pub(crate) fn mosaics(setting: &Setting, occupation: Option<&Occupation>) -> Vec<Mosaic> {
-    vec![occupation.map_or_else(|| sizes(setting), |occupation| order(setting, occupation))]
+pub(crate) fn region_maps(config: &Configuration, occupation: Option<&Occupation>) -> Vec<RegionMap> {
+    vec![occupation.map_or_else(|| sizes(config), |occupation| order(config, occupation))]
 }
 
-fn empty(setting: &Setting) -> Mosaic {
-    let outline = &setting.outline;
+fn empty(config: &Configuration) -> RegionMap {
+    let outline = &config.outline;
     let wall =
         |line: &Vec<u32>| line.iter().filter_map(|&i| outline.points.get(i as usize)).copied().map(pair).collect();
-    Mosaic {
+    RegionMap {
         name: "network",
         note: String::new(),
         label: "",
@@ -185,14 +185,14 @@ fn empty(setting: &Setting) -> Mosaic {
         classes: Vec::new(),
         bar: colors::SIZES,
         frame: Frame {
-            bounds: [pair(setting.bounds.min), pair(setting.bounds.max)],
-            open: setting.sides.map(through),
-            periodic: setting.periodic,
+            bounds: [pair(config.bounds.min), pair(config.bounds.max)],
+            open: config.sides.map(through),
+            periodic: config.periodic,
         },
         areas: Vec::new(),
         walls: outline.lines.iter().map(wall).collect(),
         menisci: ("menisci", Vec::new()),
-        throats: ("throats", kept(setting).flat_map(|throat| images(setting, &throat.contacts)).collect()),
+        throats: ("throats", kept(config).flat_map(|throat| images(config, &throat.contacts)).collect()),
         strips: ("films", Vec::new()),
     }
 }
@@ -206,7 +206,7 @@ fn through(side: Side) -> Option<Through> {
     }
 }
 
-fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
+fn order(config: &Configuration, occupation: &Occupation) -> RegionMap {
     let areas = occupation.elements.iter().enumerate().map(|(index, element)| {
         let is_invaded = occupation.is_invaded(index);
         let tone = match occupation.invasions[index] {
@@ -215,16 +215,16 @@ fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
             None if is_invaded => Tone::Class(2),
             _ => Tone::Class(0),
         };
-        images(setting, &element.outline).into_iter().map(move |boundary| Area { boundary, tone })
+        images(config, &element.outline).into_iter().map(move |boundary| Area { boundary, tone })
     });
     let areas: Vec<Area> = areas.flatten().collect();
     let largest = occupation.invasions.iter().flatten().map(|invasion| invasion.displaced).fold(0.0, f64::max);
     let [invading, defending] = [occupation.invading, occupation.invading.other()].map(look);
     let (label, bar) = invading.in_order;
-    let menisci = occupation.menisci.iter().flat_map(|line| images(setting, line)).collect();
+    let menisci = occupation.menisci.iter().flat_map(|line| images(config, line)).collect();
     let seen = occupation.films.iter().flat_map(|films| &films.strips);
-    let strips = seen.flat_map(|(line, width)| images(setting, line).into_iter().map(|line| (line, *width)));
-    Mosaic {
+    let strips = seen.flat_map(|(line, width)| images(config, line).into_iter().map(|line| (line, *width)));
+    RegionMap {
         name: "invasion",
         note: occupation.note.clone(),
         label,
@@ -238,39 +238,39 @@ fn order(setting: &Setting, occupation: &Occupation) -> Mosaic {
         areas,
         menisci: ("menisci", menisci),
         strips: ("films", strips.collect()),
-        ..empty(setting)
+        ..empty(config)
     }
 }
 
 /// The parts of the pore space by the probability that each is invaded.
-pub(crate) fn invasion(setting: &Setting, elements: &[Element], probability: &[f64], note: String) -> Mosaic {
+pub(crate) fn invasion(config: &Configuration, elements: &[Element], probability: &[f64], note: String) -> RegionMap {
     let areas = elements.iter().zip(probability).flat_map(|(element, &probability)| {
         let tone = Tone::Value(probability);
-        images(setting, &element.outline).into_iter().map(move |boundary| Area { boundary, tone })
+        images(config, &element.outline).into_iter().map(move |boundary| Area { boundary, tone })
     });
-    Mosaic {
+    RegionMap {
         name: "invasion-probability",
         note,
         label: "probability of invasion",
         areas: areas.collect(),
-        ..empty(setting)
+        ..empty(config)
     }
 }
 
-fn sizes(setting: &Setting) -> Mosaic {
-    let pores = &setting.pores;
-    let areas = setting.network.regions.iter().zip(&pores.pore_of).flat_map(|(region, &pore)| {
-        let tone = Tone::Value(radius(setting, pore));
-        let boundaries = images(setting, &super::displacement::outline(region));
+fn sizes(config: &Configuration) -> RegionMap {
+    let pores = &config.pores;
+    let areas = config.network.regions.iter().zip(&pores.pore_of).flat_map(|(region, &pore)| {
+        let tone = Tone::Value(radius(config, pore));
+        let boundaries = images(config, &super::displacement::outline(region));
         boundaries.into_iter().map(move |boundary| Area { boundary, tone })
     });
-    let largest = (0..pores.main_region.len()).map(|pore| radius(setting, pore)).fold(0.0, f64::max);
-    Mosaic {
+    let largest = (0..pores.main_region.len()).map(|pore| radius(config, pore)).fold(0.0, f64::max);
+    RegionMap {
         name: "pores",
         note: format!("{} pores, {} throats", pores.main_region.len(), pores.throats.len()),
         label: "inscribed radius in m",
         range: [0.0, if largest > 0.0 { largest } else { 1.0 }],
         areas: areas.collect(),
-        ..empty(setting)
+        ..empty(config)
     }
 }

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use super::cycles::Cycles;
 use super::flow::relative_after;
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use crate::table::Document;
 
 /// Pa in a bar, the unit of pressure in METRIC decks.
@@ -33,7 +33,7 @@ pub(super) type Row = [f64; 4];
 
 /// The files that the case asks for; none where nothing flows from inlet to outlet.
 pub(crate) fn documents(model: &Model) -> Vec<Document> {
-    let tables = model.setting.tables;
+    let tables = model.config.tables;
     let Some(cycles) = model.cycles.as_ref().filter(|_| !tables.is_empty()) else { return Vec::new() };
     let rows = rows(model, cycles);
     if rows.is_empty() {
@@ -47,7 +47,7 @@ pub(crate) fn documents(model: &Model) -> Vec<Document> {
 
 /// The rows by rising saturation of the wetting phase.
 fn rows(model: &Model, cycles: &Cycles) -> Vec<Row> {
-    let states = chosen(states(&model.setting, cycles));
+    let states = chosen(states(&model.config, cycles));
     let events: Vec<Option<usize>> = states.iter().map(|state| state.events).collect();
     let relative = relative_after(model, &events);
     let row = |(state, [_, wetting, other]): (&State, [f64; 3])| [state.saturation, wetting, other, state.pressure];
@@ -62,13 +62,13 @@ fn rows(model: &Model, cycles: &Cycles) -> Vec<Row> {
 }
 
 /// The beginning of the last half cycle and the last state at each of its saturations.
-fn states(setting: &Setting, cycles: &Cycles) -> Vec<State> {
+fn states(config: &Configuration, cycles: &Cycles) -> Vec<State> {
     let half_cycle = cycles.half_cycle_index();
     let entries: Vec<_> = cycles.history().iter().filter(|entry| entry.half_cycle == half_cycle).collect();
-    let pressure = |applied: f64| setting.pressure(cycles.half_cycle().invading, applied);
+    let pressure = |applied: f64| config.pressure(cycles.half_cycle().invading, applied);
     let first = entries.first().map_or(f64::NAN, |entry| pressure(entry.applied));
     // Manifolds have no saturation, so that in a region nothing is displaced at the beginning.
-    let events = setting.region.map(|_| 0);
+    let events = config.region.map(|_| 0);
     let saturation = cycles.outcomes()[half_cycle].first_saturation[0];
     let mut found = vec![State { events, saturation, pressure: first }];
     for (entry, events) in entries.into_iter().zip(1..) {

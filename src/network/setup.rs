@@ -9,7 +9,7 @@ use super::dynamic::solver::DynamicSolver;
 use super::dynamic::{self, Drive, Dynamic, Terms};
 use super::graph::Network;
 pub(crate) use super::ground::{Ground, geometry};
-use super::model::Setting;
+use super::model::Configuration;
 use super::region::{Counted, porosity};
 pub use super::setup_error::SetupError;
 use super::solver::NetworkSolver;
@@ -24,22 +24,22 @@ use crate::solver::Solver;
 
 /// The solver of a case with nothing displaced yet.
 pub(crate) fn build(case: &Case, wanted: &PoreNetwork) -> Result<Box<dyn Solver>, SetupError> {
-    let still = build_still(case, wanted)?;
-    Ok(match in_time(wanted, &still)? {
-        Some((dynamic, invading, end)) => Box::new(DynamicSolver::new(still, dynamic, invading, end)),
-        None => Box::new(still),
+    let quasi_static = build_quasi_static(case, wanted)?;
+    Ok(match in_time(wanted, &quasi_static)? {
+        Some((dynamic, invading, end)) => Box::new(DynamicSolver::new(quasi_static, dynamic, invading, end)),
+        None => Box::new(quasi_static),
     })
 }
 
 /// The solver of a displacement in time with nothing displaced yet; none where the case asks for none.
 pub(crate) fn build_in_time(case: &Case, wanted: &PoreNetwork) -> Result<Option<DynamicSolver>, SetupError> {
-    let still = build_still(case, wanted)?;
-    let found = in_time(wanted, &still)?;
-    Ok(found.map(|(dynamic, invading, end)| DynamicSolver::new(still, dynamic, invading, end)))
+    let quasi_static = build_quasi_static(case, wanted)?;
+    let found = in_time(wanted, &quasi_static)?;
+    Ok(found.map(|(dynamic, invading, end)| DynamicSolver::new(quasi_static, dynamic, invading, end)))
 }
 
 /// The same as a quasi-static displacement; without one where the case asks for a displacement in time.
-pub fn build_still(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
+pub fn build_quasi_static(case: &Case, wanted: &PoreNetwork) -> Result<NetworkSolver, SetupError> {
     build_on(&Ground::of(case, wanted)?, wanted, case.depth)
 }
 
@@ -55,7 +55,7 @@ pub(crate) fn build_on(ground: &Ground, wanted: &PoreNetwork, depth: Option<f64>
     {
         return Err(SetupError::EmptyRegion { min: region.min, max: region.max });
     }
-    let found = &solver.setting().geometry_hash;
+    let found = &solver.config().geometry_hash;
     match wanted.measured.as_ref().map(|measured| &measured.geometry_hash) {
         Some(expected) if expected != found => {
             Err(SetupError::OtherGeometry { expected: expected.clone(), found: found.clone() })
@@ -130,7 +130,7 @@ fn assemble(
         films: CornerFilms::Absent,
     });
     let division = half_cycles.first().and_then(|half| ground.division(half.conditions.events));
-    let mut setting = Setting {
+    let mut config = Configuration {
         network: Arc::clone(&network),
         pores: Arc::clone(&pores),
         bounds: ground.geometry.bounds(),
@@ -150,30 +150,30 @@ fn assemble(
         region: wanted.region.map(Region::bounds),
         tables: wanted.tables,
     };
-    let counted = |displacement: &Displacement| match setting.region {
-        Some(region) => Counted::within(displacement, region, setting.periods()),
+    let counted = |displacement: &Displacement| match config.region {
+        Some(region) => Counted::within(displacement, region, config.periods()),
         None => Counted::everywhere(displacement),
     };
     let cycles = Cycles::new(Arc::clone(&network), pores, half_cycles, (initial, division), counted);
-    if let Some(region) = setting.region {
-        setting.porosity = porosity(&network, region, setting.periods());
+    if let Some(region) = config.region {
+        config.porosity = porosity(&network, region, config.periods());
     }
-    NetworkSolver::new(setting, cycles)
+    NetworkSolver::new(config, cycles)
 }
 
 /// A displacement in time with the phase that invades and its end.
 pub(crate) type InTime = (Dynamic, FluidPhase, dynamic::solver::End);
 
 /// The displacement in time that a case asks for.
-pub(crate) fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Result<Option<InTime>, SetupError> {
+pub(crate) fn in_time(wanted: &PoreNetwork, quasi_static: &NetworkSolver) -> Result<Option<InTime>, SetupError> {
     let Some((displacement, interface, driven, viscosities)) = asked_in_time(wanted) else { return Ok(None) };
-    let setting = still.setting();
+    let config = quasi_static.config();
     let invading =
         if displacement.process == Process::Imbibition { FluidPhase::Wetting } else { FluidPhase::NonWetting };
     let [wetting, non_wetting] = viscosities;
     let sides = wanted.sides.each();
     let [inlet, outlet] = [Side::Inlet, Side::Outlet].map(|kind| sides.map(|side| side == kind));
-    let walls = setting.entry.as_ref().map_or(SIDES.len(), |entry| entry.angle.len());
+    let walls = config.entry.as_ref().map_or(SIDES.len(), |entry| entry.angle.len());
     let conditions = Conditions {
         angle: angles(interface, walls, invading),
         // Pores at the inlet that are not full yet are displaced like others.
@@ -189,15 +189,15 @@ pub(crate) fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Result<Opt
         viscosity: if invading == FluidPhase::Wetting { [wetting, non_wetting] } else { [non_wetting, wetting] },
         tension: interface.tension,
         drive: match driven.drive {
-            Drive::Rate(rate) => Drive::Rate(rate / setting.thickness()),
+            Drive::Rate(rate) => Drive::Rate(rate / config.thickness()),
             pressure @ Drive::PressureDrop(_) => pressure,
         },
         largest_step: driven.largest_step,
         inlet,
         outlet,
-        depth: setting.depth_met_by(invading).map(|depth| (invading, depth)),
+        depth: config.depth_met_by(invading).map(|depth| (invading, depth)),
     };
-    let start = Displacement::new(&setting.network, &setting.pores, conditions);
+    let start = Displacement::new(&config.network, &config.pores, conditions);
     let end = dynamic::solver::End {
         at_breakthrough: displacement.stop.breakthrough,
         at_saturation: displacement.stop.saturation.map(|wetting| match invading {
@@ -206,7 +206,7 @@ pub(crate) fn in_time(wanted: &PoreNetwork, still: &NetworkSolver) -> Result<Opt
         }),
         at_injected: displacement.stop.injected,
     };
-    let mut dynamic = Dynamic::new(Arc::clone(&setting.network), start, terms);
+    let mut dynamic = Dynamic::new(Arc::clone(&config.network), start, terms);
     if let Some(wetting) = driven.initial_saturation {
         let asked = if invading == FluidPhase::Wetting { wetting } else { 1.0 - wetting };
         dynamic = dynamic.beginning_with(asked).map_err(|found| SetupError::InletTooSmall { asked, found })?;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cycles::Cycles;
 use super::displacement::EventKind;
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::{flow, layers, measures, openpnm, pictures, reservoir, state, summary, tables, warnings};
 use crate::diagram::Diagram;
@@ -40,8 +40,8 @@ const DISPLACED: Clock = Clock { name: "displaced pore volumes", symbol: "V", un
 
 impl NetworkSolver {
     /// A network with nothing displaced yet.
-    pub(crate) fn new(setting: Setting, cycles: Option<Cycles>) -> Self {
-        Self { model: Model::new(setting, cycles), clock: 0.0, steps_before: 0, seconds: [0.0; 2] }
+    pub(crate) fn new(config: Configuration, cycles: Option<Cycles>) -> Self {
+        Self { model: Model::new(config, cycles), clock: 0.0, steps_before: 0, seconds: [0.0; 2] }
     }
 
     /// The same with the time that its extraction took, in s.
@@ -51,8 +51,8 @@ impl NetworkSolver {
     }
 
     /// What stands still.
-    pub fn setting(&self) -> &Setting {
-        &self.model.setting
+    pub fn config(&self) -> &Configuration {
+        &self.model.config
     }
 
     /// The displacement; none where the network is extracted only.
@@ -103,15 +103,15 @@ impl Solver for NetworkSolver {
     }
 
     fn outline(&self) -> Lines<'_> {
-        self.model.setting.outline.as_ref().clone()
+        self.model.config.outline.as_ref().clone()
     }
 
     fn sample(&self) -> Vec<Sample> {
         let sample = |name, value| Sample { name, value };
         let mut row = vec![sample("displaced_pore_volumes", self.clock), sample("step", self.steps() as f64)];
         if let Some(cycles) = &self.model.cycles {
-            let pressure = |applied| self.model.setting.pressure(cycles.half_cycle().invading, applied);
-            let invaded = summary::invaded_pores(&self.model.setting, &cycles.occupation());
+            let pressure = |applied| self.model.config.pressure(cycles.half_cycle().invading, applied);
+            let invaded = summary::invaded_pores(&self.model.config, &cycles.occupation());
             row.extend([
                 sample("half_cycle", (cycles.half_cycle_index() + 1) as f64),
                 sample("saturation", cycles.saturation()),
@@ -135,7 +135,7 @@ impl Solver for NetworkSolver {
     }
 
     fn warnings(&self, _: &Series) -> Vec<String> {
-        warnings::warnings(&self.model.setting)
+        warnings::warnings(&self.model.config)
     }
 
     fn diagrams(&self) -> Vec<Diagram> {
@@ -143,18 +143,18 @@ impl Solver for NetworkSolver {
     }
 
     fn layers(&self) -> Vec<Layer<'_>> {
-        vec![layers::regions(&self.model.setting, self.model.cycles.as_ref().map(Cycles::occupation).as_ref())]
+        vec![layers::regions(&self.model.config, self.model.cycles.as_ref().map(Cycles::occupation).as_ref())]
     }
 
     fn results(&self) -> Results<'_> {
         let occupation = self.model.cycles.as_ref().map(|cycles| {
-            let menisci = cycles.all_menisci(&self.model.setting);
+            let menisci = cycles.all_menisci(&self.model.config);
             Occupation { menisci, ..cycles.occupation() }
         });
         let mut results = results_with(&self.model, occupation.as_ref());
-        results.tables.extend(self.model.cycles.as_ref().map(|cycles| tables::events(&self.model.setting, cycles)));
+        results.tables.extend(self.model.cycles.as_ref().map(|cycles| tables::events(&self.model.config, cycles)));
         let cycles = self.model.cycles.as_ref();
-        results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(&self.model.setting, cycles)));
+        results.tables.extend(cycles.and_then(|cycles| tables::capillary_pressure(&self.model.config, cycles)));
         results.documents.extend(state::documents(&self.model));
         results.documents.extend(reservoir::documents(&self.model));
         results.tables.extend(flow::table(&self.model));
@@ -189,7 +189,7 @@ impl Solver for NetworkSolver {
     fn steps_to(&self, _end: f64) -> Option<f64> {
         // At most, each event of a half cycle fills one element, or closes or opens a throat.
         let throats = if self.model.cycles.as_ref().is_some_and(Cycles::has_films) {
-            self.model.setting.network.throats.len()
+            self.model.config.network.throats.len()
         } else {
             0
         };
@@ -204,7 +204,7 @@ impl Solver for NetworkSolver {
         let counts = [("bursts", EventKind::Burst), ("touches", EventKind::Touch), ("overlaps", EventKind::Overlap)];
         let parts = ["network: extraction", "network: displacement"].into_iter().zip(self.seconds);
         Statistics {
-            unknowns: self.model.setting.pores.main_region.len(),
+            unknowns: self.model.config.pores.main_region.len(),
             steps: self.steps() - self.steps_before,
             parts: parts.map(|(part, seconds)| PartTime { part, seconds }).collect(),
             counts: counts.into_iter().map(|(name, kind)| (name, self.count(kind))).collect(),
@@ -218,7 +218,7 @@ pub(super) fn results_with(model: &Model, occupation: Option<&Occupation>) -> Re
         tables: tables::all(model, occupation),
         layers: layers::pores_and_throats(model, occupation),
         documents: vec![summary::network_json(model)],
-        mosaics: pictures::mosaics(&model.setting, occupation),
+        region_maps: pictures::region_maps(&model.config, occupation),
     };
     results.tables.push(openpnm::table(model));
     results

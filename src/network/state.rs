@@ -2,7 +2,7 @@
 
 use super::cycles::{Cycles, HalfCycle};
 use super::displacement::{Beginning, Element, Phase, Standing};
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::moment::Moment;
 use crate::case::FluidPhase;
 use crate::case::network::state::{ElementState, FORMAT, MeniscusState, NetworkState};
@@ -20,25 +20,25 @@ const NOTE_OF_CHIP: &str = "SI units; curvatures are those in the plane, above 0
 pub(crate) fn documents(model: &Model) -> Vec<Document> {
     let Some(cycles) = &model.cycles else { return Vec::new() };
     let breakthrough =
-        cycles.breakthrough().map(|moment| document("at-breakthrough.json", &model.setting, cycles, moment));
-    let end = document("at-end.json", &model.setting, cycles, &cycles.moment());
+        cycles.breakthrough().map(|moment| document("at-breakthrough.json", &model.config, cycles, moment));
+    let end = document("at-end.json", &model.config, cycles, &cycles.moment());
     breakthrough.into_iter().chain([end]).collect()
 }
 
-fn document(name: &'static str, setting: &Setting, cycles: &Cycles, moment: &Moment) -> Document {
+fn document(name: &'static str, config: &Configuration, cycles: &Cycles, moment: &Moment) -> Document {
     // Numbers, texts and lists of them can always be written.
-    let text = serde_json::to_string(&state(setting, cycles.half_cycles(), moment)).unwrap_or_default();
+    let text = serde_json::to_string(&state(config, cycles.half_cycles(), moment)).unwrap_or_default();
     Document { name, text: text + "\n" }
 }
 
 /// The state at a moment.
-pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> NetworkState {
+pub fn state(config: &Configuration, half_cycles: &[HalfCycle], moment: &Moment) -> NetworkState {
     let half = &half_cycles[moment.half_cycle];
     let displacement = &moment.displacement;
     // Before the first event menisci are taken as flat as their walls allow.
     let largest = moment.applied.map_or(0.0, |applied| half.towards_wetting(applied));
     let resting = displacement.resting_curvature(largest);
-    let interfaces = displacement.interfaces(resting, setting.bounds, setting.periodic);
+    let interfaces = displacement.interfaces(resting, config.bounds, config.periodic);
     let applied = half.towards_wetting(resting);
     let pore_area: f64 = displacement.elements().iter().map(|element| element.area).sum();
     let invading = interfaces.area.map(|area| area / pore_area);
@@ -49,16 +49,16 @@ pub fn state(setting: &Setting, half_cycles: &[HalfCycle], moment: &Moment) -> N
     NetworkState {
         format: FORMAT,
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        note: if setting.depth.is_some() { NOTE_OF_CHIP } else { NOTE }.to_owned(),
-        geometry_hash: setting.geometry_hash.clone(),
-        domain_m: [setting.bounds.min.into(), setting.bounds.max.into()],
-        sides: setting.sides,
+        note: if config.depth.is_some() { NOTE_OF_CHIP } else { NOTE }.to_owned(),
+        geometry_hash: config.geometry_hash.clone(),
+        domain_m: [config.bounds.min.into(), config.bounds.max.into()],
+        sides: config.sides,
         invading: half.invading,
         half_cycle: moment.half_cycle + 1,
         events: moment.events,
-        tension_n_per_m: setting.tension.unwrap_or(f64::NAN),
+        tension_n_per_m: config.tension.unwrap_or(f64::NAN),
         applied_curvature_per_m: applied,
-        capillary_pressure_pa: setting.pressure(half.invading, applied),
+        capillary_pressure_pa: config.pressure(half.invading, applied),
         largest_applied_curvature_per_m: moment.applied,
         contact_angles_deg: [angles().fold(f64::INFINITY, f64::min), angles().fold(f64::NEG_INFINITY, f64::max)],
         saturation: moment.saturation,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::cycles::{Cycles, FluidPhase, Invasion};
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use crate::case::SIDES;
 use crate::table::Document;
@@ -25,28 +25,28 @@ pub(crate) struct PoreStates(pub Vec<PoreState>);
 
 impl PoreStates {
     /// The present states.
-    pub(crate) fn new(setting: &Setting, occupation: &Occupation) -> Self {
-        let pores = setting.pores.main_region.len();
+    pub(crate) fn new(config: &Configuration, occupation: &Occupation) -> Self {
+        let pores = config.pores.main_region.len();
         let mut elements_of: Vec<Vec<usize>> = vec![Vec::new(); pores];
         for (index, element) in occupation.elements.iter().enumerate() {
-            elements_of[setting.pores.pore_of[element.region]].push(index);
+            elements_of[config.pores.pore_of[element.region]].push(index);
         }
         Self(elements_of.iter().map(|elements| state(occupation, elements)).collect())
     }
 }
 
 /// Number of pores that the invading phase came to hold in the present half cycle.
-pub(crate) fn invaded_pores(setting: &Setting, occupation: &Occupation) -> usize {
-    let mut filled = vec![[0.0; 2]; setting.pores.main_region.len()];
+pub(crate) fn invaded_pores(config: &Configuration, occupation: &Occupation) -> usize {
+    let mut filled = vec![[0.0; 2]; config.pores.main_region.len()];
     for (index, element) in occupation.elements.iter().enumerate() {
-        let [before, now] = &mut filled[setting.pores.pore_of[element.region]];
+        let [before, now] = &mut filled[config.pores.pore_of[element.region]];
         match occupation.invasions[index] {
             Some(_) if occupation.is_invaded(index) => *now += element.area,
             None if occupation.is_invaded(index) => *before += element.area,
             _ => {}
         }
     }
-    let halves = setting.pores.area.iter().map(|area| 0.5 * area);
+    let halves = config.pores.area.iter().map(|area| 0.5 * area);
     filled.iter().zip(halves).filter(|([before, now], half)| before <= half && before + now > *half).count()
 }
 
@@ -151,22 +151,22 @@ const MERGES: &str = "the network before the merge: regions with their pore, and
 
 /// `network.json`.
 pub(crate) fn network_json(model: &Model) -> Document {
-    let setting = &model.setting;
-    let (network, pores) = (&setting.network, &setting.pores);
+    let config = &model.config;
+    let (network, pores) = (&config.network, &config.pores);
     let description = Description {
         version: env!("CARGO_PKG_VERSION"),
         persistence: pores.persistence,
-        geometry_hash: setting.geometry_hash.clone(),
-        domain_m: [setting.bounds.min.into(), setting.bounds.max.into()],
-        periodic: setting.periodic,
-        inlet: setting.inlet.map(|side| SIDES[side]),
-        outlet: setting.outlet.map(|side| SIDES[side]),
-        tension_n_per_m: setting.tension,
-        viscosity_pa_s: setting.viscosities,
+        geometry_hash: config.geometry_hash.clone(),
+        domain_m: [config.bounds.min.into(), config.bounds.max.into()],
+        periodic: config.periodic,
+        inlet: config.inlet.map(|side| SIDES[side]),
+        outlet: config.outlet.map(|side| SIDES[side]),
+        tension_n_per_m: config.tension,
+        viscosity_pa_s: config.viscosities,
         pores: pores.main_region.len(),
         throats: pores.throats.len(),
         regions: network.regions.len(),
-        porosity: setting.porosity,
+        porosity: config.porosity,
         units: "SI; the unit stands at the end of each column of pores.csv and throats.csv",
         definitions: DEFINITIONS,
         half_cycles: model.cycles.as_ref().map_or_else(Vec::new, half_cycles),

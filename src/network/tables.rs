@@ -3,7 +3,7 @@
 use super::cycles::{Cycles, Entry, FluidPhase, Invasion, Outcome};
 use super::films::CurvePoint;
 use super::graph::{Opening, Throat};
-use super::model::{Model, Setting};
+use super::model::{Configuration, Model};
 use super::occupation::Occupation;
 use super::summary::{PoreState, PoreStates};
 use crate::math::Vec2;
@@ -11,7 +11,7 @@ use crate::table::{Cells, Column, Table};
 
 /// The tables of pores and throats.
 pub(crate) fn all(model: &Model, occupation: Option<&Occupation>) -> Vec<Table> {
-    vec![pores(&model.setting, occupation), throats(model, occupation)]
+    vec![pores(&model.config, occupation), throats(model, occupation)]
 }
 
 pub(super) fn numbers(name: &'static str, values: impl IntoIterator<Item = f64>) -> Column {
@@ -35,98 +35,98 @@ pub(super) fn words(name: &'static str, values: impl IntoIterator<Item = &'stati
 }
 
 /// The pores of a throat of the network.
-pub(super) fn pores_of(setting: &Setting, throat: &Throat) -> [usize; 2] {
-    throat.regions.map(|region| setting.pores.pore_of[region])
+pub(super) fn pores_of(config: &Configuration, throat: &Throat) -> [usize; 2] {
+    throat.regions.map(|region| config.pores.pore_of[region])
 }
 
 /// Center of a pore in m.
-pub(super) fn center(setting: &Setting, pore: usize) -> Vec2 {
-    setting.network.regions[setting.pores.main_region[pore]].center
+pub(super) fn center(config: &Configuration, pore: usize) -> Vec2 {
+    config.network.regions[config.pores.main_region[pore]].center
 }
 
 /// Inscribed radius of a pore in m.
-pub(super) fn radius(setting: &Setting, pore: usize) -> f64 {
-    setting.network.regions[setting.pores.main_region[pore]].radius
+pub(super) fn radius(config: &Configuration, pore: usize) -> f64 {
+    config.network.regions[config.pores.main_region[pore]].radius
 }
 
 /// The throats that were not dissolved.
-pub(super) fn kept(setting: &Setting) -> impl Iterator<Item = &Throat> {
-    setting.pores.throats.iter().map(|&throat| &setting.network.throats[throat])
+pub(super) fn kept(config: &Configuration) -> impl Iterator<Item = &Throat> {
+    config.pores.throats.iter().map(|&throat| &config.network.throats[throat])
 }
 
 /// The vector `from` to `to`, the shorter way round where the domain is periodic.
-fn nearest(setting: &Setting, from: Vec2, to: Vec2) -> Vec2 {
-    let (mut way, size) = (to - from, setting.bounds.size());
-    for axis in (0..2).filter(|&axis| setting.periodic[axis]) {
+fn nearest(config: &Configuration, from: Vec2, to: Vec2) -> Vec2 {
+    let (mut way, size) = (to - from, config.bounds.size());
+    for axis in (0..2).filter(|&axis| config.periodic[axis]) {
         way[axis] -= size[axis] * (way[axis] / size[axis]).round();
     }
     way
 }
 
 /// The way between both pores by way of the middle of their throat: vectors from the middle to both centers.
-pub(super) fn arms(setting: &Setting, throat: &Throat) -> [Vec2; 2] {
-    pores_of(setting, throat).map(|pore| nearest(setting, throat.middle(), center(setting, pore)))
+pub(super) fn arms(config: &Configuration, throat: &Throat) -> [Vec2; 2] {
+    pores_of(config, throat).map(|pore| nearest(config, throat.middle(), center(config, pore)))
 }
 
 /// Length of a throat from pore center to pore center by way of its middle, in m.
-pub(super) fn length(setting: &Setting, throat: &Throat) -> f64 {
-    arms(setting, throat).iter().map(|arm| arm.norm()).sum()
+pub(super) fn length(config: &Configuration, throat: &Throat) -> f64 {
+    arms(config, throat).iter().map(|arm| arm.norm()).sum()
 }
 
 /// Lengths of wall of the pores in m.
-pub(super) fn wall_lengths(setting: &Setting) -> Vec<f64> {
-    let mut lengths = vec![0.0; setting.pores.main_region.len()];
-    for (region, &pore) in setting.network.regions.iter().zip(&setting.pores.pore_of) {
+pub(super) fn wall_lengths(config: &Configuration) -> Vec<f64> {
+    let mut lengths = vec![0.0; config.pores.main_region.len()];
+    for (region, &pore) in config.network.regions.iter().zip(&config.pores.pore_of) {
         lengths[pore] += region.wall_length;
     }
     lengths
 }
 
 /// Number of throats of each pore, openings included; a throat from a pore to itself counts twice.
-fn coordination(setting: &Setting) -> Vec<usize> {
-    let mut numbers = vec![0; setting.pores.main_region.len()];
-    kept(setting).flat_map(|throat| pores_of(setting, throat)).for_each(|pore| numbers[pore] += 1);
-    openings(setting).for_each(|(_, pore)| numbers[pore] += 1);
+fn coordination(config: &Configuration) -> Vec<usize> {
+    let mut numbers = vec![0; config.pores.main_region.len()];
+    kept(config).flat_map(|throat| pores_of(config, throat)).for_each(|pore| numbers[pore] += 1);
+    openings(config).for_each(|(_, pore)| numbers[pore] += 1);
     numbers
 }
 
 /// The openings with their pores.
-pub(super) fn openings(setting: &Setting) -> impl Iterator<Item = (&Opening, usize)> {
-    setting.network.openings.iter().map(|opening| (opening, setting.pores.pore_of[opening.region]))
+pub(super) fn openings(config: &Configuration) -> impl Iterator<Item = (&Opening, usize)> {
+    config.network.openings.iter().map(|opening| (opening, config.pores.pore_of[opening.region]))
 }
 
 /// Whether pores open at a side.
-fn opens_at(setting: &Setting, side: Option<usize>) -> Vec<bool> {
-    let mut opens = vec![false; setting.pores.main_region.len()];
-    for (opening, pore) in openings(setting) {
+fn opens_at(config: &Configuration, side: Option<usize>) -> Vec<bool> {
+    let mut opens = vec![false; config.pores.main_region.len()];
+    for (opening, pore) in openings(config) {
         opens[pore] |= Some(opening.side) == side;
     }
     opens
 }
 
-fn pores(setting: &Setting, occupation: Option<&Occupation>) -> Table {
-    let all = || 0..setting.pores.main_region.len();
+fn pores(config: &Configuration, occupation: Option<&Occupation>) -> Table {
+    let all = || 0..config.pores.main_region.len();
     let mut columns = vec![
         counts("pore", all()),
-        numbers("x_m", all().map(|pore| center(setting, pore).x)),
-        numbers("y_m", all().map(|pore| center(setting, pore).y)),
-        numbers("inscribed_radius_m", all().map(|pore| radius(setting, pore))),
-        numbers("area_m2", setting.pores.area.iter().copied()),
-        numbers("wall_length_m", wall_lengths(setting)),
-        counts("coordination_number", coordination(setting)),
-        flags("inlet", opens_at(setting, setting.inlet)),
-        flags("outlet", opens_at(setting, setting.outlet)),
+        numbers("x_m", all().map(|pore| center(config, pore).x)),
+        numbers("y_m", all().map(|pore| center(config, pore).y)),
+        numbers("inscribed_radius_m", all().map(|pore| radius(config, pore))),
+        numbers("area_m2", config.pores.area.iter().copied()),
+        numbers("wall_length_m", wall_lengths(config)),
+        counts("coordination_number", coordination(config)),
+        flags("inlet", opens_at(config, config.inlet)),
+        flags("outlet", opens_at(config, config.outlet)),
     ];
-    if let Some(depth) = setting.network.depth {
-        columns.insert(5, numbers("volume_m3", setting.pores.area.iter().map(|area| depth * area)));
+    if let Some(depth) = config.network.depth {
+        columns.insert(5, numbers("volume_m3", config.pores.area.iter().map(|area| depth * area)));
     }
     if let Some(occupation) = occupation {
-        let states = PoreStates::new(setting, occupation).0;
-        columns.extend(state_columns(setting, occupation.invading, &states));
+        let states = PoreStates::new(config, occupation).0;
+        columns.extend(state_columns(config, occupation.invading, &states));
         if let Some(films) = &occupation.films {
-            let mut volumes = vec![0.0; setting.pores.main_region.len()];
+            let mut volumes = vec![0.0; config.pores.main_region.len()];
             for (element, volume) in occupation.elements.iter().zip(&films.volume) {
-                volumes[setting.pores.pore_of[element.region]] += volume;
+                volumes[config.pores.pore_of[element.region]] += volume;
             }
             columns.push(numbers("film_volume_m3", volumes));
         }
@@ -134,7 +134,7 @@ fn pores(setting: &Setting, occupation: Option<&Occupation>) -> Table {
     Table { name: "pores", columns }
 }
 
-fn state_columns(setting: &Setting, invading: FluidPhase, states: &[PoreState]) -> [Column; 5] {
+fn state_columns(config: &Configuration, invading: FluidPhase, states: &[PoreState]) -> [Column; 5] {
     let of =
         |value: fn(&Invasion) -> f64| states.iter().map(move |state| state.invasion.as_ref().map_or(f64::NAN, value));
     [
@@ -143,43 +143,43 @@ fn state_columns(setting: &Setting, invading: FluidPhase, states: &[PoreState]) 
         flags("trapped", states.iter().map(|state| state.is_trapped)),
         numbers(
             "invasion_capillary_pressure_Pa",
-            of(|invasion| invasion.applied).map(|applied| setting.pressure(invading, applied)),
+            of(|invasion| invasion.applied).map(|applied| config.pressure(invading, applied)),
         ),
         numbers("displaced_saturation_at_invasion", of(|invasion| invasion.displaced)),
     ]
 }
 
 fn throats(model: &Model, occupation: Option<&Occupation>) -> Table {
-    let setting = &model.setting;
-    let of = |value: fn(&Throat) -> f64| kept(setting).map(value);
+    let config = &model.config;
+    let of = |value: fn(&Throat) -> f64| kept(config).map(value);
     let mut columns = vec![
-        counts("throat", 0..setting.pores.throats.len()),
-        counts("pore_1", kept(setting).map(|throat| pores_of(setting, throat)[0])),
-        counts("pore_2", kept(setting).map(|throat| pores_of(setting, throat)[1])),
+        counts("throat", 0..config.pores.throats.len()),
+        counts("pore_1", kept(config).map(|throat| pores_of(config, throat)[0])),
+        counts("pore_2", kept(config).map(|throat| pores_of(config, throat)[1])),
         numbers("x_m", of(|throat| throat.middle().x)),
         numbers("y_m", of(|throat| throat.middle().y)),
         numbers("width_m", of(|throat| throat.width)),
-        numbers("length_m", kept(setting).map(|throat| length(setting, throat))),
+        numbers("length_m", kept(config).map(|throat| length(config, throat))),
         numbers("contact_1_x_m", of(|throat| throat.contacts[0].x)),
         numbers("contact_1_y_m", of(|throat| throat.contacts[0].y)),
         numbers("contact_2_x_m", of(|throat| throat.contacts[1].x)),
         numbers("contact_2_y_m", of(|throat| throat.contacts[1].y)),
-        counts("wall_1", kept(setting).map(|throat| throat.shapes[0] as usize)),
-        counts("wall_2", kept(setting).map(|throat| throat.shapes[1] as usize)),
+        counts("wall_1", kept(config).map(|throat| throat.shapes[0] as usize)),
+        counts("wall_2", kept(config).map(|throat| throat.shapes[1] as usize)),
         numbers("wall_curvature_1_per_m", of(|throat| finite(throat.curvatures[0]))),
         numbers("wall_curvature_2_per_m", of(|throat| finite(throat.curvatures[1]))),
     ];
     let conductances = model.conductances();
-    let of_kept = |factor: f64| setting.pores.throats.iter().map(move |&throat| factor * conductances[throat]);
+    let of_kept = |factor: f64| config.pores.throats.iter().map(move |&throat| factor * conductances[throat]);
     columns.push(numbers("conductance_m2", of_kept(1.0)));
-    if let Some(depth) = setting.network.depth {
+    if let Some(depth) = config.network.depth {
         columns.push(numbers("conductance_m3", of_kept(depth)));
     }
     if let Some(pressures) = model.entry_pressures() {
-        columns.push(numbers("entry_pressure_Pa", setting.pores.throats.iter().map(|&throat| pressures[throat])));
+        columns.push(numbers("entry_pressure_Pa", config.pores.throats.iter().map(|&throat| pressures[throat])));
     }
     if let Some(occupation) = occupation {
-        columns.push(places("sequence", sequences(setting, occupation)));
+        columns.push(places("sequence", sequences(config, occupation)));
     }
     Table { name: "throats", columns }
 }
@@ -190,32 +190,32 @@ pub(super) fn finite(value: f64) -> f64 {
 }
 
 /// For each throat the event by which it was passed.
-fn sequences(setting: &Setting, occupation: &Occupation) -> Vec<Option<usize>> {
-    let mut passed = vec![None; setting.network.throats.len()];
+fn sequences(config: &Configuration, occupation: &Occupation) -> Vec<Option<usize>> {
+    let mut passed = vec![None; config.network.throats.len()];
     for (sequence, throat) in (1..).zip(&occupation.passed) {
         if let Some(throat) = *throat {
             passed[throat].get_or_insert(sequence);
         }
     }
-    setting.pores.throats.iter().map(|&throat| passed[throat]).collect()
+    config.pores.throats.iter().map(|&throat| passed[throat]).collect()
 }
 
 /// The number of each throat of the network among those that were not dissolved.
-pub(super) fn numbers_of_throats(setting: &Setting) -> Vec<Option<usize>> {
-    let mut number_of = vec![None; setting.network.throats.len()];
-    setting.pores.throats.iter().enumerate().for_each(|(number, &throat)| number_of[throat] = Some(number));
+pub(super) fn numbers_of_throats(config: &Configuration) -> Vec<Option<usize>> {
+    let mut number_of = vec![None; config.network.throats.len()];
+    config.pores.throats.iter().enumerate().for_each(|(number, &throat)| number_of[throat] = Some(number));
     number_of
 }
 
 /// `events.csv` of a quasi-static displacement.
-pub(crate) fn events(setting: &Setting, cycles: &Cycles) -> Table {
-    let number_of = numbers_of_throats(setting);
+pub(crate) fn events(config: &Configuration, cycles: &Cycles) -> Table {
+    let number_of = numbers_of_throats(config);
     let rows = rows(cycles);
     let all = || rows.iter();
     let process = |half_cycle: usize| cycles.half_cycles()[half_cycle].name();
     let pressures = |of: fn(&Entry) -> f64| {
         all().map(move |row| {
-            let pressure = |entry| setting.pressure(cycles.half_cycles()[row.half_cycle].invading, of(entry));
+            let pressure = |entry| config.pressure(cycles.half_cycles()[row.half_cycle].invading, of(entry));
             row.event.map_or(f64::NAN, pressure)
         })
     };
@@ -268,8 +268,8 @@ fn rows(cycles: &Cycles) -> Vec<Row<'_>> {
 }
 
 /// `capillary_pressure.csv`: the curve with the films at every pressure; none without films.
-pub(crate) fn capillary_pressure(setting: &Setting, cycles: &Cycles) -> Option<Table> {
-    let (curve, tension) = (cycles.curve(), setting.tension?);
+pub(crate) fn capillary_pressure(config: &Configuration, cycles: &Cycles) -> Option<Table> {
+    let (curve, tension) = (cycles.curve(), config.tension?);
     let process = |point: &CurvePoint| cycles.half_cycles()[point.half_cycle].name();
     cycles.has_films().then(|| Table {
         name: "capillary_pressure",

@@ -1,7 +1,7 @@
 //! What a reader must know before trusting a network: what its formulas do not cover, and what does not lead through it.
 
 use super::flow::{LEAST_SOLID, drive};
-use super::model::Setting;
+use super::model::Configuration;
 use crate::case::{SIDES, Side};
 use crate::interface::depth::odd;
 
@@ -9,23 +9,23 @@ use crate::interface::depth::odd;
 const PERMEABILITIES: [&str; 2] = ["permeability-x-m2", "permeability-y-m2"];
 
 /// The warnings that a network asks for.
-pub(crate) fn warnings(setting: &Setting) -> Vec<String> {
+pub(crate) fn warnings(config: &Configuration) -> Vec<String> {
     let names: Vec<&str> =
-        (0..2).filter(|&axis| drive(setting, axis).is_some()).map(|axis| PERMEABILITIES[axis]).collect();
-    let loose = || loose(setting).filter(|_| !names.is_empty()).map(|note| format!("{}: {note}", names.join(", ")));
-    disconnected(setting).or_else(loose).into_iter().chain(odd_depth(setting)).collect()
+        (0..2).filter(|&axis| drive(config, axis).is_some()).map(|axis| PERMEABILITIES[axis]).collect();
+    let loose = || loose(config).filter(|_| !names.is_empty()).map(|note| format!("{}: {note}", names.join(", ")));
+    disconnected(config).or_else(loose).into_iter().chain(odd_depth(config)).collect()
 }
 
 /// What the permeability along an axis, if there is one, does not tell.
-pub(crate) fn notes_on_permeability(setting: &Setting, axis: usize) -> Vec<String> {
-    if drive(setting, axis).is_none() {
+pub(crate) fn notes_on_permeability(config: &Configuration, axis: usize) -> Vec<String> {
+    if drive(config, axis).is_none() {
         return Vec::new();
     }
-    loose(setting).into_iter().chain(open_beside(setting, axis)).collect()
+    loose(config).into_iter().chain(open_beside(config, axis)).collect()
 }
 
-fn loose(setting: &Setting) -> Option<String> {
-    let solid = 1.0 - setting.porosity;
+fn loose(config: &Configuration) -> Option<String> {
+    let solid = 1.0 - config.porosity;
     (solid < LEAST_SOLID).then(|| {
         format!(
             "the solid fraction is {solid:.2}; below {LEAST_SOLID} walls may be far apart, and Stokes flow may differ by up to 30 %"
@@ -34,12 +34,12 @@ fn loose(setting: &Setting) -> Option<String> {
 }
 
 /// Flow along an open side passes between a wall and no wall, so that no throat stands for it.
-fn open_beside(setting: &Setting, axis: usize) -> Option<String> {
+fn open_beside(config: &Configuration, axis: usize) -> Option<String> {
     let beside = [2 * (1 - axis), 2 * (1 - axis) + 1];
     let open: Vec<&str> = beside
         .into_iter()
-        .filter(|&side| !matches!(setting.sides[side], Side::Wall | Side::Periodic))
-        .filter(|&side| setting.network.openings.iter().any(|opening| opening.side == side))
+        .filter(|&side| !matches!(config.sides[side], Side::Wall | Side::Periodic))
+        .filter(|&side| config.network.openings.iter().any(|opening| opening.side == side))
         .map(|side| SIDES[side])
         .collect();
     (!open.is_empty()).then(|| {
@@ -53,15 +53,15 @@ fn open_beside(setting: &Setting, axis: usize) -> Option<String> {
 }
 
 /// A depth that makes all throats slits between floor and lid, or between their walls.
-fn odd_depth(setting: &Setting) -> Option<String> {
-    let widths = || setting.network.throats.iter().map(|throat| throat.width);
-    odd(setting.network.depth?, widths().reduce(f64::min)?, widths().reduce(f64::max)?)
+fn odd_depth(config: &Configuration) -> Option<String> {
+    let widths = || config.network.throats.iter().map(|throat| throat.width);
+    odd(config.network.depth?, widths().reduce(f64::min)?, widths().reduce(f64::max)?)
 }
 
 /// Whether the pore space leads from the inlet to the outlet.
-fn disconnected(setting: &Setting) -> Option<String> {
-    let (inlet, outlet) = (setting.inlet?, setting.outlet?);
-    let network = &setting.network;
+fn disconnected(config: &Configuration) -> Option<String> {
+    let (inlet, outlet) = (config.inlet?, config.outlet?);
+    let network = &config.network;
     let opens_at = |side: usize| network.openings.iter().filter(move |opening| opening.side == side);
     let mut beside = vec![Vec::new(); network.regions.len()];
     for [one, other] in network.throats.iter().map(|throat| throat.regions) {

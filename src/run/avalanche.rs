@@ -77,9 +77,9 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
     if network.is_dynamic() {
         return Err(AvalancheError::NoNetwork);
     }
-    let mut solver = crate::network::setup::build_still(case, network).map_err(SetupError::from)?;
+    let mut solver = crate::network::setup::build_quasi_static(case, network).map_err(SetupError::from)?;
     let cycles = solver.cycles().ok_or(AvalancheError::NoNetwork)?;
-    let state = state::state(solver.setting(), cycles.half_cycles(), &cycles.moment());
+    let state = state::state(solver.config(), cycles.half_cycles(), &cycles.moment());
     let outlet = outlet_elements(&state);
     let before = cycles.saturation();
     if is_so(&solver, wanted, &outlet) {
@@ -94,24 +94,24 @@ pub(crate) fn find(case: &Case, wanted: Wanted) -> Result<Avalanche, AvalancheEr
         }
     }
     let (Some(target), Some(cycles)) = (target, solver.cycles()) else {
-        return Err(AvalancheError::NoEvent { pores: solver.setting().pores.main_region.len() });
+        return Err(AvalancheError::NoEvent { pores: solver.config().pores.main_region.len() });
     };
     let history: Vec<_> = cycles.history().iter().filter(|entry| entry.half_cycle == 0).collect();
     let applied = history[target].applied;
     let first = history.iter().position(|entry| entry.applied == applied).unwrap_or(target);
     let events = history[first..].iter().take_while(|entry| entry.applied == applied).count();
-    let tension = solver.setting().tension.ok_or(AvalancheError::NoNetwork)?;
+    let tension = solver.config().tension.ok_or(AvalancheError::NoNetwork)?;
     let earlier = first.checked_sub(1).map(|index| history[index]);
     let direction = if state.invading == FluidPhase::NonWetting { 1.0 } else { -1.0 };
     let rest = earlier.map_or(applied - direction * applied.abs(), |entry| 0.5 * (entry.applied + applied));
     Ok(Avalanche {
         invading: state.invading,
-        pressure_pa: solver.setting().pressure(state.invading, applied),
-        rest_pressure_pa: solver.setting().pressure(state.invading, rest),
+        pressure_pa: solver.config().pressure(state.invading, applied),
+        rest_pressure_pa: solver.config().pressure(state.invading, rest),
         in_plane_pa: tension * applied.abs(),
         saturation: [earlier.map_or(before, |entry| entry.saturation), history[first + events - 1].saturation],
         events,
-        inlet: solver.setting().inlet.ok_or(AvalancheError::NoNetwork)?,
+        inlet: solver.config().inlet.ok_or(AvalancheError::NoNetwork)?,
     })
 }
 
@@ -134,7 +134,7 @@ fn is_so(solver: &NetworkSolver, wanted: Wanted, outlet: &[usize]) -> bool {
         Wanted::Breakthrough => outlet.iter().any(|&element| has(element)),
         Wanted::Overlap => cycles.history().iter().any(|entry| entry.kind == EventKind::Overlap),
         Wanted::Pore(pore) => (0..displacement.elements().len()).any(|element| {
-            has(element) && solver.setting().pores.pore_of[displacement.elements()[element].region] == pore
+            has(element) && solver.config().pores.pore_of[displacement.elements()[element].region] == pore
         }),
     }
 }

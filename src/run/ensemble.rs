@@ -7,7 +7,7 @@ use super::schedule::Schedule;
 use super::setup::SetupError;
 use crate::case::network::PoreNetwork;
 use crate::case::{Case, Model};
-use crate::io::picture::mosaic_picture;
+use crate::io::picture::region_map_picture;
 use crate::io::vtk::{self, Compression};
 use crate::io::{FileError, atomic, table};
 use crate::network::ensemble::{Reference, Sample};
@@ -143,7 +143,7 @@ impl Map {
         let failed = |ending: &str, what: String| FileError::Format { path: path(ending), what };
         let layer = vtk::layer(&self.0.layer(probability), Compression::default());
         atomic::write(&path("vtu"), &layer.map_err(|error| failed("vtu", error.to_string()))?)?;
-        let picture = mosaic_picture(&self.0.mosaic(probability, note), title);
+        let picture = region_map_picture(&self.0.region_map(probability, note), title);
         atomic::write(&path("png"), &picture.map_err(|error| failed("png", error.to_string()))?)
     }
 }

@@ -19,7 +19,7 @@ use super::sink::{Start, compression};
 use super::steady::Steadiness;
 use crate::case::Case;
 use crate::io::checksum::fnv1a;
-use crate::io::picture::{PictureError, mosaic_picture, picture};
+use crate::io::picture::{PictureError, picture, region_map_picture};
 use crate::io::{FileError, atomic, diagram, table, vtk};
 use crate::solver::{Clock, Results, Series, Solver, StateError};
 
@@ -190,8 +190,8 @@ pub(super) fn report(
 /// The picture of the present state as PNG.
 pub(super) fn drawn(case: &Case, solver: &dyn Solver, results: &Results<'_>) -> Result<Vec<u8>, PictureError> {
     let title = &case.title;
-    match results.mosaics.first() {
-        Some(mosaic) => mosaic_picture(mosaic, title),
+    match results.region_maps.first() {
+        Some(region_map) => region_map_picture(region_map, title),
         None => picture(&solver.snapshot(), &solver.outline(), title, setup::frame(case).as_ref()),
     }
 }

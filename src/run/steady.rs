@@ -269,8 +269,8 @@ mod tests {
     #[test]
     fn a_window_that_is_given_is_kept() {
         let steady = SteadyStop { window: Some(0.1), ..SteadyStop::default() };
-        let still = series("contact_angle_deg", |_| 60.0);
-        assert_eq!(Steadiness::of(&still, &ANGLE, &steady).at_s, Some(0.3));
+        let quasi_static = series("contact_angle_deg", |_| 60.0);
+        assert_eq!(Steadiness::of(&quasi_static, &ANGLE, &steady).at_s, Some(0.3));
         // Five rows in a fifth of the time.
         assert_eq!(angle(|_| 60.0).at_s, Some(24.0 / 200.0));
     }

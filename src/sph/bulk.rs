@@ -2,10 +2,10 @@
 
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
+use crate::sph::configuration::Configuration;
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::parallel::values;
-use crate::sph::setting::Setting;
 use crate::sph::terms::density;
 use crate::sph::view::View;
 
@@ -29,7 +29,7 @@ pub struct BulkFields {
 impl BulkFields {
     /// Finds them.
     pub(crate) fn of(flow: &View<()>) -> Self {
-        let (Setting { method, wall, .. }, neighborhood) = (flow.setting, flow.neighborhood);
+        let (Configuration { method, wall, .. }, neighborhood) = (flow.config, flow.neighborhood);
         let (Neighborhood { pairs, images }, particles) = (neighborhood, &flow.state.particles);
         let (n, fluids, moving) = (particles.len(), particles.fluids, particles.moving());
         // Buffer particles see no neighbors beyond the far end: they have the volume of the lattice.

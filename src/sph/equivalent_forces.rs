@@ -11,14 +11,14 @@ use crate::sph::wetting::lines::{DetectedLine, LINE_REACH, nearest};
 /// σκn [Huber2013, Eq. 20] and the line force [Eqs. 21-23] of the fluid particles in N/m³, with the curvature and the normal
 /// that the jump uses; the forces of the flow itself where they are volume forces.
 pub fn volume_forces(flow: &Flow) -> [Vec<Vec2>; 2] {
-    let (f, h, fluids) = (&flow.fields.interface, flow.setting.method.kernel.h, flow.state.particles.fluids);
+    let (f, h, fluids) = (&flow.fields.interface, flow.config.method.kernel.h, flow.state.particles.fluids);
     if let SurfaceForce::Continuum { surface, line } = &f.force {
         return [surface.clone(), line.clone()];
     }
     let unit_normal = curvature::unit_normal(&f.normal[..fluids], h);
     // A line that the jump does not know is not driven: its angle is that which is there.
     let angle = |seen: &MeanLine| {
-        nearest(&flow.lines, &flow.setting.domain, seen.place(), seen.outward(), LINE_REACH * h)
+        nearest(&flow.lines, &flow.config.domain, seen.place(), seen.outward(), LINE_REACH * h)
             .map_or_else(|| seen.present(None), |line| line.angle)
     };
     let angles = |seen: &[MeanLine]| seen.iter().map(angle).collect();

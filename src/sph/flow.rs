@@ -8,17 +8,17 @@ use crate::math::Vec2;
 use crate::solver::{PartTime, StateError};
 use crate::sph::bulk::BulkFields;
 use crate::sph::cells::Cells;
+use crate::sph::configuration::Configuration;
 use crate::sph::fields::Fields;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::open::GivenFlow;
 use crate::sph::particles::Particles;
 use crate::sph::poisson::{PressureSolve, parts};
-use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;
 use crate::sph::surface_force::interface_fields;
 use crate::sph::view::View;
 use crate::sph::walls::WallFields;
-use crate::sph::wetting::lines::Line;
+use crate::sph::wetting::lines::TrackedLine;
 
 /// The particles are put in the order of their cells every so many steps, so that neighbors are near in memory.
 const REORDER_EVERY: u64 = 20;
@@ -29,7 +29,7 @@ pub const PARTS: [&str; 4] = ["neighbors", "forces", "pressure", "move"];
 /// A flow at one time.
 pub struct Flow {
     /// What is given. It changes with the time of the case alone: body forces that take turns, pressures that rise.
-    pub setting: Setting,
+    pub config: Configuration,
     /// What a step goes on from: what restart saves.
     pub state: FlowState,
     /// Pairs and images at the present positions; they follow from the state.
@@ -37,7 +37,7 @@ pub struct Flow {
     /// Volumes, densities, normals and forces at the present positions; they follow from the state.
     pub fields: Fields,
     /// The contact lines at the present positions, which the next step takes into the state.
-    pub lines: Vec<Line>,
+    pub lines: Vec<TrackedLine>,
     /// Matrix and memory of the pressure solve. No step depends on what the one before left in it.
     pub pressure: PressureSolve,
     /// Counts, for reports only.
@@ -67,11 +67,11 @@ pub struct Work {
 
 impl Flow {
     /// The flow at time zero. `wall_depth` in m as `fill` returns it.
-    pub(crate) fn new(setting: Setting, particles: Particles, wall_depth: Vec<f64>) -> Self {
-        let mut state = FlowState::new(particles, wall_depth, setting.open.through.len());
-        order_walls(&mut state, &setting);
+    pub(crate) fn new(config: Configuration, particles: Particles, wall_depth: Vec<f64>) -> Self {
+        let mut state = FlowState::new(particles, wall_depth, config.open.through.len());
+        order_walls(&mut state, &config);
         let mut flow = Self {
-            setting,
+            config,
             state,
             neighborhood: Neighborhood::default(),
             fields: Fields::default(),
@@ -79,7 +79,7 @@ impl Flow {
             pressure: PressureSolve::default(),
             work: Work::default(),
         };
-        flow.fields.walls = WallFields::of(&flow.setting, &flow.state.particles);
+        flow.fields.walls = WallFields::of(&flow.config, &flow.state.particles);
         flow.prepare();
         let Neighborhood { pairs, images } = &flow.neighborhood;
         let joined = flow.fields.walls.joined(flow.state.particles.moving(), images);
@@ -100,7 +100,7 @@ impl Flow {
     pub fn load(&mut self, bytes: &[u8]) -> Result<(), StateError> {
         let mut state: FlowState = postcard::from_bytes(bytes).map_err(|e| StateError(format!("{e}")))?;
         let (saved, own) = (&state.particles, &self.state.particles);
-        let is_open = !self.setting.open.sides.is_empty();
+        let is_open = !self.config.open.sides.is_empty();
         let same_fluid = saved.len() == own.len() && saved.fluids == own.fluids;
         if saved.walls != own.walls || !(is_open || same_fluid) {
             let (found, expected) = (saved.len(), own.len());
@@ -109,7 +109,7 @@ impl Flow {
         // A side that the saved run did not have begins anew.
         state.given_flows.resize(self.state.given_flows.len(), GivenFlow::default());
         self.state = state;
-        self.fields.walls = WallFields::of(&self.setting, &self.state.particles);
+        self.fields.walls = WallFields::of(&self.config, &self.state.particles);
         self.prepare();
         Ok(())
     }
@@ -117,13 +117,13 @@ impl Flow {
     /// All that follows from the state: neighbors, volumes, normals, forces of interface and lines.
     pub fn prepare(&mut self) {
         let start = Instant::now();
-        let Self { setting, state, neighborhood, fields, lines, .. } = self;
+        let Self { config, state, neighborhood, fields, lines, .. } = self;
         if state.steps.is_multiple_of(REORDER_EVERY) {
-            order_fluid(&mut state.particles, setting);
+            order_fluid(&mut state.particles, config);
         }
-        neighborhood.find_anew(&state.particles.position, &setting.domain, &setting.method.kernel);
+        neighborhood.find_anew(&state.particles.position, &config.domain, &config.method.kernel);
         let after = Instant::now();
-        let found = View { setting, state, neighborhood, fields: &() };
+        let found = View { config, state, neighborhood, fields: &() };
         fields.bulk = BulkFields::of(&found);
         (fields.interface, *lines) = interface_fields(&found.with(&fields.bulk));
         self.work.seconds[0] += (after - start).as_secs_f64();
@@ -132,14 +132,14 @@ impl Flow {
 
     /// The flow to read.
     pub fn view(&self) -> View<'_, Fields> {
-        let Self { setting, state, neighborhood, fields, .. } = self;
-        View { setting, state, neighborhood, fields }
+        let Self { config, state, neighborhood, fields, .. } = self;
+        View { config, state, neighborhood, fields }
     }
 
     /// The flow to read, with what solves for the pressure and what counts it.
     pub(crate) fn solving(&mut self) -> (View<'_, Fields>, &mut PressureSolve, &mut Work) {
-        let Self { setting, state, neighborhood, fields, pressure, work, .. } = self;
-        (View { setting, state, neighborhood, fields }, pressure, work)
+        let Self { config, state, neighborhood, fields, pressure, work, .. } = self;
+        (View { config, state, neighborhood, fields }, pressure, work)
     }
 
     /// Wall time by part in s.
@@ -156,20 +156,20 @@ impl Flow {
 }
 
 /// Puts the fluid particles in the order of their cells.
-fn order_fluid(particles: &mut Particles, setting: &Setting) {
-    let order = order_of_cells(&particles.position[..particles.fluids], setting);
+fn order_fluid(particles: &mut Particles, config: &Configuration) {
+    let order = order_of_cells(&particles.position[..particles.fluids], config);
     particles.reorder(&order.into_iter().chain(particles.fluids..particles.len()).collect::<Vec<usize>>());
 }
 
 /// Puts the wall particles in the order of their cells.
-fn order_walls(state: &mut FlowState, setting: &Setting) {
+fn order_walls(state: &mut FlowState, config: &Configuration) {
     let moving = state.particles.moving();
-    let order = order_of_cells(&state.particles.position[moving..], setting);
+    let order = order_of_cells(&state.particles.position[moving..], config);
     state.wall_depth = order.iter().map(|&i| state.wall_depth[i]).collect();
     state.particles.reorder(&(0..moving).chain(order.iter().map(|i| i + moving)).collect::<Vec<usize>>());
 }
 
-fn order_of_cells(points: &[Vec2], setting: &Setting) -> Vec<usize> {
-    let cells = Cells::build(points, &setting.domain, setting.method.kernel.support());
+fn order_of_cells(points: &[Vec2], config: &Configuration) -> Vec<usize> {
+    let cells = Cells::build(points, &config.domain, config.method.kernel.support());
     cells.order().iter().map(|&i| i as usize).collect()
 }

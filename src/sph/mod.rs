@@ -1,12 +1,13 @@
 //! Incompressible SPH for two fluids with partial wetting, after Huber et al. 2013.
 //!
-//! [`flow::Flow`] is the whole, by its parts: `setting`, `state`, `neighborhood`, `fields`. `projection` decides the order of a step, `terms`
+//! [`flow::Flow`] is the whole, by its parts: `config`, `state`, `neighborhood`, `fields`. `projection` decides the order of a step, `terms`
 //! holds the equations.
 
 pub(crate) mod boundary;
 pub(crate) mod bulk;
 mod cells;
 mod components;
+pub(crate) mod configuration;
 pub mod conjugate_gradients;
 pub mod domain;
 pub mod equivalent_forces;
@@ -28,7 +29,6 @@ mod parallel;
 pub mod particles;
 pub mod poisson;
 pub(crate) mod projection;
-pub(crate) mod setting;
 pub mod setup;
 pub mod solver;
 pub(crate) mod stages;

@@ -55,21 +55,21 @@ impl Observation {
         let all = sharp_color(flow);
         let (volumes, color) = (&flow.fields.bulk.volume[..fluids], &all[..fluids]);
         let areas = PhaseAreas::new(volumes, color);
-        let wall_point = |x: Vec2| WallPoint::from((flow.setting.wall)(x));
-        let two_phases = flow.setting.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
+        let wall_point = |x: Vec2| WallPoint::from((flow.config.wall)(x));
+        let two_phases = flow.config.method.tension > 0.0 && areas.wetting > 0.0 && areas.non_wetting > 0.0;
         let (interface, wall_color) = interface_and_walls(flow, &all, two_phases, wall, &wall_point);
-        let settings = ContactSettings::for_smoothing_length(flow.setting.method.kernel.h)
-            .under(flow.setting.method.curvature_gradient());
+        let settings = ContactSettings::for_smoothing_length(flow.config.method.kernel.h)
+            .under(flow.config.method.curvature_gradient());
         let pressures = pressures_at_interface(flow, &interface);
         let samples = PressureSamples {
             points: &flow.state.particles.position[..fluids],
             pressures: &pressures,
             colors: color,
-            smoothing_length: flow.setting.method.kernel.h,
-            period: flow.setting.domain.periods(),
+            smoothing_length: flow.config.method.kernel.h,
+            period: flow.config.domain.periods(),
         };
         let is_wetting: Vec<bool> = color.iter().map(|c| *c > 0.5).collect();
-        let link = LINK * flow.setting.method.spacing;
+        let link = LINK * flow.config.method.spacing;
         let wetting_blobs = blobs(samples.points, volumes, &is_wetting, link, samples.period);
         Self {
             contact_lines: contact_lines(&interface, &wall_point, &settings),
@@ -101,7 +101,7 @@ impl Observation {
 
 /// The pressures in Pa of the fluid particles, each less the weight of its phase below or above the mean height of the interface.
 fn pressures_at_interface(flow: &Flow, interface: &[Polyline]) -> Vec<f64> {
-    let (p, m) = (&flow.state.particles, &flow.setting.method);
+    let (p, m) = (&flow.state.particles, &flow.config.method);
     let vertices: Vec<Vec2> = interface.iter().flat_map(|line| &line.points).copied().collect();
     let pressures = &p.pressure[..p.fluids];
     if m.gravity == Vec2::zeros() || vertices.is_empty() {
@@ -123,14 +123,14 @@ pub(crate) fn fluid_samples(flow: &Flow) -> Samples<'_> {
     Samples {
         points: &flow.state.particles.position[..moving],
         volumes: &flow.fields.bulk.volume[..moving],
-        smoothing_length: flow.setting.method.kernel.h,
-        period: flow.setting.domain.periods(),
+        smoothing_length: flow.config.method.kernel.h,
+        period: flow.config.domain.periods(),
     }
 }
 
 /// Nodes about `spacing` (m) apart over the domain, a little beyond its walls.
 pub(crate) fn nodes(flow: &Flow, spacing: f64) -> Lattice {
-    let (domain, size) = (&flow.setting.domain, flow.setting.domain.bounds.size());
+    let (domain, size) = (&flow.config.domain, flow.config.domain.bounds.size());
     let mut lattice = Lattice::open(domain.bounds.min, Vec2::zeros(), [0; 2]);
     lattice.periodic = domain.periodic;
     for i in 0..2 {
@@ -140,7 +140,7 @@ pub(crate) fn nodes(flow: &Flow, spacing: f64) -> Lattice {
         if domain.periodic[i] {
             lattice.counts[i] = cells;
         } else {
-            let is_open = |number| flow.setting.open.sides.iter().any(|side| side.number == number);
+            let is_open = |number| flow.config.open.sides.iter().any(|side| side.number == number);
             let [below, above] = [0, 1].map(|end| if mirrored || is_open(2 * i + end) { 0 } else { MARGIN });
             lattice.counts[i] = cells + 1 + below + above;
             lattice.origin[i] -= below as f64 * lattice.spacing[i];
@@ -158,7 +158,7 @@ fn interface_and_walls(
     walls: &[WallSample],
     wall: &dyn Fn(Vec2) -> WallPoint,
 ) -> (Vec<Polyline>, Vec<f64>) {
-    let (samples, lattice) = (fluid_samples(flow), nodes(flow, flow.setting.method.spacing));
+    let (samples, lattice) = (fluid_samples(flow), nodes(flow, flow.config.method.spacing));
     let near = if two_phases { nodes_near_level(&lattice, &samples, color, 0.5) } else { Vec::new() };
     let on_nodes = near.iter().map(|&node| lattice.position(node % lattice.counts[0], node / lattice.counts[0]));
     let places: Vec<Vec2> = on_nodes.chain(walls.iter().map(|sample| sample.point)).collect();
@@ -170,5 +170,5 @@ fn interface_and_walls(
     let mut values = vec![f64::NAN; lattice.len()];
     near.iter().zip(found).for_each(|(&node, value)| values[node] = value);
     let level = clip(&contour(&lattice, &values, 0.5), wall);
-    (level.iter().map(|line| line.on_interface(flow.setting.method.kernel.h)).collect(), on_walls)
+    (level.iter().map(|line| line.on_interface(flow.config.method.kernel.h)).collect(), on_walls)
 }

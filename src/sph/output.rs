@@ -42,7 +42,7 @@ pub(crate) fn snapshot(flow: &Flow, observation: &Observation, grid_spacing: f64
         step: flow.state.steps,
         particles,
         grid: Some(grid),
-        interface: Some(interface(&observation.interface, flow.setting.method.kernel.h)),
+        interface: Some(interface(&observation.interface, flow.config.method.kernel.h)),
     }
 }
 
@@ -60,8 +60,8 @@ fn without(cloud: &mut Cloud<'static>, range: Range<usize>) {
 
 /// Distance and normal of the nearest wall; without any wall the diagonal of the box, so that files hold finite numbers.
 fn wall(flow: &Flow, x: Vec2) -> (f64, Vec2) {
-    let (distance, normal) = (flow.setting.wall)(x);
-    (distance.min(flow.setting.domain.bounds.size().norm()), normal)
+    let (distance, normal) = (flow.config.wall)(x);
+    (distance.min(flow.config.domain.bounds.size().norm()), normal)
 }
 
 fn particles(flow: &Flow, thin: &ThinParts) -> Cloud<'static> {
@@ -69,9 +69,9 @@ fn particles(flow: &Flow, thin: &ThinParts) -> Cloud<'static> {
     let on_fluid = |values: &[Vec2]| values.iter().copied().chain(std::iter::repeat(Vec2::zeros())).take(n).collect();
     let (distance, normal) = p.position.par_iter().map(|&x| wall(flow, x)).unzip();
     let [surface_force, line_force] = volume_forces(flow);
-    let (driving, from) = (flow.view().driving_gradient(), flow.setting.domain.bounds.min);
+    let (driving, from) = (flow.view().driving_gradient(), flow.config.domain.bounds.min);
     let pressure = p.pressure.iter().zip(&p.position).map(|(p, x)| p - driving.dot(&(x - from))).collect();
-    let profile = flow.setting.method.profile();
+    let profile = flow.config.method.profile();
     let fields = vec![
         integer("id", p.id.iter().map(|&id| i64::from(id)).collect()),
         integer("below-resolution", below_resolution(flow, thin)),
@@ -103,9 +103,9 @@ fn grid(flow: &Flow, particles: &Cloud, spacing: f64) -> Grid<'static> {
     let mut lattice = nodes(flow, spacing);
     for i in 0..2 {
         // The grid covers the box: without the nodes beyond walls, and with the last node of a period.
-        let cells = (flow.setting.domain.bounds.size()[i] / lattice.spacing[i]).round() as usize;
+        let cells = (flow.config.domain.bounds.size()[i] / lattice.spacing[i]).round() as usize;
         lattice.counts[i] = cells + 1;
-        lattice.origin[i] = flow.setting.domain.bounds.min[i];
+        lattice.origin[i] = flow.config.domain.bounds.min[i];
     }
     lattice.periodic = [false; 2];
     let places = lattice.nodes();

@@ -62,13 +62,13 @@ pub(crate) struct Surroundings {
 impl SphSolver {
     /// Least and largest angle in degrees at which every contact line rests, of a flow that nothing but its interface drives.
     fn angles_at_rest(&self) -> Option<[f64; 2]> {
-        let setting = &self.flow.setting;
-        let is_driven = setting.method.gravity != Vec2::zeros()
-            || !setting.open.sides.is_empty()
-            || !setting.open.through.is_empty()
+        let config = &self.flow.config;
+        let is_driven = config.method.gravity != Vec2::zeros()
+            || !config.open.sides.is_empty()
+            || !config.open.through.is_empty()
             || self.surroundings.wall_speeds != [0.0; 4]
             || self.surroundings.stages.is_some();
-        let model = setting.method.wetting.filter(|_| !is_driven && setting.method.patches.is_empty())?;
+        let model = config.method.wetting.filter(|_| !is_driven && config.method.patches.is_empty())?;
         Some(model.hysteresis_range().map(f64::to_degrees))
     }
 
@@ -107,8 +107,8 @@ impl SphSolver {
     /// Gives the flow the body force of its time, where several act one after the other.
     fn turn_force(&mut self) {
         if let Some(stages) = &self.surroundings.stages {
-            self.flow.setting.method.gravity = stages.force(self.flow.state.time);
-            self.flow.setting.since = stages.since(self.flow.state.time);
+            self.flow.config.method.gravity = stages.force(self.flow.state.time);
+            self.flow.config.since = stages.since(self.flow.state.time);
         }
     }
 
@@ -118,7 +118,7 @@ impl SphSolver {
     }
 
     fn kinetic_energy(&self) -> f64 {
-        let (p, m) = (&self.flow.state.particles, &self.flow.setting.method);
+        let (p, m) = (&self.flow.state.particles, &self.flow.config.method);
         let energy = |a: usize| 0.5 * m.fluid(p.phase[a]).density * m.volume * p.velocity[a].norm_squared();
         (0..p.fluids).map(energy).sum()
     }
@@ -139,7 +139,7 @@ impl SphSolver {
     }
 
     fn momentum(&self) -> Vec2 {
-        let (p, m) = (&self.flow.state.particles, &self.flow.setting.method);
+        let (p, m) = (&self.flow.state.particles, &self.flow.config.method);
         (0..p.fluids).map(|a| m.fluid(p.phase[a]).density * m.volume * p.velocity[a]).sum()
     }
 }
@@ -172,7 +172,7 @@ impl Solver for SphSolver {
     fn sample(&self) -> Vec<Sample> {
         let (flow, seen) = (&self.flow, self.observe());
         let fluids = flow.state.particles.fluids;
-        let [error, _] = density_error(&flow.fields.bulk.volume[..fluids], flow.setting.method.volume);
+        let [error, _] = density_error(&flow.fields.bulk.volume[..fluids], flow.config.method.volume);
         let speed = flow.state.particles.fluid_speed();
         let momentum = self.momentum();
         let row = [
@@ -203,7 +203,7 @@ impl Solver for SphSolver {
     }
 
     fn watched(&self) -> Vec<Watched> {
-        let (m, size) = (&self.flow.setting.method, self.flow.setting.domain.bounds.size());
+        let (m, size) = (&self.flow.config.method, self.flow.config.domain.bounds.size());
         let capillary_speed =
             (m.tension > 0.0).then(|| m.tension / m.wetting_fluid.viscosity.max(m.other_fluid.viscosity));
         let energy = "kinetic_energy_J_per_m";

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::math::Vec2;
-use crate::sph::open::{GivenFlow, Ledger};
+use crate::sph::open::{BoundaryFluxes, GivenFlow};
 use crate::sph::particles::Particles;
-use crate::sph::wetting::lines::Line;
+use crate::sph::wetting::lines::TrackedLine;
 
 /// What restart saves: these fields in this order.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,9 +21,9 @@ pub struct FlowState {
     /// Depth of each wall particle in m.
     pub wall_depth: Vec<f64>,
     /// The contact lines as the last step left them; those of the present positions are [`Flow::lines`](crate::sph::flow::Flow::lines).
-    pub lines: Vec<Line>,
+    pub lines: Vec<TrackedLine>,
     /// What passed through the sides.
-    pub ledger: Ledger,
+    pub fluxes: BoundaryFluxes,
     /// How the given flow through each periodic side of `Open::through` goes on.
     pub given_flows: Vec<GivenFlow>,
     /// The unit vector along the wall that the contact lines had gone a spacing along, once they had.
@@ -40,7 +40,7 @@ impl FlowState {
             last_dt: 0.0,
             wall_depth,
             lines: Vec::new(),
-            ledger: Ledger::new(&particles.phase[..particles.fluids], next_id),
+            fluxes: BoundaryFluxes::new(&particles.phase[..particles.fluids], next_id),
             given_flows: vec![GivenFlow::default(); given_flows],
             gone: None,
             particles,

@@ -25,7 +25,7 @@ impl ThinParts {
             return Self { is_thin: vec![false; is_wetting.len()], share: 0.0 };
         }
         let points = &flow.state.particles.position[..is_wetting.len()];
-        let is_thin = thin_parts(points, &is_wetting, flow.setting.method.spacing, flow.setting.domain.periods());
+        let is_thin = thin_parts(points, &is_wetting, flow.config.method.spacing, flow.config.domain.periods());
         let share = is_thin.iter().filter(|thin| **thin).count() as f64 / smaller as f64;
         Self { is_thin, share }
     }
@@ -38,8 +38,8 @@ pub(crate) fn small_pieces(flow: &Flow, wetting_pieces: &[Blob]) -> usize {
     }
     let others: Vec<bool> = wetting(flow).iter().map(|wetting| !wetting).collect();
     let (points, volumes) = (&flow.state.particles.position[..others.len()], &flow.fields.bulk.volume[..others.len()]);
-    let link = LINK * flow.setting.method.spacing;
-    let pieces = blobs(points, volumes, &others, link, flow.setting.domain.periods());
+    let link = LINK * flow.config.method.spacing;
+    let pieces = blobs(points, volumes, &others, link, flow.config.domain.periods());
     wetting_pieces.iter().chain(&pieces).filter(|piece| piece.count < SMALLEST_PIECE).count()
 }
 
@@ -51,7 +51,7 @@ fn wetting(flow: &Flow) -> Vec<bool> {
 
 /// Number of particles of the phase that has fewer; 0 without an interface.
 fn smaller_phase(flow: &Flow) -> usize {
-    if flow.setting.method.tension == 0.0 {
+    if flow.config.method.tension == 0.0 {
         return 0;
     }
     let p = &flow.state.particles;

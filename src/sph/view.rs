@@ -1,17 +1,17 @@
 //! A flow at one time, to read.
 
 use crate::math::Vec2;
+use crate::sph::configuration::Configuration;
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::open::{GivenFlow, OpenSide};
-use crate::sph::setting::Setting;
 use crate::sph::state::FlowState;
 
 /// What is given, what a step goes on from, what lies around each particle, and the fields `F` found from these so far: a function that
 /// takes a view reads no other field, and changes nothing.
 pub struct View<'a, F> {
     /// What is given.
-    pub setting: &'a Setting,
+    pub config: &'a Configuration,
     /// What a step goes on from.
     pub state: &'a FlowState,
     /// Pairs and images.
@@ -23,15 +23,15 @@ pub struct View<'a, F> {
 impl<'a, F> View<'a, F> {
     /// The same flow with other fields.
     pub(crate) fn with<G>(&self, fields: &'a G) -> View<'a, G> {
-        let &Self { setting, state, neighborhood, .. } = self;
-        View { setting, state, neighborhood, fields }
+        let &Self { config, state, neighborhood, .. } = self;
+        View { config, state, neighborhood, fields }
     }
 
     /// x_a − x_b in m, of a particle and a particle or image.
     #[inline]
     pub(crate) fn separation(&self, a: usize, b: usize) -> Vec2 {
         let position = &self.state.particles.position;
-        self.setting.domain.separation(position[a], self.neighborhood.images.position(b, position))
+        self.config.domain.separation(position[a], self.neighborhood.images.position(b, position))
     }
 
     /// The velocities in m/s.
@@ -41,7 +41,7 @@ impl<'a, F> View<'a, F> {
 
     /// The periodic sides with a given flow rate, each with how its flow goes on.
     pub(crate) fn given_flows(&self) -> impl Iterator<Item = (&'a OpenSide, &'a GivenFlow)> + use<'a, F> {
-        self.setting.open.through.iter().zip(&self.state.given_flows)
+        self.config.open.through.iter().zip(&self.state.given_flows)
     }
 
     /// The mean pressure gradient −∇P in Pa/m that drives the given flows.

@@ -1,9 +1,9 @@
 //! Fields of the wall particles. Walls rest: found once.
 
 use crate::math::Vec2;
+use crate::sph::configuration::Configuration;
 use crate::sph::images::Images;
 use crate::sph::particles::Particles;
-use crate::sph::setting::Setting;
 
 /// Wall particles whose nearest walls face each other by a cosine below this belong to opposite sides of a solid.
 const OPPOSITE: f64 = -0.5;
@@ -19,10 +19,10 @@ pub struct WallFields {
 
 impl WallFields {
     /// Finds where each wall particle faces and how its wall bends.
-    pub(crate) fn of(setting: &Setting, particles: &Particles) -> Self {
+    pub(crate) fn of(config: &Configuration, particles: &Particles) -> Self {
         let walls = &particles.position[particles.moving()..];
-        let facing = walls.iter().map(|&x| (setting.wall)(x).1).collect();
-        Self { facing, curvature: walls.iter().map(|&x| setting.curvature_of_wall(x)).collect() }
+        let facing = walls.iter().map(|&x| (config.wall)(x).1).collect();
+        Self { facing, curvature: walls.iter().map(|&x| config.curvature_of_wall(x)).collect() }
     }
 
     /// Whether the pressures of two particles or images are coupled: all but those of wall particles that belong to opposite sides of a thin

@@ -37,7 +37,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// The warnings that a flow asks for now.
 pub(crate) fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<String> {
-    if flow.setting.method.tension == 0.0 {
+    if flow.config.method.tension == 0.0 {
         return thin_layer(flow).into_iter().collect();
     }
     let found = [
@@ -53,7 +53,7 @@ pub(crate) fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<
 
 /// The layer beside walls in which the flow between floor and lid slows down, b √(α/12), where it is thinner than the spacing.
 fn thin_layer(flow: &Flow) -> Option<String> {
-    let method = &flow.setting.method;
+    let method = &flow.config.method;
     let plates = method.plates?;
     let layer = (plates.profile / plates.friction).sqrt();
     (layer < method.spacing).then(|| {
@@ -68,9 +68,9 @@ fn thin_layer(flow: &Flow) -> Option<String> {
 /// Menisci so fast that they leave films of the wetting phase on floor and lid where it recedes. The speed is the mean one in the pore: that of the given flow,
 /// or of the particles where they are faster.
 fn films_left(flow: &Flow) -> Option<String> {
-    let (m, p) = (&flow.setting.method, &flow.state.particles);
+    let (m, p) = (&flow.config.method, &flow.state.particles);
     let plates = m.plates?;
-    let (open, size) = (&flow.setting.open, flow.setting.domain.bounds.size());
+    let (open, size) = (&flow.config.open, flow.config.domain.bounds.size());
     let given = open
         .sides
         .iter()
@@ -95,7 +95,7 @@ fn pieces_and_films(flow: &Flow, seen: &Observation, series: &Series) -> Option<
     if small_pieces == 0 && before.is_none() && share < LARGEST_THIN_SHARE {
         return None;
     }
-    let (percent, half) = (100.0 * share, 0.5 * flow.setting.method.spacing);
+    let (percent, half) = (100.0 * share, 0.5 * flow.config.method.spacing);
     let before = before.map(|(most, time)| format!(" ({most} at t = {time:.4e} s)")).unwrap_or_default();
     Some(format!(
         "{small_pieces} pieces of fewer than {SMALLEST_PIECE} particles{before}, and films thinner than three particles with {percent:.1} % of \
@@ -112,10 +112,10 @@ pub(crate) fn most_small_pieces(series: &Series) -> Option<(f64, f64)> {
 
 /// Currents of a thin liquid in a free drop that nothing drives and that keeps its shape.
 fn parasitic_currents(flow: &Flow, seen: &Observation, series: &Series) -> Option<String> {
-    let (m, p) = (&flow.setting.method, &flow.state.particles);
+    let (m, p) = (&flow.config.method, &flow.state.particles);
     let is_driven = m.gravity != Vec2::zeros()
-        || !flow.setting.open.sides.is_empty()
-        || !flow.setting.open.through.is_empty()
+        || !flow.config.open.sides.is_empty()
+        || !flow.config.open.through.is_empty()
         || p.velocity[p.moving()..].iter().any(|v| *v != Vec2::zeros());
     let rows = series.rows.len();
     let late = rows - rows / 5;
@@ -145,22 +145,22 @@ fn parasitic_currents(flow: &Flow, seen: &Observation, series: &Series) -> Optio
 
 /// A drop on a plane of the asked-for angle that is only a few spacings high.
 fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
-    let angle = flow.setting.method.wetting?.static_angle();
+    let angle = flow.config.method.wetting?.static_angle();
     let areas = seen.areas;
     let is_wetting = areas.wetting < areas.non_wetting;
     let (area, through) =
         if is_wetting { (areas.wetting, angle) } else { (areas.non_wetting, std::f64::consts::PI - angle) };
     // A meniscus between two walls is no drop.
     let [a, b] = &seen.contact_lines[..] else { return None };
-    let normal = |line: &ContactLine| (flow.setting.wall)(line.position).1;
+    let normal = |line: &ContactLine| (flow.config.wall)(line.position).1;
     if normal(a).dot(&normal(b)) < SAME_WALL || area <= 0.0 {
         return None;
     }
     if through < ROUNDING {
         return Some("at this angle the drop spreads to a film, which no spacing resolves: use a thin film".to_owned());
     }
-    let across = cap(area, through).height / flow.setting.method.spacing;
-    let spacing = flow.setting.method.spacing * across / ENOUGH;
+    let across = cap(area, through).height / flow.config.method.spacing;
+    let spacing = flow.config.method.spacing * across / ENOUGH;
     (across < ENOUGH).then(|| {
         format!(
             "a drop of this area at this angle is {across:.1} spacings high on a plane, and {ENOUGH:.0} are needed: use \
@@ -175,7 +175,7 @@ fn is_limiting(angle: f64) -> bool {
 }
 
 fn limiting_angle(flow: &Flow) -> Option<String> {
-    let angle = flow.setting.method.wetting?.static_angle().to_degrees();
+    let angle = flow.config.method.wetting?.static_angle().to_degrees();
     is_limiting(angle).then(|| {
         format!(
             "at an angle of {angle:.1} degrees pressures and places are those asked for, but an angle measured from the interface has an \

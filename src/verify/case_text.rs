@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::cut_out::CutOut;
 use super::fluids::Fluids;
+use super::subdomain::Subdomain;
 use super::whole_pore::WholePore;
 use crate::case::Fluid;
 use crate::geometry::spec::{CurvedPolygon, GeometrySpec, ShapeSpec};
@@ -46,8 +46,8 @@ pub(crate) struct Named<'a> {
     pub(crate) across: u32,
 }
 
-fn head(named: &Named, cut_out: &CutOut, what: &str, title: &str) -> String {
-    let (middle, width) = (cut_out.frame.middle, cut_out.width);
+fn head(named: &Named, subdomain: &Subdomain, what: &str, title: &str) -> String {
+    let (middle, width) = (subdomain.frame.middle, subdomain.width);
     format!(
         "# {what}\n# Throat {} of {}, {width:.4e} m wide at ({:.4e}, {:.4e}) m; x is the way of the invading phase, {:.2} degrees \
          counter-clockwise from that of the network.\nformat = 1\ntitle = \"{title}\"\n\n",
@@ -55,7 +55,7 @@ fn head(named: &Named, cut_out: &CutOut, what: &str, title: &str) -> String {
         named.network,
         middle.x,
         middle.y,
-        cut_out.frame.angle.to_degrees()
+        subdomain.frame.angle.to_degrees()
     )
 }
 
@@ -103,23 +103,23 @@ fn phase(name: &str, fluid: Fluid) -> String {
 }
 
 /// The case of the entry pressure: a closed box that the invading phase fills up to the meniscus of largest curvature.
-pub(crate) fn entry(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
-    let (width, tension) = (cut_out.width, fluids.tension);
+pub(crate) fn entry(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> String {
+    let (width, tension) = (subdomain.width, fluids.tension);
     let [wetting, other] = fluids.of(width);
     // The thicker phase takes most of a swing away.
     let density = wetting.density.max(other.density);
     let viscosity = wetting.viscosity.max(other.viscosity);
-    let size = crate::math::Vec2::from(cut_out.geometry.max) - crate::math::Vec2::from(cut_out.geometry.min);
+    let size = crate::math::Vec2::from(subdomain.geometry.max) - crate::math::Vec2::from(subdomain.geometry.min);
     let length = size.min().max(width);
     let end = (CAPILLARY_TIMES * (density * length.powi(3) / tension).sqrt())
         .max(VISCOUS_TIMES * density * width * width / viscosity)
         .max(FRICTION_TIMES * fluids.friction_time(length, width));
-    let pressure = fluids.invading.towards_wetting(fluids.pressure(cut_out.meniscus.curvature));
+    let pressure = fluids.invading.towards_wetting(fluids.pressure(subdomain.meniscus.curvature));
     let background = if fluids.invading == Phase::NonWetting { "wetting" } else { "non-wetting" };
     let title = format!("Throat {}: entry pressure, {} spacings across", named.number, named.across);
     let what = "The invading phase fills the closed box up to the meniscus of largest curvature, which rests there.";
-    let mut text = head(named, cut_out, what, &title);
-    text += &shapes(&cut_out.geometry, fluids);
+    let mut text = head(named, subdomain, what, &title);
+    text += &shapes(&subdomain.geometry, fluids);
     let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
     text += &phase("wetting", wetting);
     text += &phase("non-wetting", other);
@@ -129,23 +129,23 @@ pub(crate) fn entry(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String 
          [sph.initial.wetting.curved-polygon] # x and y in m, bulge\n{}\n\n[sph.measure.throat-entry]\n\n\
          [time]\nend = {end:e} # s\n\n[time.steady]\ncapillary-number = 3.0e-4\n\n[output.vtk]\nevery-time = {end:e} # s\n\n\
          [[expect]] # the formula\nmeasure = \"entry-pressure-Pa\"\nvalue = {pressure:e}\ntolerance = {:e}\n",
-        fluids.wetting(cut_out.angle),
-        polygon(&cut_out.behind),
+        fluids.wetting(subdomain.angle),
+        polygon(&subdomain.behind),
         (EXPECTED * pressure).abs()
     );
     text
 }
 
 /// The case of the conductance: one phase passes the box, which is joined along the throat, at a given rate.
-pub(crate) fn flow(cut_out: &CutOut, fluids: &Fluids, named: &Named) -> String {
-    let width = cut_out.width;
+pub(crate) fn flow(subdomain: &Subdomain, fluids: &Fluids, named: &Named) -> String {
+    let width = subdomain.width;
     let fluid = fluids.of(width)[0];
-    let height = cut_out.geometry.max[1] - cut_out.geometry.min[1];
+    let height = subdomain.geometry.max[1] - subdomain.geometry.min[1];
     let end = FLOW_TIMES * fluid.density * height * height / fluid.viscosity;
     let title = format!("Throat {}: conductance, {} spacings across", named.number, named.across);
     let what = "One phase passes the throat at a given rate; the box is joined along the way.";
-    let mut text = head(named, cut_out, what, &title);
-    text += &shapes(&cut_out.geometry, fluids);
+    let mut text = head(named, subdomain, what, &title);
+    text += &shapes(&subdomain.geometry, fluids);
     let _ = write!(text, "\n[sph]\nspacing = {:e} # m\n\n", width / f64::from(named.across));
     text += &phase("wetting", fluid);
     let _ = write!(
@@ -179,34 +179,34 @@ pub(crate) struct Steps {
 impl Steps {
     /// Steps at a spacing (m) from below an event to above it, which lies in the middle between two of them; none where the branch before the event is shorter
     /// than one.
-    pub(crate) fn of(cut_out: &WholePore, spacing: f64) -> Option<Self> {
-        let scale = 1.0 / cut_out.width;
-        let (rise, steps, times) = match cut_out.kind {
+    pub(crate) fn of(subdomain: &WholePore, spacing: f64) -> Option<Self> {
+        let scale = 1.0 / subdomain.width;
+        let (rise, steps, times) = match subdomain.kind {
             EventKind::Touch => (TOUCH_RISE * scale, TOUCH_STEPS, TOUCH_TIMES),
             _ => (RISE_PER_SPACING * scale * scale * spacing, OVERLAP_STEPS, OVERLAP_TIMES),
         };
-        let below = ((cut_out.curvature - cut_out.lowest) / rise + 0.5).floor().min(steps);
-        let first = cut_out.curvature + (0.5 - below) * rise;
+        let below = ((subdomain.curvature - subdomain.lowest) / rise + 0.5).floor().min(steps);
+        let first = subdomain.curvature + (0.5 - below) * rise;
         (below >= 1.0).then_some(Self { first, rise, count: below + steps, times })
     }
 }
 
 /// The case of a touch or an overlap: the pressure of the invading phase rises in steps until the menisci leave. None where no menisci stand
 /// below the event.
-pub(crate) fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Option<String> {
-    let (width, tension, frame) = (cut_out.width, fluids.tension, &cut_out.frame);
-    let spacing = cut_out.narrowest / f64::from(named.across);
-    let steps = Steps::of(cut_out, spacing)?;
-    let behind = cut_out.behind(steps.first)?;
+pub(crate) fn pore(subdomain: &WholePore, fluids: &Fluids, named: &Named) -> Option<String> {
+    let (width, tension, frame) = (subdomain.width, fluids.tension, &subdomain.frame);
+    let spacing = subdomain.narrowest / f64::from(named.across);
+    let steps = Steps::of(subdomain, spacing)?;
+    let behind = subdomain.behind(steps.first)?;
     let [wetting, other] = fluids.of(width);
     let (density, viscosity) = (wetting.density.max(other.density), wetting.viscosity.max(other.viscosity));
-    let size = crate::math::Vec2::from(cut_out.geometry.max) - crate::math::Vec2::from(cut_out.geometry.min);
+    let size = crate::math::Vec2::from(subdomain.geometry.max) - crate::math::Vec2::from(subdomain.geometry.min);
     let capillary = (density * size.min().powi(3) / tension).sqrt();
     let friction = fluids.friction_time(size.min(), width);
     let hold = steps.times * capillary.max(density * width * width / viscosity).max(friction);
-    let (first, rise) = fluids.steps(cut_out.curvature, steps.first, steps.rise);
+    let (first, rise) = fluids.steps(subdomain.curvature, steps.first, steps.rise);
     let background = fluids.invading.other().name();
-    let (what, kind) = match cut_out.kind {
+    let (what, kind) = match subdomain.kind {
         EventKind::Overlap => ("Two menisci meet on the wall between them", "overlap"),
         _ => ("A meniscus touches a third wall", "touch"),
     };
@@ -219,11 +219,11 @@ pub(crate) fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Optio
         frame.middle.x,
         frame.middle.y,
         frame.angle.to_degrees(),
-        fluids.pressure(cut_out.curvature),
+        fluids.pressure(subdomain.curvature),
         named.number,
         named.across
     );
-    text += &shapes(&cut_out.geometry, fluids);
+    text += &shapes(&subdomain.geometry, fluids);
     let _ = write!(text, "\n[sph]\nspacing = {spacing:e} # m\n\n");
     text += &phase("wetting", wetting);
     text += &phase("non-wetting", other);
@@ -234,7 +234,7 @@ pub(crate) fn pore(cut_out: &WholePore, fluids: &Fluids, named: &Named) -> Optio
          [sph.initial]\nbackground = \"{background}\"\n\n[[sph.initial.wetting]] # the invading phase: its arcs are those of the menisci\n\
          [sph.initial.wetting.curved-polygon] # x and y in m, bulge\n{}\n\n\
          [time]\nend = {:e} # s\n\n[output.vtk]\nevery-time = {hold:e} # s\n",
-        fluids.wetting(cut_out.angle),
+        fluids.wetting(subdomain.angle),
         first,
         rise,
         polygon(&behind),

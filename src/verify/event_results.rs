@@ -87,15 +87,15 @@ pub(crate) fn event_row<'a>(
         planned,
         formula: fluids.pressure(planned.curvature),
         direct: None,
-        scale: planned.cut_out.as_ref().map_or(f64::NAN, |cut_out| fluids.tension / cut_out.width),
+        scale: planned.subdomain.as_ref().map_or(f64::NAN, |subdomain| fluids.tension / subdomain.width),
         status: Status::Open,
         particles: runs.last().and_then(|run| run.number("unknowns")),
         wall_time: complete().filter_map(|run| run.number("wall-time-s")).sum::<f64>() + 0.0,
         runs: complete().map(|run| run.result.run.name.clone()).collect(),
     };
-    match &planned.cut_out {
+    match &planned.subdomain {
         Err(why) => row.status = Status::Impossible(why.to_string()),
-        Ok(cut_out) => (row.direct, row.status) = judged(&runs, cut_out.area, row.scale, fluids.invading, folder),
+        Ok(subdomain) => (row.direct, row.status) = judged(&runs, subdomain.area, row.scale, fluids.invading, folder),
     }
     row
 }

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use super::choose::drawn;
-use super::cut_out::Impossible;
+use super::subdomain::Impossible;
 use super::subject::Subject;
 use super::whole_pore::WholePore;
 use crate::network::displacement::{Event, EventKind};
@@ -76,7 +76,7 @@ pub struct PlannedEvent {
     /// Why it was chosen.
     pub reason: String,
     /// The cut-out.
-    pub cut_out: Result<WholePore, Impossible>,
+    pub subdomain: Result<WholePore, Impossible>,
 }
 
 /// The events of all choices, each once, in the order of the choices.
@@ -105,15 +105,15 @@ pub fn choose_events(subject: &Subject, choices: &[EventChoice], seed: u64) -> R
 
 impl PlannedEvent {
     fn new(subject: &Subject, event: &Event, number: usize, reason: &str) -> Self {
-        let cut_out = WholePore::new(
+        let subdomain = WholePore::new(
             event.kind,
             &subject.scene(event),
             event.curvature,
             subject.filled_area(event),
             &subject.conditions.angle,
         )
-        .and_then(|cut_out| match subject.has_its_films(cut_out.angle) {
-            true => Ok(cut_out),
+        .and_then(|subdomain| match subject.has_its_films(subdomain.angle) {
+            true => Ok(subdomain),
             false => Err(Impossible::Films),
         });
         Self {
@@ -122,7 +122,7 @@ impl PlannedEvent {
             throat: event.throat.and_then(|throat| subject.kept().iter().position(|&kept| kept == throat)),
             curvature: event.curvature,
             reason: reason.to_owned(),
-            cut_out,
+            subdomain,
         }
     }
 }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::case_text::{self, Named};
 use super::choose::{Chosen, touches_first};
-use super::cut_out::{CutOut, Impossible};
 use super::events::PlannedEvent;
 use super::fluids::Fluids;
+use super::subdomain::{Impossible, Subdomain};
 use super::subject::Subject;
 use crate::case::load;
 use crate::input::Overrides;
@@ -34,7 +34,7 @@ pub struct Planned {
     /// The throat.
     pub chosen: Chosen,
     /// Its cut-out.
-    pub cut_out: Result<CutOut, Impossible>,
+    pub subdomain: Result<Subdomain, Impossible>,
     /// Curvature in 1/m at which the meniscus touches another wall before its burst.
     pub touches: Option<f64>,
     /// Conductance in m² of the box by the formula of the network: flow per depth times viscosity over the pressure drop from end to end.
@@ -45,21 +45,22 @@ impl Planned {
     /// The cut-out of a throat.
     pub fn new(subject: &Subject, chosen: Chosen) -> Self {
         let Some((passage, ahead)) = subject.passage(chosen.throat, chosen.to) else {
-            return Self { chosen, cut_out: Err(Impossible::NoMeniscus), touches: None, conductance: None };
+            return Self { chosen, subdomain: Err(Impossible::NoMeniscus), touches: None, conductance: None };
         };
         let depth = subject.chip.map(|chip| chip.depth.distance());
-        let cut_out = CutOut::new(&passage, &ahead).and_then(|cut_out| match subject.has_its_films(cut_out.angle) {
-            true => Ok(cut_out),
-            false => Err(Impossible::Films),
-        });
-        let conductance = cut_out.as_ref().ok().and_then(|cut_out| conductance(cut_out, depth));
-        Self { chosen, cut_out, touches: touches_first(&passage, &ahead), conductance }
+        let subdomain =
+            Subdomain::new(&passage, &ahead).and_then(|subdomain| match subject.has_its_films(subdomain.angle) {
+                true => Ok(subdomain),
+                false => Err(Impossible::Films),
+            });
+        let conductance = subdomain.as_ref().ok().and_then(|subdomain| conductance(subdomain, depth));
+        Self { chosen, subdomain, touches: touches_first(&passage, &ahead), conductance }
     }
 }
 
 /// The conductance of a cut-out by the network of its own bodies, of a depth in m.
-fn conductance(cut_out: &CutOut, depth: Option<f64>) -> Option<f64> {
-    let geometry = cut_out.solids(true).ok()?;
+fn conductance(subdomain: &Subdomain, depth: Option<f64>) -> Option<f64> {
+    let geometry = subdomain.solids(true).ok()?;
     let network = Network { depth, ..extract(&geometry, [false; 4]).ok()? };
     let paths = Paths { conductance: &conductances(&network), holds: &vec![true; network.regions.len()] };
     let permeability = permeability(&network, paths, geometry.bounds(), Drive::Periodic(0)).ok()?;
@@ -129,15 +130,15 @@ pub struct Plan<'a> {
 impl Plan<'_> {
     /// The cases of a throat, each with its name.
     fn of_throat(&self, one: &Planned) -> Vec<(String, String)> {
-        let Ok(cut_out) = &one.cut_out else { return Vec::new() };
+        let Ok(subdomain) = &one.subdomain else { return Vec::new() };
         let kinds =
             [Kind::Entry, Kind::Flow].into_iter().filter(|&kind| kind == Kind::Entry || one.conductance.is_some());
         let cases = kinds.flat_map(|kind| self.spacings.iter().map(move |&across| (kind, across)));
         let text = |(kind, across)| {
             let named = Named { number: one.chosen.number, network: self.network, across };
             let text = match kind {
-                Kind::Flow => case_text::flow(cut_out, self.fluids, &named),
-                _ => case_text::entry(cut_out, self.fluids, &named),
+                Kind::Flow => case_text::flow(subdomain, self.fluids, &named),
+                _ => case_text::entry(subdomain, self.fluids, &named),
             };
             (case_name(named.number, kind, across), text)
         };
@@ -146,10 +147,10 @@ impl Plan<'_> {
 
     /// The cases of an event, each with its name; fewer than spacings where menisci stand nowhere below the event.
     fn of_event(&self, one: &PlannedEvent) -> Vec<(String, String)> {
-        let Ok(cut_out) = &one.cut_out else { return Vec::new() };
+        let Ok(subdomain) = &one.subdomain else { return Vec::new() };
         let text = |&across: &u32| {
             let named = Named { number: one.number, network: self.network, across };
-            Some((case_name(one.number, Kind::Event, across), case_text::pore(cut_out, self.fluids, &named)?))
+            Some((case_name(one.number, Kind::Event, across), case_text::pore(subdomain, self.fluids, &named)?))
         };
         self.spacings.iter().filter_map(text).collect()
     }

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::cut_out::CutOut;
 use super::event_results::EventRow;
 use super::fluids::Fluids;
 use super::page::page;
 use super::results::{Direct, Row, Status};
+use super::subdomain::Subdomain;
 use super::subject::Subject;
 use super::whole_pore::WholePore;
 use crate::case::network::measured::{Measured, MeasuredThroat};
@@ -58,12 +58,12 @@ pub(crate) fn write(
 
 fn measured(subject: &Subject, rows: &[Row], fluids: &Fluids) -> Measured {
     let one = |row: &Row| {
-        let (Some(Direct { value, .. }), Ok(cut_out)) = (row.pressure, &row.planned.cut_out) else {
+        let (Some(Direct { value, .. }), Ok(subdomain)) = (row.pressure, &row.planned.subdomain) else {
             return None;
         };
         Some(MeasuredThroat {
             index: row.planned.chosen.throat,
-            formula_curvature: cut_out.meniscus.curvature,
+            formula_curvature: subdomain.meniscus.curvature,
             entry_curvature: fluids.in_plane(value),
         })
     };
@@ -106,8 +106,8 @@ fn joined(spacings: &[u32]) -> String {
 fn full(subject: &Subject, rows: &[Row], (spacings, fluids): (&[u32], &Fluids)) -> Table {
     let across = joined(spacings);
     let throat = |row: &Row, value: fn(&Throat) -> f64| exact(Some(value(subject.throat(row.planned.chosen.throat))));
-    let cut_out =
-        |row: &Row, text: &dyn Fn(&CutOut) -> String| row.planned.cut_out.as_ref().map_or(String::new(), text);
+    let subdomain =
+        |row: &Row, text: &dyn Fn(&Subdomain) -> String| row.planned.subdomain.as_ref().map_or(String::new(), text);
     Table::of(
         rows,
         &[
@@ -117,7 +117,7 @@ fn full(subject: &Subject, rows: &[Row], (spacings, fluids): (&[u32], &Fluids)) 
             ("w_m", &|row| throat(row, |throat| throat.width)),
             ("kappa_1_per_m", &|row| throat(row, |throat| throat.curvatures[0])),
             ("kappa_2_per_m", &|row| throat(row, |throat| throat.curvatures[1])),
-            ("theta_deg", &|row| cut_out(row, &|cut_out| exact(Some(cut_out.angle.to_degrees())))),
+            ("theta_deg", &|row| subdomain(row, &|subdomain| exact(Some(subdomain.angle.to_degrees())))),
             ("pc_formula_Pa", &|row| exact(Some(row.pressure_formula))),
             ("pc_direct_Pa", &|row| exact(row.pressure.map(|direct| direct.value))),
             ("pc_direct_error_Pa", &|row| exact(row.pressure.and_then(|direct| direct.error))),
@@ -133,7 +133,7 @@ fn full(subject: &Subject, rows: &[Row], (spacings, fluids): (&[u32], &Fluids)) 
             ("flow_status", &|row| row.flow_status.to_string()),
             ("used", &|row| used(row).to_owned()),
             ("touch_pressure_Pa", &|row| exact(row.planned.touches.map(|curvature| fluids.pressure(curvature)))),
-            ("walls_left_out", &|row| cut_out(row, &|cut_out| cut_out.left_out.to_string())),
+            ("walls_left_out", &|row| subdomain(row, &|subdomain| subdomain.left_out.to_string())),
             ("chosen", &|row| row.planned.chosen.reason.clone()),
         ],
     )
@@ -142,17 +142,18 @@ fn full(subject: &Subject, rows: &[Row], (spacings, fluids): (&[u32], &Fluids)) 
 /// All digits of the events.
 fn full_events(rows: &[EventRow], spacings: &[u32]) -> Table {
     let across = joined(spacings);
-    let cut_out = |row: &EventRow, value: fn(&WholePore) -> f64| exact(row.planned.cut_out.as_ref().ok().map(value));
+    let subdomain =
+        |row: &EventRow, value: fn(&WholePore) -> f64| exact(row.planned.subdomain.as_ref().ok().map(value));
     Table::of(
         rows,
         &[
             ("event", &|row| row.planned.number.to_string()),
             ("kind", &|row| row.planned.kind.name().to_owned()),
             ("throat", &|row| row.planned.throat.map_or(String::new(), |throat| throat.to_string())),
-            ("x_m", &|row| cut_out(row, |cut_out| cut_out.frame.middle.x)),
-            ("y_m", &|row| cut_out(row, |cut_out| cut_out.frame.middle.y)),
-            ("w_m", &|row| cut_out(row, |cut_out| cut_out.width)),
-            ("theta_deg", &|row| cut_out(row, |cut_out| cut_out.angle.to_degrees())),
+            ("x_m", &|row| subdomain(row, |subdomain| subdomain.frame.middle.x)),
+            ("y_m", &|row| subdomain(row, |subdomain| subdomain.frame.middle.y)),
+            ("w_m", &|row| subdomain(row, |subdomain| subdomain.width)),
+            ("theta_deg", &|row| subdomain(row, |subdomain| subdomain.angle.to_degrees())),
             ("pressure_formula_Pa", &|row| exact(Some(row.formula))),
             ("pressure_direct_Pa", &|row| exact(row.direct.map(|direct| direct.value))),
             ("pressure_direct_error_Pa", &|row| exact(row.direct.and_then(|direct| direct.error))),
@@ -163,7 +164,7 @@ fn full_events(rows: &[EventRow], spacings: &[u32]) -> Table {
             ("wall_time_s", &|row| exact(Some(row.wall_time))),
             ("status", &|row| row.status.to_string()),
             ("walls_left_out", &|row| {
-                row.planned.cut_out.as_ref().map_or(String::new(), |cut_out| cut_out.left_out.to_string())
+                row.planned.subdomain.as_ref().map_or(String::new(), |subdomain| subdomain.left_out.to_string())
             }),
             ("chosen", &|row| row.planned.reason.clone()),
         ],
@@ -189,8 +190,8 @@ fn with_error(direct: Option<Direct>, scale: &dyn Fn(f64) -> String) -> String {
 
 /// The table of the events for people.
 fn short_events(rows: &[EventRow]) -> Table {
-    let cut_out = |row: &EventRow, value: fn(&WholePore) -> f64, digits: usize| {
-        number(row.planned.cut_out.as_ref().ok().map(value), digits)
+    let subdomain = |row: &EventRow, value: fn(&WholePore) -> f64, digits: usize| {
+        number(row.planned.subdomain.as_ref().ok().map(value), digits)
     };
     Table::of(
         rows,
@@ -198,8 +199,8 @@ fn short_events(rows: &[EventRow]) -> Table {
             ("event", &|row| row.planned.number.to_string()),
             ("kind", &|row| row.planned.kind.name().to_owned()),
             ("throat", &|row| row.planned.throat.map_or("–".to_owned(), |throat| throat.to_string())),
-            ("width in µm", &|row| cut_out(row, |cut_out| MICROMETERS * cut_out.width, 2)),
-            ("angle in deg", &|row| cut_out(row, |cut_out| cut_out.angle.to_degrees(), 1)),
+            ("width in µm", &|row| subdomain(row, |subdomain| MICROMETERS * subdomain.width, 2)),
+            ("angle in deg", &|row| subdomain(row, |subdomain| subdomain.angle.to_degrees(), 1)),
             ("pressure in Pa: formula", &|row| number(Some(row.formula), 1)),
             ("direct", &|row| with_error(row.direct, &|value| format!("{value:.1}"))),
             ("difference in Pa", &|row| number(row.difference(), 1)),
@@ -214,7 +215,7 @@ fn short_events(rows: &[EventRow]) -> Table {
 /// The table for people.
 fn short(subject: &Subject, rows: &[Row]) -> Table {
     let width = |row: &Row| subject.throat(row.planned.chosen.throat).width;
-    let angle = |row: &Row| row.planned.cut_out.as_ref().ok().map(|cut_out| cut_out.angle.to_degrees());
+    let angle = |row: &Row| row.planned.subdomain.as_ref().ok().map(|subdomain| subdomain.angle.to_degrees());
     let status = |row: &Row| match (&row.status, &row.flow_status) {
         (Status::Ok, Status::Ok) => "ok".to_owned(),
         (Status::Ok, flow) => format!("ok; flow {flow}"),
@@ -261,7 +262,7 @@ fn of_chip(rows: &[Row], fluids: &Fluids, spacings: &[u32]) -> Vec<String> {
     let (Some(chip), Some(across)) = (fluids.chip, spacings.iter().max()) else { return Vec::new() };
     let layer = chip.depth.distance() / 12.0_f64.sqrt();
     let coarse =
-        |row: &&Row| row.planned.cut_out.as_ref().is_ok_and(|cut_out| cut_out.width > layer * f64::from(*across));
+        |row: &&Row| row.planned.subdomain.as_ref().is_ok_and(|subdomain| subdomain.width > layer * f64::from(*across));
     let mut found = vec![
         "both sides curve menisci over the depth, and thin them by corner films below 45 degrees, by the same formula: what is verified is the curvature in \
          the plane, the friction and the numbers, not that formula"

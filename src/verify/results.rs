@@ -136,7 +136,7 @@ pub(super) fn unfinished(runs: &[Run]) -> Option<Status> {
 
 /// The row of a throat; `spacings` in their order.
 pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], results: &[RunResult]) -> Row<'a> {
-    let curvature = planned.cut_out.as_ref().map_or(f64::NAN, |cut_out| cut_out.meniscus.curvature);
+    let curvature = planned.subdomain.as_ref().map_or(f64::NAN, |subdomain| subdomain.meniscus.curvature);
     let runs = |kind: Kind| runs_of(planned.chosen.number, kind, spacings, results);
     let (entries, flows) = (runs(Kind::Entry), runs(Kind::Flow));
     let all = || entries.iter().chain(&flows).filter(|run| run.is_complete());
@@ -151,7 +151,7 @@ pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], r
         wall_time: all().filter_map(|run| run.number("wall-time-s")).sum::<f64>() + 0.0,
         runs: all().map(|run| run.result.run.name.clone()).collect(),
     };
-    if let Err(why) = &planned.cut_out {
+    if let Err(why) = &planned.subdomain {
         (row.status, row.flow_status) = (Status::Impossible(why.to_string()), Status::Impossible(why.to_string()));
         return row;
     }
@@ -165,7 +165,8 @@ pub(crate) fn row<'a>(planned: &'a Planned, fluids: &Fluids, spacings: &[u32], r
         row.status = at_rest(&entries);
     }
     if planned.conductance.is_some() {
-        let viscosity = planned.cut_out.as_ref().map_or(f64::NAN, |cut_out| fluids.of(cut_out.width)[0].viscosity);
+        let viscosity =
+            planned.subdomain.as_ref().map_or(f64::NAN, |subdomain| fluids.of(subdomain.width)[0].viscosity);
         let conductance = |run: &Run| {
             let drop = run.number("driving-pressure-drop-Pa")?;
             Some((viscosity * run.number("asked-inflow-m2-per-s")? / drop, 0.0))

@@ -9,7 +9,7 @@ use crate::interface::menisci::Passage;
 use crate::network::cycles::{Cycles, Entry, FluidPhase};
 use crate::network::displacement::{Conditions, Displacement, Event, EventKind, Scene};
 use crate::network::graph::Throat;
-use crate::network::setup::{SetupError, build_still};
+use crate::network::setup::{SetupError, build_quasi_static};
 use crate::network::solver::NetworkSolver;
 
 /// A case whose throats cannot be verified.
@@ -58,19 +58,19 @@ impl Subject {
     pub fn new(case: &Case) -> Result<Self, SubjectError> {
         let Model::Network(wanted) = &case.model else { return Err(SubjectError::NoNetwork) };
         let Some(interface) = &wanted.interface else { return Err(SubjectError::NoInterface) };
-        let solver = build_still(case, wanted)?;
+        let solver = build_quasi_static(case, wanted)?;
         let half = solver.cycles().map(|cycles| cycles.half_cycles()[0].clone());
         let invading = half.as_ref().map_or(FluidPhase::NonWetting, |half| half.invading);
-        let conditions = half.map(|half| half.conditions).or_else(|| solver.setting().entry.clone());
+        let conditions = half.map(|half| half.conditions).or_else(|| solver.config().entry.clone());
         let Some(conditions) = conditions else { return Err(SubjectError::NoInterface) };
         let receding_or_advancing = usize::from(invading == FluidPhase::Wetting);
         let plates = on_plates(&interface.wetting_model, &interface.patches, |model| {
             model.hysteresis_range()[receding_or_advancing]
         });
-        let chip = solver.setting().depth_met_by(invading).map(|depth| Chip { plates, depth });
+        let chip = solver.config().depth_met_by(invading).map(|depth| Chip { plates, depth });
         let history = solver.cycles().map(first_half_cycle).unwrap_or_default();
-        let setting = solver.setting();
-        let fresh = Displacement::new(&setting.network, &setting.pores, conditions.clone());
+        let config = solver.config();
+        let fresh = Displacement::new(&config.network, &config.pores, conditions.clone());
         let overlaps = history.0.iter().filter(|entry| entry.kind == EventKind::Overlap);
         let displacement = solver.cycles().map(|cycles| cycles.displacement().clone());
         let events = displacement.into_iter().flatten().take(history.0.len()).collect();
@@ -90,12 +90,12 @@ impl Subject {
 
     /// The throats of the tables, as indices into those of the network.
     pub fn kept(&self) -> &[usize] {
-        &self.solver.setting().pores.throats
+        &self.solver.config().pores.throats
     }
 
     /// A throat by its index in the network.
     pub fn throat(&self, throat: usize) -> &Throat {
-        &self.solver.setting().network.throats[throat]
+        &self.solver.config().network.throats[throat]
     }
 
     /// The passage through a throat into its region `to`, and the other walls ahead.
@@ -127,7 +127,7 @@ impl Subject {
 
     /// Tells the geometry, as in `network.json`.
     pub(crate) fn geometry_hash(&self) -> &str {
-        &self.solver.setting().geometry_hash
+        &self.solver.config().geometry_hash
     }
 }
 

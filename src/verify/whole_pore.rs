@@ -7,7 +7,7 @@
 
 use std::f64::consts::FRAC_PI_8;
 
-use super::cut_out::{Impossible, polygon};
+use super::subdomain::{Impossible, polygon};
 use super::wall_path::Frame;
 use crate::geometry::curve::Curve;
 use crate::geometry::spec::{CurvedPolygon, Disc, GeometrySpec, ShapeSpec, SolidSide};

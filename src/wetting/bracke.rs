@@ -4,7 +4,7 @@
 //! line takes the same change of the cosine with the other sign, which nobody has measured. It is the angle far from the line, as
 //! Jiang's is. Beyond the Ca at which the angle reaches 180 degrees (0.25 at θ_e = 0) it stays there.
 
-use super::law::{Law, LineState, Parameter, law};
+use super::law::{LineState, Parameter, WettingModel, law};
 
 law! {
     /// Fit of tapes drawn into liquids (Bracke, De Voeght and Joos 1989).
@@ -14,7 +14,7 @@ law! {
     }
 }
 
-impl Law for Bracke {
+impl WettingModel for Bracke {
     /// Dynamic angle θ_d in rad \[Bracke1989\].
     fn angle(&self, line: &LineState) -> f64 {
         line.angle_by_change_of_cosine(self.static_angle(), 2.0 * line.capillary_number().abs().sqrt())

@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::law::{Law, LineState, Parameter, law};
+use super::law::{LineState, Parameter, WettingModel, law};
 
 /// Intervals of Simpson's rule.
 const INTERVALS: usize = 24;
@@ -28,7 +28,7 @@ law! {
     }
 }
 
-impl Law for Cox {
+impl WettingModel for Cox {
     /// θ_d in rad with ∫ dθ/f(θ, q) = Ca ln(b/λ) from θ_e to θ_d; 0 or π where there is none, as the line then leaves a film.
     fn angle(&self, line: &LineState) -> f64 {
         let static_angle = self.static_angle();

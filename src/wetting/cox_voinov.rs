@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::law::{Law, LineState, Parameter, law};
+use super::law::{LineState, Parameter, WettingModel, law};
 
 law! {
     /// Viscous bending below the resolved scale (Voinov 1976; Cox 1986).
@@ -19,7 +19,7 @@ law! {
     }
 }
 
-impl Law for CoxVoinov {
+impl WettingModel for CoxVoinov {
     /// Dynamic angle θ_d in rad at the distance `line.length` from the line [Cox1986, Eq. 8.3 for small angles].
     fn angle(&self, line: &LineState) -> f64 {
         let decades = (line.length / self.slip_length).ln().max(0.0);

@@ -5,7 +5,7 @@
 //! that only a line at a bound takes along (`sph::wetting::lines`). With the continuum force a line within its range is only not
 //! driven, and creeps with whatever flow there is.
 
-use super::law::{Law, LineState, Parameter, law};
+use super::law::{LineState, Parameter, WettingModel, law};
 use super::tadmor::{order, tadmor};
 use crate::input::Problem;
 
@@ -19,7 +19,7 @@ law! {
     }
 }
 
-impl Law for Hysteresis {
+impl WettingModel for Hysteresis {
     /// The present angle within the range, else the bound next to it.
     fn angle(&self, line: &LineState) -> f64 {
         let [receding, advancing] = self.hysteresis_range();
@@ -36,7 +36,7 @@ impl Law for Hysteresis {
         [self.receding_angle_deg.to_radians(), self.advancing_angle_deg.to_radians()]
     }
 
-    fn holds(&self) -> bool {
+    fn pins(&self) -> bool {
         true
     }
 

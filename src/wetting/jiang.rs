@@ -3,7 +3,7 @@
 //! (cos θ_e − cos θ_d)/(cos θ_e + 1) = tanh(4.96 Ca^0.702), for lines that advance. A receding line takes the same change of the
 //! cosine with the other sign, which nobody has measured. It is the angle far from the line, as Kistler's is.
 
-use super::law::{Law, LineState, Parameter, law};
+use super::law::{LineState, Parameter, WettingModel, law};
 
 law! {
     /// Fit of Hoffman's data (Jiang, Oh and Slattery 1979).
@@ -13,7 +13,7 @@ law! {
     }
 }
 
-impl Law for Jiang {
+impl WettingModel for Jiang {
     /// Dynamic angle θ_d in rad [Jiang1979, Eq. 7].
     fn angle(&self, line: &LineState) -> f64 {
         let change = (4.96 * line.capillary_number().abs().powf(0.702)).tanh();

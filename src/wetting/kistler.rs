@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use super::law::{Law, LineState, Parameter, law};
+use super::law::{LineState, Parameter, WettingModel, law};
 
 law! {
     /// Fit of Hoffman's data (Kistler 1993; Hoffman 1975).
@@ -19,7 +19,7 @@ law! {
 /// Beyond this argument Hoffman's function is 180 degrees to rounding.
 const LARGEST_ARGUMENT: f64 = 1.0e3;
 
-impl Law for Kistler {
+impl WettingModel for Kistler {
     /// Dynamic angle θ_d in rad \[Kistler1993\].
     fn angle(&self, line: &LineState) -> f64 {
         hoffman((line.capillary_number() + shift(self.static_angle())).max(0.0))

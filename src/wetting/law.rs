@@ -42,7 +42,7 @@ impl LineState {
 }
 
 /// A wetting law. Angles are in rad, through the wetting phase.
-pub(crate) trait Law: Parameters {
+pub(crate) trait WettingModel: Parameters {
     /// The angle at which the interface is to meet the wall.
     fn angle(&self, line: &LineState) -> f64;
 
@@ -55,7 +55,7 @@ pub(crate) trait Law: Parameters {
     }
 
     /// Whether the line stays where it stands while its angle is within the hysteresis range.
-    fn holds(&self) -> bool {
+    fn pins(&self) -> bool {
         false
     }
 
@@ -133,7 +133,7 @@ pub(crate) trait Parameters: Sized {
 }
 
 /// The law whose parameters are there, in range and without a contradiction; `at` is the key path of its table.
-pub(super) fn checked<L: Law>(raw: &L::Raw, checker: &mut Checker, at: &str) -> Option<L> {
+pub(super) fn checked<L: WettingModel>(raw: &L::Raw, checker: &mut Checker, at: &str) -> Option<L> {
     let law = L::checked(raw, checker, at)?;
     if let Some(Problem { path, message, help }) = law.contradiction() {
         checker.refuse(format!("{at}.{path}"), message, help);
@@ -143,7 +143,7 @@ pub(super) fn checked<L: Law>(raw: &L::Raw, checker: &mut Checker, at: &str) -> 
 }
 
 /// The same law with other angles, by key, which stand in the table at the key path `at`.
-pub(super) fn with_angles<L: Law>(
+pub(super) fn with_angles<L: WettingModel>(
     law: &L,
     checker: &mut Checker,
     at: &str,
@@ -157,7 +157,7 @@ pub(super) fn with_angles<L: Law>(
 }
 
 /// The parameter of a key, in the unit of that key.
-pub(super) fn parameter<L: Law>(law: &L, key: &str) -> Option<f64> {
+pub(super) fn parameter<L: WettingModel>(law: &L, key: &str) -> Option<f64> {
     let mut raw = law.raw();
     L::entries(&mut raw).into_iter().find(|(name, _)| name == key).and_then(|(_, value)| *value)
 }

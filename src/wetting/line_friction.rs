@@ -3,7 +3,7 @@
 //! σ (cos θ_e − cos θ_d) = ζ U: what the unbalanced Young force does not spend on the fluid is spent at the line. The linear limit
 //! of the molecular kinetic theory, with ζ = k T/(κ_0 λ³). Beyond |U| = 2 σ/ζ the angle stays at 0 or 180 degrees.
 
-use super::law::{Law, LineState, Parameter, law};
+use super::law::{LineState, Parameter, WettingModel, law};
 
 law! {
     /// Contact line friction (Brochard-Wyart and de Gennes 1992).
@@ -15,7 +15,7 @@ law! {
     }
 }
 
-impl Law for LineFriction {
+impl WettingModel for LineFriction {
     /// Dynamic angle θ_d in rad \[BrochardWyart1992\].
     fn angle(&self, line: &LineState) -> f64 {
         (self.static_angle().cos() - self.friction * line.speed / line.tension).clamp(-1.0, 1.0).acos()

@@ -34,7 +34,7 @@ pub use young::Young;
 
 use crate::input::Checker;
 use crate::input::tables::{Key, Value, name};
-use law::{Law, LineState, Parameters, checked, is_angle, parameter, with_angles};
+use law::{LineState, Parameters, WettingModel, checked, is_angle, parameter, with_angles};
 
 /// Makes the models from the list of their tables.
 macro_rules! laws {
@@ -85,8 +85,8 @@ macro_rules! laws {
             }
 
             /// Whether the line stays where it stands while its angle is within the range.
-            pub fn holds(&self) -> bool {
-                match self { $(Self::$law(law) => law.holds(),)+ }
+            pub fn pins(&self) -> bool {
+                match self { $(Self::$law(law) => law.pins(),)+ }
             }
 
             /// Whether the angle depends on the speed of the line.
@@ -170,7 +170,7 @@ laws! {
 impl Wetting {
     /// Whether the angle depends on where the line stands only, not on its motion or its past.
     pub(crate) fn is_static(&self) -> bool {
-        !self.is_dynamic() && !self.holds()
+        !self.is_dynamic() && !self.pins()
     }
 }
 
@@ -188,7 +188,7 @@ pub struct LawTable {
 }
 
 impl LawTable {
-    fn of<L: Law>(table: &str, type_name: &'static str) -> Self {
+    fn of<L: WettingModel>(table: &str, type_name: &'static str) -> Self {
         let keys = L::KEYS.iter().map(|(field, key)| (name(field), *key)).collect();
         Self { key: name(table), type_name, about: L::ABOUT.trim(), keys }
     }

@@ -3,7 +3,7 @@
 //! U = 2 κ_0 λ sinh(σ (cos θ_e − cos θ_d) λ²/(2 k T)): molecules jump by λ between sites of the wall, κ_0 times a second at rest.
 //! The parameters come from fits to measured angles and hold for one pair of liquid and wall. Viscous bending is left to the flow.
 
-use super::law::{InSi, Law, LineState, Parameter, law};
+use super::law::{InSi, LineState, Parameter, WettingModel, law};
 use crate::input::tables::Key;
 
 /// Boltzmann's constant in J/K (SI 2019).
@@ -32,7 +32,7 @@ law! {
     }
 }
 
-impl Law for MolecularKinetic {
+impl WettingModel for MolecularKinetic {
     /// Dynamic angle θ_d in rad \[Blake1969\].
     fn angle(&self, line: &LineState) -> f64 {
         let work = 2.0 * BOLTZMANN * kelvin(self.temperature_c) / (line.tension * self.jump_length.powi(2));

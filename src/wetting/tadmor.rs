@@ -3,7 +3,7 @@
 //! cos θ = (Γ_A cos θ_A + Γ_R cos θ_R)/(Γ_A + Γ_R), Γ_i = (sin³θ_i/(2 − 3 cos θ_i + cos³θ_i))^(1/3). The line then moves as with
 //! Young's angle: it does not hold between the two (see `hysteresis`). The weights are those of drops in space.
 
-use super::law::{Law, LineState, Parameter, law};
+use super::law::{LineState, Parameter, WettingModel, law};
 use crate::input::Problem;
 
 law! {
@@ -16,7 +16,7 @@ law! {
     }
 }
 
-impl Law for Tadmor {
+impl WettingModel for Tadmor {
     fn angle(&self, _: &LineState) -> f64 {
         self.static_angle()
     }

@@ -3,7 +3,7 @@
 //! f = σ_ns − σ_ws − σ_wn cos α = σ_wn (cos θ − cos α): one angle, whatever the line does. Leaves out all that happens at the line
 //! below the scale of the fit; how fast the line moves is left to the slip of the wall.
 
-use super::law::{Law, LineState, Parameter, law};
+use super::law::{LineState, Parameter, WettingModel, law};
 
 law! {
     /// Static angle by the unbalanced Young force (de Gennes 1985; Huber et al. 2013, Eqs. 7 and 23).
@@ -13,7 +13,7 @@ law! {
     }
 }
 
-impl Law for Young {
+impl WettingModel for Young {
     /// θ: cos θ = (σ_ns − σ_ws)/σ_wn.
     fn angle(&self, _: &LineState) -> f64 {
         self.static_angle()

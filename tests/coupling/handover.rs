@@ -40,12 +40,12 @@ fn solver(text: &str) -> NetworkSolver {
     let folder = TempDir::new().unwrap();
     let case = loaded(folder.path(), text).unwrap().case;
     let Model::Network(wanted) = &case.model else { panic!("no network") };
-    network::setup::build_still(&case, wanted).unwrap()
+    network::setup::build_quasi_static(&case, wanted).unwrap()
 }
 
 fn state_of(solver: &NetworkSolver) -> NetworkState {
     let cycles = solver.cycles().unwrap();
-    state::state(solver.setting(), cycles.half_cycles(), &cycles.moment())
+    state::state(solver.config(), cycles.half_cycles(), &cycles.moment())
 }
 
 /// States along a displacement, every `stride` events.
@@ -179,12 +179,12 @@ fn a_displacement_that_is_handed_on_goes_on_as_the_unbroken_one() {
         let cycles = whole.cycles().unwrap();
         let done = cycles.history().len();
         let Some(moment) = cycles.breakthrough() else { continue };
-        let state = state::state(whole.setting(), cycles.half_cycles(), moment);
+        let state = state::state(whole.config(), cycles.half_cycles(), moment);
         std::fs::write(folder.path().join("state.json"), serde_json::to_string(&state).unwrap()).unwrap();
         let handed_on =
             loaded(folder.path(), &pack(seed, sides, process, angle, "initial = \"state.json\"")).unwrap().case;
         let Model::Network(wanted) = &handed_on.model else { panic!("no network") };
-        let mut rest = network::setup::build_still(&handed_on, wanted).unwrap();
+        let mut rest = network::setup::build_quasi_static(&handed_on, wanted).unwrap();
         for solver in [&mut whole, &mut rest] {
             while !solver.is_done() {
                 solver.step(f64::INFINITY).unwrap();
@@ -223,7 +223,7 @@ fn committed() -> NetworkState {
 fn the_state_beside_the_cases_is_the_one_that_its_network_writes() {
     let case = load(&repository("cases/network/hand-over.toml"), &Overrides::default()).unwrap().case;
     let Model::Network(wanted) = &case.model else { panic!("no network") };
-    let mut solver = network::setup::build_still(&case, wanted).unwrap();
+    let mut solver = network::setup::build_quasi_static(&case, wanted).unwrap();
     while !solver.is_done() {
         solver.step(f64::INFINITY).unwrap();
     }

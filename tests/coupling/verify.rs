@@ -12,10 +12,10 @@ use meniscus::network::extract;
 use meniscus::network::graph::Pores;
 use meniscus::study;
 use meniscus::verify::choose::{Choice, ChoiceError, choose};
-use meniscus::verify::cut_out::CutOut;
 use meniscus::verify::events::{EventChoice, EventError, PlannedEvent, choose_events};
 use meniscus::verify::fluids::Fluids;
 use meniscus::verify::plan::{Plan, Planned, write};
+use meniscus::verify::subdomain::Subdomain;
 use meniscus::verify::subject::Subject;
 use meniscus::verify::whole_pore::WholePore;
 
@@ -57,8 +57,8 @@ fn planned(subject: &Subject) -> Vec<Planned> {
 }
 
 /// The throat of the cut-out's own network that stands in the middle: its width, its largest entry curvature.
-fn own_throat(cut_out: &CutOut) -> (f64, f64) {
-    let network = extract(&cut_out.solids(false).unwrap(), [false; 4]).unwrap();
+fn own_throat(subdomain: &Subdomain) -> (f64, f64) {
+    let network = extract(&subdomain.solids(false).unwrap(), [false; 4]).unwrap();
     let distance = |throat: usize| {
         let contacts = network.throats[throat].contacts;
         (0.5 * (contacts[0] + contacts[1])).norm()
@@ -66,7 +66,7 @@ fn own_throat(cut_out: &CutOut) -> (f64, f64) {
     let middle = (0..network.throats.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap();
     let pores = Pores::merged(&network, 1.0);
     let conditions = Conditions {
-        angle: vec![cut_out.angle; cut_out.geometry.shapes.len() + 4],
+        angle: vec![subdomain.angle; subdomain.geometry.shapes.len() + 4],
         inlet: [false; 4],
         outlet: [false; 4],
         trapping: Trapping::None,
@@ -97,19 +97,19 @@ fn a_cut_out_has_the_throat_and_the_menisci_of_the_network() {
         let all = planned(&subject);
         let mut cut = 0;
         for one in &all {
-            let Ok(cut_out) = &one.cut_out else {
+            let Ok(subdomain) = &one.subdomain else {
                 // Shown where the test fails.
-                println!("{angle} degrees, throat {}: {}", one.chosen.number, one.cut_out.as_ref().unwrap_err());
+                println!("{angle} degrees, throat {}: {}", one.chosen.number, one.subdomain.as_ref().unwrap_err());
                 continue;
             };
             cut += 1;
             let throat = subject.throat(one.chosen.throat);
             let number = one.chosen.number;
-            assert!((cut_out.width - throat.width).abs() < 1e-12 * throat.width, "{number}");
-            let contacts = throat.contacts.map(|x| cut_out.frame.point(x));
+            assert!((subdomain.width - throat.width).abs() < 1e-12 * throat.width, "{number}");
+            let contacts = throat.contacts.map(|x| subdomain.frame.point(x));
             assert!((contacts[0] + contacts[1]).norm() < 1e-9 * throat.width, "{number}: {contacts:?}");
             assert!(contacts[0].x.abs() < 1e-9 * throat.width, "{number}: {contacts:?}");
-            let (width, curvature) = own_throat(cut_out);
+            let (width, curvature) = own_throat(subdomain);
             assert!((width - throat.width).abs() < 1e-9 * throat.width, "{number}: {width} {}", throat.width);
             if shapes == EDGES {
                 // Where walls go on straight there are edges that the network has not.
@@ -129,14 +129,14 @@ fn the_invading_phase_ends_at_the_meniscus() {
     let folder = tempfile::tempdir().unwrap();
     let subject = subject(folder.path(), PACK, 40.0, &[]);
     for one in planned(&subject).iter().take(10) {
-        let cut_out = one.cut_out.as_ref().unwrap();
+        let subdomain = one.subdomain.as_ref().unwrap();
         let (passage, _) = subject.passage(one.chosen.throat, one.chosen.to).unwrap();
         let burst = passage.burst().unwrap();
         // The polygon begins along the arc, from the contact on the right to that on the left.
-        let outer = &cut_out.behind.outer;
+        let outer = &subdomain.behind.outer;
         let [right, left] = [outer[0], outer[1]].map(|[x, y, _]| Vec2::new(x, y));
-        assert!((right - cut_out.frame.point(burst.right.point)).norm() < 1e-9 * cut_out.width);
-        assert!((left - cut_out.frame.point(burst.left.point)).norm() < 1e-9 * cut_out.width);
+        assert!((right - subdomain.frame.point(burst.right.point)).norm() < 1e-9 * subdomain.width);
+        assert!((left - subdomain.frame.point(burst.left.point)).norm() < 1e-9 * subdomain.width);
         assert!((outer[0][2].atan() * 2.0 - burst.bend.abs()).abs() < 1e-9, "{outer:?} {}", burst.bend);
     }
 }
@@ -180,7 +180,7 @@ fn no_case_of_a_cut_out_is_refused() {
         let fluids =
             Fluids { given: subject.fluids, tension: subject.tension, invading: subject.invading, chip: subject.chip };
         let (all, events) = (planned(&subject), planned_events(&subject));
-        cut += all.iter().filter(|one| one.cut_out.is_ok()).count();
+        cut += all.iter().filter(|one| one.subdomain.is_ok()).count();
         let plan = Plan { throats: &all, events: &events, fluids: &fluids, spacings: &[8], network: "grains.toml" };
         let written = write(&folder.path().join(number.to_string()), &plan).unwrap();
         refused.extend(written.refused.into_iter().chain(written.refused_events).map(|(_, why)| (number, why)));
@@ -215,11 +215,11 @@ fn planned_events(subject: &Subject) -> Vec<PlannedEvent> {
 }
 
 /// Whether a displacement through the cut-out's own network, from left to right, has the event.
-fn has_event(cut_out: &WholePore) -> bool {
-    let geometry = Geometry::new(&cut_out.geometry).unwrap().with_sides([false; 2], [false, false, true, true]);
+fn has_event(subdomain: &WholePore) -> bool {
+    let geometry = Geometry::new(&subdomain.geometry).unwrap().with_sides([false; 2], [false, false, true, true]);
     let network = extract(&geometry, [true, true, false, false]).unwrap();
     let conditions = Conditions {
-        angle: vec![cut_out.angle; cut_out.geometry.shapes.len() + 4],
+        angle: vec![subdomain.angle; subdomain.geometry.shapes.len() + 4],
         inlet: [true, false, false, false],
         outlet: [false, true, false, false],
         trapping: Trapping::None,
@@ -228,9 +228,9 @@ fn has_event(cut_out: &WholePore) -> bool {
         measured: Vec::new(),
         films: CornerFilms::Absent,
     };
-    let is_it = |curvature: f64| (curvature - cut_out.curvature).abs() < 1e-7 / cut_out.width;
+    let is_it = |curvature: f64| (curvature - subdomain.curvature).abs() < 1e-7 / subdomain.width;
     Displacement::new(&network, &Pores::merged(&network, 1.0), conditions)
-        .any(|event| event.kind == cut_out.kind && is_it(event.curvature))
+        .any(|event| event.kind == subdomain.kind && is_it(event.curvature))
 }
 
 #[test]
@@ -251,19 +251,19 @@ fn the_cut_out_of_a_whole_pore_has_the_event_of_the_network() {
     ] {
         let subject = subject(folder.path(), shapes, angle, set);
         for one in planned_events(&subject) {
-            let cut_out = match &one.cut_out {
-                Ok(cut_out) => cut_out,
+            let subdomain = match &one.subdomain {
+                Ok(subdomain) => subdomain,
                 Err(why) => {
                     println!("{angle} degrees, event {} ({:?}): {why}", one.number, one.kind);
                     assert!(one.kind != EventKind::Burst || why.to_string().contains("burst"), "{why}");
                     continue;
                 }
             };
-            assert_eq!(cut_out.kind, one.kind);
+            assert_eq!(subdomain.kind, one.kind);
             cut[usize::from(one.kind == EventKind::Touch)] += 1;
-            with_event += usize::from(has_event(cut_out));
+            with_event += usize::from(has_event(subdomain));
             // The invading phase ends at the menisci: between two bodies, or three.
-            let behind = cut_out.behind(cut_out.curvature).unwrap();
+            let behind = subdomain.behind(subdomain.curvature).unwrap();
             let arcs = behind.outer.iter().filter(|[.., bulge]| *bulge != 0.0).count();
             assert!(arcs <= if one.kind == EventKind::Touch { 1 } else { 2 }, "{behind:?}");
         }
@@ -297,10 +297,11 @@ fn walls_with_other_films_than_the_network_computes_with_have_no_cut_out() {
     let folder = tempfile::tempdir().unwrap();
     let on_all = "network.wetting.patches=[{shape=0,contact-angle-deg=10.0},{shape=1,contact-angle-deg=10.0},{shape=2,contact-angle-deg=10.0}]";
     let all_planned = |depth: &[&str]| planned(&subject(folder.path(), DISCS, 50.0, &[&[on_all], depth].concat()));
-    let made = |all: &[Planned]| all.iter().filter(|one| one.cut_out.is_ok()).count();
+    let made = |all: &[Planned]| all.iter().filter(|one| one.subdomain.is_ok()).count();
     let (plane, chip) = (all_planned(&[]), all_planned(&["geometry.depth=1.5e-4"]));
     assert!(made(&plane) > 0 && made(&chip) < made(&plane));
     assert!(
-        chip.iter().any(|one| one.cut_out.as_ref().is_err_and(|why| why.to_string().contains("films in the corners")))
+        chip.iter()
+            .any(|one| one.subdomain.as_ref().is_err_and(|why| why.to_string().contains("films in the corners")))
     );
 }

@@ -31,7 +31,7 @@ const MOST_TIME: Duration = Duration::from_secs(10);
 static FOUND: Mutex<Vec<String>> = Mutex::new(Vec::new());
 static CURRENT: AtomicU64 = AtomicU64::new(0);
 
-fn setting(name: &str, default: u64) -> u64 {
+fn config(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
@@ -55,7 +55,7 @@ fn watch() {
 
 #[test]
 fn no_damaged_or_extreme_input_makes_the_reader_panic_or_take_more_than_its_share() {
-    let (first, count) = (setting("MENISCUS_FUZZ_FIRST", 1), setting("MENISCUS_FUZZ", 2000));
+    let (first, count) = (config("MENISCUS_FUZZ_FIRST", 1), config("MENISCUS_FUZZ", 2000));
     let bench = Bench::new(&Path::new(env!("CARGO_MANIFEST_DIR")).join("target/hostile-input"));
     std::thread::spawn(watch);
     std::panic::set_hook(Box::new(|panic| {

@@ -27,7 +27,7 @@ const FACTORS: [f64; 12] = [0.0, -1.0, 0.01, 0.1, 0.5, 0.9, 1.0 + 1e-9, 1.1, 2.0
 
 static BEGUN: [AtomicU64; THREADS as usize] = [const { AtomicU64::new(0) }; THREADS as usize];
 
-fn setting(name: &str, default: u64) -> u64 {
+fn config(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
@@ -142,7 +142,7 @@ fn work(thread: u64, seeds: &[Seed], (first, count): (u64, u64)) -> Tally {
 
 #[test]
 fn changed_cases_that_pass_their_check_run_without_panic_hang_or_numbers_that_are_none() {
-    let range = (setting("MENISCUS_RUNS_FIRST", 1), setting("MENISCUS_RUNS", 500));
+    let range = (config("MENISCUS_RUNS_FIRST", 1), config("MENISCUS_RUNS", 500));
     let seeds = seeds::seeds();
     std::thread::spawn(watch);
     let begun = Instant::now();

@@ -107,11 +107,11 @@ fn at_vanishing_rate_the_same_pores_are_invaded_as_without_time() {
     for seed in 0..4 {
         let pack = Pack::new(seed);
         for angle in [20.0, 40.0, 60.0, 90.0, 120.0] {
-            let mut still = pack.displacement(angle, LEFT, true);
+            let mut quasi_static = pack.displacement(angle, LEFT, true);
             let mut applied = f64::NEG_INFINITY;
-            while let Some(event) = still.next() {
+            while let Some(event) = quasi_static.next() {
                 applied = event.applied;
-                if still.reached_outlet() {
+                if quasi_static.reached_outlet() {
                     break;
                 }
             }
@@ -120,8 +120,9 @@ fn at_vanishing_rate_the_same_pores_are_invaded_as_without_time() {
             until_breakthrough(&mut dynamic);
             let pressures = dynamic.history().iter().map(|event| event.pressure).filter(|p| p.is_finite());
             let largest = pressures.fold(f64::NEG_INFINITY, f64::max);
-            let elements = 0..still.elements().len();
-            let both = elements.filter(|&e| still.phase(e) != dynamic.displacement().phase(e)).collect::<Vec<_>>();
+            let elements = 0..quasi_static.elements().len();
+            let both =
+                elements.filter(|&e| quasi_static.phase(e) != dynamic.displacement().phase(e)).collect::<Vec<_>>();
             // Without time the pores at the outlet are filled too.
             assert!(both.len() <= 4, "seed {seed}, {angle} degrees: elements {both:?} differ");
             assert!(
@@ -145,12 +146,12 @@ fn what_is_trapped_without_time_is_trapped_at_a_vanishing_rate() {
     for seed in 0..count {
         let pack = Pack::new(seed);
         let angle = [20.0, 40.0, 60.0, 80.0][seed as usize % 4];
-        let mut still = pack.displacement(angle, LEFT, true);
-        while !still.reached_outlet() && still.next().is_some() {}
+        let mut quasi_static = pack.displacement(angle, LEFT, true);
+        while !quasi_static.reached_outlet() && quasi_static.next().is_some() {}
         let viscosity = [1e-3, 1e-3];
         let mut dynamic = pack.dynamic(angle, viscosity, Drive::Rate(Pack::rate(1e-9, viscosity[0])), 0.01);
         until_breakthrough(&mut dynamic);
-        let elements: Vec<usize> = (0..still.elements().len()).filter(|&e| still.is_trapped(e)).collect();
+        let elements: Vec<usize> = (0..quasi_static.elements().len()).filter(|&e| quasi_static.is_trapped(e)).collect();
         trapped += elements.len();
         let in_time = dynamic.trapped();
         let passed = |&e: &usize| !in_time[e] || dynamic.invasions()[e].is_some();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 use meniscus::case::Loaded;
-use meniscus::network::setup::build_still;
+use meniscus::network::setup::build_quasi_static;
 use meniscus::run::execute::Mode;
 use meniscus::run::simulation::Unwatched;
 
@@ -67,7 +67,7 @@ fn a_region_without_a_pore_is_refused() {
     let error = |set: &[&str]| {
         let case = chip(set).case;
         let meniscus::case::Model::Network(network) = &case.model else { panic!("network") };
-        build_still(&case, network).err().map(|error| error.to_string())
+        build_quasi_static(&case, network).err().map(|error| error.to_string())
     };
     // Within a disc of 0.8 mm about (4.17, 6.68) mm.
     let found = error(&["network.region.min=[4.0e-3, 6.5e-3]", "network.region.max=[4.2e-3, 6.8e-3]"]).unwrap();

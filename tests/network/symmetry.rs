@@ -235,14 +235,14 @@ impl Outcome {
 
 /// What fails for a scene.
 fn failures_of(scene: &Scene) -> Vec<(String, String)> {
-    let still = match scene.outcome(&STILL) {
-        Ok(still) => still,
+    let quasi_static = match scene.outcome(&STILL) {
+        Ok(quasi_static) => quasi_static,
         Err(error) => return vec![("refused".to_owned(), error)],
     };
     let mut found = Vec::new();
     for motion in &MOTIONS {
         let difference = match scene.outcome(motion) {
-            Ok(moved) => still.difference(&moved, scene),
+            Ok(moved) => quasi_static.difference(&moved, scene),
             Err(error) => Some(format!("refused: {error}")),
         };
         if let Some(what) = difference {

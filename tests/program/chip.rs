@@ -129,7 +129,7 @@ fn values_of_all_of_the_depth_stand_beside_those_per_meter() {
 fn what_floor_and_lid_leave_out_is_told_before_a_run() {
     let folder = folder_with_small_case();
     let told = |set: &[&str]| {
-        let set: Vec<&str> = set.iter().flat_map(|setting| ["--set", setting]).collect();
+        let set: Vec<&str> = set.iter().flat_map(|config| ["--set", config]).collect();
         let output = meniscus(folder.path(), &[&["check", "drop.toml"], &set[..]].concat());
         assert_code(&output, 0);
         stdout(&output)

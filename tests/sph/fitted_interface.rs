@@ -130,11 +130,11 @@ fn both_fluids_are_packed_evenly() {
     for (name, shape, sides, ..) in interfaces() {
         let flow = fluids(shape, sides, "");
         let closest = (0..flow.state.particles.fluids)
-            .map(|a| (flow.setting.wall)(flow.state.particles.position[a]).0)
+            .map(|a| (flow.config.wall)(flow.state.particles.position[a]).0)
             .fold(1.0, f64::min);
         assert!(closest > 0.24 * SPACING, "{name}: {closest:e} m from the wall");
         let errors =
-            flow.fields.bulk.volume[..flow.state.particles.fluids].iter().map(|v| flow.setting.method.volume / v - 1.0);
+            flow.fields.bulk.volume[..flow.state.particles.fluids].iter().map(|v| flow.config.method.volume / v - 1.0);
         let (square, largest) = errors.fold((0.0, 0.0_f64), |(s, l), e| (s + e * e, l.max(e.abs())));
         let spread = (square / flow.state.particles.fluids as f64).sqrt();
         // Largest in the tip of the flat cap.

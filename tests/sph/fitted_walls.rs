@@ -44,10 +44,7 @@ const PORES: [(&str, &str, &str); 6] = [
 ];
 
 fn density_errors(flow: &Flow) -> Vec<f64> {
-    flow.fields.bulk.volume[..flow.state.particles.fluids]
-        .iter()
-        .map(|v| flow.setting.method.volume / v - 1.0)
-        .collect()
+    flow.fields.bulk.volume[..flow.state.particles.fluids].iter().map(|v| flow.config.method.volume / v - 1.0).collect()
 }
 
 fn spread(errors: &[f64]) -> [f64; 3] {
@@ -76,7 +73,7 @@ fn the_lattice_far_from_walls_stays_and_all_is_as_even_as_in_a_pore_without_such
         let fluid = &flow.state.particles.position[..flow.state.particles.fluids];
         // A particle is in the middle of a cell of the lattice.
         let is_on_lattice = |x: &Vec2| x.iter().all(|v| ((v / fine - 0.5).round() - (v / fine - 0.5)).abs() < 1e-9);
-        let far: Vec<&Vec2> = fluid.iter().filter(|x| (flow.setting.wall)(**x).0 > 60.0 * fine).collect();
+        let far: Vec<&Vec2> = fluid.iter().filter(|x| (flow.config.wall)(**x).0 > 60.0 * fine).collect();
         assert!(far.len() > 1000 && far.into_iter().all(is_on_lattice), "{name}");
         let moved = fluid.iter().filter(|x| !is_on_lattice(x)).count();
         assert!(moved > 5000 && 4 * moved < 3 * fluid.len(), "{name}: {moved} of {} were packed", fluid.len());
@@ -95,7 +92,7 @@ fn wall_particles_stand_in_layers_half_a_spacing_below_the_wall_and_deeper() {
         let walls = flow.state.particles.fluids..flow.state.particles.len();
         for (a, depth) in walls.zip(&flow.state.wall_depth) {
             let x = flow.state.particles.position[a];
-            let found = -(flow.setting.wall)(x).0;
+            let found = -(flow.config.wall)(x).0;
             assert!((found - depth).abs() < 1e-2 * SPACING, "{name}: {found:e} in place of {depth:e} at {x:?}");
             let layer = depth / SPACING - 0.5;
             // Beyond a corner of the box the lattice has its diagonal depths.
@@ -110,11 +107,11 @@ fn no_particle_starts_in_a_wall_or_on_another_one() {
     for (name, shapes, sides) in PORES {
         let flow = pore(shapes, sides, "");
         let nearest = (0..flow.state.particles.fluids)
-            .map(|a| (flow.setting.wall)(flow.state.particles.position[a]).0)
+            .map(|a| (flow.config.wall)(flow.state.particles.position[a]).0)
             .fold(1.0, f64::min);
         assert!(nearest > 0.24 * SPACING, "{name}: {nearest:e} m from the wall");
         let apart = |a: usize, b: usize| {
-            flow.setting.domain.separation(flow.state.particles.position[a], flow.state.particles.position[b]).norm()
+            flow.config.domain.separation(flow.state.particles.position[a], flow.state.particles.position[b]).norm()
         };
         let n = flow.state.particles.len();
         let closest = (0..n).flat_map(|a| {

@@ -4,7 +4,7 @@ use crate::support::dice::Dice;
 use crate::support::flow::flow;
 use meniscus::case::ViscousStep;
 use meniscus::sph::flow::Flow;
-use meniscus::sph::open::Ledger;
+use meniscus::sph::open::BoundaryFluxes;
 use meniscus::sph::particles::Phase;
 
 /// A channel of 2 mm by 1 mm with free slip at the bottom and the top, and 20 particles along it.
@@ -29,9 +29,9 @@ fn run(flow: &mut Flow, until: f64) {
 
 /// What is missing in the balance of each phase, in particles.
 fn missing(flow: &Flow) -> [i64; 2] {
-    let (came, left) = flow.state.ledger.totals();
-    let inside = Ledger::count(&flow.state.particles.phase[..flow.state.particles.fluids]);
-    [0, 1].map(|i| flow.state.ledger.at_start[i] as i64 + came[i] as i64 - left[i] as i64 - inside[i] as i64)
+    let (came, left) = flow.state.fluxes.totals();
+    let inside = BoundaryFluxes::count(&flow.state.particles.phase[..flow.state.particles.fluids]);
+    [0, 1].map(|i| flow.state.fluxes.at_start[i] as i64 + came[i] as i64 - left[i] as i64 - inside[i] as i64)
 }
 
 #[test]
@@ -48,7 +48,7 @@ fn a_uniform_flow_passes_open_sides_and_stays_uniform() {
     assert!(worst < 1e-8, "{worst:.1e} m/s");
     assert_eq!(missing(&flow), [0, 0]);
     assert_eq!(flow.state.particles.fluids, start);
-    let (came, _) = flow.state.ledger.totals();
+    let (came, _) = flow.state.fluxes.totals();
     assert_eq!(came[0], 300, "10 files, 3 mm long");
 }
 
@@ -96,11 +96,11 @@ fn long_steps_between_two_pressures_leave_the_flow_as_short_ones_do() {
     let walls = "[sph.sides]\nleft = \"inlet\"\nright = \"outlet\"\n[sph.sides.open.left]\npressure = 0.024\n";
     let [long, short] = [ViscousStep::Implicit, ViscousStep::Explicit].map(|viscous_step| {
         let mut flow = flow(&channel(walls));
-        flow.setting.method.numerics.viscous_step = viscous_step;
+        flow.config.method.numerics.viscous_step = viscous_step;
         run(&mut flow, 1.0);
         let fluids = flow.state.particles.fluids;
         let flux = flow.state.particles.velocity[..fluids].iter().map(|v| v.x).sum::<f64>() / fluids as f64;
-        let density_error = |volume: &f64| (flow.setting.method.volume / volume - 1.0).abs();
+        let density_error = |volume: &f64| (flow.config.method.volume / volume - 1.0).abs();
         (flow.state.steps, flux, flow.fields.bulk.volume[..fluids].iter().map(density_error).fold(0.0, f64::max))
     });
     assert!(2 * long.0 < short.0, "{long:?} and {short:?}");
@@ -117,7 +117,7 @@ fn layers_come_in_and_leave_as_layers() {
         let below = flow.state.particles.position[a].y < 5.0e-4;
         assert_eq!(flow.state.particles.phase[a] == Phase::Wetting, below, "at {:?}", flow.state.particles.position[a]);
     }
-    let (came, left) = flow.state.ledger.totals();
+    let (came, left) = flow.state.fluxes.totals();
     assert_eq!((came, left), ([150; 2], [150; 2]));
 }
 
@@ -128,7 +128,7 @@ fn the_phase_of_an_inlet_drives_the_other_one_out() {
     let mut flow = flow(&channel(&format!("{sides}{filled}")));
     run(&mut flow, 0.3);
     // The flat front has left.
-    let inside = Ledger::count(&flow.state.particles.phase[..flow.state.particles.fluids]);
+    let inside = BoundaryFluxes::count(&flow.state.particles.phase[..flow.state.particles.fluids]);
     assert_eq!(inside, [0, 200]);
     assert_eq!(missing(&flow), [0, 0]);
 }
@@ -147,7 +147,7 @@ fn a_resumed_flow_with_open_sides_takes_the_same_steps() {
             run(flow, 0.06);
         }
         assert_eq!(whole.state.particles, second.state.particles);
-        assert_eq!(whole.state.ledger, second.state.ledger);
+        assert_eq!(whole.state.fluxes, second.state.fluxes);
         assert_eq!(whole.state.given_flows, second.state.given_flows);
     }
 }
@@ -161,9 +161,9 @@ fn a_given_flow_through_periodic_sides_brings_back_one_phase() {
         "center = [1.5e-3, 5.0e-4], size = [4.0e-4, 2.0e-3]",
     );
     let mut flow = flow(&channel(&format!("{sides}{drop}")));
-    assert_eq!(Ledger::count(&flow.state.particles.phase[..flow.state.particles.fluids])[0], 40);
+    assert_eq!(BoundaryFluxes::count(&flow.state.particles.phase[..flow.state.particles.fluids])[0], 40);
     run(&mut flow, 0.15);
-    assert_eq!(Ledger::count(&flow.state.particles.phase[..flow.state.particles.fluids]), [0, 200]);
+    assert_eq!(BoundaryFluxes::count(&flow.state.particles.phase[..flow.state.particles.fluids]), [0, 200]);
     assert_eq!(missing(&flow), [0, 0]);
     let mean = flow.state.particles.velocity[..200].iter().map(|v| v.x).sum::<f64>() / 200.0;
     assert!((mean / 0.01 - 1.0).abs() < 1e-6, "{mean}");
@@ -177,7 +177,7 @@ fn rate_error(flow: &mut Flow, count: usize, dt: f64) -> f64 {
             (flow.state.time, flow.state.given_flows.iter().map(|given| given.passed).collect());
         flow.step(before + dt).unwrap();
         let taken = flow.state.time - before;
-        for ((side, given), passed) in flow.setting.open.through.iter().zip(&mut flow.state.given_flows).zip(passed) {
+        for ((side, given), passed) in flow.config.open.through.iter().zip(&mut flow.state.given_flows).zip(passed) {
             let rate = (given.passed - passed) / taken;
             let error = (rate / side.flow_rate() - 1.0).abs();
             given.largest_error = given.largest_error.max(error);
@@ -278,17 +278,17 @@ fn an_inlet_brings_the_flow_that_is_asked_for_whatever_the_width_of_its_openings
         let mut flow = flow(&text);
         let end = 1.0e-3 * 1.0e-3 / asked;
         run(&mut flow, end);
-        let volume = flow.setting.method.volume;
-        let side = &flow.setting.open.sides[0];
+        let volume = flow.config.method.volume;
+        let side = &flow.config.open.sides[0];
         assert!((side.flow_rate() / asked - 1.0).abs() < 1e-9, "{} of {asked}", side.flow_rate());
         assert!(
-            (flow.state.ledger.passed[0] / (asked * end) - 1.0).abs() < 1e-9,
+            (flow.state.fluxes.passed[0] / (asked * end) - 1.0).abs() < 1e-9,
             "{} in {text}",
-            flow.state.ledger.passed[0]
+            flow.state.fluxes.passed[0]
         );
         // What is counted comes in whole particles of each row.
         let rows: Vec<usize> = side.openings.iter().map(|opening| opening.rows(side.row_spacing)).collect();
-        let came = flow.state.ledger.totals().0[0] as f64 * volume;
+        let came = flow.state.fluxes.totals().0[0] as f64 * volume;
         assert!(
             (came - asked * end).abs() < rows.iter().sum::<usize>() as f64 * volume,
             "{came} of {} in {text}",

@@ -15,7 +15,7 @@ fn measures_of(case: &str, overrides: &[&str]) -> impl Fn(&str) -> f64 + use<> {
     let folder = tempfile::tempdir().unwrap();
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
     let mut arguments = vec!["run", case.to_str().unwrap(), "--out", "out", "--threads", "1", "--set", "expect=[]"];
-    arguments.extend(overrides.iter().flat_map(|setting| ["--set", setting]));
+    arguments.extend(overrides.iter().flat_map(|config| ["--set", config]));
     assert_code(&meniscus(folder.path(), &arguments), 0);
     let report = report(&folder.path().join("out"));
     move |measure| report["measures"][measure]["value"].as_f64().unwrap_or_else(|| panic!("no {measure} in {report:#}"))
@@ -166,7 +166,7 @@ fn each_phase_flows_with_the_other_one_as_a_wall() {
     solver.step(6.0e-4).unwrap();
     // The drop alone, over all four corners; outside of it there is solid.
     assert_eq!((count(&solver, Phase::Wetting), count(&solver, Phase::NonWetting)), (wetting, 0));
-    let wall = &solver.flow.setting.wall;
+    let wall = &solver.flow.config.wall;
     for (x, distance) in [([0.0, 3.5e-4], 5.0e-5), ([3.2e-4, 0.0], 2.0e-5), ([1.5e-4, 0.0], -5.0e-5)] {
         let (found, normal) = wall(Vec2::from(x));
         assert!((found - distance).abs() < 1e-12, "{x:?}: {found}");
@@ -176,7 +176,7 @@ fn each_phase_flows_with_the_other_one_as_a_wall() {
     run_to(&mut solver, 1.0e-3);
     solver.step(1.1e-3).unwrap();
     assert_eq!(count(&solver, Phase::Wetting), 0);
-    let wall = &solver.flow.setting.wall;
+    let wall = &solver.flow.config.wall;
     for (x, distance) in [([0.0, 3.5e-4], -5.0e-5), ([2.0e-4, 3.2e-4], 2.0e-5), ([1.5e-4, 0.0], 5.0e-5)] {
         assert!((wall(Vec2::from(x)).0 - distance).abs() < 1e-12, "{x:?}: {}", wall(Vec2::from(x)).0);
     }

@@ -16,12 +16,12 @@ const PERIODIC: &str =
 
 /// Moves the fluid particles off the lattice: each by a tenth of the spacing in a direction that depends on its place.
 fn shake(flow: &mut Flow) {
-    let spacing = flow.setting.method.spacing;
+    let spacing = flow.config.method.spacing;
     for a in 0..flow.state.particles.fluids {
         let x = flow.state.particles.position[a] / spacing;
         let by = Vec2::new((7.1 * x.x + 3.3 * x.y).sin(), (5.7 * x.y - 2.9 * x.x).cos());
         flow.state.particles.position[a] =
-            flow.setting.domain.wrapped(flow.state.particles.position[a] + 0.1 * spacing * by);
+            flow.config.domain.wrapped(flow.state.particles.position[a] + 0.1 * spacing * by);
     }
     flow.prepare();
 }
@@ -47,7 +47,7 @@ fn the_density_error_shifting_evens_the_density_of_a_fluid_at_rest_and_leaves_it
     let uneven = |flow: &Flow| {
         let errors = flow.fields.bulk.volume[..flow.state.particles.fluids]
             .iter()
-            .map(|v| (flow.setting.method.volume / v - 1.0).powi(2));
+            .map(|v| (flow.config.method.volume / v - 1.0).powi(2));
         errors.sum::<f64>().sqrt()
     };
     let before = uneven(&flow);
@@ -74,7 +74,7 @@ fn a_uniform_flow_of_two_fluids_without_tension_stays_uniform() {
 /// The largest speed after one step of a fluid that started at rest, over that of free fall.
 fn share_of_free_fall(flow: &mut Flow) -> f64 {
     flow.step(1.0).unwrap();
-    fastest(flow) / (flow.setting.method.gravity.norm() * flow.state.time)
+    fastest(flow) / (flow.config.method.gravity.norm() * flow.state.time)
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
         let velocity: Vec<Vec2> =
             (0..flow.state.particles.len()).map(|a| if moves(a) { Vec2::x() } else { Vec2::zeros() }).collect();
         let velocity = flow.neighborhood.images.velocity_field(velocity);
-        let by = vec![Vec2::new(0.0, 0.1 * flow.setting.method.spacing); flow.state.particles.fluids];
+        let by = vec![Vec2::new(0.0, 0.1 * flow.config.method.spacing); flow.state.particles.fluids];
         let change = carried_velocity(
             &flow.neighborhood.pairs,
             &flow.fields.bulk.volume,
@@ -168,9 +168,9 @@ fn a_heavy_particle_that_is_shifted_takes_hardly_any_velocity_from_a_light_fluid
 #[test]
 fn the_anti_clustering_force_parts_a_pair_and_moves_no_crowds() {
     let mut flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
-    let (dx, fluids) = (flow.setting.method.spacing, flow.state.particles.fluids);
+    let (dx, fluids) = (flow.config.method.spacing, flow.state.particles.fluids);
     let push = |flow: &Flow| {
-        let w_of_spacing = flow.setting.method.kernel.w(dx);
+        let w_of_spacing = flow.config.method.kernel.w(dx);
         anti_clustering(&flow.neighborhood.pairs, &flow.fields.bulk.fluid_volume, 0.2, w_of_spacing, fluids)
     };
     let largest = |push: &[Vec2]| push.iter().map(|s| s.norm()).fold(0.0, f64::max);
@@ -237,8 +237,7 @@ fn pushes_part_a_crowded_row_across_the_interface() {
 #[test]
 fn particles_go_down_the_concentration_along_the_interface_only() {
     let flow = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump"));
-    let (fluids, h, normal) =
-        (flow.state.particles.fluids, flow.setting.method.kernel.h, &flow.fields.interface.normal);
+    let (fluids, h, normal) = (flow.state.particles.fluids, flow.config.method.kernel.h, &flow.fields.interface.normal);
     let given = Vec2::new(1.0, -2.0);
     let mut kept = vec![given; fluids];
     keep_along(normal, h, &mut kept);
@@ -308,7 +307,7 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
         )));
         // Three viscous times, density H²/viscosity: the slowest part has decayed by exp(-30), with slip by exp(-24).
         steps(&mut flow, 375, 8e-5);
-        let weight = 1000.0 * flow.setting.method.volume * flow.state.particles.fluids as f64 * GRAVITY;
+        let weight = 1000.0 * flow.config.method.volume * flow.state.particles.fluids as f64 * GRAVITY;
         let all = flow.view().friction(|_, _| true);
         assert!((all.x / weight - 1.0).abs() < 1e-6, "slip {slip} m: {:.6} of the weight", all.x / weight);
         let below = flow.view().friction(|_, x| x.y < 0.0);
@@ -318,7 +317,7 @@ fn the_friction_on_the_plates_of_a_channel_carries_the_force_on_the_fluid() {
 
 #[test]
 fn the_density_error_correction_rests_where_the_fluid_does() {
-    let mut method = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump")).setting.method;
+    let mut method = flow(&drop(1000.0, [0.0, 0.0], "pressure-jump")).config.method;
     // Share of the density error taken back in its time, where the fastest particle goes so many spacings in one that it does not shorten.
     let share = |ways: f64| {
         let speed = ways * method.spacing / method.density_correction_time(0.0);
@@ -380,10 +379,10 @@ fn a_run_resumed_before_at_or_after_the_turn_of_its_force_takes_the_same_steps()
         to(&mut whole, 1.0e-3);
         to(&mut second, 1.0e-3);
         assert_eq!(whole.flow.state.particles, second.flow.state.particles, "resumed at {resumed_at} s");
-        assert_eq!(whole.flow.setting.method.gravity, Vec2::new(0.0, 2.0));
+        assert_eq!(whole.flow.config.method.gravity, Vec2::new(0.0, 2.0));
     }
     let mut solver = solver(TURNING);
-    assert_eq!(solver.flow.setting.method.gravity, Vec2::new(1.0, 0.0));
+    assert_eq!(solver.flow.config.method.gravity, Vec2::new(1.0, 0.0));
     // A step that would pass the turn ends there.
     while solver.time() < 5.0e-4 {
         solver.step(1.0).unwrap();

@@ -119,7 +119,7 @@ fn at_rest_the_drag_on_a_layer_is_what_its_wall_and_its_weight_leave() {
     let wetting = |a: usize| flow.state.particles.phase[a] == Phase::Wetting;
     let wall = -flow.view().friction(|a, _| wetting(a)).x;
     let count = (0..flow.state.particles.fluids).filter(|&a| wetting(a)).count() as f64;
-    let weight = force * flow.setting.method.volume * count;
+    let weight = force * flow.config.method.volume * count;
     // Pairs keep momentum, so what is left is the change that ten decay times have not ended, and the drift of shifted particles.
     assert!((weight + wall + found.friction).abs() < 0.01 * weight, "{weight:.3e} {wall:.3e} {found:?}");
 }

@@ -8,7 +8,7 @@ use meniscus::sph::terms::transposed_stress::TransposedStress;
 use meniscus::sph::terms::viscosity::Viscous;
 use meniscus::sph::terms::{color, curvature, divergence, pressure_gradient, surface_tension};
 use meniscus::sph::wetting::contact_line::{LineFields, LineParticles};
-use meniscus::sph::wetting::lines::Following;
+use meniscus::sph::wetting::lines::ContactLineTracker;
 use meniscus::wetting::{Wetting, Young};
 use nalgebra::Matrix2;
 
@@ -315,7 +315,7 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
         weight: &ones,
     };
     let law = Wetting::Young(Young { contact_angle_deg: contact_angle.to_degrees() });
-    let following = Following {
+    let tracker = ContactLineTracker {
         domain: &cloud.domain,
         model: &|_| law,
         wall_velocity: &|_| Vec2::zeros(),
@@ -328,7 +328,7 @@ fn upright_lines(contact_angle: f64, delta: LineDelta) -> ([Vec2; 2], usize) {
     };
     let neighborhood = Neighborhood { pairs: cloud.pairs.clone(), images: cloud.images.clone() };
     let found = LineParticles::find(&neighborhood, &fields, &cloud.kernel, n);
-    let lines = following.follow(&[], &found.detected_lines(&fields, &cloud.domain), 0.0);
+    let lines = tracker.follow(&[], &found.detected_lines(&fields, &cloud.domain), 0.0);
     let angles: Vec<f64> = lines.iter().map(|line| line.angle).collect();
     let force = found.line_force(&fields, delta, &angles, 0.03);
     let half = |right: bool| {

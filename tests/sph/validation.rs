@@ -11,7 +11,7 @@ fn measures(name: &str, overrides: &[String]) -> impl Fn(&str) -> f64 + use<> {
     let folder = tempfile::tempdir().unwrap();
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
     let mut arguments = vec!["run", case.to_str().unwrap(), "--out", "out", "--threads", "1"];
-    arguments.extend(overrides.iter().flat_map(|setting| ["--set", setting]));
+    arguments.extend(overrides.iter().flat_map(|config| ["--set", config]));
     run(folder.path(), &arguments)
 }
 

@@ -23,8 +23,8 @@ fn stirred(form: &str, sides: &str) -> Flow {
          [sph.interface]\ntension = 0.0\n[[sph.initial.wetting]]\ndisc = {{ center = [0.0, 0.0], radius = 3.0e-4 }}\n\
          [sph.numerics]\nviscous-term = \"{form}\"\ndensity-error-shifting = 0.0\nshifting = 0.0\n{sides}"
     )));
-    flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
-    flow.setting.viscous_time = f64::INFINITY;
+    flow.config.method.numerics.viscous_step = ViscousStep::Implicit;
+    flow.config.viscous_time = f64::INFINITY;
     let mut dice = Dice::new(1);
     for a in 0..flow.state.particles.fluids {
         flow.state.particles.velocity[a] = 1.0e-3 * dice.vector();
@@ -35,10 +35,10 @@ fn stirred(form: &str, sides: &str) -> Flow {
 /// Twice the kinetic energy of the fluid in J/m.
 fn energy(flow: &Flow) -> f64 {
     let of = |a: usize| {
-        flow.setting.method.fluid(flow.state.particles.phase[a]).density
+        flow.config.method.fluid(flow.state.particles.phase[a]).density
             * flow.state.particles.velocity[a].norm_squared()
     };
-    (0..flow.state.particles.fluids).map(of).sum::<f64>() * flow.setting.method.volume
+    (0..flow.state.particles.fluids).map(of).sum::<f64>() * flow.config.method.volume
 }
 
 /// The explicit limit of the step in s.
@@ -61,8 +61,8 @@ fn a_channel_starts_as_with_the_explicit_form() {
     for form in FORMS {
         let after = |step: ViscousStep, count: usize| {
             let mut flow = flow(&text(form));
-            flow.setting.method.numerics.viscous_step = step;
-            flow.setting.viscous_time = f64::INFINITY;
+            flow.config.method.numerics.viscous_step = step;
+            flow.config.viscous_time = f64::INFINITY;
             steps(&mut flow, count, 5.0e-3 / count as f64);
             flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.x).sum::<f64>()
         };
@@ -77,8 +77,8 @@ fn a_channel_starts_as_with_the_explicit_form() {
 fn a_shear_wave_decays_by_the_factor_of_the_method() {
     let shear = |step: ViscousStep, dt: f64| {
         let mut flow = flow(&case(&format!("[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n{PERIODIC}")));
-        flow.setting.method.numerics.viscous_step = step;
-        flow.setting.viscous_time = f64::INFINITY;
+        flow.config.method.numerics.viscous_step = step;
+        flow.config.viscous_time = f64::INFINITY;
         let wave = |x: Vec2| (std::f64::consts::TAU * x.y / 1.0e-3).cos();
         for a in 0..flow.state.particles.fluids {
             flow.state.particles.velocity[a] = Vec2::new(1.0e-4 * wave(flow.state.particles.position[a]), 0.0);
@@ -127,13 +127,13 @@ fn viscosity_at_the_end_of_the_step_keeps_momentum() {
     let mut flow = stirred("morris", PERIODIC);
     let momentum = |flow: &Flow| -> Vec2 {
         let of = |a: usize| {
-            flow.setting.method.fluid(flow.state.particles.phase[a]).density * flow.state.particles.velocity[a]
+            flow.config.method.fluid(flow.state.particles.phase[a]).density * flow.state.particles.velocity[a]
         };
         (0..flow.state.particles.fluids).map(of).sum()
     };
     let size: f64 = (0..flow.state.particles.fluids)
         .map(|a| {
-            flow.setting.method.fluid(flow.state.particles.phase[a]).density * flow.state.particles.velocity[a].norm()
+            flow.config.method.fluid(flow.state.particles.phase[a]).density * flow.state.particles.velocity[a].norm()
         })
         .sum();
     let (before, dt) = (momentum(&flow), 30.0 * explicit_limit(&flow));
@@ -149,8 +149,8 @@ fn a_steady_flow_does_not_hang_on_the_step() {
             "gravity = [0.01, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.1\n\
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\n",
         ));
-        flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
-        flow.setting.viscous_time = f64::INFINITY;
+        flow.config.method.numerics.viscous_step = ViscousStep::Implicit;
+        flow.config.viscous_time = f64::INFINITY;
         // Three viscous times density H²/viscosity.
         steps(&mut flow, (0.03 / dt).round() as usize, dt);
         fastest(&flow)
@@ -168,8 +168,8 @@ fn pairs_on_the_edge_of_the_support_do_not_stop_the_viscous_step() {
              [sph]\nspacing = {spacing}\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 100.0\n\
              [sph.sides]\nspeed = {{ top = 1.0 }}\n[sph.numerics]\nviscous-term = \"szewc\"\n"
         ));
-        flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
-        flow.setting.viscous_time = f64::INFINITY;
+        flow.config.method.numerics.viscous_step = ViscousStep::Implicit;
+        flow.config.viscous_time = f64::INFINITY;
         steps(&mut flow, 2, 1.0e-4);
     }
 }
@@ -183,8 +183,8 @@ fn a_flow_around_a_cylinder_hardly_hangs_on_the_step() {
              [sph]\nspacing = 4.0e-5\ngravity = [0.01, 0.0]\n[sph.phases.wetting]\ndensity = 1000.0\nviscosity = 0.01\n\
              [sph.sides]\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n",
         );
-        flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
-        flow.setting.viscous_time = f64::INFINITY;
+        flow.config.method.numerics.viscous_step = ViscousStep::Implicit;
+        flow.config.viscous_time = f64::INFINITY;
         // Six times of its slowest mode.
         steps(&mut flow, (0.024 / dt).round() as usize, dt);
         flow.state.particles.velocity[..flow.state.particles.fluids].iter().map(|v| v.x).sum::<f64>()
@@ -204,11 +204,11 @@ fn no_particle_goes_farther_in_a_step_than_its_limit_allows() {
     let slower = drop.replace("2.0\n", "1.0\n");
     for (name, text, limit) in [("drop", drop, 0.3), ("drop, no factor", &slower, 0.25), ("lid", lid, 0.125)] {
         let mut flow = flow(&case(text));
-        flow.setting.method.numerics.viscous_step = ViscousStep::Implicit;
-        flow.setting.viscous_time = f64::INFINITY;
+        flow.config.method.numerics.viscous_step = ViscousStep::Implicit;
+        flow.config.viscous_time = f64::INFINITY;
         for _ in 0..20 {
             flow.step(1.0).unwrap();
-            let way = flow.state.particles.fluid_speed() * flow.state.last_dt / flow.setting.method.kernel.h;
+            let way = flow.state.particles.fluid_speed() * flow.state.last_dt / flow.config.method.kernel.h;
             // What shifted particles take along of the velocity around them comes on top.
             assert!(way < 1.1 * 1.5 * limit, "{name}: {way} h in step {}", flow.state.steps);
         }

@@ -31,7 +31,7 @@ fn liquid_on_a_wall(
 
 /// The particle of `flow` nearest to `x`, which must be nearer than `reach` (m).
 fn nearest(flow: &Flow, x: Vec2, reach: f64) -> usize {
-    let distance = |a: &usize| flow.setting.domain.separation(flow.state.particles.position[*a], x).norm();
+    let distance = |a: &usize| flow.config.domain.separation(flow.state.particles.position[*a], x).norm();
     let found = (0..flow.state.particles.fluids).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
     assert!(distance(&found) < reach, "no particle at {x:?}: the nearest is {:.1e} m away", distance(&found));
     found
@@ -65,7 +65,7 @@ fn compare_with_turned(form: &str) {
     let speed = fastest(&upright);
     let pressures = upright.state.particles.pressure.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
     for a in 0..upright.state.particles.fluids {
-        let b = nearest(&turned, turn(upright.state.particles.position[a]), 1e-6 * upright.setting.method.spacing);
+        let b = nearest(&turned, turn(upright.state.particles.position[a]), 1e-6 * upright.config.method.spacing);
         assert_eq!(upright.state.particles.phase[a], turned.state.particles.phase[b]);
         let change = (turned.state.particles.velocity[b] - turn(upright.state.particles.velocity[a])).norm();
         assert!(change < 1e-8 * speed, "{change:.1e} of {speed:.1e} m/s at {:?}", upright.state.particles.position[a]);
@@ -143,7 +143,7 @@ fn liquid_in_a_corner_stays_symmetric_about_the_diagonal() {
 fn stays_symmetric(mut flow: Flow) {
     let on_diagonal = |flow: &Flow, a: usize| {
         let x = flow.state.particles.position[a];
-        (x.x - x.y).abs() < 1e-6 * flow.setting.method.spacing
+        (x.x - x.y).abs() < 1e-6 * flow.config.method.spacing
     };
     let fields = &flow.fields;
     let between_walls = |a: &usize| on_diagonal(&flow, *a) && fields.interface.normal[*a] != Vec2::zeros();
@@ -158,7 +158,7 @@ fn stays_symmetric(mut flow: Flow) {
         let line_forces: Vec<f64> = line_force.iter().map(|f| f.norm()).collect();
         let (force, speed) = (line_forces.iter().fold(0.0_f64, |m, f| m.max(*f)), fastest(&flow));
         for a in 0..flow.state.particles.fluids {
-            let b = nearest(&flow, mirrored(flow.state.particles.position[a]), 1e-6 * flow.setting.method.spacing);
+            let b = nearest(&flow, mirrored(flow.state.particles.position[a]), 1e-6 * flow.config.method.spacing);
             let change = (line_force[b] - mirrored(line_force[a])).norm();
             assert!(change <= 1e-8 * force, "line force: {change:.1e} of {force:.1e} N/m3");
             let change = (flow.state.particles.velocity[b] - mirrored(flow.state.particles.velocity[a])).norm();
@@ -182,10 +182,10 @@ fn fluid_that_falls_into_a_corner_stays_out_of_both_walls() {
     for _ in 0..40 {
         flow.step(1.0).unwrap();
         let nearest =
-            flow.state.particles.position[..flow.state.particles.fluids].iter().map(|&x| (flow.setting.wall)(x).0);
+            flow.state.particles.position[..flow.state.particles.fluids].iter().map(|&x| (flow.config.wall)(x).0);
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         // Four passes in a right corner leave a few percent of the distance that is kept.
-        assert!(nearest > 0.045 * flow.setting.method.spacing, "{nearest:.2e} m at step {}", flow.state.steps);
+        assert!(nearest > 0.045 * flow.config.method.spacing, "{nearest:.2e} m at step {}", flow.state.steps);
     }
 }
 
@@ -246,7 +246,7 @@ fn walls_slip_by_a_spacing_near_contact_lines_and_not_elsewhere() {
     let place = ([0.0, -5.0e-4], [5.0e-4, 7.0e-4]);
     let flow =
         flow(&liquid_on_a_wall(place, [0.0, 0.0], 60.0, WALLS_BELOW_AND_ABOVE, ("non-wetting", "pressure-jump")));
-    let (fields, spacing) = (&flow.fields, flow.setting.method.spacing);
+    let (fields, spacing) = (&flow.fields, flow.config.method.spacing);
     assert_eq!(flow.lines.len(), 2, "{:?}", flow.lines);
     let at_walls = (0..flow.state.particles.fluids).filter(|a| fields.bulk.wall_distance[*a].is_finite());
     for a in at_walls {
@@ -254,7 +254,7 @@ fn walls_slip_by_a_spacing_near_contact_lines_and_not_elsewhere() {
         let nearest = flow
             .lines
             .iter()
-            .map(|line| flow.setting.domain.separation(x, line.position).norm())
+            .map(|line| flow.config.domain.separation(x, line.position).norm())
             .fold(f64::MAX, f64::min);
         let b = fields.interface.slip_length[a];
         assert!(nearest > 3.0 * spacing || (b - spacing).abs() < 1e-12 * spacing, "at {x:?}: {b:.1e} m");

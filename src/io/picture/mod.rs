@@ -2,13 +2,13 @@
 
 mod canvas;
 mod film;
-mod mosaic;
 mod particles;
+mod region_map;
 mod style;
 mod view;
 
 pub(crate) use canvas::PictureError;
-pub(crate) use mosaic::mosaic_picture;
+pub(crate) use region_map::region_map_picture;
 pub(crate) use style::{PORE, length_text, round_length};
 
 use self::film::{film_picture, is_film};

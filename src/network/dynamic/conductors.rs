@@ -65,7 +65,7 @@ impl Dynamic {
             .collect();
         let inlet = matches!(self.terms.drive, Drive::Rate(_)).then_some(nodes);
         nodes += usize::from(inlet.is_some());
-        let mut bodies = self.bodies(&mut nodes);
+        let mut filling_pores = self.filling_pores(&mut nodes);
         let mut link_of = vec![None; self.gates.len()];
         let (mut links, mut edges): (Vec<Link>, Vec<Edge>) = (Vec::new(), Vec::new());
         for (index, gate) in self.gates.iter().enumerate() {
@@ -78,9 +78,9 @@ impl Dynamic {
                 let mut halves = [halves[1 - end], halves[end]];
                 let has_burst = menisci[end].is_some_and(|meniscus| meniscus.has_burst);
                 let mut end_node = node_of[to];
-                if let Some(body) = bodies.get_mut(&to).filter(|_| has_burst) {
-                    end_node = body.node;
-                    body.join(&mut halves);
+                if let Some(filling_pore) = filling_pores.get_mut(&to).filter(|_| has_burst) {
+                    end_node = filling_pore.node;
+                    filling_pore.join(&mut halves);
                 }
                 links.push(Link { way: Way::Meniscus((index, end)), elements: [from, to], halves });
                 let is_good = has_burst && self.on_its_way((index, end)).is_none();
@@ -100,23 +100,27 @@ impl Dynamic {
             // Into a body the flow is against the link.
             let mut halves = [0.0, self.opening_resistances[opening]];
             let mut node = node_of[element];
-            if let Some(body) = bodies.get_mut(&element).filter(|_| way == Way::Inlet) {
-                node = body.node;
-                body.join(&mut halves);
+            if let Some(filling_pore) = filling_pores.get_mut(&element).filter(|_| way == Way::Inlet) {
+                node = filling_pore.node;
+                filling_pore.join(&mut halves);
             }
             let to = if way == Way::Inlet { inlet } else { None };
             links.push(Link { way, elements: [element; 2], halves: [halves[1], halves[0]] });
             edges.push(Edge { ends: (node, to), is_good: to.is_some() });
         }
-        for (&element, body) in &bodies {
-            links.push(Link { way: Way::Body(element), elements: [element; 2], halves: [0.0, body.resistance()] });
-            edges.push(Edge { ends: (body.node, Some(node_of[element])), is_good: false });
+        for (&element, filling_pore) in &filling_pores {
+            links.push(Link {
+                way: Way::FillingPore(element),
+                elements: [element; 2],
+                halves: [0.0, filling_pore.resistance()],
+            });
+            edges.push(Edge { ends: (filling_pore.node, Some(node_of[element])), is_good: false });
         }
         Ok(Graph { laplacian: Laplacian::new(nodes, edges)?, links, nodes, inlet, link_of })
     }
 
     /// The bodies of invading phase in elements that are being filled, with nodes of their own.
-    fn bodies(&self, nodes: &mut usize) -> BTreeMap<usize, BodyNode> {
+    fn filling_pores(&self, nodes: &mut usize) -> BTreeMap<usize, BodyNode> {
         // Elements between two menisci that have met around a grain are filled once those ahead of them let the phase in.
         let enters = |&(gate, end): &FrontId| self.state.menisci[gate][end].is_some_and(|meniscus| meniscus.has_burst);
         let is_entered = |&e: &usize| {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::goals::{Areas, Goal, REACHED};
-use super::rise::Rise;
+use super::capillary_curve::CapillaryCurve;
+use super::event_functions::{Areas, EventFunction, REACHED};
 use super::{Dynamic, Filling, Meniscus, Occurrence};
 use crate::network::cycles::Invasion;
 use crate::network::displacement::{Advance, EventKind, FrontId, Phase};
@@ -11,7 +11,7 @@ use crate::network::displacement::{Advance, EventKind, FrontId, Phase};
 /// A meniscus that will wait ahead of an element.
 pub(super) struct ToCome<'a> {
     pub(crate) front: FrontId,
-    pub(crate) rise: &'a Rise,
+    pub(crate) curve: &'a CapillaryCurve,
     /// Area in m² that is free ahead of it.
     free: f64,
 }
@@ -19,14 +19,14 @@ pub(super) struct ToCome<'a> {
 impl ToCome<'_> {
     /// Swept area in m² at a curvature in 1/m.
     pub(crate) fn area(&self, curvature: f64) -> f64 {
-        self.rise.area(curvature.min(self.rise.end().1)).min(self.free)
+        self.curve.area(curvature.min(self.curve.end().1)).min(self.free)
     }
 }
 
 /// A meniscus that begins to wait where an element is full.
 struct Begun {
     front: FrontId,
-    rise: Rise,
+    curve: CapillaryCurve,
     /// Largest curvature in 1/m that the full element gives it: of one whose element is cut off, that of the body that filled it.
     most: f64,
 }
@@ -34,7 +34,7 @@ struct Begun {
 impl Begun {
     /// Swept area in m² at a curvature in 1/m.
     fn area(&self, curvature: f64) -> f64 {
-        self.rise.area(curvature.min(self.most))
+        self.curve.area(curvature.min(self.most))
     }
 }
 
@@ -67,21 +67,21 @@ impl Dynamic {
     pub(super) fn to_come(&self, element: usize) -> Vec<ToCome<'_>> {
         let ahead = self.ahead[element].iter().filter(|(front, _)| !self.is_invaded(self.ahead_of(*front)));
         ahead
-            .map(|(front, rise)| {
+            .map(|(front, curve)| {
                 let into = self.ahead_of(*front);
                 let held = self.state.filling[into].as_ref().map_or(0.0, |filling| filling.area)
                     + self.entering(into).map(|(_, meniscus)| meniscus.area.max(0.0)).sum::<f64>()
                     + self.passed_in_outlet(into);
                 let free = (self.displacement.elements()[into].area - held).max(0.0);
-                ToCome { front: *front, rise, free }
+                ToCome { front: *front, curve, free }
             })
             .collect()
     }
 
     /// What neighbors that are being filled hold beyond their own areas stands in menisci that are to come: those that will enter an element,
     /// with their areas in m².
-    pub(super) fn bulges(&self, into: usize) -> Vec<(FrontId, f64)> {
-        let bulge = |&front: &FrontId| {
+    pub(super) fn overhangs(&self, into: usize) -> Vec<(FrontId, f64)> {
+        let overhang = |&front: &FrontId| {
             let neighbor = self.behind(front);
             let filling = self.state.filling[neighbor].as_ref()?;
             let beyond = self.filled_area(neighbor, filling) - self.displacement.elements()[neighbor].area;
@@ -93,7 +93,7 @@ impl Dynamic {
             let area = to_come.iter().find(|it| it.front == front)?.area(filling.curvature);
             (all > 0.0).then(|| (front, beyond.min(all) * area / all))
         };
-        self.displacement.gates_of(into).iter().filter_map(bulge).collect()
+        self.displacement.gates_of(into).iter().filter_map(overhang).collect()
     }
 
     /// The element that a meniscus enters.
@@ -107,28 +107,30 @@ impl Dynamic {
     }
 
     /// Does all events that are due, one after the other; whether there was one.
-    pub(super) fn fire(&mut self) -> bool {
-        let mut has_fired = false;
+    pub(super) fn process_events(&mut self) -> bool {
+        let mut has_event = false;
         loop {
-            let goals = self.goals();
-            let now = Areas { front: |front| self.area_now(front), body: |_| 0.0 };
+            let event_functions = self.event_functions();
+            let now = Areas { front: |front| self.area_now(front), filling_pore: |_| 0.0 };
             // What is full comes first, then the event of the lowest curvature.
-            let curvature = |goal: &Goal| match goal {
-                Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.advances[*advance].curvature,
+            let curvature = |function: &EventFunction| match function {
+                EventFunction::Own(advance, _) | EventFunction::Meeting(advance, _) => {
+                    self.advances[*advance].curvature
+                }
                 _ => f64::NEG_INFINITY,
             };
-            let due = goals.iter().filter(|goal| self.gap(&[], goal, &now) <= REACHED);
+            let due = event_functions.iter().filter(|function| self.value_of(&[], function, &now) <= REACHED);
             let Some(first) = due.min_by(|a, b| curvature(a).total_cmp(&curvature(b))).cloned() else {
-                return has_fired;
+                return has_event;
             };
-            has_fired = true;
+            has_event = true;
             match first {
-                Goal::Own(advance, _) | Goal::Meeting(advance, _) => self.pass(advance),
-                Goal::Covered { element, .. } => self.cover(element),
-                Goal::Full { element, .. } => self.complete(element),
-                Goal::Leaves(front) => self.leave(front),
+                EventFunction::Own(advance, _) | EventFunction::Meeting(advance, _) => self.pass(advance),
+                EventFunction::Covered { element, .. } => self.cover(element),
+                EventFunction::Full { element, .. } => self.complete(element),
+                EventFunction::Leaves(front) => self.leave(front),
                 // These end a step and are events of what waits then.
-                Goal::Beyond(_) | Goal::ToMeet(..) => return has_fired,
+                EventFunction::Beyond(_) | EventFunction::ToMeet(..) => return has_event,
             }
         }
     }
@@ -152,11 +154,11 @@ impl Dynamic {
         let waiting: Vec<(FrontId, f64)> = self
             .entering(element)
             .filter_map(|(front, meniscus)| {
-                Some((front, self.rises[front.0][front.1].as_ref()?.curvature(meniscus.area)))
+                Some((front, self.curves[front.0][front.1].as_ref()?.curvature(meniscus.area)))
             })
             .collect();
         let to_come = self
-            .bulges(element)
+            .overhangs(element)
             .into_iter()
             .filter_map(|(front, _)| Some((front, self.state.filling[self.behind(front)].as_ref()?.curvature)));
         let all = waiting.iter().copied().chain(to_come);
@@ -192,13 +194,13 @@ impl Dynamic {
     }
 
     /// The menisci that may wait in the gates of an element once it is full.
-    pub(super) fn menisci_ahead(&self, element: usize) -> Vec<(FrontId, Rise)> {
+    pub(super) fn menisci_ahead(&self, element: usize) -> Vec<(FrontId, CapillaryCurve)> {
         let gates = self.displacement.gates_of(element).iter().map(|&(gate, end)| (gate, 1 - end));
         let ahead = gates.filter(|&front| self.ahead_of(front) != element && !self.is_invaded(self.ahead_of(front)));
         ahead
             .filter_map(|front| {
                 let (passage, own) = self.displacement.front_to_come(front);
-                Some((front, self.rise(front, &passage, own)?))
+                Some((front, self.curve(front, &passage, own)?))
             })
             .collect()
     }
@@ -231,7 +233,7 @@ impl Dynamic {
 
     /// An element is full: menisci wait in its gates, with the same area of the invading phase as before.
     fn complete(&mut self, element: usize) {
-        for (front, area) in self.bulges(element) {
+        for (front, area) in self.overhangs(element) {
             for (holder, change) in [(self.behind(front), -area), (element, area)] {
                 if let Some(filling) = &mut self.state.filling[holder] {
                     filling.area += change;
@@ -242,31 +244,31 @@ impl Dynamic {
         let mut left = self.filled_area(element, &filling) - self.displacement.elements()[element].area;
         for &(gate, end) in self.displacement.gates_of(element) {
             self.state.menisci[gate][end] = None;
-            self.rises[gate][end] = None;
+            self.curves[gate][end] = None;
         }
         self.finish(element);
         let cut_off = self.trapped();
         let new: Vec<Begun> = std::mem::take(&mut self.ahead[element])
             .into_iter()
             .filter(|(front, _)| self.displacement.front(*front).is_some())
-            .map(|(front, rise)| {
+            .map(|(front, curve)| {
                 let is_cut_off = cut_off[self.ahead_of(front)];
-                Begun { front, rise, most: if is_cut_off { filling.curvature } else { f64::INFINITY } }
+                Begun { front, curve, most: if is_cut_off { filling.curvature } else { f64::INFINITY } }
             })
             .collect();
         // What they hold too much goes to the one that passes its event first, among those whose element has a way to the outlet.
         let going_on = new.iter().filter(|begun| begun.most == f64::INFINITY);
-        let first = going_on.map(|it| (it.rise.end().1, it.front)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let first = going_on.map(|it| (it.curve.end().1, it.front)).min_by(|a, b| a.0.total_cmp(&b.0));
         let curvature = common_curvature(&new, left, first.map_or(filling.curvature, |(curvature, _)| curvature));
         left -= new.iter().map(|begun| begun.area(curvature)).sum::<f64>();
         for begun in new {
             let mut area = begun.area(curvature);
-            let Begun { front, rise, .. } = begun;
+            let Begun { front, curve, .. } = begun;
             if first.is_some_and(|(_, first)| first == front) {
                 area += std::mem::take(&mut left);
             }
             self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false, has_left: false });
-            self.rises[front.0][front.1] = Some(Arc::new(rise));
+            self.curves[front.0][front.1] = Some(Arc::new(curve));
             if self.state.filling[self.ahead_of(front)].as_ref().is_some_and(|filling| filling.is_joined) {
                 self.burst(front);
             }
@@ -295,7 +297,7 @@ fn common_curvature(menisci: &[Begun], area: f64, most: f64) -> f64 {
     if menisci.is_empty() || held(high) <= area {
         return high;
     }
-    let mut low = menisci.iter().map(|begun| begun.rise.start().1).fold(high, f64::min);
+    let mut low = menisci.iter().map(|begun| begun.curve.start().1).fold(high, f64::min);
     let mut reach = (high - low).max(high.abs()).max(f64::MIN_POSITIVE);
     while held(low) > area && reach.is_finite() {
         low -= reach;

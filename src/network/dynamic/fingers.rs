@@ -2,7 +2,7 @@
 
 use super::Dynamic;
 use crate::math::Vec2;
-use crate::network::model::Setting;
+use crate::network::model::Configuration;
 
 /// Lines across the flow on which fingers are counted.
 const CUTS: usize = 64;
@@ -18,9 +18,9 @@ pub(crate) struct Fingers {
 
 impl Dynamic {
     /// Fingers on lines across the direction from inlet to outlet. A finger ends where the defending phase stands; solids in it count.
-    pub(crate) fn fingers(&self, setting: &Setting) -> Fingers {
-        let axis = setting.inlet.map_or(0, |inlet| inlet / 2);
-        let (low, size) = (setting.bounds.min[axis], setting.bounds.size()[axis]);
+    pub(crate) fn fingers(&self, config: &Configuration) -> Fingers {
+        let axis = config.inlet.map_or(0, |inlet| inlet / 2);
+        let (low, size) = (config.bounds.min[axis], config.bounds.size()[axis]);
         let (mut widths, mut fingers, mut lines) = (0.0, 0, 0);
         let outlines: Vec<(&[Vec2], bool, [f64; 2])> = (0..self.displacement.elements().len())
             .map(|element| {

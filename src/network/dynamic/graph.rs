@@ -11,7 +11,7 @@ pub(super) enum Way {
     /// A gate with a meniscus.
     Meniscus(FrontId),
     /// From the body of invading phase in an element that is being filled to the defending phase in it.
-    Body(usize),
+    FillingPore(usize),
     /// An opening of the inlet.
     Inlet,
     /// An opening of the outlet.

@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use super::goals::{Body, Goal};
+use super::capillary_curve::CapillaryCurve;
+use super::event_functions::{EventFunction, FillingPore};
 use super::graph::{Graph, Link, Way};
-use super::rise::Rise;
 use super::{Drive, Dynamic};
 use crate::network::displacement::FrontId;
 
 /// What stays as it is while the length of a step is sought.
 pub(super) struct Known {
-    pub(crate) goals: Vec<Goal>,
+    pub(crate) event_functions: Vec<EventFunction>,
     /// Whether an element may be full first.
     pub(crate) fills: bool,
-    pub(crate) bodies: Vec<Body>,
+    pub(crate) filling_pores: Vec<FillingPore>,
     /// What resists by its curvature.
-    pub(crate) laws: Vec<Law>,
+    pub(crate) laws: Vec<CapillaryLaw>,
     /// By link: its law.
     pub(crate) law_of: Vec<Option<usize>>,
     /// By body: its law.
@@ -27,9 +27,9 @@ pub(super) struct Known {
 }
 
 /// A link that resists by a curvature: a meniscus that waits, or the body in an element.
-pub(super) struct Law {
+pub(super) struct CapillaryLaw {
     pub(crate) link: usize,
-    pub(crate) rise: Arc<Rise>,
+    pub(crate) curve: Arc<CapillaryCurve>,
     /// Area in m² before the step.
     pub(crate) area: f64,
     /// Area in m² to begin with.
@@ -59,13 +59,13 @@ impl Dynamic {
     pub(super) fn known(&self, graph: &Graph) -> Known {
         let drops: Vec<(f64, f64)> = graph.links.iter().map(|link| self.drop_without_rise(link)).collect();
         let open = self.open_fillings();
-        let bodies = self.bodies_with_links(graph, &drops, &open);
-        let mut laws: Vec<Law> =
-            graph.links.iter().enumerate().filter_map(|(index, link)| self.law(&bodies, index, link)).collect();
+        let filling_pores = self.bodies_with_links(graph, &drops, &open);
+        let mut laws: Vec<CapillaryLaw> =
+            graph.links.iter().enumerate().filter_map(|(index, link)| self.law(&filling_pores, index, link)).collect();
         let mut law_of = vec![None; graph.links.len()];
         laws.iter().enumerate().for_each(|(index, law)| law_of[law.link] = Some(index));
         for law in &mut laws {
-            if let Way::Body(element) = graph.links[law.link].way {
+            if let Way::FillingPore(element) = graph.links[law.link].way {
                 let fronts = self.entering(element).filter_map(|((gate, _), _)| graph.link_of[gate]);
                 law.entering = fronts.filter_map(|link| law_of[link]).collect();
             }
@@ -74,63 +74,77 @@ impl Dynamic {
         if let (Some(inlet), Drive::Rate(rate)) = (graph.inlet, self.terms.drive) {
             sources[inlet] = rate;
         }
-        let fills = bodies.iter().any(|body| !body.passes && open.contains(&body.element));
+        let fills =
+            filling_pores.iter().any(|filling_pore| !filling_pore.passes && open.contains(&filling_pore.element));
         let law_of_body = (0..laws.len()).filter(|&law| laws[law].full.is_some()).collect();
-        Known { goals: self.ends_of_step(&bodies), fills, bodies, laws, law_of, law_of_body, drops, sources }
+        Known {
+            event_functions: self.ends_of_step(&filling_pores),
+            fills,
+            filling_pores,
+            laws,
+            law_of,
+            law_of_body,
+            drops,
+            sources,
+        }
     }
 
     /// The bodies that menisci flow into, in the order of their links. A step may go on beyond a full element where that one alone is being filled, and quickly.
-    fn bodies_with_links(&self, graph: &Graph, drops: &[(f64, f64)], open: &[usize]) -> Vec<Body> {
+    fn bodies_with_links(&self, graph: &Graph, drops: &[(f64, f64)], open: &[usize]) -> Vec<FillingPore> {
         let only = open.first().copied().filter(|&e| open.len() == 1 && self.entering(e).next().is_none());
         let with_link = |(link, &(resistance, _)): (&Link, &(f64, f64))| {
-            let Way::Body(element) = link.way else { return None };
-            let body = self.body(element, self.state.filling[element].as_ref()?);
-            let rate = self.filling_rate(graph, &body, resistance);
-            let is_quick = rate * self.state.last_steps[0] * QUICK > body.full - body.area;
+            let Way::FillingPore(element) = link.way else { return None };
+            let filling_pore = self.filling_pore(element, self.state.filling[element].as_ref()?);
+            let rate = self.filling_rate(graph, &filling_pore, resistance);
+            let is_quick = rate * self.state.last_steps[0] * QUICK > filling_pore.full - filling_pore.area;
             let passes = is_quick && only == Some(element);
             let constant = || {
                 Arc::new(
-                    Rise::constant(body.rise.curvature(body.area))
+                    CapillaryCurve::constant(filling_pore.curve.curvature(filling_pore.area))
                         .between(|curvature| self.terms.with_depth(curvature)),
                 )
             };
-            Some(Body { passes, rise: if passes { Arc::clone(&body.rise) } else { constant() }, ..body })
+            Some(FillingPore {
+                passes,
+                curve: if passes { Arc::clone(&filling_pore.curve) } else { constant() },
+                ..filling_pore
+            })
         };
         graph.links.iter().zip(drops).filter_map(with_link).collect()
     }
 
     /// The law of a link that resists by a curvature.
-    fn law(&self, bodies: &[Body], index: usize, link: &Link) -> Option<Law> {
+    fn law(&self, filling_pores: &[FillingPore], index: usize, link: &Link) -> Option<CapillaryLaw> {
         match link.way {
             Way::Meniscus((gate, end)) => {
-                let (meniscus, rise) = match self.on_its_way((gate, end)) {
-                    Some((meniscus, reach)) => (meniscus, Arc::clone(&reach.rise)),
+                let (meniscus, curve) = match self.on_its_way((gate, end)) {
+                    Some((meniscus, reach)) => (meniscus, Arc::clone(&reach.curve)),
                     None => {
                         let waiting = self.state.menisci[gate][end].filter(|meniscus| !meniscus.has_burst)?;
-                        (waiting, Arc::clone(self.rises[gate][end].as_ref()?))
+                        (waiting, Arc::clone(self.curves[gate][end].as_ref()?))
                     }
                 };
-                Some(Law {
+                Some(CapillaryLaw {
                     link: index,
                     area: meniscus.area,
                     start: meniscus.area,
-                    scale: (rise.end().1 - rise.start().1).max(1.0 / self.gates[gate].width),
-                    rise,
+                    scale: (curve.end().1 - curve.start().1).max(1.0 / self.gates[gate].width),
+                    curve,
                     full: None,
                     passes: false,
                     entering: Vec::new(),
                 })
             }
-            Way::Body(element) => {
-                let body = bodies.iter().find(|body| body.element == element)?;
-                Some(Law {
+            Way::FillingPore(element) => {
+                let filling_pore = filling_pores.iter().find(|filling_pore| filling_pore.element == element)?;
+                Some(CapillaryLaw {
                     link: index,
-                    rise: Arc::clone(&body.rise),
-                    area: body.area,
-                    start: if body.passes { body.beyond() } else { body.area },
+                    curve: Arc::clone(&filling_pore.curve),
+                    area: filling_pore.area,
+                    start: if filling_pore.passes { filling_pore.beyond() } else { filling_pore.area },
                     scale: 1.0 / self.displacement.elements()[element].area.sqrt(),
-                    full: Some(body.full),
-                    passes: body.passes,
+                    full: Some(filling_pore.full),
+                    passes: filling_pore.passes,
                     entering: Vec::new(),
                 })
             }
@@ -139,14 +153,14 @@ impl Dynamic {
     }
 
     /// Area per time in m²/s at which menisci that have burst into an element would fill it by their curvature at the event.
-    fn filling_rate(&self, graph: &Graph, body: &Body, resistance: f64) -> f64 {
-        let now = body.rise.curvature(body.area);
+    fn filling_rate(&self, graph: &Graph, filling_pore: &FillingPore, resistance: f64) -> f64 {
+        let now = filling_pore.curve.curvature(filling_pore.area);
         let rate = |&(gate, end): &FrontId| {
             self.state.menisci[gate][end].filter(|meniscus| meniscus.has_burst)?;
             let own = self.drop_without_rise(&graph.links[graph.link_of[gate]?]).0;
-            let event = self.rises[gate][end].as_ref()?.end().1;
+            let event = self.curves[gate][end].as_ref()?.end().1;
             Some(self.terms.tension * (event - now).max(0.0) / (own + resistance))
         };
-        self.displacement.gates_of(body.element).iter().filter_map(rate).sum()
+        self.displacement.gates_of(filling_pore.element).iter().filter_map(rate).sum()
     }
 }

@@ -10,7 +10,7 @@ use crate::table::Table;
 
 /// All measures.
 pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
-    let mut found = of_network_with_flow(&model.still);
+    let mut found = of_network_with_flow(&model.quasi_static);
     let dynamic = &model.dynamic;
     let terms = dynamic.terms();
     let breakthrough = dynamic.breakthrough();
@@ -32,7 +32,7 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
         .filter(|(_, (trapped, _))| *trapped)
         .map(|(index, (_, element))| element.area * (1.0 - dynamic.share(index)))
         .sum();
-    let fingers = dynamic.fingers(&model.still.setting);
+    let fingers = dynamic.fingers(&model.quasi_static.config);
     let numbers = series.column("capillary_number").filter(|ca| ca.is_finite()).collect::<Vec<_>>();
     let mean = numbers.iter().skip(1).sum::<f64>() / numbers.len().saturating_sub(1) as f64;
     found.extend([
@@ -112,8 +112,8 @@ pub(crate) fn all(model: &DynamicModel, series: &Series) -> Vec<Measure> {
 
 /// A warning where menisci are so fast that they leave films of the wetting phase on floor and lid, which the network has not.
 pub(crate) fn films_left(model: &DynamicModel) -> Option<String> {
-    let setting = &model.still.setting;
-    let depth = setting.depth_met_by(model.invading).filter(|_| model.invading == FluidPhase::NonWetting)?;
+    let config = &model.quasi_static.config;
+    let depth = config.depth_met_by(model.invading).filter(|_| model.invading == FluidPhase::NonWetting)?;
     let wetting = model.dynamic.terms().viscosity[1];
     let number = model.capillary_number() * wetting / model.dynamic.terms().viscosity[0];
     depth.film_left(number).map(|film| {
@@ -127,8 +127,9 @@ pub(crate) fn films_left(model: &DynamicModel) -> Option<String> {
 
 /// `events.csv`.
 pub(crate) fn events(model: &DynamicModel) -> Table {
-    let pressure = |curvature| model.still.setting.pressure(model.invading, model.invading.towards_wetting(curvature));
-    let number_of = numbers_of_throats(&model.still.setting);
+    let pressure =
+        |curvature| model.quasi_static.config.pressure(model.invading, model.invading.towards_wetting(curvature));
+    let number_of = numbers_of_throats(&model.quasi_static.config);
     let history = || model.dynamic.history().iter();
     let wetting = |invading: f64| if model.invading == FluidPhase::Wetting { invading } else { 1.0 - invading };
     let nothing = || std::iter::once(f64::NAN);

@@ -3,7 +3,7 @@
 //! Each part of the pore space between at most three walls (an element) holds one phase or is being filled. One pressure p belongs to each
 //! phase of each region. Flows through throats are q = Δp/R, with the resistance R = μ₁ r₁ + μ₂ r₂ of both halves of the throat. A meniscus
 //! e between the invading and the defending phase has swept the area v_e since the chord of its gate and resists with σ k_e(v_e), exact for
-//! the walls (`rise.rs`):
+//! the walls (`curve.rs`):
 //!
 //! R q = p_i − p_j − σ k_e(v_e),  dv_e/dt = q.
 //!
@@ -19,17 +19,17 @@
 //!
 //! Left out: an element that is full stays so (no snap-off, no way back through a throat), films, inertia, the speed's effect on angles.
 
+mod capillary_curve;
 mod conductors;
+mod event_functions;
 mod events;
 mod fingers;
-mod goals;
 mod graph;
 mod known;
 mod measures;
 mod model;
 mod open;
 mod path;
-mod rise;
 pub(crate) mod solver;
 mod step;
 mod terms;
@@ -38,8 +38,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use self::capillary_curve::{CapillaryCurve, Reach};
 use self::graph::Graph;
-use self::rise::{Reach, Rise};
 pub use self::terms::Terms;
 use super::conductance::{opening_resistances, resistances};
 use super::cycles::Invasion;
@@ -150,9 +150,9 @@ pub struct Dynamic {
     pore_area: f64,
     /// Area of the invading phase at the beginning.
     first_area: f64,
-    rises: Vec<[Option<Arc<Rise>>; 2]>,
+    curves: Vec<[Option<Arc<CapillaryCurve>>; 2]>,
     /// Of elements that are being filled: menisci that may wait in their gates once they are full.
-    ahead: Vec<Vec<(FrontId, Rise)>>,
+    ahead: Vec<Vec<(FrontId, CapillaryCurve)>>,
     advances: Vec<Advance>,
     /// Overlaps of menisci that will wait ahead of elements that are being filled.
     meetings_to_come: Vec<Advance>,
@@ -178,7 +178,7 @@ impl Dynamic {
             opening_resistances: opening_resistances(&network),
             pore_area: displacement.elements().iter().map(|element| element.area).sum(),
             first_area: 0.0,
-            rises: vec![const { [None, None] }; gates.len()],
+            curves: vec![const { [None, None] }; gates.len()],
             ahead: vec![Vec::new(); elements],
             advances: Vec::new(),
             meetings_to_come: Vec::new(),
@@ -206,10 +206,10 @@ impl Dynamic {
     fn begin(&mut self) {
         self.advances = self.displacement.new_advances();
         for front in self.displacement.waiting().collect::<Vec<_>>() {
-            if let Some(rise) = self.rise_of(front) {
-                let area = rise.area(0.0_f64.max(rise.start().1));
+            if let Some(curve) = self.rise_of(front) {
+                let area = curve.area(0.0_f64.max(curve.start().1));
                 self.state.menisci[front.0][front.1] = Some(Meniscus { area, has_burst: false, has_left: false });
-                self.rises[front.0][front.1] = Some(Arc::new(rise));
+                self.curves[front.0][front.1] = Some(Arc::new(curve));
             }
         }
         let invaded = (0..self.state.filling.len()).filter(|&e| self.is_invaded(e)).collect::<Vec<_>>();
@@ -237,7 +237,7 @@ impl Dynamic {
         state.completed.iter().for_each(|&element| self.finish(element));
         self.state = state;
         for (gate, end) in self.displacement.waiting().collect::<Vec<_>>() {
-            self.rises[gate][end] = self.rise_of((gate, end)).map(Arc::new);
+            self.curves[gate][end] = self.rise_of((gate, end)).map(Arc::new);
         }
         for element in (0..elements).filter(|&element| self.state.filling[element].is_some()).collect::<Vec<_>>() {
             self.ahead[element] = self.menisci_ahead(element);
@@ -246,13 +246,16 @@ impl Dynamic {
         Ok(())
     }
 
-    fn rise_of(&self, front: FrontId) -> Option<Rise> {
+    fn rise_of(&self, front: FrontId) -> Option<CapillaryCurve> {
         let (passage, own) = self.displacement.front(front)?;
-        self.rise(front, passage, own)
+        self.curve(front, passage, own)
     }
 
-    fn rise(&self, front: FrontId, passage: &Passage, own: f64) -> Option<Rise> {
-        Some(Rise::new(passage, own, self.gates[front.0].width)?.between(|curvature| self.terms.with_depth(curvature)))
+    fn curve(&self, front: FrontId, passage: &Passage, own: f64) -> Option<CapillaryCurve> {
+        Some(
+            CapillaryCurve::new(passage, own, self.gates[front.0].width)?
+                .between(|curvature| self.terms.with_depth(curvature)),
+        )
     }
 
     /// Elements, gates, and the phases of the elements that are full.
@@ -349,9 +352,9 @@ impl Dynamic {
     fn arcs(&self) -> impl Iterator<Item = crate::interface::menisci::Meniscus> + '_ {
         self.displacement.waiting().filter_map(|front| {
             let meniscus = self.state.menisci[front.0][front.1].filter(|meniscus| !meniscus.has_burst)?;
-            let rise = self.rises[front.0][front.1].as_ref()?;
+            let curve = self.curves[front.0][front.1].as_ref()?;
             let (passage, own) = self.displacement.front(front)?;
-            passage.at(rise.curvature(meniscus.area).min(own))
+            passage.at(curve.curvature(meniscus.area).min(own))
         })
     }
 

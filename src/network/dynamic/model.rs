@@ -8,7 +8,7 @@ use crate::network::occupation::Occupation;
 /// A network and the displacement in it.
 pub(crate) struct DynamicModel {
     /// The network, with nothing displaced.
-    pub(crate) still: Model,
+    pub(crate) quasi_static: Model,
     /// The displacement.
     pub(crate) dynamic: Dynamic,
     /// The phase that comes in.
@@ -30,8 +30,8 @@ impl DynamicModel {
     pub(crate) fn capillary_number(&self) -> f64 {
         let (_, inflow) = self.dynamic.drive_now();
         let terms = self.dynamic.terms();
-        let setting = &self.still.setting;
-        let side = setting.inlet.map_or(f64::NAN, |inlet| setting.bounds.size()[1 - inlet / 2]);
+        let config = &self.quasi_static.config;
+        let side = config.inlet.map_or(f64::NAN, |inlet| config.bounds.size()[1 - inlet / 2]);
         terms.viscosity[0] * inflow / (side * terms.tension)
     }
 

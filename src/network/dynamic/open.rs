@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::rise::{Reach, Rise};
+use super::capillary_curve::{CapillaryCurve, Reach};
 use super::{Breakthrough, Dynamic, Meniscus};
 use crate::geometry::curve::Curve;
 use crate::math::{Vec2, perpendicular};
@@ -34,7 +34,7 @@ impl Dynamic {
     fn reach(&self, front: FrontId) -> Option<Reach> {
         let element = self.ahead_of(front);
         let (passage, own) = self.displacement.front_to_come(front);
-        let event = self.rise(front, &passage, own)?.end().0;
+        let event = self.curve(front, &passage, own)?.end().0;
         let lines =
             self.openings.iter().filter(|(_, at)| *at == element).filter_map(|(opening, _)| self.side(*opening));
         let touches =
@@ -42,8 +42,8 @@ impl Dynamic {
         let (area, curvature) = touches.min_by(|a, b| a.0.total_cmp(&b.0))?;
         // More than the element holds is never swept in it.
         let most = self.displacement.elements()[element].area.max(event);
-        let rise = Rise::level([event, event + most], curvature.min(own), self.gates[front.0].width);
-        Some(Reach { area, rise: Arc::new(rise.between(|curvature| self.terms.with_depth(curvature))) })
+        let curve = CapillaryCurve::level([event, event + most], curvature.min(own), self.gates[front.0].width);
+        Some(Reach { area, curve: Arc::new(curve.between(|curvature| self.terms.with_depth(curvature))) })
     }
 
     /// An opening of the outlet as a line with the pore on its right.

@@ -6,7 +6,7 @@
 
 use super::Dynamic;
 use super::graph::Graph;
-use super::known::{Known, Law};
+use super::known::{CapillaryLaw, Known};
 use super::step::{MATCHED, Trial};
 use crate::network::laplacian::{Factored, Flow, FlowError};
 
@@ -103,7 +103,7 @@ impl Dynamic {
     /// The area in m² at which a law stands at the end of a step of the length `dt` in s under a pressure drop in Pa.
     fn standing(&self, known: &Known, law: usize, drop: f64, dt: f64) -> f64 {
         let (law, tension) = (&known.laws[law], self.terms.tension);
-        law.rise.standing(law.area, known.drops[law.link].0 / (tension * dt), drop / tension)
+        law.curve.standing(law.area, known.drops[law.link].0 / (tension * dt), drop / tension)
     }
 
     /// The same of a body whose element is not full: what flows into it in a time d is a d/(1 + b d) where one relaxation rules.
@@ -158,7 +158,7 @@ impl Dynamic {
         let flow = factored.solve(&jumps, &known.sources)?;
         let mut changes = vec![0.0; jumps.len()];
         for (law, &about) in known.laws.iter().zip(about) {
-            changes[law.link] = -self.terms.tension * law.rise.resistance(about).1 * flow.through[law.link];
+            changes[law.link] = -self.terms.tension * law.curve.resistance(about).1 * flow.through[law.link];
         }
         let rates = factored.solve(&changes, &vec![0.0; graph.nodes])?;
         // Where a curvature resists much, flows say little about it, and where a throat resists little, pressures say little about the flow.
@@ -181,20 +181,23 @@ impl Dynamic {
         [least, most]: [f64; 2],
         area: impl Fn(usize, f64) -> f64,
     ) -> f64 {
-        let gap = |goal: usize, dt: f64| {
+        let value = |function: usize, dt: f64| {
             let area = |law| area(law, dt);
             let at = self.areas(graph, known, &area);
-            self.gap(&known.bodies, &known.goals[goal], &at)
+            self.value_of(&known.filling_pores, &known.event_functions[function], &at)
         };
         let mut first = most;
-        for goal in 0..known.goals.len() {
-            let beyond = gap(goal, first);
+        for function in 0..known.event_functions.len() {
+            let beyond = value_of(function, first);
             if beyond >= 0.0 || first <= least {
                 continue;
             }
-            let before = gap(goal, least);
-            first =
-                if before <= 0.0 { least } else { root(|dt| gap(goal, dt), [(least, before), (first, beyond)], EXACT) };
+            let before = value_of(function, least);
+            first = if before <= 0.0 {
+                least
+            } else {
+                root(|dt| value_of(function, dt), [(least, before), (first, beyond)], EXACT)
+            };
         }
         first
     }
@@ -211,8 +214,8 @@ impl Dynamic {
     ) -> Result<Option<Trial>, FlowError> {
         let tension = self.terms.tension;
         let area = |law: usize| known.laws[law].area + path.passed(known.laws[law].link, dt);
-        let matches = |(index, law): (usize, &Law)| {
-            let curvature = law.rise.resistance(area(index)).0;
+        let matches = |(index, law): (usize, &CapillaryLaw)| {
+            let curvature = law.curve.resistance(area(index)).0;
             let taken = known.drops[law.link].0 * path.passed(law.link, dt) / dt + tension * curvature;
             (taken - path.drop(law.link, dt)).abs() <= MATCHED * tension * law.scale
         };
@@ -233,8 +236,8 @@ impl Dynamic {
             through: (0..graph.links.len()).map(|link| path.passed(link, dt) / dt).collect(),
         };
         path.factored.balance(&mut flow, &known.sources)?;
-        let gaps = self.gaps(graph, known, |law| known.laws[law].area + flow.through[known.laws[law].link] * dt);
-        let trial = Trial { dt, flow, gaps };
+        let values = self.values(graph, known, |law| known.laws[law].area + flow.through[known.laws[law].link] * dt);
+        let trial = Trial { dt, flow, values };
         Ok(trial.ends(longest).then_some(trial))
     }
 }

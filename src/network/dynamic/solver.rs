@@ -41,9 +41,15 @@ pub(crate) struct DynamicSolver {
 
 impl DynamicSolver {
     /// The displacement at its beginning.
-    pub(crate) fn new(still: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
-        let NetworkSolver { model: still, seconds, .. } = still;
-        Self { model: DynamicModel { still, dynamic, invading }, end, is_closed: false, steps_before: 0, seconds }
+    pub(crate) fn new(quasi_static: NetworkSolver, dynamic: Dynamic, invading: FluidPhase, end: End) -> Self {
+        let NetworkSolver { model: quasi_static, seconds, .. } = quasi_static;
+        Self {
+            model: DynamicModel { quasi_static, dynamic, invading },
+            end,
+            is_closed: false,
+            steps_before: 0,
+            seconds,
+        }
     }
 
     /// By element: the share of it that the invading phase holds.
@@ -52,8 +58,8 @@ impl DynamicSolver {
     }
 
     /// The network, with nothing displaced.
-    pub(crate) fn still(&self) -> &Model {
-        &self.model.still
+    pub(crate) fn quasi_static(&self) -> &Model {
+        &self.model.quasi_static
     }
 
     /// The parts of the pore space.
@@ -133,7 +139,7 @@ impl Solver for DynamicSolver {
     }
 
     fn outline(&self) -> Lines<'_> {
-        self.model.still.setting.outline.as_ref().clone()
+        self.model.quasi_static.config.outline.as_ref().clone()
     }
 
     fn sample(&self) -> Vec<Sample> {
@@ -141,8 +147,8 @@ impl Solver for DynamicSolver {
         let saturation = self.model.saturation();
         let wetting = if self.model.invading == FluidPhase::Wetting { saturation } else { 1.0 - saturation };
         let (pressure, inflow) = self.model.dynamic.drive_now();
-        let fingers = self.model.dynamic.fingers(&self.model.still.setting);
-        let depth = self.model.still.setting.network.depth;
+        let fingers = self.model.dynamic.fingers(&self.model.quasi_static.config);
+        let depth = self.model.quasi_static.config.network.depth;
         vec![
             sample("time_s", self.time()),
             sample("step", self.steps() as f64),
@@ -157,7 +163,10 @@ impl Solver for DynamicSolver {
             sample("interface_length_m", self.model.dynamic.interface_length()),
             sample("finger_width_m", fingers.width),
             sample("fingers", fingers.count),
-            sample("invaded_pores", summary::invaded_pores(&self.model.still.setting, &self.model.occupation()) as f64),
+            sample(
+                "invaded_pores",
+                summary::invaded_pores(&self.model.quasi_static.config, &self.model.occupation()) as f64,
+            ),
             sample("bursts", self.count(EventKind::Burst)),
             sample("touches", self.count(EventKind::Touch)),
             sample("overlaps", self.count(EventKind::Overlap)),
@@ -169,7 +178,7 @@ impl Solver for DynamicSolver {
     }
 
     fn warnings(&self, _: &Series) -> Vec<String> {
-        let mut found = warnings::warnings(&self.model.still.setting);
+        let mut found = warnings::warnings(&self.model.quasi_static.config);
         if self.is_closed {
             found.push("the injected phase has no way out any more: the displacement ended there".to_owned());
         }
@@ -182,11 +191,11 @@ impl Solver for DynamicSolver {
     }
 
     fn layers(&self) -> Vec<Layer<'_>> {
-        vec![layers::regions(&self.model.still.setting, Some(&self.model.occupation()))]
+        vec![layers::regions(&self.model.quasi_static.config, Some(&self.model.occupation()))]
     }
 
     fn results(&self) -> Results<'_> {
-        let mut results = results_with(&self.model.still, Some(&self.model.occupation()));
+        let mut results = results_with(&self.model.quasi_static, Some(&self.model.occupation()));
         results.tables.push(measures::events(&self.model));
         results
     }
@@ -206,7 +215,7 @@ impl Solver for DynamicSolver {
     fn statistics(&self) -> Statistics {
         let parts = ["network: extraction", "network: displacement"].into_iter().zip(self.seconds);
         Statistics {
-            unknowns: self.model.still.setting.pores.main_region.len(),
+            unknowns: self.model.quasi_static.config.pores.main_region.len(),
             steps: self.steps() - self.steps_before,
             parts: parts.map(|(part, seconds)| PartTime { part, seconds }).collect(),
             counts: vec![

@@ -1,8 +1,8 @@
 //! A step: to the next event, or as far as it may go, by backward Euler.
 
-use super::goals::{Areas, REACHED};
+use super::event_functions::{Areas, REACHED};
 use super::graph::{Graph, Link, Way};
-use super::known::{Known, Law};
+use super::known::{CapillaryLaw, Known};
 use super::{Drive, Dynamic, StepEnd};
 use crate::network::displacement::FrontId;
 use crate::network::laplacian::{Flow, FlowError};
@@ -13,12 +13,12 @@ pub(super) struct Trial {
     pub(crate) dt: f64,
     pub(crate) flow: Flow,
     /// What is missing until each goal, as a share of the whole way.
-    pub(crate) gaps: Vec<f64>,
+    pub(crate) values: Vec<f64>,
 }
 
 impl Trial {
     fn least_gap(&self) -> f64 {
-        self.gaps.iter().copied().fold(f64::INFINITY, f64::min)
+        self.values.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// Whether it reaches a goal and passes none, or is as long as a step may be, `longest` in s.
@@ -44,7 +44,7 @@ const MOST_TRIALS: usize = 60;
 impl Dynamic {
     /// Goes on to the next event, at most to the time `until` in s; does the event.
     pub fn advance(&mut self, until: f64) -> Result<StepEnd, FlowError> {
-        self.fire();
+        self.process_events();
         let graph = self.current_graph()?;
         if graph.inlet.is_some_and(|inlet| !graph.laplacian.hangs_on_a_pressure(inlet)) {
             self.graph = Some(graph);
@@ -60,7 +60,7 @@ impl Dynamic {
             self.state.time = until;
         }
         self.state.steps += 1;
-        Ok(if self.fire() { StepEnd::Event } else { StepEnd::Time })
+        Ok(if self.process_events() { StepEnd::Event } else { StepEnd::Time })
     }
 
     /// The pressure at the inlet less that at the outlet in Pa, and the flow into the inlet in m²/s, in the last step.
@@ -107,7 +107,7 @@ impl Dynamic {
         let mut conductances: Vec<f64> = known.drops.iter().map(|(resistance, _)| 1.0 / resistance).collect();
         let mut jumps: Vec<f64> = known.drops.iter().map(|(_, drop)| -drop).collect();
         for (law, &from) in known.laws.iter().zip(about) {
-            let (curvature, slope) = law.rise.resistance(from);
+            let (curvature, slope) = law.curve.resistance(from);
             conductances[law.link] = 1.0 / (known.drops[law.link].0 + tension * slope * dt);
             jumps[law.link] = -tension * (curvature + slope * (law.area - from));
         }
@@ -115,9 +115,9 @@ impl Dynamic {
     }
 
     /// What is missing until each goal where links hold areas, by law.
-    pub(super) fn gaps(&self, graph: &Graph, known: &Known, area: impl Fn(usize) -> f64) -> Vec<f64> {
+    pub(super) fn values(&self, graph: &Graph, known: &Known, area: impl Fn(usize) -> f64) -> Vec<f64> {
         let at = self.areas(graph, known, &area);
-        known.goals.iter().map(|goal| self.gap(&known.bodies, goal, &at)).collect()
+        known.event_functions.iter().map(|function| self.value_of(&known.filling_pores, function, &at)).collect()
     }
 
     /// Areas by law as those of menisci and bodies.
@@ -130,7 +130,9 @@ impl Dynamic {
         let law = |front: FrontId| graph.link_of[front.0].and_then(|link| known.law_of[link]);
         Areas {
             front: move |front: FrontId| law(front).map_or_else(|| self.area_now(front), area),
-            body: move |body: usize| area(known.law_of_body[body]) + known.swept(known.law_of_body[body], area),
+            filling_pore: move |filling_pore: usize| {
+                area(known.law_of_body[filling_pore]) + known.swept(known.law_of_body[filling_pore], area)
+            },
         }
     }
 
@@ -138,7 +140,7 @@ impl Dynamic {
     ///
     /// Its flows are those of least ½ Σ R q² dt + Σ σ ∫ k dv among all that balance in every node, a convex problem since curvatures rise.
     fn trial(&mut self, graph: &Graph, known: &Known, start: Option<&Trial>, dt: f64) -> Result<Trial, FlowError> {
-        let area = |law: &Law, through: &[f64]| self::area(law, through, dt);
+        let area = |law: &CapillaryLaw, through: &[f64]| self::area(law, through, dt);
         let mut through: Option<Vec<f64>> = start.map(|trial| trial.flow.through.clone());
         let mut round = 0;
         let flow = loop {
@@ -158,17 +160,17 @@ impl Dynamic {
             }
             let matches = known.laws.iter().zip(&about).all(|(law, &about)| {
                 let area = area(law, &flow.through);
-                let (curvature, slope) = law.rise.resistance(about);
+                let (curvature, slope) = law.curve.resistance(about);
                 let taken = curvature + slope * (area - about);
-                (law.rise.resistance(area).0 - taken).abs() <= MATCHED * law.scale
+                (law.curve.resistance(area).0 - taken).abs() <= MATCHED * law.scale
             });
             if (share == 1.0 && matches) || round >= ROUNDS {
                 break flow;
             }
             through = Some(flow.through);
         };
-        let gaps = self.gaps(graph, known, |law| area(&known.laws[law], &flow.through));
-        Ok(Trial { dt, flow, gaps })
+        let values = self.values(graph, known, |law| area(&known.laws[law], &flow.through));
+        Ok(Trial { dt, flow, values })
     }
 
     /// The share of the way from some flows to others at which the work is least.
@@ -184,7 +186,7 @@ impl Dynamic {
                 .enumerate()
                 .map(|(index, (resistance, drop))| (resistance * flow(index) + drop) * (to[index] - from[index]));
             let rising = known.laws.iter().map(|law| {
-                let curvature = law.rise.resistance(law.area + flow(law.link) * dt).0;
+                let curvature = law.curve.resistance(law.area + flow(law.link) * dt).0;
                 tension * curvature * (to[law.link] - from[law.link])
             });
             fixed.sum::<f64>() + rising.sum::<f64>()
@@ -217,7 +219,7 @@ impl Dynamic {
 
     /// The same by a search with steps of given lengths.
     fn trial_between(&mut self, graph: &Graph, known: &Known, longest: f64) -> Result<Trial, FlowError> {
-        let first = self.gaps(graph, known, |law| known.laws[law].area);
+        let first = self.values(graph, known, |law| known.laws[law].area);
         let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut before: Option<Trial> = None;
         let mut dt = self.first_length(known, longest);
@@ -262,7 +264,7 @@ impl Dynamic {
         let mut inflow = 0.0;
         for (link, &through) in graph.links.iter().zip(&trial.flow.through) {
             match link.way {
-                Way::Open | Way::Body(_) => {}
+                Way::Open | Way::FillingPore(_) => {}
                 Way::Inlet => {
                     inflow -= through;
                     let element = link.elements[0];
@@ -299,7 +301,7 @@ impl Dynamic {
 }
 
 /// Area in m² of a law at the end of a step of the length `dt` in s.
-fn area(law: &Law, through: &[f64], dt: f64) -> f64 {
+fn area(law: &CapillaryLaw, through: &[f64], dt: f64) -> f64 {
     law.area + through[law.link] * dt
 }
 
@@ -307,14 +309,14 @@ fn area(law: &Law, through: &[f64], dt: f64) -> f64 {
 /// a d/(1 + b d) over its length d where one relaxation rules, so that reciprocals are on a line.
 fn estimate(first: &[f64], before: Option<&Trial>, trial: &Trial) -> f64 {
     let mut found = f64::INFINITY;
-    for (goal, (&start, &gap)) in first.iter().zip(&trial.gaps).enumerate() {
-        let moved = start - gap;
+    for (function, (&start, &value)) in first.iter().zip(&trial.values).enumerate() {
+        let moved = start - value;
         if !(moved > 0.0) || !start.is_finite() {
             continue;
         }
         let proportional = trial.dt * start / moved;
         let hyperbola = before.filter(|before| before.dt != trial.dt).and_then(|before| {
-            let earlier = start - before.gaps[goal];
+            let earlier = start - before.values[function];
             let slope = (1.0 / earlier - 1.0 / moved) / (1.0 / before.dt - 1.0 / trial.dt);
             let reciprocal = 1.0 / trial.dt + (1.0 / start - 1.0 / moved) / slope;
             (earlier > 0.0 && slope > 0.0).then_some(if reciprocal > 0.0 { 1.0 / reciprocal } else { f64::INFINITY })

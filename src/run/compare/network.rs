@@ -18,7 +18,7 @@ use crate::solver::{Series, Solver};
 /// The present state; none where nothing is displaced.
 pub(crate) fn state(solver: &NetworkSolver) -> Option<NetworkState> {
     let cycles = solver.cycles()?;
-    Some(state::state(solver.setting(), cycles.half_cycles(), &cycles.moment()))
+    Some(state::state(solver.config(), cycles.half_cycles(), &cycles.moment()))
 }
 
 /// Runs the first half cycle.
@@ -113,7 +113,7 @@ fn record(solver: &NetworkSolver, grid: &Grid) -> Record {
         saturation: cycles.saturation(),
         pressure: cycles
             .applied()
-            .map_or(f64::NAN, |applied| solver.setting().pressure(cycles.half_cycle().invading, applied)),
+            .map_or(f64::NAN, |applied| solver.config().pressure(cycles.half_cycle().invading, applied)),
         invaded: grid.cells.iter().map(|&(_, element)| holds(element)).collect(),
     }
 }

@@ -65,7 +65,8 @@ fn fitting(pair: &Pair<'_>) -> Result<(NetworkSolver, NetworkState), CompareErro
     if sph.non_wetting.is_none() {
         return Err(CompareError::NoDirect);
     }
-    let solver = crate::network::setup::build_still(pair.network, &without_time(wanted)).map_err(SetupError::from)?;
+    let solver =
+        crate::network::setup::build_quasi_static(pair.network, &without_time(wanted)).map_err(SetupError::from)?;
     let state = network::state(&solver).ok_or(CompareError::NoNetwork)?;
     if let Some(misfit) = state.misfit(&pair.direct.geometry) {
         return Err(CompareError::OtherGeometry(misfit));

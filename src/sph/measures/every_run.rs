@@ -10,13 +10,13 @@ use crate::sph::warnings::most_small_pieces;
 
 pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     let fluids = s.flow.state.particles.fluids;
-    let [rms, largest] = density_error(&s.flow.fields.bulk.volume[..fluids], s.flow.setting.method.volume);
+    let [rms, largest] = density_error(&s.flow.fields.bulk.volume[..fluids], s.flow.config.method.volume);
     let mut found = vec![
         measure("density-error", rms, "", None, "root mean square of V0/V - 1 over fluid particles at the end"),
         measure("largest-density-error", largest, "", None, "largest |V0/V - 1| over fluid particles at the end"),
     ];
     let nearest =
-        (0..fluids).map(|a| (s.flow.setting.wall)(s.flow.state.particles.position[a]).0).fold(f64::INFINITY, f64::min);
+        (0..fluids).map(|a| (s.flow.config.wall)(s.flow.state.particles.position[a]).0).fold(f64::INFINITY, f64::min);
     if nearest.is_finite() {
         let method = "signed distance of the fluid particle nearest to a wall; below 0: inside of it";
         found.push(measure("smallest-wall-distance-m", nearest, "m", None, method));
@@ -27,7 +27,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
             "distance of the two nearest fluid particles over dx at the end; particles that pair up come below 0.5";
         found.push(measure("smallest-particle-distance-ratio", distance, "", None, method));
     }
-    if s.flow.setting.method.tension > 0.0 {
+    if s.flow.config.method.tension > 0.0 {
         found.extend(two_phases(s));
     }
     found
@@ -40,12 +40,12 @@ fn smallest_distance(flow: &Flow) -> f64 {
         |a: usize| flow.neighborhood.pairs.of(a).filter(|ab| flow.neighborhood.images.source(ab.b) < fluids);
     let view = &flow.view();
     let distances = (0..fluids).flat_map(|a| among_fluids(a).map(move |ab| view.separation(a, ab.b).norm()));
-    distances.fold(f64::INFINITY, f64::min) / flow.setting.method.spacing
+    distances.fold(f64::INFINITY, f64::min) / flow.config.method.spacing
 }
 
 /// The larger of the measured and the requested contact angle in degrees; 0 without one.
 fn flattest_angle(s: &Subject) -> f64 {
-    let requested = s.flow.setting.method.wetting.map_or(0.0, |model| model.static_angle().to_degrees());
+    let requested = s.flow.config.method.wetting.map_or(0.0, |model| model.static_angle().to_degrees());
     requested.max(s.seen.angle().mean_deg)
 }
 
@@ -71,8 +71,8 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
             "Pa",
             Some(pressure.uncertainty_at(
                 flattest_angle(s),
-                s.flow.setting.method.tension,
-                s.flow.setting.method.kernel.h,
+                s.flow.config.method.tension,
+                s.flow.config.method.kernel.h,
             )),
             "mean p of the non-wetting less that of the wetting particles farther than 3h from the interface, each taken to the mean height of the interface",
         ),
@@ -102,7 +102,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
     ));
     let most = most_small_pieces(s.series).map_or(f64::NAN, |(most, _)| most);
     found.push(measure("most-small-pieces", most, "", None, "largest number of small pieces at any record"));
-    if s.flow.setting.method.wetting.is_some() {
+    if s.flow.config.method.wetting.is_some() {
         let angle = s.seen.angle();
         let method = how_the_angle_was_measured(s);
         found.push(measure("contact-angle-deg", angle.mean_deg, "deg", Some(angle.uncertainty_deg), &method));
@@ -110,13 +110,13 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
             .seen
             .contact_lines
             .iter()
-            .filter_map(|line| s.flow.setting.spots.model(&s.flow.setting.method, line.position));
+            .filter_map(|line| s.flow.config.wall_properties.model(&s.flow.config.method, line.position));
         let angles: Vec<f64> = asked.map(|model| model.static_angle().to_degrees()).collect();
         let mean = angles.iter().sum::<f64>() / angles.len() as f64;
         let method = "mean over the contact lines of the static angle of the wetting model at their places";
         found.push(measure("requested-angle-deg", mean, "deg", None, method));
         let method = "slip length of walls near contact lines; with a static angle the speed of a line depends on it";
-        found.push(measure("line-slip-length-m", s.flow.setting.method.no_slip.line_slip_length, "m", None, method));
+        found.push(measure("line-slip-length-m", s.flow.config.method.no_slip.line_slip_length, "m", None, method));
     }
     found
 }
@@ -125,8 +125,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
 fn how_the_angle_was_measured(s: &Subject) -> String {
     let angle = s.seen.angle();
     if angle.measured > 0 {
-        let shape =
-            if s.flow.setting.method.gravity == Vec2::zeros() { "circles" } else { "arcs of Young and Laplace" };
+        let shape = if s.flow.config.method.gravity == Vec2::zeros() { "circles" } else { "arcs of Young and Laplace" };
         return format!(
             "{shape} fitted to the c = 0.5 contour farther than 2h from walls, down to h for short menisci, and extrapolated to the wall; mean of {} contact lines ({} without a fit), spread {:.2} degrees",
             angle.measured, angle.failed, angle.spread_deg

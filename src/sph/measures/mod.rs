@@ -26,14 +26,14 @@ pub(crate) fn all(subject: &Subject, groups: &[Group]) -> Vec<Measure> {
     measures.extend(relative::measures(subject));
     measures.extend(groups.iter().flat_map(|group| (group.measures)(subject)));
     let of_chip: Vec<Measure> =
-        measures.iter().filter_map(|one| chip::measure(&subject.flow.setting.method, one)).collect();
+        measures.iter().filter_map(|one| chip::measure(&subject.flow.config.method, one)).collect();
     measures.extend(of_chip);
     measures
 }
 
 /// The samples of a row whose values are per meter of depth, of all of the depth; none in the plane.
 pub(crate) fn samples_of_chip(flow: &Flow, row: &[Sample]) -> Vec<Sample> {
-    row.iter().filter_map(|one| chip::sample(&flow.setting.method, *one)).collect()
+    row.iter().filter_map(|one| chip::sample(&flow.config.method, *one)).collect()
 }
 
 /// Further columns of the time series: of open sides, of the permeability where it is measured, and of the groups.

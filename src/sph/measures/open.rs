@@ -3,12 +3,12 @@
 use super::subject::{Columns, Subject, measure};
 use crate::solver::Measure;
 use crate::sph::flow::Flow;
-use crate::sph::open::{GivenFlow, Ledger, OpenSide};
+use crate::sph::open::{BoundaryFluxes, GivenFlow, OpenSide};
 use crate::sph::particles::Phase;
 use crate::sph::unresolved::SMALLEST_PIECE;
 
 fn is_open(flow: &Flow) -> bool {
-    !flow.setting.open.sides.is_empty() || !flow.setting.open.through.is_empty()
+    !flow.config.open.sides.is_empty() || !flow.config.open.through.is_empty()
 }
 
 /// Column of the pressure at a side where it rises in steps less that at the opposite side, in Pa.
@@ -23,20 +23,20 @@ pub(crate) const PASSED: &str = "passed_m2";
 
 /// The first side whose pressure rises in steps.
 fn rising(flow: &Flow) -> Option<&OpenSide> {
-    flow.setting.open.sides.iter().find(|side| side.steps.is_some())
+    flow.config.open.sides.iter().find(|side| side.steps.is_some())
 }
 
 /// Whether two phases can displace each other through open sides.
 fn is_displacement(flow: &Flow) -> bool {
-    flow.setting.method.tension > 0.0 && !flow.setting.open.sides.is_empty()
+    flow.config.method.tension > 0.0 && !flow.config.open.sides.is_empty()
 }
 
 /// The phase of which more came in, and the number of the side by which most of it did.
 fn entering(flow: &Flow) -> (usize, usize) {
-    let ledger = &flow.state.ledger;
-    let (came, _) = ledger.totals();
+    let fluxes = &flow.state.fluxes;
+    let (came, _) = fluxes.totals();
     let phase = usize::from(came[1] > came[0]);
-    let entry = (0..ledger.came.len()).max_by_key(|number| ledger.came[*number][phase]).unwrap_or(0);
+    let entry = (0..fluxes.came.len()).max_by_key(|number| fluxes.came[*number][phase]).unwrap_or(0);
     (phase, entry)
 }
 
@@ -45,8 +45,8 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
     if !is_open(flow) {
         return vec![];
     }
-    let (came, left) = flow.state.ledger.totals();
-    let area = |count: u64| count as f64 * flow.setting.method.volume;
+    let (came, left) = flow.state.fluxes.totals();
+    let area = |count: u64| count as f64 * flow.config.method.volume;
     let mut columns = vec![
         ("wetting_in_m2", area(came[0])),
         ("wetting_out_m2", area(left[0])),
@@ -58,16 +58,16 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
         ("flow_rate_y_m2_per_s", "driving_gradient_y_Pa_per_m"),
     ];
     if let Some(side) = rising(flow) {
-        let opposite = flow.setting.open.sides.iter().find(|other| other.number != side.number);
+        let opposite = flow.config.open.sides.iter().find(|other| other.number != side.number);
         let [high, low] = [Some(side), opposite].map(|side| side.and_then(OpenSide::given_pressure).unwrap_or(0.0));
         columns.push((PRESSURE_DIFFERENCE, high - low));
         let phase = usize::from(side.main != Phase::Wetting);
-        let through = opposite.map_or(0, |opposite| flow.state.ledger.left[opposite.number][phase]);
+        let through = opposite.map_or(0, |opposite| flow.state.fluxes.left[opposite.number][phase]);
         columns.push((PASSED, area(through)));
     } else if is_displacement(flow) {
         let (phase, entry) = entering(flow);
-        let others = (0..flow.state.ledger.left.len()).filter(|number| *number != entry);
-        columns.push((PASSED, area(others.map(|number| flow.state.ledger.left[number][phase]).sum())));
+        let others = (0..flow.state.fluxes.left.len()).filter(|number| *number != entry);
+        columns.push((PASSED, area(others.map(|number| flow.state.fluxes.left[number][phase]).sum())));
     }
     if let Some(pressure) = driving_pressure(flow) {
         columns.push((DRIVING_PRESSURE, pressure));
@@ -84,7 +84,7 @@ pub(crate) fn columns(flow: &Flow) -> Columns {
 fn driving_pressure(flow: &Flow) -> Option<f64> {
     /// Depth over the distance of rows.
     const DEPTH: f64 = 2.0;
-    let sides = &flow.setting.open.sides;
+    let sides = &flow.config.open.sides;
     let outlet = sides.iter().find_map(OpenSide::given_pressure)?;
     let particles = &flow.state.particles;
     let lies_at = |side: &OpenSide, a: usize| side.beyond(particles.position[a]).abs() < DEPTH * side.row_spacing;
@@ -96,8 +96,8 @@ fn driving_pressure(flow: &Flow) -> Option<f64> {
 
 /// Areas in m² of the wetting and the non-wetting phase that came in less those that left.
 pub(crate) fn net(flow: &Flow) -> [f64; 2] {
-    let (came, left) = flow.state.ledger.totals();
-    [0, 1].map(|i| (came[i] as f64 - left[i] as f64) * flow.setting.method.volume)
+    let (came, left) = flow.state.fluxes.totals();
+    [0, 1].map(|i| (came[i] as f64 - left[i] as f64) * flow.config.method.volume)
 }
 
 pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
@@ -105,11 +105,11 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     if !is_open(flow) {
         return vec![];
     }
-    let (ledger, fluids) = (&flow.state.ledger, flow.state.particles.fluids);
-    let (came, left) = ledger.totals();
-    let inside = Ledger::count(&flow.state.particles.phase[..fluids]);
-    let start: u64 = ledger.at_start.iter().sum();
-    let missing = |i: usize| (ledger.at_start[i] as f64 + came[i] as f64 - left[i] as f64 - inside[i] as f64).abs();
+    let (fluxes, fluids) = (&flow.state.fluxes, flow.state.particles.fluids);
+    let (came, left) = fluxes.totals();
+    let inside = BoundaryFluxes::count(&flow.state.particles.phase[..fluids]);
+    let start: u64 = fluxes.at_start.iter().sum();
+    let missing = |i: usize| (fluxes.at_start[i] as f64 + came[i] as f64 - left[i] as f64 - inside[i] as f64).abs();
     let error = [0, 1].map(missing).into_iter().fold(0.0, f64::max) / start as f64;
     let net: f64 = net(flow).iter().sum();
     let area = |of: &crate::analysis::phases::PhaseAreas| of.wetting + of.non_wetting;
@@ -143,7 +143,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
 
 /// Area in m² of 20 particles, the smallest drop that is resolved: what leaves before them may be stray particles ahead of the front.
 fn smallest_passage(flow: &Flow) -> f64 {
-    SMALLEST_PIECE as f64 * flow.setting.method.volume
+    SMALLEST_PIECE as f64 * flow.config.method.volume
 }
 
 /// When the phase that comes in left through another side, and its saturation then: in the middle between two records.
@@ -204,14 +204,14 @@ fn burst(s: &Subject) -> Option<Measure> {
 
 /// Rates since time zero beside those that were asked for.
 fn flow_rates(flow: &Flow) -> Vec<Measure> {
-    let (open, ledger, time) = (&flow.setting.open, &flow.state.ledger, flow.state.time);
+    let (open, fluxes, time) = (&flow.config.open, &flow.state.fluxes, flow.state.time);
     let count = |counts: &[[u64; 2]; 4], number: usize| counts[number].iter().sum::<u64>() as f64;
     let through_open_side = |side: &OpenSide| {
         let asked = side.given_pressure().is_none().then(|| side.flow_rate());
         // By the ways of the rows: counts of particles come in whole layers.
         let counted =
-            || (count(&ledger.came, side.number) - count(&ledger.left, side.number)) * flow.setting.method.volume;
-        (if asked.is_some() { ledger.passed[side.number] } else { counted() } / time, asked)
+            || (count(&fluxes.came, side.number) - count(&fluxes.left, side.number)) * flow.config.method.volume;
+        (if asked.is_some() { fluxes.passed[side.number] } else { counted() } / time, asked)
     };
     let through_period = |(side, given): (&OpenSide, &GivenFlow)| (given.passed / time, Some(side.flow_rate()));
     let rates = open.sides.iter().map(through_open_side).chain(flow.view().given_flows().map(through_period));
@@ -231,7 +231,7 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
         found.push(measure("inflow-ratio", given_in / asked_in, "", None, method));
     }
     for (side, given) in flow.view().given_flows() {
-        let drop = given.gradient * flow.setting.domain.bounds.size()[side.axis()];
+        let drop = given.gradient * flow.config.domain.bounds.size()[side.axis()];
         let method =
             "largest relative error of the flow rate through the periodic side in a step, by the ways of all particles";
         found.push(measure("largest-flow-rate-error", given.largest_error, "", None, method));

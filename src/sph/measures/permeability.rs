@@ -24,7 +24,7 @@ const MOMENTA: [&str; 2] = ["momentum_x_kg_per_m_s", "momentum_y_kg_per_m_s"];
 pub(crate) fn columns(flow: &Flow) -> Columns {
     let p = &flow.state.particles;
     let flux: Vec2 = (0..p.fluids).map(|a| flow.fields.bulk.volume[a] * p.velocity[a]).sum();
-    let mean = flux / flow.setting.domain.bounds.area();
+    let mean = flux / flow.config.domain.bounds.area();
     MEANS.into_iter().zip([mean.x, mean.y]).collect()
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Column {
 
 /// The response to each force whose stage has two rows.
 pub(super) fn response(flow: &Flow, stages: &Stages, series: &Series) -> Vec<Column> {
-    let fluid = &flow.setting.method.wetting_fluid;
+    let fluid = &flow.config.method.wetting_fluid;
     let read = |row: &[f64], names: [&str; 2]| {
         let value = |name: &str| series.columns.iter().position(|column| column == name).map_or(f64::NAN, |i| row[i]);
         Vec2::from(names.map(value))

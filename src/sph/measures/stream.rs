@@ -34,10 +34,10 @@ pub struct StreamForce {
 /// The stream that the case gives, relative to a wall that moves with the velocity `wall` (m/s), in its direction: of what passes inlets and periodic
 /// sides; else from high to low given pressures; else of the other walls, and where all move alike, of the fluid that they leave behind.
 pub(crate) fn given(flow: &Flow, wall: Vec2) -> Vec2 {
-    let (open, p) = (&flow.setting.open, &flow.state.particles);
+    let (open, p) = (&flow.config.open, &flow.state.particles);
     let sum = |of: &dyn Fn(&OpenSide) -> Vec2| open.sides.iter().chain(&open.through).map(of).sum::<Vec2>();
-    let size = flow.setting.domain.bounds.size();
-    let area = p.fluids as f64 * flow.setting.method.volume;
+    let size = flow.config.domain.bounds.size();
+    let area = p.fluids as f64 * flow.config.method.volume;
     let passing = sum(&|side: &OpenSide| side.flow_rate() * size[side.axis()] / area * side.way());
     if passing != Vec2::zeros() {
         return passing - wall;
@@ -68,9 +68,9 @@ fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> 
     let p = &flow.state.particles;
     let other: Vec<usize> = (0..p.fluids).filter(|&a| p.phase[a] == Phase::NonWetting).collect();
     let points: Vec<Vec2> = other.iter().map(|&a| p.position[a]).collect();
-    let cells = Cells::build(&points, &flow.setting.domain, flow.setting.method.kernel.support());
+    let cells = Cells::build(&points, &flow.config.domain, flow.config.method.kernel.support());
     // Without the weight of the fluid displaced, and with the mean gradient that drives a given flow.
-    let even = flow.setting.method.other_fluid.density * flow.setting.method.gravity + flow.view().driving_gradient();
+    let even = flow.config.method.other_fluid.density * flow.config.method.gravity + flow.view().driving_gradient();
     let (mut force, mut gained, mut length) = (0.0, 0.0, 0.0);
     for line in interface {
         let from = line.points.first()?;
@@ -89,9 +89,9 @@ fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> 
 
 /// The pressure in Pa of the particles `other`, sorted into `cells`, at `x` (m): a plane through them, or their mean where they do not hold one.
 fn pressure_at(flow: &Flow, cells: &Cells, other: &[usize], x: Vec2) -> Option<f64> {
-    let (kernel, pressure) = (&flow.setting.method.kernel, &flow.state.particles.pressure);
+    let (kernel, pressure) = (&flow.config.method.kernel, &flow.state.particles.pressure);
     let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
-    cells.visit_near(flow.setting.domain.wrapped(x), |i, from_particle| {
+    cells.visit_near(flow.config.domain.wrapped(x), |i, from_particle| {
         let a = other[i as usize];
         let r = -from_particle / kernel.h;
         let row = Vector3::new(1.0, r.x, r.y);

@@ -1,7 +1,7 @@
 //! The buffers beyond open sides: how they are filled, and how particles pass between them and the fluid.
 
 use crate::math::{Bounds, Vec2};
-use crate::sph::open::ledger::Ledger;
+use crate::sph::open::boundary_fluxes::BoundaryFluxes;
 use crate::sph::open::side::OpenSide;
 use crate::sph::particles::{Particles, Phase};
 
@@ -103,23 +103,23 @@ pub(crate) fn fill(particles: &mut Particles, wall_depth: &mut Vec<f64>, sides: 
 }
 
 /// Notes the area that came in through sides with a given velocity, as the particles of their buffers moved from the places `from` (m).
-pub(crate) fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSide], ledger: &mut Ledger) {
+pub(crate) fn note_passed(from: &[Vec2], particles: &Particles, sides: &[OpenSide], fluxes: &mut BoundaryFluxes) {
     for b in particles.buffer() {
         let Some(side) = sides.iter().find(|side| side.beyond(from[b]) >= 0.0) else { continue };
         if side.given_pressure().is_none() {
             let inwards = side.beyond(from[b]) - side.beyond(particles.position[b]);
-            ledger.passed[side.number] += inwards * side.cell / side.depth_at(from[b]);
+            fluxes.passed[side.number] += inwards * side.cell / side.depth_at(from[b]);
         }
     }
 }
 
 /// Lets the particles that crossed an open side change from fluid to buffer or back; `spacing` in m.
-pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], ledger: &mut Ledger, spacing: f64) {
+pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], fluxes: &mut BoundaryFluxes, spacing: f64) {
     let (mut fluid, mut buffer, mut entered) = (Vec::new(), Vec::new(), Vec::new());
     for a in 0..particles.fluids {
         match sides.iter().find(|side| side.beyond(particles.position[a]) > 0.0) {
             Some(side) => {
-                ledger.leaves(side.number, particles.phase[a]);
+                fluxes.leaves(side.number, particles.phase[a]);
                 buffer.push(a);
             }
             None => fluid.push(a),
@@ -130,7 +130,7 @@ pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], ledger: &m
         let Some(side) = sides.iter().max_by(|s, t| s.beyond(x).total_cmp(&t.beyond(x))) else { continue };
         let beyond = side.beyond(x);
         if beyond < 0.0 {
-            ledger.comes(side.number, particles.phase[b]);
+            fluxes.comes(side.number, particles.phase[b]);
             entered.push((b, side));
         } else if beyond < side.depth_at(x) {
             buffer.push(b);
@@ -146,7 +146,7 @@ pub(crate) fn exchange(particles: &mut Particles, sides: &[OpenSide], ledger: &m
         let room = ROOM * spacing;
         if buffer.iter().all(|&c| (particles.position[c] - end).norm_squared() > room * room) {
             buffer.push(particles.len());
-            particles.append_like(b, side.enters.unwrap_or(particles.phase[b]), end, ledger.name());
+            particles.append_like(b, side.enters.unwrap_or(particles.phase[b]), end, fluxes.name());
         }
     }
     // New particles stand behind the walls until they are put in their place.

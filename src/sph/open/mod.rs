@@ -5,17 +5,17 @@
 //! its row; fluid that crosses outwards becomes buffer, and beyond the far end it goes (method: Tafuni et al. 2018; for the
 //! pressure equation Hirschler et al. 2016).
 
+mod boundary_fluxes;
 mod buffer;
 mod extrapolate;
-mod ledger;
 mod pressure;
 mod profile;
 mod side;
 mod through;
 
+pub use boundary_fluxes::BoundaryFluxes;
 pub(crate) use buffer::{Around, exchange, fill, note_passed};
 pub(crate) use extrapolate::InteriorPoints;
-pub use ledger::Ledger;
 pub(crate) use pressure::Prescribed;
 pub(crate) use profile::{Opening, Profile, Shape, openings};
 pub(crate) use side::{DEPTH, Drive, OpenSide, Staircase};

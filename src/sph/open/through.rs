@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::Vec2;
 use crate::sph::domain::Domain;
-use crate::sph::open::ledger::Ledger;
+use crate::sph::open::boundary_fluxes::BoundaryFluxes;
 use crate::sph::open::profile::Shape;
 use crate::sph::open::side::{Drive, OpenSide};
 use crate::sph::particles::Phase;
@@ -63,7 +63,7 @@ impl GivenFlow {
         domain: &Domain,
         moved: &Moved,
         phase: &mut [Phase],
-        ledger: &mut Ledger,
+        fluxes: &mut BoundaryFluxes,
     ) {
         let (way, period) = (side.way(), domain.bounds.size()[side.axis()]);
         let mut gone = 0.0;
@@ -72,11 +72,11 @@ impl GivenFlow {
             let way_through = side.beyond(to) - side.beyond(from);
             if way_through.abs() > 0.5 * period {
                 let inwards = way_through > 0.0;
-                ledger.leaves(if inwards { side.number ^ 1 } else { side.number }, phase[a]);
+                fluxes.leaves(if inwards { side.number ^ 1 } else { side.number }, phase[a]);
                 if let (true, Some(enters)) = (inwards, side.enters) {
                     phase[a] = enters;
                 }
-                ledger.comes(if inwards { side.number } else { side.number ^ 1 }, phase[a]);
+                fluxes.comes(if inwards { side.number } else { side.number ^ 1 }, phase[a]);
             }
         }
         let passed = moved.volume * gone / period;

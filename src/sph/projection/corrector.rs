@@ -17,13 +17,13 @@ impl View<'_, Fields> {
         let acceleration = self.pressure_acceleration(pressure);
         let corrected = acceleration.iter().zip(&*predicted.velocity).map(|(a, v)| v + predicted.dt * a);
         let mut velocity: Vec<Vec2> = corrected.collect();
-        let gradient_changes = gradient_changes(self.setting, &velocity, responses, predicted.dt);
+        let gradient_changes = gradient_changes(self.config, &velocity, responses, predicted.dt);
         add_responses(&mut velocity, responses, &gradient_changes, predicted.dt);
         for (response, change) in responses.iter().zip(&gradient_changes) {
             pressure.iter_mut().zip(&response.potential).for_each(|(p, by)| *p += change * by);
         }
         velocity.extend(std::iter::repeat_n(Vec2::zeros(), self.state.particles.open));
-        predicted.interior.set_buffer_velocity(&self.state.particles, &self.setting.open.sides, &mut velocity);
+        predicted.interior.set_buffer_velocity(&self.state.particles, &self.config.open.sides, &mut velocity);
         Corrected { velocity, gradient_changes, projected }
     }
 
@@ -32,11 +32,11 @@ impl View<'_, Fields> {
     pub(super) fn pressure_acceleration(&self, pressure: &[f64]) -> Vec<Vec2> {
         let (fluids, f) = (self.state.particles.fluids, &self.fields.bulk);
         let mut p = pressure.to_vec();
-        let form = self.setting.method.pressure_gradient();
+        let form = self.config.method.pressure_gradient();
         if form != PressureGradient::Difference {
             // The constant matters in these forms: all pressures at or above the background order the particles.
             let lowest = p.iter().fold(f64::INFINITY, |m, p| m.min(*p));
-            let shift = self.setting.method.background_pressure_at(self.state.particles.fluid_speed()) - lowest;
+            let shift = self.config.method.background_pressure_at(self.state.particles.fluid_speed()) - lowest;
             p.iter_mut().for_each(|p| *p += shift);
         }
         let p = self.neighborhood.images.field(p);

@@ -8,12 +8,12 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::math::Vec2;
 use crate::solver::SolverError;
+use crate::sph::configuration::Configuration;
 use crate::sph::fields::Fields;
 use crate::sph::flow::Flow;
 use crate::sph::open::OpenSide;
 use crate::sph::parallel::{total, values};
 use crate::sph::poisson::Matrix;
-use crate::sph::setting::Setting;
 use crate::sph::surface_force::SurfaceForce;
 use crate::sph::terms::pressure_gradient;
 use crate::sph::view::View;
@@ -75,8 +75,8 @@ impl View<'_, Fields> {
     /// Whether fluid that goes on from particle to particle along the axis of the side comes back to itself.
     fn is_open(&self, side: &OpenSide) -> bool {
         let (way, fluids) = (side.way(), self.state.particles.fluids);
-        let half = 0.5 * self.setting.domain.bounds.size()[side.axis()];
-        let reach = NEXT * self.setting.method.spacing;
+        let half = 0.5 * self.config.domain.bounds.size()[side.axis()];
+        let reach = NEXT * self.config.method.spacing;
         // How far along the axis each particle stands from the first of its part, by the particles between.
         let mut along = vec![f64::NAN; fluids];
         let mut waiting = Vec::new();
@@ -113,7 +113,7 @@ impl Flow {
     /// [`SolverError::Blocked`] where solids close the way along a side, and what the pressure solve returns.
     pub(super) fn start_given_flow(&mut self) -> Result<(), SolverError> {
         let (flow, solve, work) = self.solving();
-        let (through, particles) = (&flow.setting.open.through, &flow.state.particles);
+        let (through, particles) = (&flow.config.open.through, &flow.state.particles);
         if through.is_empty() {
             return Ok(());
         }
@@ -124,7 +124,7 @@ impl Flow {
         let (by_walls, responses) = flow.project_kinematically(&moving, solve, work)?;
         let mut velocity = particles.velocity[..particles.fluids].to_vec();
         velocity.iter_mut().zip(&by_walls).for_each(|(v, by)| *v += by);
-        let changes = gradient_changes(flow.setting, &velocity, &responses, 1.0);
+        let changes = gradient_changes(flow.config, &velocity, &responses, 1.0);
         add_responses(&mut velocity, &responses, &changes, 1.0);
         self.state.particles.velocity[..velocity.len()].copy_from_slice(&velocity);
         Ok(())
@@ -132,17 +132,17 @@ impl Flow {
 }
 
 /// The rate in m²/s at which fluid particles of the given velocities (m/s) pass the side inwards, on the mean over the period.
-fn flow_rate(setting: &Setting, side: &OpenSide, velocity: &[Vec2]) -> f64 {
-    let (way, period) = (side.way(), setting.domain.bounds.size()[side.axis()]);
-    setting.method.volume / period * total(velocity.len(), |a| velocity[a].dot(&way))
+fn flow_rate(config: &Configuration, side: &OpenSide, velocity: &[Vec2]) -> f64 {
+    let (way, period) = (side.way(), config.domain.bounds.size()[side.axis()]);
+    config.method.volume / period * total(velocity.len(), |a| velocity[a].dot(&way))
 }
 
 /// The changes in Pa/m of the mean pressure gradients after which the fluid, now at the given `velocity` (m/s), has the given flow rates at
 /// the end of a step of length `dt` (s).
-pub(super) fn gradient_changes(setting: &Setting, velocity: &[Vec2], responses: &[Response], dt: f64) -> Vec<f64> {
-    let through = &setting.open.through;
-    let missing = |i: usize| through[i].flow_rate() - flow_rate(setting, &through[i], velocity);
-    let rate = |i: usize, j: usize| dt * flow_rate(setting, &through[i], &responses[j].acceleration);
+pub(super) fn gradient_changes(config: &Configuration, velocity: &[Vec2], responses: &[Response], dt: f64) -> Vec<f64> {
+    let through = &config.open.through;
+    let missing = |i: usize| through[i].flow_rate() - flow_rate(config, &through[i], velocity);
+    let rate = |i: usize, j: usize| dt * flow_rate(config, &through[i], &responses[j].acceleration);
     match through.len() {
         0 => vec![],
         1 => vec![missing(0) / rate(0, 0)],
@@ -157,13 +157,13 @@ pub(super) fn gradient_changes(setting: &Setting, velocity: &[Vec2], responses: 
 
 /// Sets the places `new` (m) of the fluid particles anew, so that what went through the sides in a step of length `dt` (s) from the `old`
 /// places (m) is what is asked for: shifting and the density-error correction carry some along.
-pub(super) fn keep_flow_rates(setting: &Setting, responses: &[Response], dt: f64, old: &[Vec2], new: &mut [Vec2]) {
+pub(super) fn keep_flow_rates(config: &Configuration, responses: &[Response], dt: f64, old: &[Vec2], new: &mut [Vec2]) {
     if responses.is_empty() {
         return;
     }
-    let domain = &setting.domain;
+    let domain = &config.domain;
     let mut mean: Vec<Vec2> = new.iter().zip(old).map(|(&to, &from)| domain.separation(to, from) / dt).collect();
-    let changes = gradient_changes(setting, &mean, responses, dt);
+    let changes = gradient_changes(config, &mean, responses, dt);
     add_responses(&mut mean, responses, &changes, dt);
     new.iter_mut().zip(old).zip(mean).for_each(|((to, from), mean)| *to = domain.wrapped(from + dt * mean));
 }

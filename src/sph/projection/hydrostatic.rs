@@ -31,7 +31,7 @@ pub(super) struct HydrostaticDifference<'a> {
 impl View<'_, Fields> {
     /// The fluid at its present places, at rest.
     pub(super) fn hydrostatic(&self) -> HydrostaticDifference<'_> {
-        let gravity = self.setting.balanced_gravity();
+        let gravity = self.config.balanced_gravity();
         let (mut potential, mut density) = (Field::default(), Field::default());
         if gravity != Vec2::zeros() {
             let of_particles = self.state.particles.position.iter().map(|x| gravity.dot(x)).collect();
@@ -40,12 +40,12 @@ impl View<'_, Fields> {
         let jump = self.fields.interface.force.jump();
         let driving = self.driving_gradient();
         let driven = (driving != Vec2::zeros() && self.gradient_in_pressure()).then_some((driving, self));
-        HydrostaticDifference { jump, tension: self.setting.method.tension, density, potential, driven }
+        HydrostaticDifference { jump, tension: self.config.method.tension, density, potential, driven }
     }
 
     /// The density in kg/m³ of the phase; walls have that of the side they take, or of the fluid nearby.
     fn density_at_rest(&self) -> Field<f64> {
-        let (particles, moving, method) = (&self.state.particles, self.state.particles.moving(), &self.setting.method);
+        let (particles, moving, method) = (&self.state.particles, self.state.particles.moving(), &self.config.method);
         if let Some(jump) = self.fields.interface.force.jump() {
             let (wetting, other) = (method.wetting_fluid.density, method.other_fluid.density);
             let of_side = jump.side[..particles.len()].iter().map(|&side| if side == 1.0 { wetting } else { other });

@@ -65,8 +65,8 @@ impl View<'_, Fields> {
         let (pairs, images, fluids, f) =
             (&self.neighborhood.pairs, &self.neighborhood.images, self.state.particles.fluids, &self.fields.bulk);
         let viscous = self.viscous();
-        let has_plates = self.setting.method.plates.is_some();
-        let is_central = self.setting.method.numerics.viscous_term == ViscousTerm::Szewc;
+        let has_plates = self.config.method.plates.is_some();
+        let is_central = self.config.method.numerics.viscous_term == ViscousTerm::Szewc;
         let transposed = self.transposed_stress();
         let root_mass: Vec<f64> = (0..fluids).map(|a| (f.density[a] * f.volume[a]).sqrt()).collect();
         let inverse_root: Vec<f64> = root_mass.iter().map(|root| 1.0 / root).collect();
@@ -124,7 +124,7 @@ impl View<'_, Fields> {
         });
         let rate = |a: usize| 2.0 * diagonal[a].symmetric_eigenvalues().max();
         let largest_rate = largest(fluids, rate).map_or(0.0, |l| l.1);
-        let (Particles { position, phase, .. }, spacing) = (&self.state.particles, self.setting.method.spacing);
+        let (Particles { position, phase, .. }, spacing) = (&self.state.particles, self.config.method.spacing);
         let (position, phase) = (&position[..fluids], &phase[..fluids]);
         ViscousMatrix {
             pairs,

@@ -18,10 +18,10 @@ use self::intermediate::{Corrected, Predicted, Projected};
 use self::motion::Motion;
 use crate::case::ViscousStep;
 use crate::solver::{SolverError, StepInfo};
+use crate::sph::configuration::Configuration;
 use crate::sph::flow::Flow;
 use crate::sph::open::{self, Moved};
 use crate::sph::parallel::largest;
-use crate::sph::setting::Setting;
 use crate::sph::wetting::lines::gone;
 
 /// Solves before the first step with open sides: there is no step before to take the slopes of the pressure from. The slope of the
@@ -39,19 +39,19 @@ impl Flow {
     pub fn step(&mut self, until: f64) -> Result<StepInfo, SolverError> {
         let start = Instant::now();
         let time = self.state.time;
-        self.setting.open.sides.iter_mut().for_each(|side| side.take_step(time));
+        self.config.open.sides.iter_mut().for_each(|side| side.take_step(time));
         // Flows that follow one another in a run begin anew.
         if self.state.last_dt == 0.0 {
             self.find_first_pressure(until)?;
         }
-        let mut predicted = self.view().predict(until, f64::INFINITY, self.setting.method.numerics.viscous_step)?;
+        let mut predicted = self.view().predict(until, f64::INFINITY, self.config.method.numerics.viscous_step)?;
         let after_forces = Instant::now();
         let mut corrected = self.end_of(&predicted)?;
         for _ in 0..MOST_REPEATS {
             let velocity = &corrected.velocity;
             let fastest = largest(velocity.len(), |a| velocity[a].norm()).map_or(0.0, |l| l.1);
-            let Some(dt) = self.setting.method.shorter_step(predicted.dt, fastest * predicted.dt) else { break };
-            predicted = self.view().predict(until, dt, self.setting.method.numerics.viscous_step)?;
+            let Some(dt) = self.config.method.shorter_step(predicted.dt, fastest * predicted.dt) else { break };
+            predicted = self.view().predict(until, dt, self.config.method.numerics.viscous_step)?;
             corrected = self.end_of(&predicted)?;
             self.work.repeats += 1;
         }
@@ -69,17 +69,17 @@ impl Flow {
 
     /// Makes the end of a step the state.
     fn take_end(&mut self, predicted: &Predicted, corrected: Corrected, moved: Motion, until: f64) {
-        let (Setting { open, domain, method, .. }, state, dt) = (&self.setting, &mut self.state, predicted.dt);
+        let (Configuration { open, domain, method, .. }, state, dt) = (&self.config, &mut self.state, predicted.dt);
         let (fluids, moving) = (state.particles.fluids, state.particles.moving());
         for (side, given) in open.through.iter().zip(&mut state.given_flows) {
             let (from, phase) = (&state.particles.position[..fluids], &mut state.particles.phase[..fluids]);
             let ways = Moved { from, to: &moved.position[..fluids], volume: method.volume, dt };
-            given.pass(side, domain, &ways, phase, &mut state.ledger);
+            given.pass(side, domain, &ways, phase, &mut state.fluxes);
         }
         let from = std::mem::take(&mut state.particles.position);
         state.particles.position = moved.position;
         state.particles.position.extend_from_slice(&from[moving..]);
-        open::note_passed(&from, &state.particles, &open.sides, &mut state.ledger);
+        open::note_passed(&from, &state.particles, &open.sides, &mut state.fluxes);
         state.particles.velocity[..moving].copy_from_slice(&moved.velocity);
         self.work.set_back += moved.set_back;
         state.time = if dt >= until - state.time { until } else { state.time + dt };
@@ -90,9 +90,9 @@ impl Flow {
         let Projected { mut pressure, viscous_pressure, .. } = corrected.projected;
         pressure.iter_mut().zip(&viscous_pressure).for_each(|(p, by)| *p += by);
         self.take_up_pressure(pressure, &corrected.gradient_changes);
-        if !self.setting.open.sides.is_empty() {
-            let (sides, state) = (&self.setting.open.sides, &mut self.state);
-            open::exchange(&mut state.particles, sides, &mut state.ledger, self.setting.method.spacing);
+        if !self.config.open.sides.is_empty() {
+            let (sides, state) = (&self.config.open.sides, &mut self.state);
+            open::exchange(&mut state.particles, sides, &mut state.fluxes, self.config.method.spacing);
         }
     }
 
@@ -100,7 +100,7 @@ impl Flow {
     /// zero ask for.
     fn find_first_pressure(&mut self, until: f64) -> Result<(), SolverError> {
         self.start_given_flow()?;
-        for _ in 0..if self.setting.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
+        for _ in 0..if self.config.open.sides.is_empty() { 1 } else { FIRST_SOLVES } {
             let predicted = self.view().predict(until, f64::INFINITY, ViscousStep::Explicit)?;
             let corrected = self.end_of(&predicted)?;
             self.take_up_pressure(corrected.projected.pressure, &corrected.gradient_changes);

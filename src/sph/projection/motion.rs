@@ -4,11 +4,11 @@ use super::given_flow::keep_flow_rates;
 use super::intermediate::{Corrected, Predicted, Projected};
 use crate::math::Vec2;
 use crate::solver::SolverError;
+use crate::sph::configuration::Configuration;
 use crate::sph::fields::Fields;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::parallel::largest;
 use crate::sph::particles::Phase;
-use crate::sph::setting::Setting;
 use crate::sph::surface_force::SurfaceForce;
 use crate::sph::terms::sharpening::Sharpening;
 use crate::sph::terms::shifting;
@@ -47,13 +47,13 @@ impl View<'_, Fields> {
     /// [`SolverError::BlowUp`] where a particle would go too far.
     pub(super) fn moved(&self, predicted: &Predicted, corrected: &Corrected) -> Result<Motion, SolverError> {
         let Projected { density_error_shift, responses, .. } = &corrected.projected;
-        let (setting, old) = (self.setting, &self.state.particles.position);
+        let (config, old) = (self.config, &self.state.particles.position);
         let mut velocity = corrected.velocity.clone();
         let (fluids, moving, dt) = (self.state.particles.fluids, self.state.particles.moving(), predicted.dt);
         let mut position = Vec::with_capacity(moving);
         for (a, v) in velocity.iter().enumerate() {
             let by = dt * v;
-            if !(by.norm() <= LARGEST_MOVE * self.setting.method.kernel.h) {
+            if !(by.norm() <= LARGEST_MOVE * self.config.method.kernel.h) {
                 let phase = if self.state.particles.phase[a] == Phase::Wetting { "wetting" } else { "non-wetting" };
                 return Err(SolverError::BlowUp {
                     what: format!("a {phase} particle reached {:.3e} m/s", v.norm()),
@@ -62,25 +62,25 @@ impl View<'_, Fields> {
                     place: self.state.particles.position[a],
                 });
             }
-            position.push(self.setting.domain.wrapped(self.state.particles.position[a] + by));
+            position.push(self.config.domain.wrapped(self.state.particles.position[a] + by));
         }
         self.shift(dt, &mut position[..fluids], &mut velocity);
         for (x, by) in position.iter_mut().zip(density_error_shift) {
-            *x = self.setting.domain.wrapped(*x + by);
+            *x = self.config.domain.wrapped(*x + by);
         }
-        keep_flow_rates(setting, responses, dt, &old[..fluids], &mut position[..fluids]);
+        keep_flow_rates(config, responses, dt, &old[..fluids], &mut position[..fluids]);
         let wall_distance = &self.fields.bulk.wall_distance;
-        let set_back = set_back(setting, wall_distance, &mut position[..fluids], &mut velocity[..fluids]);
+        let set_back = set_back(config, wall_distance, &mut position[..fluids], &mut velocity[..fluids]);
         Ok(Motion { position, velocity, set_back })
     }
 
     /// Shifts particles that lie close apart, and isolated ones back across the interface; they carry their velocity along.
     fn shift(&self, dt: f64, position: &mut [Vec2], velocity: &mut [Vec2]) {
-        let (fluids, m, f) = (self.state.particles.fluids, &self.setting.method, &self.fields.bulk);
+        let (fluids, m, f) = (self.state.particles.fluids, &self.config.method, &self.fields.bulk);
         let diffusion = m.numerics.shifting * m.kernel.h * relative_speed(&velocity[..fluids]) * dt;
         let mut by = vec![Vec2::zeros(); fluids];
         if diffusion > 0.0 {
-            by = shifting::shift(&self.uneven(), diffusion, m.kernel.h);
+            by = shifting::shift(&self.shifting_vector(), diffusion, m.kernel.h);
         }
         if let SurfaceForce::Jump { jump, wall_hysteresis, .. } = &self.fields.interface.force {
             let sharpening = Sharpening {
@@ -101,57 +101,57 @@ impl View<'_, Fields> {
         let all = self.neighborhood.images.velocity_field(all);
         let change = shifting::carried_velocity(&self.neighborhood.pairs, &f.volume, &f.density, &all, &by);
         for a in 0..fluids {
-            position[a] = self.setting.domain.wrapped(position[a] + by[a]);
+            position[a] = self.config.domain.wrapped(position[a] + by[a]);
             velocity[a] += change[a];
         }
     }
 
     /// ∇C of the fluid particles, near the interface its part along that, and the anti-clustering force, less their mean, in 1/m: what
     /// shifting goes down.
-    fn uneven(&self) -> Vec<Vec2> {
-        let (m, f, interface) = (&self.setting.method, &self.fields.bulk, &self.fields.interface);
+    fn shifting_vector(&self) -> Vec<Vec2> {
+        let (m, f, interface) = (&self.config.method, &self.fields.bulk, &self.fields.interface);
         let (Neighborhood { pairs, images }, fluids) = (self.neighborhood, self.state.particles.fluids);
-        let mut uneven = shifting::concentration_gradient(pairs, &f.volume, fluids);
+        let mut shifting_vector = shifting::concentration_gradient(pairs, &f.volume, fluids);
         if interface.force.jump().is_some() {
-            shifting::keep_along(&interface.normal, m.kernel.h, &mut uneven);
+            shifting::keep_along(&interface.normal, m.kernel.h, &mut shifting_vector);
         }
         if m.numerics.anti_clustering > 0.0 {
             let (strength, w) = (m.numerics.anti_clustering, m.kernel.w(m.spacing));
             let mut push = shifting::anti_clustering(pairs, &f.volume, strength, w, fluids);
             shifting::take_out_mean(pairs, images, &f.fluid_volume, &mut push);
-            uneven.iter_mut().zip(push).for_each(|(uneven, push)| *uneven += push);
+            shifting_vector.iter_mut().zip(push).for_each(|(shifting_vector, push)| *shifting_vector += push);
         }
-        uneven
+        shifting_vector
     }
 }
 
 /// Sets the fluid particles that came too near to walls or sides back to them, and counts them; `wall_distance` (m) is that before the step.
-fn set_back(setting: &Setting, wall_distance: &[f64], position: &mut [Vec2], velocity: &mut [Vec2]) -> u64 {
+fn set_back(config: &Configuration, wall_distance: &[f64], position: &mut [Vec2], velocity: &mut [Vec2]) -> u64 {
     let mut count = 0;
-    let closest = CLOSEST_TO_WALL * setting.method.spacing;
-    let reach = closest + LARGEST_MOVE * setting.method.kernel.h;
+    let closest = CLOSEST_TO_WALL * config.method.spacing;
+    let reach = closest + LARGEST_MOVE * config.method.kernel.h;
     for a in 0..position.len() {
         if wall_distance[a] < reach {
             for pass in 0..SET_BACKS {
-                let (distance, normal) = (setting.wall)(position[a]);
+                let (distance, normal) = (config.wall)(position[a]);
                 if distance >= closest {
                     break;
                 }
-                position[a] = setting.domain.wrapped(position[a] + (closest - distance) * normal);
+                position[a] = config.domain.wrapped(position[a] + (closest - distance) * normal);
                 velocity[a] -= velocity[a].dot(&normal).min(0.0) * normal;
                 count += u64::from(pass == 0);
             }
         }
     }
     // Out of an inlet with a given velocity nothing flows: what shifting brings there is set back.
-    for side in setting.open.sides.iter().filter(|side| side.given_pressure().is_none()) {
+    for side in config.open.sides.iter().filter(|side| side.given_pressure().is_none()) {
         for x in position.iter_mut().filter(|x| side.beyond(**x) > -closest) {
             *x = side.placed(*x, -closest);
             count += 1;
         }
     }
-    for mirror in &setting.domain.mirrors {
-        let inwards = (setting.domain.bounds.center()[mirror.axis] - mirror.at).signum();
+    for mirror in &config.domain.mirrors {
+        let inwards = (config.domain.bounds.center()[mirror.axis] - mirror.at).signum();
         for x in position.iter_mut() {
             let depth = inwards * (x[mirror.axis] - mirror.at);
             if depth < closest {

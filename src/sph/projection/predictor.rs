@@ -28,21 +28,21 @@ impl View<'_, Fields> {
         let (particles, fluids, moving) =
             (&self.state.particles, self.state.particles.fluids, self.state.particles.moving());
         let viscous = self.viscous_acceleration(&self.velocity());
-        let is_limited = self.setting.method.numerics.viscous_step == ViscousStep::Explicit;
+        let is_limited = self.config.method.numerics.viscous_step == ViscousStep::Explicit;
         let rate = if is_limited { self.viscous_rate() } else { 0.0 };
         // Walls count: what they drag along has their velocity at the end of the step.
         let (place, speed) = largest(particles.len(), |a| particles.velocity[a].norm()).unwrap_or((0, 0.0));
-        let method = &self.setting.method;
+        let method = &self.config.method;
         let (f, force) = (&self.fields.bulk, &self.fields.interface.force);
         let is_pinned = matches!(force, SurfaceForce::Jump { has_pinned_line: true, .. });
         let pinned = if is_pinned { method.pinned_time_step() } else { f64::INFINITY };
-        let settled = if self.setting.has_viscous_pressure() { self.state.time - self.setting.since } else { 0.0 };
+        let settled = if self.config.has_viscous_pressure() { self.state.time - self.config.since } else { 0.0 };
         let step = method
             .time_step(speed, rate)
             .tighter(pinned, "surface tension")
-            .tighter(method.viscous_time_step(self.setting.viscous_time, settled), "viscosity")
+            .tighter(method.viscous_time_step(self.config.viscous_time, settled), "viscosity")
             .tighter(longest, "acceleration");
-        let smallest = self.setting.method.smallest_time_step(rate);
+        let smallest = self.config.method.smallest_time_step(rate);
         if !(step.dt >= smallest) {
             let place = particles.position.get(place).copied().unwrap_or_default();
             let (dt, limit, time) = (step.dt, step.limit, self.state.time);
@@ -51,7 +51,7 @@ impl View<'_, Fields> {
         let step = landing(step, self.state.time, until);
         let fastest = relative_speed(&particles.velocity[..fluids]);
         let background = self.background_acceleration();
-        let body = (self.setting.method.gravity - self.setting.balanced_gravity()) / self.setting.method.profile();
+        let body = (self.config.method.gravity - self.config.balanced_gravity()) / self.config.method.profile();
         let driving = if self.gradient_in_pressure() { Vec2::zeros() } else { self.driving_gradient() };
         let mut acceleration = values(fluids, |a| {
             let forces = (force.on(a) + driving) / f.density[a];
@@ -64,8 +64,8 @@ impl View<'_, Fields> {
         let mut velocity = particles.velocity.clone();
         each(&mut velocity[..fluids], |a| particles.velocity[a] + step.dt * acceleration[a]);
         let interior =
-            InteriorPoints::new(particles, &self.setting.open.sides, &self.setting.domain, &self.setting.method.kernel);
-        interior.set_buffer_velocity(particles, &self.setting.open.sides, &mut velocity);
+            InteriorPoints::new(particles, &self.config.open.sides, &self.config.domain, &self.config.method.kernel);
+        interior.set_buffer_velocity(particles, &self.config.open.sides, &mut velocity);
         // Walls move along themselves only: of that no volume flows, also where a moving wall ends at one at rest.
         velocity[moving..particles.len()].fill(Vec2::zeros());
         let velocity = self.neighborhood.images.velocity_field(velocity);
@@ -101,7 +101,7 @@ impl View<'_, Fields> {
     }
 
     fn background_acceleration(&self) -> Vec<Vec2> {
-        let (method, fluids) = (&self.setting.method, self.state.particles.fluids);
+        let (method, fluids) = (&self.config.method, self.state.particles.fluids);
         if method.pressure_gradient() != PressureGradient::Difference || method.numerics.background_pressure <= 0.0 {
             return vec![Vec2::zeros(); fluids];
         }

@@ -57,12 +57,12 @@ impl View<'_, Fields> {
     ) -> Result<Projected, SolverError> {
         let matrix = self.assembled();
         let (n, dt, position) = (self.state.particles.len(), predicted.dt, &self.state.particles.position);
-        let (method, f) = (&self.setting.method, &self.fields.bulk);
+        let (method, f) = (&self.config.method, &self.fields.bulk);
         let source = divergence(&self.neighborhood.pairs, &f.volume, &predicted.velocity, n);
         // A long step takes back all there is, and no more.
         let correction = method.density_correction_rate(predicted.fastest).min(1.0 / dt) / dt;
         let mut b = values(n, |a| {
-            if self.setting.sees_the_fluid(position[a]) {
+            if self.config.sees_the_fluid(position[a]) {
                 -f.volume[a] * (source[a] / dt - correction * self.density_error(a))
             } else {
                 0.0
@@ -74,18 +74,18 @@ impl View<'_, Fields> {
         self.subtract_divergence_error(predicted, &matrix, &hydrostatic, &mut b);
         let jump = self.fields.interface.force.jump();
         let jump = |b: usize| jump.map_or(f64::NAN, |jump| method.tension * jump.curvature[b]);
-        let prescribed = Prescribed::new(&self.state.particles, &self.setting.open.sides, jump, method.kernel.h);
+        let prescribed = Prescribed::new(&self.state.particles, &self.config.open.sides, jump, method.kernel.h);
         let viscous_pressure = self.viscous_pressure(predicted, &matrix, &b);
         let mut others = Vec::new();
         if method.numerics.density_error_shifting > 0.0 {
             let error = values(n, |a| {
-                let seen = if self.setting.sees_the_fluid(position[a]) { self.density_error(a) } else { 0.0 };
+                let seen = if self.config.sees_the_fluid(position[a]) { self.density_error(a) } else { 0.0 };
                 method.numerics.density_error_shifting * f.volume[a] * seen
             });
             others.push((error, Tolerance { residual: CORRECTION_RESIDUAL, ..method.tolerance }));
         }
         let tolerance = Tolerance { residual: RESPONSE_RESIDUAL, ..method.tolerance };
-        let ways: Vec<Vec2> = self.setting.open.through.iter().map(OpenSide::way).collect();
+        let ways: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::way).collect();
         others.extend(ways.iter().map(|&way| (self.right_side_of_gradient(way, &matrix), tolerance)));
         let guess = self.state.particles.pressure.clone();
         let equation = PressureEquation { matrix, b, prescribed, guess, others };
@@ -107,12 +107,10 @@ impl View<'_, Fields> {
     ) -> Result<(Vec<Vec2>, Vec<Response>), SolverError> {
         let b = self.minus_outflow(velocity);
         let matrix = self.assembled();
-        let ways: Vec<Vec2> = self.setting.open.through.iter().map(OpenSide::way).collect();
-        let others = ways
-            .iter()
-            .map(|&way| (self.right_side_of_gradient(way, &matrix), self.setting.method.tolerance))
-            .collect();
-        let (sides, h) = (&self.setting.open.sides, self.setting.method.kernel.h);
+        let ways: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::way).collect();
+        let others =
+            ways.iter().map(|&way| (self.right_side_of_gradient(way, &matrix), self.config.method.tolerance)).collect();
+        let (sides, h) = (&self.config.open.sides, self.config.method.kernel.h);
         let given = Prescribed::new(&self.state.particles, sides, |_| f64::NAN, h);
         let value = given.value.iter().map(|value| 0.0 * value).collect();
         let prescribed = Prescribed { value, reference: 0.0 };
@@ -138,9 +136,9 @@ impl View<'_, Fields> {
         work: &mut Work,
     ) -> Result<(Vec<f64>, Vec<Vec<f64>>), SolverError> {
         let PressureEquation { mut matrix, mut b, prescribed, guess: mut p, mut others } = equation;
-        let (fluids, tolerance) = (self.state.particles.fluids, self.setting.method.tolerance);
+        let (fluids, tolerance) = (self.state.particles.fluids, self.config.method.tolerance);
         let given = |a: usize| prescribed.of(a, fluids);
-        let mut kind = kinds(&self.setting.method, &self.fields.bulk.density[..self.state.particles.len()]);
+        let mut kind = kinds(&self.config.method, &self.fields.bulk.density[..self.state.particles.len()]);
         let mut has_dirichlet =
             vec![false; self.state.particles.part.iter().max().map_or(0, |last| *last as usize + 1)];
         for a in self.state.particles.buffer().filter(|&a| given(a).is_some()) {
@@ -149,7 +147,7 @@ impl View<'_, Fields> {
             others.iter_mut().for_each(|(right, _)| right[a] = 0.0);
         }
         impose(&mut matrix, &mut b, |a| given(a).map(|p| p - prescribed.reference));
-        let (Particles { position, part, .. }, spacing) = (&self.state.particles, self.setting.method.spacing);
+        let (Particles { position, part, .. }, spacing) = (&self.state.particles, self.config.method.spacing);
         let unknowns =
             Unknowns { matrix: &matrix, position, kind: &kind, part, has_dirichlet: &has_dirichlet, spacing };
         let offset = |a: usize| if has_dirichlet[part[a] as usize] { prescribed.reference } else { 0.0 };
@@ -183,7 +181,7 @@ impl View<'_, Fields> {
         let position = &self.state.particles.position;
         let mut outflow = divergence(&self.neighborhood.pairs, &self.fields.bulk.volume, velocity, position.len());
         outflow.iter_mut().zip(&*self.fields.bulk.volume).enumerate().for_each(|(a, (outflow, volume))| {
-            *outflow = if self.setting.sees_the_fluid(position[a]) { -volume * *outflow } else { 0.0 };
+            *outflow = if self.config.sees_the_fluid(position[a]) { -volume * *outflow } else { 0.0 };
         });
         outflow
     }
@@ -200,12 +198,12 @@ impl View<'_, Fields> {
         let (n, f) = (self.state.particles.len(), &self.fields.bulk);
         let mut acceleration = damped.by_pressure.clone();
         acceleration.resize(n, Vec2::zeros());
-        predicted.interior.set_buffer_acceleration(&self.state.particles, &self.setting.open.sides, &mut acceleration);
+        predicted.interior.set_buffer_acceleration(&self.state.particles, &self.config.open.sides, &mut acceleration);
         let acceleration = self.neighborhood.images.velocity_field(acceleration);
         let of_gradient = divergence(&self.neighborhood.pairs, &f.volume, &acceleration, n);
         let Particles { position, pressure, .. } = &self.state.particles;
         b.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(a, b)| {
-            if self.setting.sees_the_fluid(position[a]) {
+            if self.config.sees_the_fluid(position[a]) {
                 let laplacian = matrix.diagonal[a] * pressure[a] - matrix.coupled(a, pressure) - hydrostatic[a];
                 *b += damped.excess * (laplacian - f.volume[a] * of_gradient[a]);
             }
@@ -214,12 +212,12 @@ impl View<'_, Fields> {
 
     /// θ Δt μ_a/V_a (M φ)_a in Pa with φ = p' − p, which M φ = b − M p gives: by so much the pressure that balances the viscous forces at the end of
     /// a long step differs from p' (Timmermans, Minev and van de Vosse 1996). Empty after explicit steps and where
-    /// [`Setting::has_viscous_pressure`](crate::sph::setting::Setting::has_viscous_pressure) says so.
+    /// [`Configuration::has_viscous_pressure`](crate::sph::setting::Setting::has_viscous_pressure) says so.
     ///
     /// The corrector adds −Δt ∇φ/ρ to a velocity with which viscosity held, and takes (1 + θ Δt K) ∇φ = ∇(φ + θ Δt μ M φ/V) for the missing part.
     /// Without it a long step changes the pressure by a share of what is wrong that falls as 1/Δt.
     fn viscous_pressure(&self, predicted: &Predicted, matrix: &Matrix, b: &[f64]) -> Vec<f64> {
-        if predicted.damped.excess == 0.0 || !self.setting.has_viscous_pressure() {
+        if predicted.damped.excess == 0.0 || !self.config.has_viscous_pressure() {
             return Vec::new();
         }
         let (f, n) = (&self.fields.bulk, b.len());
@@ -239,11 +237,7 @@ impl View<'_, Fields> {
 
     /// V_0/V_a − 1, the density error of a fluid particle; 0 on others.
     fn density_error(&self, a: usize) -> f64 {
-        if a < self.state.particles.fluids {
-            self.setting.method.volume / self.fields.bulk.volume[a] - 1.0
-        } else {
-            0.0
-        }
+        if a < self.state.particles.fluids { self.config.method.volume / self.fields.bulk.volume[a] - 1.0 } else { 0.0 }
     }
 
     /// −∇φ/ρ of the fluid particles.

@@ -19,7 +19,7 @@ impl View<'_, Fields> {
     /// The acceleration of the fluid particles in m/s² by friction, without the transposed part of the stress; `v_ab(a, b)` in m/s.
     fn friction_by(&self, v_ab: impl Fn(usize, usize) -> Vec2 + Sync) -> Vec<Vec2> {
         let (pairs, fluids) = (&self.neighborhood.pairs, self.state.particles.fluids);
-        match self.setting.method.numerics.viscous_term {
+        match self.config.method.numerics.viscous_term {
             ViscousTerm::Morris | ViscousTerm::Stress => self.viscous().morris(pairs, v_ab, fluids),
             ViscousTerm::Szewc => self.viscous().szewc(pairs, v_ab, fluids),
         }
@@ -34,7 +34,7 @@ impl View<'_, Fields> {
             let both = acceleration.iter_mut().zip(forces).enumerate();
             both.for_each(|(a, (by, force))| *by += force / (f.density[a] * f.volume[a]));
         }
-        if self.setting.method.plates.is_some() {
+        if self.config.method.plates.is_some() {
             acceleration.iter_mut().enumerate().for_each(|(a, by)| *by -= self.plate_rate(a) * velocity[a]);
         }
         acceleration
@@ -45,14 +45,14 @@ impl View<'_, Fields> {
     /// μ is the mean by the smoothed color, which resists as layers across the flow do. With that of each phase particles of the thinner one would pass those
     /// of the thicker one, whose pressure gradient a kernel does not tell from theirs.
     pub(super) fn plate_rate(&self, a: usize) -> f64 {
-        let (method, color) = (&self.setting.method, self.fields.interface.color[a]);
+        let (method, color) = (&self.config.method, self.fields.interface.color[a]);
         let viscosity = color * method.wetting_fluid.viscosity + (1.0 - color) * method.other_fluid.viscosity;
         method.plates.map_or(0.0, |plates| plates.friction * viscosity / self.fields.bulk.density[a])
     }
 
     /// The transposed part of the stress, where the method has it and the fluids differ in viscosity.
     pub(super) fn transposed_stress(&self) -> Option<TransposedStress<'_>> {
-        let (method, f) = (&self.setting.method, &self.fields.bulk);
+        let (method, f) = (&self.config.method, &self.fields.bulk);
         let viscosities = [method.wetting_fluid, method.other_fluid].map(|fluid| method.profile() * fluid.viscosity);
         if method.numerics.viscous_term != ViscousTerm::Stress {
             return None;
@@ -99,13 +99,13 @@ impl View<'_, Fields> {
         }
         let slip_length = self.fields.interface.slip_length[a];
         self.wall_depth(b)
-            .map_or(v_ab, |depth| self.setting.method.no_slip.difference(v_ab, distance, normal, depth, slip_length))
+            .map_or(v_ab, |depth| self.config.method.no_slip.difference(v_ab, distance, normal, depth, slip_length))
     }
 
     /// The matrix that stretches v_a − v_b as [`Self::velocity_difference`] does, with `of` each stretch in place of the stretch.
     pub(super) fn stretch_matrix(&self, a: usize, b: usize, of: impl Fn(f64) -> f64) -> Mat2 {
         let Some(depth) = self.wall_depth(b) else { return Mat2::identity() };
-        let (f, no_slip) = (&self.fields.bulk, &self.setting.method.no_slip);
+        let (f, no_slip) = (&self.fields.bulk, &self.config.method.no_slip);
         let slip_length = self.fields.interface.slip_length[a];
         let [along, across] = no_slip.stretches(f.wall_distance[a], depth, slip_length).map(of);
         let normal = f.wall_normal[a];
@@ -115,7 +115,7 @@ impl View<'_, Fields> {
     /// The largest |v_ab| over the velocity difference: β at walls, 1 between fluid particles.
     fn stretch(&self, a: usize, b: usize) -> f64 {
         let distance = self.fields.bulk.wall_distance[a];
-        self.wall_depth(b).map_or(1.0, |depth| self.setting.method.no_slip.stretch(distance, depth))
+        self.wall_depth(b).map_or(1.0, |depth| self.config.method.no_slip.stretch(distance, depth))
     }
 
     /// Where a wall particle or its image stands, none for fluid.

@@ -8,13 +8,13 @@ use super::viscous_time::viscous_time;
 use crate::case::Sph;
 use crate::geometry::Geometry;
 use crate::math::Vec2;
+use crate::sph::configuration::Configuration;
 use crate::sph::fill::Region;
 use crate::sph::flow::Flow;
 use crate::sph::frozen::{FlowAtRest, FrozenInterface};
 use crate::sph::open::Open;
 use crate::sph::particles::{Particles, Phase};
-use crate::sph::setting::Setting;
-use crate::sph::wetting::wall::WallSpots;
+use crate::sph::wetting::wall::WallField;
 
 /// How far beside a wall the phase on it is looked for, over the spacing.
 const BESIDE: f64 = 0.1;
@@ -63,17 +63,17 @@ fn at_rest(pore: &Pore, phase: Option<Phase>, start: (Particles, Vec<f64>)) -> F
         // The same box was good for the particles.
         let Ground { lattice, method, domain } = Ground::of(&pore.geometry, &pore.sph);
         let viscous_time = viscous_time(&method, &lattice, &domain, |x| wall.wall(phase, x).0);
-        let setting = Setting {
+        let config = Configuration {
             method,
             domain,
             wall: Box::new(move |x| wall.wall(phase, x)),
-            spots: WallSpots::default(),
+            wall_properties: WallField::default(),
             open: Open::default(),
             viscous_time,
             since: 0.0,
         };
         let (particles, depth) = start.clone();
-        Flow::new(setting, particles, depth)
+        Flow::new(config, particles, depth)
     })
 }
 

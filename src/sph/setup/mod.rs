@@ -2,15 +2,15 @@
 
 mod depth_notes;
 mod error;
+mod from_network_state;
 mod frozen;
 mod ground;
-mod handed_back;
-mod handed_over;
 mod initial;
 mod method;
 mod open_sides;
 mod places;
 mod surroundings;
+mod to_network_state;
 mod viscous_time;
 mod walls;
 
@@ -26,16 +26,16 @@ use self::open_sides::{inside_of_open_sides, open_sides};
 use self::places::{Filling, places};
 use self::surroundings::surroundings;
 use self::viscous_time::viscous_time;
-use self::walls::wall_spots;
+use self::walls::wall_properties;
 use crate::case::{Case, Side, Sph};
 use crate::geometry::Geometry;
 use crate::math::Vec2;
+use crate::sph::configuration::Configuration;
 use crate::sph::domain::WallQuery;
 use crate::sph::fill::Region;
 use crate::sph::flow::Flow;
 use crate::sph::open::{self, Around};
 use crate::sph::particles::Particles;
-use crate::sph::setting::Setting;
 use crate::sph::solver::SphSolver;
 
 /// The solids of a case as its solver sees them: periodic sides joined, wall sides closed.
@@ -61,7 +61,7 @@ pub(crate) fn checked_geometry(case: &Case, sph: &Sph) -> Result<Geometry, Setup
 /// The region of the shapes, or of the state of a network, that a case begins with.
 fn start_region(case: &Case, sph: &Sph) -> Region {
     match &sph.initial.network {
-        Some(start) => handed_over::region(case, sph, start),
+        Some(start) => from_network_state::region(case, sph, start),
         // A frozen interface goes on at the opposite side, as its flow does.
         None if sph.measure.relative_permeability => {
             let periodic = [sph.sides.left == Side::Periodic, sph.sides.bottom == Side::Periodic];
@@ -112,17 +112,17 @@ fn placed(case: &Case, sph: &Sph, packed: Option<&mut dyn FnMut(f64)>) -> Result
     initial::set(&mut particles, sph, &open, &inside, bounds);
     if let Some(start) = &sph.initial.network {
         let depth = method.plates.map(|plates| plates.depth);
-        handed_over::set_pressures(&mut particles, (sph, depth), &open, start);
+        from_network_state::set_pressures(&mut particles, (sph, depth), &open, start);
     }
     let viscous_time = viscous_time(&method, &lattice, &domain, |x| geometry.signed_distance(x));
     let surroundings = surroundings(case, sph, &geometry, &method);
-    let spots = wall_spots(sph, &geometry).unwrap_or_default();
+    let wall_properties = wall_properties(sph, &geometry).unwrap_or_default();
     let wall: WallQuery = Box::new(move |x| {
         let wall = geometry.wall(inside(x));
         (wall.distance, wall.normal)
     });
-    let setting = Setting { method, domain, wall, spots, open, viscous_time, since: 0.0 };
-    Ok(SphSolver::new(Flow::new(setting, particles, depth), surroundings))
+    let config = Configuration { method, domain, wall, wall_properties, open, viscous_time, since: 0.0 };
+    Ok(SphSolver::new(Flow::new(config, particles, depth), surroundings))
 }
 
 /// The solver that measures the relative permeabilities: the flows of the whole pore and of each phase, one after the other. Each begins with packed

@@ -1,6 +1,6 @@
 //! What measures and output know of the walls.
 
-use super::handed_back::hand_back;
+use super::to_network_state::hand_back;
 use crate::case::{Case, Sph};
 use crate::geometry::Geometry;
 use crate::geometry::spec::{GeometrySpec, ShapeSpec};

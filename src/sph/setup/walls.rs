@@ -6,7 +6,7 @@ use crate::case::{PatchedWall, Side, Sph, WettingPatch};
 use crate::geometry::Geometry;
 use crate::math::{Bounds, Vec2};
 use crate::sph::domain::{ImageVelocity, Mirror};
-use crate::sph::wetting::wall::{WallSpot, WallSpots};
+use crate::sph::wetting::wall::{WallField, WallProperties};
 
 /// Axis of each side (left, right, bottom, top) and its place along it in m.
 pub(super) fn places_of_sides(Bounds { min, max }: Bounds) -> [(usize, f64); 4] {
@@ -23,12 +23,12 @@ pub(super) fn mirrors(bounds: Bounds, sides: [Side; 4]) -> Vec<Mirror> {
 }
 
 /// Patches and velocities of the walls; none where all walls are alike and at rest.
-pub(super) fn wall_spots(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallSpots> {
+pub(super) fn wall_properties(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallField> {
     if sph.wetting_patches.is_empty() && sph.wall_speeds == [0.0; 4] {
         return None;
     }
     let (patches, speeds, geometry) = (sph.wetting_patches.clone(), sph.wall_speeds, Arc::clone(geometry));
-    Some(WallSpots::new(Box::new(move |x| {
+    Some(WallField::new(Box::new(move |x| {
         let wall = geometry.wall(x);
         // Walls at the sides are numbered after the shapes.
         let side = wall.shape.checked_sub(geometry.shape_count()).filter(|side| *side < 4);
@@ -47,7 +47,7 @@ pub(super) fn wall_spots(sph: &Sph, geometry: &Arc<Geometry>) -> Option<WallSpot
             };
             on && wall.distance.is_finite() && patch.stripes.is_none_or(|stripes| stripes.contains(closest))
         };
-        WallSpot { patch: patches.iter().rposition(lies_there), velocity }
+        WallProperties { patch: patches.iter().rposition(lies_there), velocity }
     })))
 }
 

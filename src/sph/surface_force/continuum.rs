@@ -9,12 +9,16 @@ use crate::sph::surface_force::fields::{InterfaceFields, SurfaceForce};
 use crate::sph::terms::{color, curvature, surface_tension};
 use crate::sph::view::View;
 use crate::sph::wetting::contact_line::{LineFields, LineParticles, MeanLine};
-use crate::sph::wetting::lines::Line;
+use crate::sph::wetting::lines::TrackedLine;
 
 impl View<'_, BulkFields> {
     /// Normals and curvature in a band, surface force and line force [Huber2013, Eqs. 18-23].
-    pub(super) fn with_continuum_force(&self, color: Field<f64>, delta: LineDelta) -> (InterfaceFields, Vec<Line>) {
-        let (Neighborhood { pairs, images }, method, bulk) = (self.neighborhood, &self.setting.method, self.fields);
+    pub(super) fn with_continuum_force(
+        &self,
+        color: Field<f64>,
+        delta: LineDelta,
+    ) -> (InterfaceFields, Vec<TrackedLine>) {
+        let (Neighborhood { pairs, images }, method, bulk) = (self.neighborhood, &self.config.method, self.fields);
         let (fluids, moving) = (self.state.particles.fluids, self.state.particles.moving());
         let normal = color::color_gradient(pairs, &bulk.fluid_volume, &color, moving);
         let unit_normal = images.reflected_field(curvature::unit_normal(&normal, method.kernel.h));
@@ -42,7 +46,7 @@ impl View<'_, BulkFields> {
         delta: LineDelta,
         angles: impl FnOnce(&[MeanLine]) -> Vec<f64>,
     ) -> [Vec<Vec2>; 2] {
-        let (particles, method, bulk) = (&self.state.particles, &self.setting.method, self.fields);
+        let (particles, method, bulk) = (&self.state.particles, &self.config.method, self.fields);
         let with_plates: Option<Vec<f64>> =
             method.plates.map(|plates| curvature.iter().map(|&k| -plates.depth.curvature(-k)).collect());
         let curvature = with_plates.as_deref().unwrap_or(curvature);
@@ -60,7 +64,7 @@ impl View<'_, BulkFields> {
                 weight,
             };
             let found = LineParticles::find(self.neighborhood, &fields, &method.kernel, particles.fluids);
-            let angles = angles(&found.detected_lines(&fields, &self.setting.domain));
+            let angles = angles(&found.detected_lines(&fields, &self.config.domain));
             line = found.line_force(&fields, delta, &angles, method.tension);
         }
         [surface, line]

@@ -8,12 +8,12 @@ use crate::interface::weighted_circle::{
 };
 use crate::math::{Vec2, perpendicular};
 use crate::sph::bulk::BulkFields;
+use crate::sph::configuration::Configuration;
 use crate::sph::domain::Domain;
-use crate::sph::setting::Setting;
 use crate::sph::surface_force::contact_points::ContactPoint;
 use crate::sph::surface_force::stencils::Interface;
 use crate::sph::view::View;
-use crate::sph::wetting::lines::{DetectedLine, Following, Line};
+use crate::sph::wetting::lines::{ContactLineTracker, DetectedLine, TrackedLine};
 
 /// Points nearer to the wall than this, over dx, tell the place of a line: those between its first two layers of particles, or where
 /// a moving line has parted them those above.
@@ -38,17 +38,17 @@ pub(crate) struct InterfaceLine<'a> {
 }
 
 impl View<'_, BulkFields> {
-    /// The contact lines now, from those of the step before and from what is `seen` of them.
-    pub(super) fn followed(&self, seen: &[impl DetectedLine]) -> Vec<Line> {
-        let Setting { method, domain, spots, .. } = self.setting;
+    /// The contact lines now, from those of the step before and from what is `detected_lines` of them.
+    pub(super) fn followed(&self, detected_lines: &[impl DetectedLine]) -> Vec<TrackedLine> {
+        let Configuration { method, domain, wall_properties, .. } = self.config;
         let Some(base) = method.wetting else { return Vec::new() };
         let h = method.kernel.h;
         // Nothing happens at a line faster than an interface of the size h moves.
         let mean_over = h / method.capillary_speed() + method.largest_viscosity() * h / method.tension;
-        let following = Following {
+        let tracker = ContactLineTracker {
             domain,
-            model: &|x| spots.model(method, x).unwrap_or(base),
-            wall_velocity: &|x| spots.velocity(x),
+            model: &|x| wall_properties.model(method, x).unwrap_or(base),
+            wall_velocity: &|x| wall_properties.velocity(x),
             tension: method.tension,
             viscosity: method.wetting_fluid.viscosity,
             other_viscosity: method.other_fluid.viscosity,
@@ -56,7 +56,7 @@ impl View<'_, BulkFields> {
             h,
             mean_over,
         };
-        following.follow(&self.state.lines, seen, self.state.last_dt)
+        tracker.track(&self.state.lines, detected_lines, self.state.last_dt)
     }
 }
 

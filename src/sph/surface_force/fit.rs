@@ -78,7 +78,7 @@ impl<'a> InterfaceFit<'a> {
     }
 
     /// The same fits, but the interface is to meet walls at the given angle.
-    pub(crate) fn held_to(self, angle: &'a AngleAt<'a>) -> Self {
+    pub(crate) fn with_contact_angle(self, angle: &'a AngleAt<'a>) -> Self {
         Self { angle: Some(angle), ..self }
     }
 
@@ -293,7 +293,7 @@ mod tests {
             let points = circle(-angle.cos());
             let law = |_, _| angle;
             let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
-            let fit = InterfaceFit::free(&interface).held_to(&law);
+            let fit = InterfaceFit::free(&interface).with_contact_angle(&law);
             // From .1 up at 30 degrees the tangent misses the contact point by so much that the steps end 1e-3 off.
             let tolerance = if degrees == 30.0 { 2e-3 } else { 1e-5 };
             // Points below the top of the cap only.
@@ -319,7 +319,7 @@ mod tests {
             let points = interface(directions().map(|n| (level() * n, -n)), &wall);
             let law = |_, _| angle;
             let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &wall);
-            let fit = InterfaceFit::free(&interface).held_to(&law);
+            let fit = InterfaceFit::free(&interface).with_contact_angle(&law);
             for point in points.iter().filter(|p| p.x.x > 0.0 && p.wall_distance < 0.3) {
                 let kappa = fit.curvature(point.x).unwrap();
                 // The interface is followed down to the wall along its tangent, and the wall along its own.
@@ -360,7 +360,7 @@ mod tests {
             let law = |_, _| angle;
             let at = |gradient: f64| {
                 let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor).under(Vec2::new(0.0, gradient));
-                let fit = InterfaceFit::free(&interface).held_to(&law);
+                let fit = InterfaceFit::free(&interface).with_contact_angle(&law);
                 let near_wall = profile.iter().filter(|(_, z, ..)| depth - z < 0.3);
                 let error = |x: f64, z: f64, exact: f64| fit.curvature(Vec2::new(x, depth - z)).unwrap() - exact;
                 let largest = near_wall.map(|(x, z, _, exact)| error(*x, *z, *exact).abs()).fold(0.0, f64::max);
@@ -376,8 +376,9 @@ mod tests {
     fn a_cap_that_is_too_steep_bends_outwards_at_the_wall() {
         let points = circle(0.0);
         let interface = Interface::new(&points, &DOMAIN, RESOLUTION, &floor);
-        let fit =
-            |angle: f64| InterfaceFit::free(&interface).held_to(&|_, _| angle).curvature(Vec2::new(1.0, 0.02)).unwrap();
+        let fit = |angle: f64| {
+            InterfaceFit::free(&interface).with_contact_angle(&|_, _| angle).curvature(Vec2::new(1.0, 0.02)).unwrap()
+        };
         assert!(fit(60_f64.to_radians()) < fit(90_f64.to_radians()));
         assert!(fit(120_f64.to_radians()) > fit(90_f64.to_radians()));
     }

@@ -58,7 +58,7 @@ impl Jump {
         curvature_at: impl Fn(Vec2) -> Option<Fitted> + Sync,
     ) -> Self {
         let (Neighborhood { pairs, images }, position) = (flow.neighborhood, &flow.state.particles.position);
-        let (domain, h) = (&flow.setting.domain, flow.setting.method.kernel.h);
+        let (domain, h) = (&flow.config.domain, flow.config.method.kernel.h);
         let (n, fluids) = (pairs.rows(), flow.state.particles.moving());
         let side = images.field(color[..n].iter().map(|&c| if c > 0.5 { 1.0 } else { 0.0 }).collect());
         let is_across = values(n, |a| pairs.of(a).any(|ab| side[ab.b] != side[a]));
@@ -91,7 +91,7 @@ impl Jump {
             side,
             curvature: images.field(curvature),
             is_across,
-            plates: flow.setting.method.plates.map(|plates| (plates.depth, drops(flow))),
+            plates: flow.config.method.plates.map(|plates| (plates.depth, drops(flow))),
         }
     }
 

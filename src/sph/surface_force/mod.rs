@@ -27,11 +27,11 @@ use crate::sph::parallel::values;
 use crate::sph::particles::Phase;
 use crate::sph::terms::color;
 use crate::sph::view::View;
-use crate::sph::wetting::lines::Line;
+use crate::sph::wetting::lines::TrackedLine;
 
 /// The fields of the interface [Huber2013, Eqs. 18-23], and the contact lines now.
-pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec<Line>) {
-    let (Neighborhood { pairs, images }, method) = (flow.neighborhood, &flow.setting.method);
+pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec<TrackedLine>) {
+    let (Neighborhood { pairs, images }, method) = (flow.neighborhood, &flow.config.method);
     let (n, moving, phase) = (flow.state.particles.len(), flow.state.particles.moving(), &flow.state.particles.phase);
     let sharp = images.field(phase.iter().map(|p: &Phase| p.color()).collect());
     let (mut found, mut lines) = (InterfaceFields::default(), Vec::new());
@@ -54,12 +54,12 @@ pub(crate) fn interface_fields(flow: &View<BulkFields>) -> (InterfaceFields, Vec
 }
 
 /// The slip length in m of the wall next to each fluid particle: near contact `lines` that of lines.
-fn slip_lengths(flow: &View<BulkFields>, lines: &[Line]) -> Vec<f64> {
-    let (particles, setting) = (&flow.state.particles, flow.setting);
+fn slip_lengths(flow: &View<BulkFields>, lines: &[TrackedLine]) -> Vec<f64> {
+    let (particles, config) = (&flow.state.particles, flow.config);
     values(particles.fluids, |a| {
-        let distance = |line: &Line| setting.domain.separation(particles.position[a], line.position).norm();
+        let distance = |line: &TrackedLine| config.domain.separation(particles.position[a], line.position).norm();
         let has_wall = flow.fields.wall_distance[a].is_finite();
         let nearest = lines.iter().filter(|_| has_wall).map(distance).fold(f64::INFINITY, f64::min);
-        setting.method.no_slip.slip_length_at(nearest)
+        config.method.no_slip.slip_length_at(nearest)
     })
 }

@@ -133,7 +133,7 @@ mod tests {
             let interface = Interface::new(&points, &domain, RESOLUTION, &wall);
             let pinned_lines: Vec<PinnedLine> =
                 interface.lines().iter().filter_map(|line| line.pinned(60_f64.to_radians())).collect();
-            let fit = InterfaceFit::free(&interface).held_to(&law).with_pinned_lines(&pinned_lines);
+            let fit = InterfaceFit::free(&interface).with_contact_angle(&law).with_pinned_lines(&pinned_lines);
             for point in points.iter().filter(|p| p.x.norm() < 0.4) {
                 let (kappa, from) = (fit.curvature(point.x).unwrap(), point.x.norm());
                 assert!((kappa - 1.0).abs() < 3e-3, "at {degrees} degrees, {from:.3} from the edge: {kappa}");

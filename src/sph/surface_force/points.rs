@@ -57,7 +57,7 @@ pub(crate) fn interface_points(
 ) -> Vec<InterfacePoint> {
     let velocity = flow.velocity();
     let (Neighborhood { pairs, images }, moving) = (flow.neighborhood, flow.state.particles.moving());
-    let (spacing, h) = (flow.setting.method.spacing, flow.setting.method.kernel.h);
+    let (spacing, h) = (flow.config.method.spacing, flow.config.method.kernel.h);
     let mut points = Vec::new();
     let link2 = (LINK * spacing).powi(2);
     for a in (0..moving).filter(|&a| near[a]) {
@@ -88,13 +88,13 @@ pub(crate) fn interface_points(
             }
         }
     }
-    reflect(&mut points, &flow.setting.domain, 3.0 * h);
+    reflect(&mut points, &flow.config.domain, 3.0 * h);
     points
 }
 
 /// Whether particles of both phases, by the smoothed color, which is blind to isolated particles, touch the wall around `a` or `b`.
 fn both_touch(flow: &View<BulkFields>, color: &[f64], a: usize, b: usize) -> bool {
-    let (Neighborhood { pairs, images }, spacing) = (flow.neighborhood, flow.setting.method.spacing);
+    let (Neighborhood { pairs, images }, spacing) = (flow.neighborhood, flow.config.method.spacing);
     let phase = |i: usize| {
         let touches = flow.fields.wall_distance.get(i).is_some_and(|d| *d < TOUCHING * spacing);
         touches.then(|| color[i] > LEVEL)

@@ -3,10 +3,10 @@
 use crate::math::Vec2;
 use crate::sph::boundary::shepard;
 use crate::sph::bulk::BulkFields;
+use crate::sph::configuration::Configuration;
 use crate::sph::images::Field;
 use crate::sph::neighborhood::Neighborhood;
 use crate::sph::parallel::values;
-use crate::sph::setting::Setting;
 use crate::sph::surface_force::fields::{InterfaceFields, SurfaceForce};
 use crate::sph::surface_force::fit::{Fitted, InterfaceFit};
 use crate::sph::surface_force::jump::Jump;
@@ -14,7 +14,7 @@ use crate::sph::surface_force::points::{Resolution, interface_points};
 use crate::sph::surface_force::stencils::Interface;
 use crate::sph::terms::{color, pressure_gradient};
 use crate::sph::view::View;
-use crate::sph::wetting::lines::{LINE_REACH, Line, nearest};
+use crate::sph::wetting::lines::{LINE_REACH, TrackedLine, nearest};
 
 impl View<'_, BulkFields> {
     /// Sides and curvatures for the pressure jump, fitted where none is `given` (1/m); the normal is the consistent gradient of the smoothed `color`.
@@ -25,8 +25,8 @@ impl View<'_, BulkFields> {
         color: Field<f64>,
         mixed: &[bool],
         given: Option<f64>,
-    ) -> (InterfaceFields, Vec<Line>) {
-        let (Neighborhood { pairs, images }, Setting { method, domain, .. }) = (self.neighborhood, self.setting);
+    ) -> (InterfaceFields, Vec<TrackedLine>) {
+        let (Neighborhood { pairs, images }, Configuration { method, domain, .. }) = (self.neighborhood, self.config);
         let (particles, bulk) = (&self.state.particles, self.fields);
         let (fluids, moving) = (particles.fluids, particles.moving());
         let r_ab = |a: usize, b: usize| self.separation(a, b);
@@ -39,8 +39,7 @@ impl View<'_, BulkFields> {
         let moment = pressure_gradient::moment(pairs, &bulk.volume, r_ab, fluids);
         let points = interface_points(self, &color, &normal, &near);
         let resolution = Resolution { spacing: method.spacing, h: method.kernel.h };
-        let at_rest =
-            Interface::new(&points, domain, resolution, &self.setting.wall).under(method.curvature_gradient());
+        let at_rest = Interface::new(&points, domain, resolution, &self.config.wall).under(method.curvature_gradient());
         let interface = Interface { step: self.state.last_dt, ..at_rest };
         let (mut lines, mut pinned) = (Vec::new(), Vec::new());
         if method.wetting.is_some() {
@@ -50,14 +49,14 @@ impl View<'_, BulkFields> {
         }
         let angle_at = |x: Vec2, outward: Vec2| {
             // Without a model this is not asked for.
-            let Some(model) = self.setting.spots.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
+            let Some(model) = self.config.wall_properties.model(method, x) else { return std::f64::consts::FRAC_PI_2 };
             let line =
                 if model.is_static() { None } else { nearest(&lines, domain, x, outward, LINE_REACH * resolution.h) };
             line.map_or_else(|| model.static_angle(), |line| line.angle)
         };
         let mut fit = InterfaceFit::free(&interface);
         if method.wetting.is_some() {
-            fit = fit.held_to(&angle_at).with_pinned_lines(&pinned);
+            fit = fit.with_contact_angle(&angle_at).with_pinned_lines(&pinned);
         }
         let gradient = if given.is_some() { Vec2::zeros() } else { method.curvature_gradient() };
         let given = given.map(|curvature| Fitted { curvature, turning: None });
@@ -66,7 +65,7 @@ impl View<'_, BulkFields> {
         let curvature = jump.curvature[..particles.len()].iter().map(|&k| if k.is_nan() { 0.0 } else { k }).collect();
         let range = |a: usize| {
             let has_wall = bulk.wall_distance[a].is_finite();
-            let model = if has_wall { self.setting.spots.model(method, particles.position[a]) } else { None };
+            let model = if has_wall { self.config.wall_properties.model(method, particles.position[a]) } else { None };
             model.map_or([f64::NAN; 2], |model| model.hysteresis_range())
         };
         let (wall_hysteresis, has_pinned_line) = ((0..fluids).map(range).collect(), !pinned.is_empty());

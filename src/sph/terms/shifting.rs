@@ -45,10 +45,10 @@ pub fn take_out_mean(pairs: &Pairs, images: &Images, fluid_volume: &[f64], push:
     each(push, |a| all[a] - average::over_fluid(a, pairs, fluid_volume, &all));
 }
 
-/// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `uneven` is ∇C with the anti-clustering force, in 1/m, `diffusion` in m², `h` and the result in m.
-pub(crate) fn shift(uneven: &[Vec2], diffusion: f64, h: f64) -> Vec<Vec2> {
-    values(uneven.len(), |a| {
-        let by = -diffusion * uneven[a];
+/// δr_a = −`diffusion` ∇C_a, at most 0.1 h. `shifting_vector` is ∇C with the anti-clustering force, in 1/m, `diffusion` in m², `h` and the result in m.
+pub(crate) fn shift(shifting_vector: &[Vec2], diffusion: f64, h: f64) -> Vec<Vec2> {
+    values(shifting_vector.len(), |a| {
+        let by = -diffusion * shifting_vector[a];
         by * (LARGEST_SHIFT * h / by.norm()).min(1.0)
     })
 }

@@ -28,7 +28,7 @@ pub(crate) const LINE_REACH: f64 = 4.0;
 
 /// A contact line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Line {
+pub struct TrackedLine {
     /// Where the interface meets the wall, in m.
     pub position: Vec2,
     /// ν_ns: unit vector along the wall from the wetting to the other phase.
@@ -42,11 +42,11 @@ pub struct Line {
     /// Way in m that the position has gone along ν_ns since the line was first seen.
     pub travel: f64,
     /// Time in s since the line was last seen.
-    pub unseen: f64,
+    pub undetected: f64,
 }
 
 /// The unit vector along the wall that the lines have gone at least `way` (m) along, on the mean; none before.
-pub(crate) fn gone(lines: &[Line], way: f64) -> Option<Vec2> {
+pub(crate) fn gone(lines: &[TrackedLine], way: f64) -> Option<Vec2> {
     let along = lines.first()?.outward;
     let ways = lines.iter().map(|line| line.travel * line.outward.dot(&along));
     let mean = ways.sum::<f64>() / lines.len() as f64;
@@ -68,7 +68,7 @@ pub trait DetectedLine {
 }
 
 /// What the lines need to know of the flow and the wall.
-pub struct Following<'a> {
+pub struct ContactLineTracker<'a> {
     /// Sides.
     pub domain: &'a Domain,
     /// The wetting model at a point of the wall.
@@ -89,31 +89,33 @@ pub struct Following<'a> {
     pub mean_over: f64,
 }
 
-impl Following<'_> {
+impl ContactLineTracker<'_> {
     /// The lines now, from those of the step before, `dt` (s) ago, and from what is seen; those seen come first, in the order of detection.
-    pub fn follow(&self, before: &[Line], seen: &[impl DetectedLine], dt: f64) -> Vec<Line> {
-        let moved: Vec<Line> = before.iter().map(|line| self.carried(line, dt)).collect();
-        let known = self.matches(&moved, seen);
-        let mut lines: Vec<Line> = seen
+    pub fn track(&self, before: &[TrackedLine], detected_lines: &[impl DetectedLine], dt: f64) -> Vec<TrackedLine> {
+        let moved: Vec<TrackedLine> = before.iter().map(|line| self.carried(line, dt)).collect();
+        let known = self.matches(&moved, detected_lines);
+        let mut lines: Vec<TrackedLine> = detected_lines
             .iter()
             .zip(&known)
             .map(|(detected, known)| self.update(detected, known.map(|i| moved[i]), dt))
             .collect();
-        let lost = |i: &usize| !known.contains(&Some(*i)) && moved[*i].unseen + dt < KEPT * self.mean_over;
-        lines.extend((0..moved.len()).filter(lost).map(|i| Line { unseen: moved[i].unseen + dt, ..moved[i] }));
+        let lost = |i: &usize| !known.contains(&Some(*i)) && moved[*i].undetected + dt < KEPT * self.mean_over;
+        lines.extend(
+            (0..moved.len()).filter(lost).map(|i| TrackedLine { undetected: moved[i].undetected + dt, ..moved[i] }),
+        );
         lines
     }
 
     /// The line carried along by its wall for `dt` (s).
-    fn carried(&self, line: &Line, dt: f64) -> Line {
+    fn carried(&self, line: &TrackedLine, dt: f64) -> TrackedLine {
         let by = dt * (self.wall_velocity)(line.anchor);
-        Line { anchor: self.domain.wrapped(line.anchor + by), ..*line }
+        TrackedLine { anchor: self.domain.wrapped(line.anchor + by), ..*line }
     }
 
     /// For each detected line the line that it is, nearest pairs first.
-    fn matches(&self, lines: &[Line], seen: &[impl DetectedLine]) -> Vec<Option<usize>> {
+    fn matches(&self, lines: &[TrackedLine], detected_lines: &[impl DetectedLine]) -> Vec<Option<usize>> {
         let mut near = Vec::new();
-        for (s, detected) in seen.iter().enumerate() {
+        for (s, detected) in detected_lines.iter().enumerate() {
             for (i, line) in lines.iter().enumerate() {
                 let distance = self.domain.separation(detected.place(), line.position).norm();
                 if distance < SAME_LINE * self.h && detected.outward().dot(&line.outward) > 0.0 {
@@ -122,7 +124,7 @@ impl Following<'_> {
             }
         }
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
-        let (mut found, mut taken) = (vec![None; seen.len()], vec![false; lines.len()]);
+        let (mut found, mut taken) = (vec![None; detected_lines.len()], vec![false; lines.len()]);
         for (_, s, i) in near {
             if found[s].is_none() && !taken[i] {
                 (found[s], taken[i]) = (Some(i), true);
@@ -131,16 +133,16 @@ impl Following<'_> {
         found
     }
 
-    fn update(&self, seen: &impl DetectedLine, known: Option<Line>, dt: f64) -> Line {
-        let (place, outward) = (seen.place(), seen.outward());
-        let speed = seen.speed() - (self.wall_velocity)(place).dot(&outward);
+    fn update(&self, detected_lines: &impl DetectedLine, known: Option<TrackedLine>, dt: f64) -> TrackedLine {
+        let (place, outward) = (detected_lines.place(), detected_lines.outward());
+        let speed = detected_lines.speed() - (self.wall_velocity)(place).dot(&outward);
         let speed = match known {
             Some(line) => line.speed + (speed - line.speed) * (1.0 - (-dt / self.mean_over).exp()),
             None => speed,
         };
         let model = (self.model)(place);
-        let anchor = known.map(|line| line.anchor).filter(|_| model.holds());
-        let present = seen.present(anchor);
+        let anchor = known.map(|line| line.anchor).filter(|_| model.pins());
+        let present = detected_lines.present(anchor);
         let state = LineState {
             present,
             speed,
@@ -151,25 +153,25 @@ impl Following<'_> {
             slip_length: self.slip_length,
         };
         let angle = model.angle(&state);
-        let is_held = model.holds() && angle == present;
+        let is_held = model.pins() && angle == present;
         let position = match anchor {
             Some(anchor) if is_held => anchor,
-            _ => self.domain.wrapped(seen.meets(angle)),
+            _ => self.domain.wrapped(detected_lines.meets(angle)),
         };
         let way = known.map_or(0.0, |line| line.travel + self.domain.separation(position, line.position).dot(&outward));
-        Line { position, outward, speed, angle, anchor: position, travel: way, unseen: 0.0 }
+        TrackedLine { position, outward, speed, angle, anchor: position, travel: way, undetected: 0.0 }
     }
 }
 
 /// The line that a place (m) at the wall belongs to: the nearest one with the same side within `reach` (m).
 pub(crate) fn nearest<'l>(
-    lines: &'l [Line],
+    lines: &'l [TrackedLine],
     domain: &Domain,
     place: Vec2,
     outward: Vec2,
     reach: f64,
-) -> Option<&'l Line> {
-    let distance = |line: &&Line| domain.separation(place, line.position).norm();
+) -> Option<&'l TrackedLine> {
+    let distance = |line: &&TrackedLine| domain.separation(place, line.position).norm();
     lines
         .iter()
         .filter(|line| line.outward.dot(&outward) > 0.0 && distance(line) < reach)
@@ -210,10 +212,16 @@ mod tests {
         }
     }
 
-    fn follow(model: Wetting, wall: f64, before: &[Line], seen: &[Straight], dt: f64) -> Vec<Line> {
+    fn track(
+        model: Wetting,
+        wall: f64,
+        before: &[TrackedLine],
+        detected_lines: &[Straight],
+        dt: f64,
+    ) -> Vec<TrackedLine> {
         let bounds = Bounds { min: Vec2::repeat(-5.0), max: Vec2::repeat(5.0) };
         let domain = Domain::new(bounds, [true, false], vec![]);
-        let following = Following {
+        let tracker = ContactLineTracker {
             domain: &domain,
             model: &|_| model,
             wall_velocity: &|_| Vec2::new(wall, 0.0),
@@ -224,7 +232,7 @@ mod tests {
             h: H,
             mean_over: 1.0,
         };
-        following.follow(before, seen, dt)
+        tracker.track(before, detected_lines, dt)
     }
 
     fn degrees(angle: f64) -> f64 {
@@ -237,10 +245,9 @@ mod tests {
 
     #[test]
     fn a_line_within_its_range_is_drawn_back_to_its_anchor() {
-        let start = follow(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
+        let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
         assert_eq!(start[0].anchor, Vec2::zeros());
-        let off =
-            follow(with_hysteresis(), 0.0, &start, &[Straight { x: 0.01, angle: degrees(80.0), speed: 0.0 }], 0.1);
+        let off = track(with_hysteresis(), 0.0, &start, &[Straight { x: 0.01, angle: degrees(80.0), speed: 0.0 }], 0.1);
         assert_eq!(off[0].anchor, Vec2::zeros());
         // An interface that went out is to stand steeper, which draws it in.
         assert!(off[0].angle > degrees(80.0) && off[0].angle < degrees(100.0), "{:?}", off[0]);
@@ -248,9 +255,8 @@ mod tests {
 
     #[test]
     fn a_line_beyond_its_range_has_the_bound_and_takes_its_anchor_along() {
-        let start = follow(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(95.0), speed: 0.0 }], 0.0);
-        let off =
-            follow(with_hysteresis(), 0.0, &start, &[Straight { x: 0.05, angle: degrees(95.0), speed: 0.0 }], 0.1);
+        let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(95.0), speed: 0.0 }], 0.0);
+        let off = track(with_hysteresis(), 0.0, &start, &[Straight { x: 0.05, angle: degrees(95.0), speed: 0.0 }], 0.1);
         assert!((off[0].angle - degrees(100.0)).abs() < 1e-12, "{:?}", off[0]);
         assert!(off[0].anchor.x > 0.01 && off[0].anchor == off[0].position && off[0].travel > 0.01, "{:?}", off[0]);
     }
@@ -258,10 +264,10 @@ mod tests {
     #[test]
     fn an_anchor_goes_with_its_wall_and_through_a_periodic_side() {
         let at = |x: f64| [Straight { x, angle: degrees(80.0), speed: 1.0 }];
-        let mut lines = follow(with_hysteresis(), 1.0, &[], &at(4.98), 0.0);
+        let mut lines = track(with_hysteresis(), 1.0, &[], &at(4.98), 0.0);
         for step in 1..=4 {
             let x = 4.98 + 0.01 * f64::from(step);
-            lines = follow(with_hysteresis(), 1.0, &lines, &at(if x >= 5.0 { x - 10.0 } else { x }), 0.01);
+            lines = track(with_hysteresis(), 1.0, &lines, &at(if x >= 5.0 { x - 10.0 } else { x }), 0.01);
         }
         let [line] = lines[..] else { panic!("{lines:?}") };
         assert!((line.anchor.x + 4.98).abs() < 1e-9 && line.speed.abs() < 1e-12, "{line:?}");
@@ -272,9 +278,9 @@ mod tests {
     fn the_speed_is_a_mean_over_time() {
         let young = Wetting::Young(Young { contact_angle_deg: 57.0 });
         let at = |speed: f64| [Straight { x: 0.0, angle: 1.0, speed }];
-        let mut lines = follow(young, 0.0, &[], &at(0.0), 0.0);
+        let mut lines = track(young, 0.0, &[], &at(0.0), 0.0);
         for _ in 0..100 {
-            lines = follow(young, 0.0, &lines, &at(1.0), 0.01);
+            lines = track(young, 0.0, &lines, &at(1.0), 0.01);
         }
         // One mean time after a step from 0 to 1.
         assert!((lines[0].speed - (1.0 - (-1.0_f64).exp())).abs() < 1e-9, "{:?}", lines[0]);
@@ -282,9 +288,9 @@ mod tests {
 
     #[test]
     fn a_line_that_is_lost_for_a_moment_keeps_its_anchor() {
-        let start = follow(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
-        let lost = follow(with_hysteresis(), 0.0, &start, &[], 0.5);
-        assert_eq!((lost.len(), lost[0].anchor, lost[0].unseen), (1, start[0].anchor, 0.5));
-        assert!(follow(with_hysteresis(), 0.0, &lost, &[], 10.0).is_empty());
+        let start = track(with_hysteresis(), 0.0, &[], &[Straight { x: 0.0, angle: degrees(80.0), speed: 0.0 }], 0.0);
+        let lost = track(with_hysteresis(), 0.0, &start, &[], 0.5);
+        assert_eq!((lost.len(), lost[0].anchor, lost[0].undetected), (1, start[0].anchor, 0.5));
+        assert!(track(with_hysteresis(), 0.0, &lost, &[], 10.0).is_empty());
     }
 }

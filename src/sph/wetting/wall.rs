@@ -6,7 +6,7 @@ use crate::wetting::Wetting;
 
 /// A wall at a point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct WallSpot {
+pub(crate) struct WallProperties {
     /// Number of the patch that lies there, if one does.
     pub(crate) patch: Option<usize>,
     /// Velocity of the wall in m/s.
@@ -14,15 +14,15 @@ pub(crate) struct WallSpot {
 }
 
 /// What the nearest wall is at a point (m).
-pub(crate) type SpotQuery = Box<dyn Fn(Vec2) -> WallSpot + Send + Sync>;
+pub(crate) type WallQuery = Box<dyn Fn(Vec2) -> WallProperties + Send + Sync>;
 
 /// The walls of a flow; without a query all are alike and at rest.
 #[derive(Default)]
-pub struct WallSpots(Option<SpotQuery>);
+pub struct WallField(Option<WallQuery>);
 
-impl WallSpots {
+impl WallField {
     /// Walls that differ or move.
-    pub(crate) fn new(query: SpotQuery) -> Self {
+    pub(crate) fn new(query: WallQuery) -> Self {
         Self(Some(query))
     }
 

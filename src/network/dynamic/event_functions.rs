@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use super::Dynamic;
-use super::rise::Rise;
+use super::capillary_curve::CapillaryCurve;
 use crate::network::displacement::{Advance, FrontId};
 
 /// What a step may come to.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Goal {
+pub(super) enum EventFunction {
     /// A meniscus reaches its own event: index of the advance.
     Own(usize, FrontId),
     /// Two menisci meet: index of the advance.
@@ -40,15 +40,15 @@ pub(super) enum Side {
     /// It waits.
     Front(FrontId),
     /// It is to come: the number of the body.
-    Body(usize),
+    FillingPore(usize),
 }
 
 /// The body of invading phase in an element that is being filled.
 #[derive(Debug, Clone)]
-pub(super) struct Body {
+pub(super) struct FillingPore {
     pub(crate) element: usize,
     /// Its curvature over its area: constant until the element is full, then the common one of the menisci that will wait in its gates.
-    pub(crate) rise: Arc<Rise>,
+    pub(crate) curve: Arc<CapillaryCurve>,
     /// Its area in m² now, when the element is full, and when the first of the menisci ahead reaches its event.
     pub(crate) area: f64,
     pub(crate) full: f64,
@@ -57,7 +57,7 @@ pub(super) struct Body {
     pub(crate) passes: bool,
 }
 
-impl Body {
+impl FillingPore {
     /// Area in m² just beyond that of the element that is full.
     pub(crate) fn beyond(&self) -> f64 {
         self.full * (1.0 + 1e-9)
@@ -69,7 +69,7 @@ pub(super) struct Areas<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64> {
     /// Swept by a meniscus that waits.
     pub(crate) front: F,
     /// Of a body, by its number.
-    pub(crate) body: B,
+    pub(crate) filling_pore: B,
 }
 
 /// What may be missing until an event, and what may be beyond it, as a share of the way to it. What is beyond is not lost: the invading
@@ -90,14 +90,14 @@ impl Dynamic {
     }
 
     /// What fires an event.
-    pub(super) fn goals(&self) -> Vec<Goal> {
-        let mut goals = Vec::new();
+    pub(super) fn event_functions(&self) -> Vec<EventFunction> {
+        let mut event_functions = Vec::new();
         for (index, advance) in self.advances.iter().enumerate() {
             match advance.fronts {
                 (front, _) if !self.waits(front) => {}
-                (front, None) => goals.push(Goal::Own(index, front)),
+                (front, None) => event_functions.push(EventFunction::Own(index, front)),
                 (front, Some(partner)) if self.waits(partner) && self.is_new(advance) => {
-                    goals.push(Goal::Meeting(index, [front, partner]));
+                    event_functions.push(EventFunction::Meeting(index, [front, partner]));
                 }
                 _ => {}
             }
@@ -109,20 +109,20 @@ impl Dynamic {
             if self.state.filling[element].is_some() && !is_leaving {
                 continue;
             }
-            let bulges = self.bulges(element);
-            if fronts.len() + bulges.len() > 1 || self.state.filling[element].is_some() {
-                let held = bulges.iter().map(|(_, area)| area).sum::<f64>() + self.passed_in_outlet(element);
-                goals.push(Goal::Covered { element, fronts, held });
+            let overhangs = self.overhangs(element);
+            if fronts.len() + overhangs.len() > 1 || self.state.filling[element].is_some() {
+                let held = overhangs.iter().map(|(_, area)| area).sum::<f64>() + self.passed_in_outlet(element);
+                event_functions.push(EventFunction::Covered { element, fronts, held });
             }
         }
         for (element, filling) in self.state.filling.iter().enumerate() {
             let Some(filling) = filling.as_ref().filter(|_| !self.is_outlet[element]) else { continue };
-            let bulges: f64 = self.bulges(element).iter().map(|(_, area)| area).sum();
-            let target = self.target(element, filling) - bulges;
-            goals.push(Goal::Full { element, target });
+            let overhangs: f64 = self.overhangs(element).iter().map(|(_, area)| area).sum();
+            let target = self.target(element, filling) - overhangs;
+            event_functions.push(EventFunction::Full { element, target });
         }
-        goals.extend(self.all_on_their_way().into_iter().map(Goal::Leaves));
-        goals
+        event_functions.extend(self.all_on_their_way().into_iter().map(EventFunction::Leaves));
+        event_functions
     }
 
     /// Whether an advance lets the invading phase into an element.
@@ -131,25 +131,27 @@ impl Dynamic {
     }
 
     /// What ends a step: elements become full on the way.
-    pub(super) fn ends_of_step(&self, bodies: &[Body]) -> Vec<Goal> {
-        let mut goals = self.goals();
-        let has_body = |element: usize| bodies.iter().any(|body| body.element == element);
-        goals.retain(|goal| !matches!(goal, Goal::Full { element, .. } if has_body(*element)));
-        goals.extend((0..bodies.len()).map(Goal::Beyond));
+    pub(super) fn ends_of_step(&self, filling_pores: &[FillingPore]) -> Vec<EventFunction> {
+        let mut event_functions = self.event_functions();
+        let has_body = |element: usize| filling_pores.iter().any(|filling_pore| filling_pore.element == element);
+        event_functions
+            .retain(|function| !matches!(function, EventFunction::Full { element, .. } if has_body(*element)));
+        event_functions.extend((0..filling_pores.len()).map(EventFunction::Beyond));
         let side = |front: FrontId| {
             let behind = self.behind(front);
-            let body = bodies.iter().position(|body| body.element == behind).map(Side::Body);
-            body.or_else(|| self.waits(front).then_some(Side::Front(front)))
+            let filling_pore =
+                filling_pores.iter().position(|filling_pore| filling_pore.element == behind).map(Side::FillingPore);
+            filling_pore.or_else(|| self.waits(front).then_some(Side::Front(front)))
         };
         for advance in &self.meetings_to_come {
             if let (front, Some(partner)) = advance.fronts
                 && let (Some(one), Some(other)) = (side(front), side(partner))
                 && self.is_new(advance)
             {
-                goals.push(Goal::ToMeet([one, other], advance.curvature));
+                event_functions.push(EventFunction::ToMeet([one, other], advance.curvature));
             }
         }
-        goals
+        event_functions
     }
 
     /// The elements being filled from which the defending phase has a way to an outlet.
@@ -160,16 +162,16 @@ impl Dynamic {
     }
 
     /// The body in an element that is being filled.
-    pub(super) fn body(&self, element: usize, filling: &super::Filling) -> Body {
+    pub(super) fn filling_pore(&self, element: usize, filling: &super::Filling) -> FillingPore {
         let own = self.displacement.elements()[element].area;
-        let bulges: f64 = self.bulges(element).iter().map(|(_, area)| area).sum();
+        let overhangs: f64 = self.overhangs(element).iter().map(|(_, area)| area).sum();
         // What the full element cuts off from the outlet lets no meniscus go on.
         let cut_off = self.trapped_once_full(Some(element));
         let (stopped, ahead): (Vec<_>, Vec<_>) =
             self.to_come(element).into_iter().partition(|it| cut_off[self.ahead_of(it.front)]);
         let stopped: f64 = stopped.iter().map(|it| it.area(filling.curvature)).sum();
-        let first = ahead.iter().map(|to_come| to_come.rise.end().1).reduce(f64::min);
-        let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + stopped + own - bulges;
+        let first = ahead.iter().map(|to_come| to_come.curve.end().1).reduce(f64::min);
+        let held = |k: f64| ahead.iter().map(|it| it.area(k)).sum::<f64>() + stopped + own - overhangs;
         let full = held(filling.curvature);
         let mut places = vec![(full, filling.curvature)];
         let last = first.map_or(filling.curvature, |first| first.max(filling.curvature));
@@ -181,14 +183,14 @@ impl Dynamic {
                 places.push((area, k));
             }
         }
-        Body {
+        FillingPore {
             element,
             area: self.filled_area(element, filling),
             full,
             passes: false,
             first: first.map(|_| places[places.len() - 1].0),
-            rise: Arc::new(
-                Rise::of_body(&places, 1.0 / (CLOSED * own * own.sqrt()))
+            curve: Arc::new(
+                CapillaryCurve::of_body(&places, 1.0 / (CLOSED * own * own.sqrt()))
                     .between(|curvature| self.terms.with_depth(curvature)),
             ),
         }
@@ -201,52 +203,54 @@ impl Dynamic {
     }
 
     /// What is missing until a goal, below 0 beyond it.
-    pub(super) fn gap<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64>(
+    pub(super) fn value_of<F: Fn(FrontId) -> f64, B: Fn(usize) -> f64>(
         &self,
-        bodies: &[Body],
-        goal: &Goal,
+        filling_pores: &[FillingPore],
+        function: &EventFunction,
         at: &Areas<F, B>,
     ) -> f64 {
-        let rise = |front: FrontId| self.rises[front.0][front.1].as_ref();
-        let curvature = |front: FrontId| rise(front).map_or(f64::NEG_INFINITY, |it| it.curvature((at.front)(front)));
+        let curve = |front: FrontId| self.curves[front.0][front.1].as_ref();
+        let curvature = |front: FrontId| curve(front).map_or(f64::NEG_INFINITY, |it| it.curvature((at.front)(front)));
         let element_area = |element: usize| self.displacement.elements()[element].area;
-        match goal {
-            Goal::Own(_, front) => {
-                rise(*front).map_or(f64::INFINITY, |rise| (rise.end().0 - (at.front)(*front)) / rise.scale())
+        match function {
+            EventFunction::Own(_, front) => {
+                curve(*front).map_or(f64::INFINITY, |curve| (curve.end().0 - (at.front)(*front)) / curve.scale())
             }
-            Goal::Meeting(advance, fronts) => {
+            EventFunction::Meeting(advance, fronts) => {
                 let mean = 0.5 * (curvature(fronts[0]) + curvature(fronts[1]));
                 (self.advances[*advance].curvature - mean) * self.gates[fronts[0].0].width
             }
-            Goal::Covered { element, fronts, held } => {
+            EventFunction::Covered { element, fronts, held } => {
                 let covered: f64 = held + fronts.iter().map(|&front| (at.front)(front)).sum::<f64>();
                 1.0 - covered / element_area(*element)
             }
-            Goal::Full { element, target } => {
+            EventFunction::Full { element, target } => {
                 let filled = self.state.filling[*element].as_ref().map_or(0.0, |filling| filling.area);
                 // What a meniscus that recedes out of it takes along was in it before.
                 let waiting: f64 = self.entering(*element).map(|(front, _)| (at.front)(front).max(0.0)).sum();
                 (target - filled - waiting) / self.scale_of_filling(*element)
             }
-            Goal::Leaves(front) => self.missing_to_outlet(*front, &at.front) / element_area(self.ahead_of(*front)),
-            Goal::Beyond(index) => {
-                let Body { element, full, first, passes, .. } = &bodies[*index];
+            EventFunction::Leaves(front) => {
+                self.missing_to_outlet(*front, &at.front) / element_area(self.ahead_of(*front))
+            }
+            EventFunction::Beyond(index) => {
+                let FillingPore { element, full, first, passes, .. } = &filling_pores[*index];
                 match first.filter(|_| *passes) {
                     Some(first) => {
-                        (first - (at.body)(*index)) / (first - full).max(LEAST_BEYOND * element_area(*element))
+                        (first - (at.filling_pore)(*index)) / (first - full).max(LEAST_BEYOND * element_area(*element))
                     }
-                    None => (full - (at.body)(*index)) / self.scale_of_filling(*element),
+                    None => (full - (at.filling_pore)(*index)) / self.scale_of_filling(*element),
                 }
             }
-            Goal::ToMeet(sides, event) => {
+            EventFunction::ToMeet(sides, event) => {
                 let mut missing = f64::NEG_INFINITY;
                 let mut side = |side: &Side| match *side {
                     Side::Front(front) => (curvature(front), self.gates[front.0].width),
-                    Side::Body(index) => {
-                        let (body, area) = (&bodies[index], (at.body)(index));
-                        let own = element_area(body.element);
-                        missing = missing.max((body.full - area) / own);
-                        (body.rise.curvature(area), own.sqrt())
+                    Side::FillingPore(index) => {
+                        let (filling_pore, area) = (&filling_pores[index], (at.filling_pore)(index));
+                        let own = element_area(filling_pore.element);
+                        missing = missing.max((filling_pore.full - area) / own);
+                        (filling_pore.curve.curvature(area), own.sqrt())
                     }
                 };
                 let [(one, width), (other, _)] = [side(&sides[0]), side(&sides[1])];

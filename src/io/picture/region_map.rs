@@ -3,7 +3,7 @@
 use super::canvas::{Canvas, PictureError, Rgb};
 use super::style::{INTERFACE, OUTLINE, RIM, SOLID, TEXT_SIZE, WIDTH};
 use super::view::{View, heading, scale_bar};
-use crate::diagram::{Mosaic, Tone, colors};
+use crate::diagram::{RegionMap, Tone, colors};
 use crate::io::axes::short;
 use crate::math::{Bounds, Vec2};
 
@@ -31,62 +31,62 @@ const THINNEST: f32 = 2.0;
 const THROAT: Rgb = colors::MARK;
 
 /// Draws a map as a PNG file.
-pub(crate) fn mosaic_picture(mosaic: &Mosaic, title: &str) -> Result<Vec<u8>, PictureError> {
-    let [min, max] = mosaic.frame.bounds.map(Vec2::from);
-    let view = View::new(Bounds { min, max }, Some(&mosaic.frame));
-    if !(view.scale.is_finite() && view.scale > 0.0) || mosaic.areas.is_empty() {
+pub(crate) fn region_map_picture(region_map: &RegionMap, title: &str) -> Result<Vec<u8>, PictureError> {
+    let [min, max] = region_map.frame.bounds.map(Vec2::from);
+    let view = View::new(Bounds { min, max }, Some(&region_map.frame));
+    if !(view.scale.is_finite() && view.scale > 0.0) || region_map.areas.is_empty() {
         return Err(PictureError::Empty);
     }
     let bottom = view.bottom();
     let mut canvas = Canvas::new(WIDTH, (bottom + FOOT).ceil() as u32)?;
     canvas.rectangle(view.corner, view.size, SOLID);
-    let [low, high] = mosaic.range;
-    for area in &mosaic.areas {
+    let [low, high] = region_map.range;
+    for area in &region_map.areas {
         let color = match area.tone {
-            Tone::Value(value) => color_at(mosaic.bar, (value - low) / (high - low)),
-            Tone::Class(class) => mosaic.classes.get(class).map_or(SOLID, |(_, color)| *color),
+            Tone::Value(value) => color_at(region_map.bar, (value - low) / (high - low)),
+            Tone::Class(class) => region_map.classes.get(class).map_or(SOLID, |(_, color)| *color),
         };
         canvas.polygon(area.boundary.iter().map(|&x| view.place(x.into())), color);
     }
     // Thousands of grains leave no room for thick lines.
     const FEW: usize = 500;
-    let thin = if mosaic.walls.len() < FEW { 1.0 } else { 0.4 };
-    for (line, width) in &mosaic.strips.1 {
+    let thin = if region_map.walls.len() < FEW { 1.0 } else { 0.4 };
+    for (line, width) in &region_map.strips.1 {
         let width = ((width * view.scale) as f32).max(THINNEST);
         canvas.polyline(line.iter().map(|&x| view.place(x.into())), width, STRIP);
     }
-    for wall in &mosaic.walls {
+    for wall in &region_map.walls {
         canvas.polyline(wall.iter().map(|&x| view.place(x.into())), 1.5 * thin, OUTLINE);
     }
-    for throat in &mosaic.throats.1 {
+    for throat in &region_map.throats.1 {
         canvas.dashes(throat.iter().map(|&x| view.place(x.into())), 2.0 * thin, THROAT);
     }
-    for line in &mosaic.menisci.1 {
+    for line in &region_map.menisci.1 {
         canvas.polyline(line.iter().map(|&x| view.place(x.into())), 3.0 * thin, INTERFACE);
     }
     view.frame(&mut canvas);
-    heading(&mut canvas, title, &mosaic.note);
-    color_bar(&mut canvas, mosaic, bottom + 24.0);
+    heading(&mut canvas, title, &region_map.note);
+    color_bar(&mut canvas, region_map, bottom + 24.0);
     let size = view.size.map(|pixels| f64::from(pixels) / view.scale);
     scale_bar(&mut canvas, view.scale, size[0].max(0.5 * size[1]), bottom + 130.0);
-    legend(&mut canvas, mosaic, bottom + 168.0);
+    legend(&mut canvas, region_map, bottom + 168.0);
     canvas.png()
 }
 
-fn color_bar(canvas: &mut Canvas, mosaic: &Mosaic, top: f32) {
+fn color_bar(canvas: &mut Canvas, region_map: &RegionMap, top: f32) {
     /// Numbers below the bar.
     const NUMBERS: u32 = 5;
     let width = WIDTH as f32 - 2.0 * RIM;
-    let label = format!("{}:", mosaic.label);
+    let label = format!("{}:", region_map.label);
     // Whole pixels: columns between two would let the ground shine through.
     let from = (RIM + canvas.text_width(&label, TEXT_SIZE) + 20.0).round();
     canvas.text(&label, [RIM, top + 22.0], TEXT_SIZE);
     let length = RIM + width - from;
     for column in 0..length as u32 {
         let share = f64::from(column) / f64::from(length);
-        canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(mosaic.bar, share));
+        canvas.rectangle([from + column as f32, top], [1.0, BAR], color_at(region_map.bar, share));
     }
-    let [low, high] = mosaic.range;
+    let [low, high] = region_map.range;
     for number in 0..NUMBERS {
         let share = f64::from(number) / f64::from(NUMBERS - 1);
         let value = low + share * (high - low);
@@ -98,12 +98,12 @@ fn color_bar(canvas: &mut Canvas, mosaic: &Mosaic, top: f32) {
 }
 
 /// Names what is in the drawing, from the right.
-fn legend(canvas: &mut Canvas, mosaic: &Mosaic, y: f32) {
-    let is_there = |class: usize| mosaic.areas.iter().any(|area| area.tone == Tone::Class(class));
-    let classes = mosaic.classes.iter().enumerate().filter(|(class, _)| is_there(*class)).map(|(_, entry)| *entry);
-    let menisci = Some((mosaic.menisci.0, INTERFACE)).filter(|_| !mosaic.menisci.1.is_empty());
-    let throats = Some((mosaic.throats.0, THROAT)).filter(|_| !mosaic.throats.1.is_empty());
-    let strips = Some((mosaic.strips.0, STRIP)).filter(|_| !mosaic.strips.1.is_empty());
+fn legend(canvas: &mut Canvas, region_map: &RegionMap, y: f32) {
+    let is_there = |class: usize| region_map.areas.iter().any(|area| area.tone == Tone::Class(class));
+    let classes = region_map.classes.iter().enumerate().filter(|(class, _)| is_there(*class)).map(|(_, entry)| *entry);
+    let menisci = Some((region_map.menisci.0, INTERFACE)).filter(|_| !region_map.menisci.1.is_empty());
+    let throats = Some((region_map.throats.0, THROAT)).filter(|_| !region_map.throats.1.is_empty());
+    let strips = Some((region_map.strips.0, STRIP)).filter(|_| !region_map.strips.1.is_empty());
     let entries: Vec<(&str, Rgb)> =
         classes.chain([("solid", SOLID)]).chain(strips).chain(menisci).chain(throats).collect();
     canvas.legend(&entries, [WIDTH as f32 - RIM, y], TEXT_SIZE);
@@ -114,9 +114,9 @@ mod tests {
     use super::*;
     use crate::diagram::{Area, Frame};
 
-    fn mosaic() -> Mosaic {
+    fn region_map() -> RegionMap {
         let square = |x: f64, tone| Area { boundary: vec![[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]], tone };
-        Mosaic {
+        RegionMap {
             name: "test",
             note: "a note".into(),
             label: "share",
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn areas_fill_their_share_of_the_drawing_in_their_colors() {
-        let png = mosaic_picture(&mosaic(), "Squares").unwrap();
+        let png = region_map_picture(&region_map(), "Squares").unwrap();
         let pixels = tiny_skia::Pixmap::decode_png(&png).unwrap();
         let square = f64::from(WIDTH as f32 - 2.0 * RIM).powi(2) / 16.0;
         for color in [colors::SIZES[0], colors::SIZES[colors::SIZES.len() - 1], [204, 121, 167], SOLID] {
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn nothing_to_draw_is_an_error() {
-        let nothing = Mosaic { areas: Vec::new(), ..mosaic() };
-        assert!(matches!(mosaic_picture(&nothing, ""), Err(PictureError::Empty)));
+        let nothing = RegionMap { areas: Vec::new(), ..region_map() };
+        assert!(matches!(region_map_picture(&nothing, ""), Err(PictureError::Empty)));
     }
 }

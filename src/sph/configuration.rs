@@ -4,7 +4,7 @@ use crate::math::{Vec2, perpendicular};
 use crate::sph::domain::{Domain, WallQuery};
 use crate::sph::method::{Method, PressureGradient};
 use crate::sph::open::Open;
-use crate::sph::wetting::wall::WallSpots;
+use crate::sph::wetting::wall::WallField;
 
 /// The curvature of a wall is the turn of its normal this far to both sides, over dx.
 const TURN_OVER: f64 = 0.25;
@@ -13,7 +13,7 @@ const TURN_OVER: f64 = 0.25;
 const TIGHTEST: f64 = 0.5;
 
 /// What is given. It changes with the time of the case alone: body forces that take turns, pressures that rise.
-pub struct Setting {
+pub struct Configuration {
     /// Constants.
     pub method: Method,
     /// Box and sides.
@@ -21,7 +21,7 @@ pub struct Setting {
     /// Wall distance and normal.
     pub wall: WallQuery,
     /// Wetting models and velocities of the walls.
-    pub spots: WallSpots,
+    pub wall_properties: WallField,
     /// Open sides, and periodic ones with a given flow rate.
     pub open: Open,
     /// Time in s in which the slowest viscous motion decays, infinite with surface tension and without walls.
@@ -30,7 +30,7 @@ pub struct Setting {
     pub since: f64,
 }
 
-impl Setting {
+impl Configuration {
     /// The part of gravity in m/s² that the pressure can balance: not along periods, where it drives the flow.
     ///
     /// The forms of the gradient with the sum of pressures do not have it: their sums differ from those of the pressure equation.

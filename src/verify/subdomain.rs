@@ -78,7 +78,7 @@ pub enum Impossible {
 
 /// A throat on its own, in a frame whose x axis is the direction of advance.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CutOut {
+pub struct Subdomain {
     /// Where it stands in the network.
     pub frame: Frame,
     /// Width of the throat in m.
@@ -95,7 +95,7 @@ pub struct CutOut {
     pub left_out: usize,
 }
 
-impl CutOut {
+impl Subdomain {
     /// The cut-out of a passage; `obstacles` are the other walls ahead.
     pub(crate) fn new(passage: &Passage, obstacles: &[Curve]) -> Result<Self, Impossible> {
         let meniscus = passage.burst().ok_or(Impossible::NoMeniscus)?;
@@ -109,9 +109,10 @@ impl CutOut {
         let plan = Plan::new(passage, &frame, &arc, width)?;
         let geometry = plan.geometry();
         let behind = plan.behind(&arc);
-        let cut_out = Self { frame, width, angle, meniscus, left_out: plan.count(obstacles, &frame), geometry, behind };
-        cut_out.check(&arc)?;
-        Ok(cut_out)
+        let subdomain =
+            Self { frame, width, angle, meniscus, left_out: plan.count(obstacles, &frame), geometry, behind };
+        subdomain.check(&arc)?;
+        Ok(subdomain)
     }
 
     /// The cut-out as its solver sees it: closed, or joined along the throat.

@@ -7,7 +7,7 @@ use crate::sph::particles::Phase;
 
 /// Counts of particles by side (left, right, bottom, top) and phase (wetting, non-wetting).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Ledger {
+pub struct BoundaryFluxes {
     /// Came in.
     pub came: [[u64; 2]; 4],
     /// Left.
@@ -24,12 +24,12 @@ fn index(phase: Phase) -> usize {
     usize::from(phase != Phase::Wetting)
 }
 
-impl Ledger {
+impl BoundaryFluxes {
     /// The ledger at time zero.
     pub(crate) fn new(phases: &[Phase], next_id: u32) -> Self {
-        let mut ledger = Self { next_id, ..Self::default() };
-        ledger.at_start = Self::count(phases);
-        ledger
+        let mut fluxes = Self { next_id, ..Self::default() };
+        fluxes.at_start = Self::count(phases);
+        fluxes
     }
 
     /// Particles of each phase.

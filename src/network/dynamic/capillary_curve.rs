@@ -15,7 +15,7 @@ const LEAST: f64 = 1e-9;
 
 /// A rising, piecewise linear function.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Rise {
+pub(crate) struct CapillaryCurve {
     /// Swept area in m² since the chord of the gate, rising.
     area: Vec<f64>,
     /// Curvature in 1/m, rising.
@@ -26,7 +26,7 @@ pub(crate) struct Rise {
     closed: f64,
 }
 
-impl Rise {
+impl CapillaryCurve {
     /// The stable menisci of a passage up to its event at the curvature `event` (1/m), between walls `width` (m) apart at the chord; none
     /// where no meniscus ever passes.
     pub(crate) fn new(passage: &Passage, event: f64, width: f64) -> Option<Self> {
@@ -166,5 +166,5 @@ pub(super) struct Reach {
     /// Area in m² that it has swept since the chord of its gate.
     pub(super) area: f64,
     /// What resists until then.
-    pub(super) rise: Arc<Rise>,
+    pub(super) curve: Arc<CapillaryCurve>,
 }
