@@ -1,4 +1,4 @@
-//! What every run reports: angle, pressures, saturation, lengths and the bookkeeping of areas and densities.
+//! Measures of every run: contact angle, pressures, saturation, lengths, area drift and density errors.
 
 use super::open;
 use super::subject::{Subject, measure};
@@ -50,7 +50,7 @@ fn flattest_angle(s: &Subject) -> f64 {
 }
 
 fn two_phases(s: &Subject) -> Vec<Measure> {
-    // What came in and left through open sides is no drift.
+    // Inflow and outflow through open sides are not drift.
     let (passed, seen) = (open::net(s.flow), s.seen.areas);
     let kept = PhaseAreas { wetting: seen.wetting - passed[0], non_wetting: seen.non_wetting - passed[1] };
     let drift = kept.drift_since(&s.start);
