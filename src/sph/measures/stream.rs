@@ -70,7 +70,8 @@ fn by_pressure(flow: &Flow, interface: &[Polyline], ahead: Vec2) -> Option<f64> 
     let points: Vec<Vec2> = other.iter().map(|&a| p.position[a]).collect();
     let cells = Cells::build(&points, &flow.config.domain, flow.config.method.kernel.support());
     // Without the hydrostatic part, and with the mean gradient that drives a given flow.
-    let uniform_gradient = flow.config.method.other_fluid.density * flow.config.method.gravity + flow.view().driving_gradient();
+    let uniform_gradient =
+        flow.config.method.other_fluid.density * flow.config.method.gravity + flow.view().driving_gradient();
     let (mut force, mut projected, mut length) = (0.0, 0.0, 0.0);
     for line in interface {
         let from = line.points.first()?;

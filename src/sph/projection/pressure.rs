@@ -107,11 +107,10 @@ impl View<'_, Fields> {
     ) -> Result<(Vec<Vec2>, Vec<Response>), SolverError> {
         let b = self.minus_outflow(velocity);
         let matrix = self.assembled();
-        let (axes, tolerance): (Vec<Vec2>, _) =
-            (self.config.open.through.iter().map(OpenSide::way).collect(), self.config.method.tolerance);
-        let others = axes.iter().map(|&axis| (self.right_side_of_gradient(axis, &matrix), tolerance)).collect();
-        let (sides, h) = (&self.config.open.sides, self.config.method.kernel.h);
-        let given = Prescribed::new(&self.state.particles, sides, |_| f64::NAN, h);
+        let (sides, method) = (&self.config.open.sides, &self.config.method);
+        let axes: Vec<Vec2> = self.config.open.through.iter().map(OpenSide::way).collect();
+        let others = axes.iter().map(|&axis| (self.right_side_of_gradient(axis, &matrix), method.tolerance)).collect();
+        let given = Prescribed::new(&self.state.particles, sides, |_| f64::NAN, method.kernel.h);
         let value = given.value.iter().map(|value| 0.0 * value).collect();
         let prescribed = Prescribed { value, reference: 0.0 };
         let guess = vec![0.0; self.state.particles.len()];
@@ -176,7 +175,7 @@ impl View<'_, Fields> {
         Ok((p, found))
     }
 
-    /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s), 0 where [`Configuration::sees_the_fluid`](crate::sph::configuration::Configuration) is false.
+    /// −V_a (∇·v)_a in m²/s of the `velocity` (m/s), 0 deep in the buffers.
     pub(super) fn minus_outflow(&self, velocity: &Field<Vec2>) -> Vec<f64> {
         let position = &self.state.particles.position;
         let mut outflow = divergence(&self.neighborhood.pairs, &self.fields.bulk.volume, velocity, position.len());
