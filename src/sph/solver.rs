@@ -170,7 +170,7 @@ impl Solver for SphSolver {
     }
 
     fn sample(&self) -> Vec<Sample> {
-        let (flow, seen) = (&self.flow, self.observe());
+        let (flow, observed) = (&self.flow, self.observe());
         let fluids = flow.state.particles.fluids;
         let [error, _] = density_error(&flow.fields.bulk.volume[..fluids], flow.config.method.volume);
         let speed = flow.state.particles.fluid_speed();
@@ -179,25 +179,25 @@ impl Solver for SphSolver {
             ("time_s", flow.state.time),
             ("step", flow.state.steps as f64),
             ("dt_s", flow.state.last_dt),
-            ("saturation", seen.areas.saturation()),
-            ("interface_length_m", seen.interface_length()),
-            ("wetted_length_m", seen.wetted_length),
-            ("capillary_pressure_Pa", seen.capillary_pressure.value),
-            ("contact_angle_deg", seen.angle().mean_deg),
+            ("saturation", observed.areas.saturation()),
+            ("interface_length_m", observed.interface_length()),
+            ("wetted_length_m", observed.wetted_length),
+            ("capillary_pressure_Pa", observed.capillary_pressure.value),
+            ("contact_angle_deg", observed.angle().mean_deg),
             ("kinetic_energy_J_per_m", self.kinetic_energy()),
             ("max_speed_m_per_s", speed),
             ("density_error", error),
             ("ppe_iterations", flow.work.last_iterations as f64),
-            ("wetting_area_m2", seen.areas.wetting),
-            ("non_wetting_area_m2", seen.areas.non_wetting),
-            ("contact_lines", seen.contact_lines.len() as f64),
-            ("wetting_blobs", seen.wetting_blobs.len() as f64),
-            ("small_pieces", seen.small_pieces as f64),
+            ("wetting_area_m2", observed.areas.wetting),
+            ("non_wetting_area_m2", observed.areas.non_wetting),
+            ("contact_lines", observed.contact_lines.len() as f64),
+            ("wetting_blobs", observed.wetting_blobs.len() as f64),
+            ("small_pieces", observed.small_pieces as f64),
             ("momentum_x_kg_per_m_s", momentum.x),
             ("momentum_y_kg_per_m_s", momentum.y),
         ];
-        let asked = columns(flow, seen, self.surroundings.stages.is_some(), &self.groups);
-        let mut row: Vec<Sample> = row.into_iter().chain(asked).map(|(name, value)| Sample { name, value }).collect();
+        let more = columns(flow, observed, self.surroundings.stages.is_some(), &self.groups);
+        let mut row: Vec<Sample> = row.into_iter().chain(more).map(|(name, value)| Sample { name, value }).collect();
         row.extend(samples_of_chip(flow, &row));
         row
     }

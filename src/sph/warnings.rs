@@ -36,17 +36,17 @@ const FEWEST: usize = 5;
 const ROUNDING: f64 = 1e-9;
 
 /// The warnings about the present flow.
-pub(crate) fn warnings(flow: &Flow, seen: &Observation, series: &Series) -> Vec<String> {
+pub(crate) fn warnings(flow: &Flow, observed: &Observation, series: &Series) -> Vec<String> {
     if flow.config.method.tension == 0.0 {
         return thin_layer(flow).into_iter().collect();
     }
     let found = [
         thin_layer(flow),
         films_left(flow),
-        pieces_and_films(flow, seen, series),
-        low_drop(flow, seen),
+        pieces_and_films(flow, observed, series),
+        low_drop(flow, observed),
         limiting_angle(flow),
-        parasitic_currents(flow, seen, series),
+        parasitic_currents(flow, observed, series),
     ];
     found.into_iter().flatten().collect()
 }
@@ -81,15 +81,15 @@ fn films_left(flow: &Flow) -> Option<String> {
     plates.depth.film_left(number).filter(|film| *film >= LEAST_FILM).map(|film| {
         format!(
             "at Ca = {number:.1e} of the wetting phase and an angle of {:.0} degrees receding menisci leave films on floor and lid (Bretherton 1961: {film:.1e} \
-             of the depth each), which are left out: where the wetting phase is displaced, less of it is in truth",
+             of the depth each), which are not modeled: in reality less of the wetting phase is displaced",
             plates.depth.wettest().to_degrees()
         )
     })
 }
 
 /// The warning about ganglia and films below the resolution, now or at any earlier record.
-fn pieces_and_films(flow: &Flow, seen: &Observation, series: &Series) -> Option<String> {
-    let (share, small_pieces) = (seen.thin(flow).share, seen.small_pieces);
+fn pieces_and_films(flow: &Flow, observed: &Observation, series: &Series) -> Option<String> {
+    let (share, small_pieces) = (observed.thin(flow).share, observed.small_pieces);
     let most = most_small_pieces(series);
     let before = most.filter(|(most, _)| *most > small_pieces as f64);
     if small_pieces == 0 && before.is_none() && share < LARGEST_THIN_SHARE {
@@ -99,7 +99,7 @@ fn pieces_and_films(flow: &Flow, seen: &Observation, series: &Series) -> Option<
     let before = before.map(|(most, time)| format!(" ({most} at t = {time:.4e} s)")).unwrap_or_default();
     Some(format!(
         "{small_pieces} pieces of fewer than {SMALLEST_PIECE} particles{before}, and films thinner than three particles with {percent:.1} % of \
-         the smaller phase, are not resolved: what hangs on them (pieces counted, trapped fluid, angles beside them) is not a result; compare \
+         the smaller phase, are not resolved: results that depend on them (numbers of pieces, trapped fluid, angles next to them) are not reliable; compare \
          with sph.spacing = {half:.4e}"
     ))
 }
@@ -111,7 +111,7 @@ pub(crate) fn most_small_pieces(series: &Series) -> Option<(f64, f64)> {
 }
 
 /// The warning about parasitic currents in a free drop of low viscosity that is not driven and keeps its shape.
-fn parasitic_currents(flow: &Flow, seen: &Observation, series: &Series) -> Option<String> {
+fn parasitic_currents(flow: &Flow, observed: &Observation, series: &Series) -> Option<String> {
     let (m, p) = (&flow.config.method, &flow.state.particles);
     let is_driven = m.gravity != Vec2::zeros()
         || !flow.config.open.sides.is_empty()
@@ -123,19 +123,22 @@ fn parasitic_currents(flow: &Flow, seen: &Observation, series: &Series) -> Optio
     let (lengths, speeds) = (last("interface_length_m"), last("max_speed_m_per_s"));
     let (low, high) =
         lengths.iter().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), l| (low.min(*l), high.max(*l)));
-    if is_driven || lengths.len() < FEWEST || !seen.contact_lines.is_empty() || high - low > SAME_SHAPE * high {
+    if is_driven || lengths.len() < FEWEST || !observed.contact_lines.is_empty() || high - low > SAME_SHAPE * high {
         return None;
     }
-    let is_wetting = seen.areas.wetting < seen.areas.non_wetting;
-    let (fluid, area) =
-        if is_wetting { (m.wetting_fluid, seen.areas.wetting) } else { (m.other_fluid, seen.areas.non_wetting) };
+    let is_wetting = observed.areas.wetting < observed.areas.non_wetting;
+    let (fluid, area) = if is_wetting {
+        (m.wetting_fluid, observed.areas.wetting)
+    } else {
+        (m.other_fluid, observed.areas.non_wetting)
+    };
     let radius = (area / std::f64::consts::PI).sqrt();
     let scale = (m.tension / (fluid.density * radius)).sqrt();
     let speed = speeds.into_iter().fold(0.0, f64::max);
     (speed > LARGEST_CURRENT * scale).then(|| {
         format!(
             "a drop that keeps its shape has currents of up to {speed:.1e} m/s, Ca = {:.1e}, {:.1} % of sqrt(tension / (density R)): the surface force \
-             drives them where a liquid is thin (Oh = {:.1e}), and slower motions are not a result; compare with a larger viscosity",
+             drives them where a liquid is thin (Oh = {:.1e}), and slower motions are not resolved; compare with a larger viscosity",
             fluid.viscosity * speed / m.tension,
             100.0 * speed / scale,
             fluid.viscosity / (fluid.density * m.tension * radius).sqrt()
@@ -144,14 +147,14 @@ fn parasitic_currents(flow: &Flow, seen: &Observation, series: &Series) -> Optio
 }
 
 /// The warning if a drop with the requested angle on a plane is only a few spacings high.
-fn low_drop(flow: &Flow, seen: &Observation) -> Option<String> {
+fn low_drop(flow: &Flow, observed: &Observation) -> Option<String> {
     let angle = flow.config.method.wetting?.static_angle();
-    let areas = seen.areas;
+    let areas = observed.areas;
     let is_wetting = areas.wetting < areas.non_wetting;
     let (area, through) =
         if is_wetting { (areas.wetting, angle) } else { (areas.non_wetting, std::f64::consts::PI - angle) };
     // A meniscus between two walls is not a drop.
-    let [a, b] = &seen.contact_lines[..] else { return None };
+    let [a, b] = &observed.contact_lines[..] else { return None };
     let normal = |line: &ContactLine| (flow.config.wall)(line.position).1;
     if normal(a).dot(&normal(b)) < SAME_WALL || area <= 0.0 {
         return None;
@@ -178,7 +181,7 @@ fn limiting_angle(flow: &Flow) -> Option<String> {
     let angle = flow.config.method.wetting?.static_angle().to_degrees();
     is_limiting(angle).then(|| {
         format!(
-            "at an angle of {angle:.1} degrees pressures and places are those asked for, but an angle measured from the interface has an \
+            "at an angle of {angle:.1} degrees pressures and positions are those requested, but an angle measured from the interface has an \
              error bar of some degrees: within {LIMITING_ANGLE:.0} degrees of complete wetting or drying it hardly changes the shape"
         )
     })

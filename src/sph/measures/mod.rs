@@ -37,12 +37,17 @@ pub(crate) fn samples_of_chip(flow: &Flow, row: &[Sample]) -> Vec<Sample> {
 }
 
 /// Further columns of the time series: of open sides, of the permeability where it is measured, and of the groups.
-pub(crate) fn columns(flow: &Flow, seen: &Observation, is_permeability_measured: bool, groups: &[Group]) -> Columns {
+pub(crate) fn columns(
+    flow: &Flow,
+    observed: &Observation,
+    is_permeability_measured: bool,
+    groups: &[Group],
+) -> Columns {
     let mut columns = open::columns(flow);
     if is_permeability_measured {
         columns.extend(permeability::columns(flow));
     }
-    for column in groups.iter().flat_map(|group| (group.columns)(flow, seen)) {
+    for column in groups.iter().flat_map(|group| (group.columns)(flow, observed)) {
         // Two groups may need the same column.
         if columns.iter().all(|(name, _)| *name != column.0) {
             columns.push(column);

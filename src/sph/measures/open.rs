@@ -120,7 +120,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
             error,
             "",
             None,
-            "mass at time zero and what came in less what left and what is inside, in particles, larger of both phases, over all at \
+            "particles at time zero plus those that came in minus those that left and those inside, larger of both phases, over all at \
              time zero",
         ),
         measure(
@@ -128,7 +128,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
             drift,
             "",
             None,
-            "change of the area of both phases less that of what passed through the sides, over the area at time zero",
+            "change of the area of both phases minus the net inflow through the sides, over the area at time zero",
         ),
     ];
     if flow.state.time > 0.0 {
@@ -161,10 +161,10 @@ fn breakthrough(s: &Subject) -> [Measure; 2] {
     let interval = before.map(|row| [row, row + 1]).filter(|[_, after]| *after < passed.len());
     let method = match interval {
         Some(_) => {
-            "middle of the interval of records in which the phase that comes in left through another side, 20 particles of it: fewer may be \
+            "middle of the interval between records in which the invading phase left through another side, 20 particles of it: fewer may be \
              stray ones ahead of the front"
         }
-        None => "the phase that comes in has left through no other side by the end",
+        None => "the invading phase has not left through another side by the end",
     };
     let of = |name: &str, values: &[f64], unit: &str| {
         let ends = interval.map(|rows| rows.map(|row| values[row]));
@@ -197,8 +197,8 @@ fn burst(s: &Subject) -> Option<Measure> {
         bracket.map_or(f64::NAN, |[low, high]| 0.5 * (low + high)),
         "Pa",
         bracket.map(|[low, high]| 0.5 * (high - low)),
-        "middle between the last pressure difference at which the menisci rested and that at which the phase that comes in reached the opposite \
-         side, both within the uncertainty; needs one of either kind",
+        "middle between the last pressure difference with menisci at rest and that at which the invading phase reached the opposite \
+         side, both within the uncertainty; needs one of each",
     ))
 }
 
@@ -207,33 +207,31 @@ fn flow_rates(flow: &Flow) -> Vec<Measure> {
     let (open, fluxes, time) = (&flow.config.open, &flow.state.fluxes, flow.state.time);
     let count = |counts: &[[u64; 2]; 4], number: usize| counts[number].iter().sum::<u64>() as f64;
     let through_open_side = |side: &OpenSide| {
-        let asked = side.given_pressure().is_none().then(|| side.flow_rate());
+        let requested = side.given_pressure().is_none().then(|| side.flow_rate());
         // Given velocities: by the displacements of the rows, since particle counts change by whole layers.
         let counted =
             || (count(&fluxes.came, side.number) - count(&fluxes.left, side.number)) * flow.config.method.volume;
-        (if asked.is_some() { fluxes.passed[side.number] } else { counted() } / time, asked)
+        (if requested.is_some() { fluxes.passed[side.number] } else { counted() } / time, requested)
     };
     let through_period = |(side, given): (&OpenSide, &GivenFlow)| (given.passed / time, Some(side.flow_rate()));
     let rates = open.sides.iter().map(through_open_side).chain(flow.view().given_flows().map(through_period));
-    let (mut came_in, mut asked_in, mut given_in) = (0.0, 0.0, 0.0);
-    for (rate, asked) in rates {
+    let (mut came_in, mut requested_in, mut given_in) = (0.0, 0.0, 0.0);
+    for (rate, requested) in rates {
         came_in += f64::max(rate, 0.0);
-        asked_in += asked.unwrap_or(0.0);
-        given_in += asked.map_or(0.0, |_| rate);
+        requested_in += requested.unwrap_or(0.0);
+        given_in += requested.map_or(0.0, |_| rate);
     }
-    let method = "area that came in, of each side less that which left through it, over the time since time zero";
+    let method = "net inflow of area over the sides with inflow, divided by the time since time zero";
     let mut found = vec![measure("inflow-m2-per-s", came_in, "m2/s", None, method)];
-    if asked_in > 0.0 {
-        let method = "the flow rates inwards that the case gives";
-        found.push(measure("asked-inflow-m2-per-s", asked_in, "m2/s", None, method));
-        let method =
-            "area that came in through the sides with a given velocity or flow rate, over that which was asked for";
-        found.push(measure("inflow-ratio", given_in / asked_in, "", None, method));
+    if requested_in > 0.0 {
+        let method = "sum of the inward flow rates given in the case";
+        found.push(measure("asked-inflow-m2-per-s", requested_in, "m2/s", None, method));
+        let method = "inflow through the sides with a given velocity or flow rate, over the requested one";
+        found.push(measure("inflow-ratio", given_in / requested_in, "", None, method));
     }
     for (side, given) in flow.view().given_flows() {
         let drop = given.gradient * flow.config.domain.bounds.size()[side.axis()];
-        let method =
-            "largest relative error of the flow rate through the periodic side in a step, by the ways of all particles";
+        let method = "largest relative error of the flow rate through the periodic side in a step, from the displacements of all particles";
         found.push(measure("largest-flow-rate-error", given.largest_error, "", None, method));
         let method = "mean pressure gradient that drives the given flow at the end, times the period";
         found.push(measure("driving-pressure-drop-Pa", drop, "Pa", None, method));

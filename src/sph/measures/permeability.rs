@@ -85,7 +85,7 @@ fn column_measures(column: &Column) -> Vec<Measure> {
         )
     };
     let of_share = format!(
-        "magnitude of the rate of the momentum between the last two records of the force along {force}, over that force on the fluid"
+        "magnitude of the rate of change of momentum between the last two records of the force along {force}, over that force on the fluid"
     );
     if column.axis == 0 {
         vec![

@@ -22,7 +22,8 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
         )
     };
     let share = columns.iter().map(|column| column.unsteady_share).fold(0.0, f64::max);
-    let of_share = "largest rate of the momentum between the last two records of a flow, over the force on its fluid";
+    let of_share =
+        "largest rate of change of momentum between the last two records of a flow, over the force on its fluid";
     let of_saturation = "area of the wetting phase over that of both at time zero";
     vec![
         measure("permeability-m2", k, "m2", None, &of_whole),

@@ -55,12 +55,12 @@ pub(crate) fn given(flow: &Flow, wall: Vec2) -> Vec2 {
 ///
 /// The pressure part is NaN if ∫ n·`ahead` dl does not vanish over the interface (a meniscus between plates), if a part of
 /// the interface has no particle of the other fluid in reach, and with the continuum surface force.
-pub fn along(flow: &Flow, seen: &Observation, ahead: Vec2) -> StreamForce {
+pub fn along(flow: &Flow, observed: &Observation, ahead: Vec2) -> StreamForce {
     let is_wetting = |a: usize| a < flow.state.particles.fluids && flow.state.particles.phase[a] == Phase::Wetting;
     let view = flow.view();
     let friction = view.viscous_force(is_wetting) + view.friction(|a, _| is_wetting(a));
     let pressure =
-        if flow.fields.interface.force.jump().is_some() { by_pressure(flow, &seen.interface, ahead) } else { None };
+        if flow.fields.interface.force.jump().is_some() { by_pressure(flow, &observed.interface, ahead) } else { None };
     StreamForce { pressure: pressure.unwrap_or(f64::NAN), friction: friction.dot(&ahead) }
 }
 

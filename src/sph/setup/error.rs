@@ -37,7 +37,7 @@ pub enum SetupError {
     },
     /// A solid or a pore that ends at an open side.
     #[error(
-        "a shape ends at the open side `{side}` near ({:.3e}, {:.3e}) m; walls go on beyond an open side, so let the shape reach \
+        "a shape ends at the open side `{side}` near ({:.3e}, {:.3e}) m; walls continue beyond an open side, so let the shape extend \
          {reach:.1e} m beyond it, or end before it", place.x, place.y
     )]
     EndsAtSide {
@@ -53,7 +53,7 @@ pub enum SetupError {
     NoFluid(f64),
     /// A phase without a single particle, with a frozen interface.
     #[error(
-        "the {0} phase has no particle in the pore, and a relative permeability is that of two phases; let sph.initial give it some room"
+        "the {0} phase has no particle in the pore, and relative permeabilities need both phases; enlarge its region in sph.initial"
     )]
     NoPhase(&'static str),
 }

@@ -11,8 +11,8 @@ use crate::sph::particles::{Particles, Phase};
 use crate::sph::solver::HandBack;
 use crate::table::Document;
 
-const NOTE: &str = "phases by area share of a direct simulation: of each element the phase of more than half of its particles; menisci and what is \
-                    trapped are for the network to find; SI units";
+const NOTE: &str = "phases by area share of a direct simulation: in each element the phase of more than half of its particles; menisci and trapped \
+                    fluid are determined by the network; SI units";
 
 /// `at-end.json` of a direct run that started from `start`, from its particles and its capillary pressure p_n - p_w in Pa.
 pub(super) fn hand_back(start: &Start, tension: f64, depth: Option<Depth>) -> HandBack {

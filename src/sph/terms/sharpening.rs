@@ -79,7 +79,7 @@ impl Sharpening<'_> {
         }
     }
 
-    /// Factor on the fraction in the thin wedge of a phase at a wall, compared with one half.
+    /// Fraction of own-phase neighbors in the thin wedge of a phase at a wall, over the one half of a flat interface.
     fn wedge(&self, a: usize) -> f64 {
         let [receding, advancing] = self.wall_hysteresis[a];
         let own = if self.side[a] > 0.5 { receding } else { PI - advancing };

@@ -9,7 +9,7 @@
 //!
 //! This is 2Δμ D:D minus Δμ ∇v:∇v of Morris's form. G fits the velocity differences with the weights of that form, so that away from walls
 //! the sum of both dissipates for any velocities, and not at all in rigid rotation. The sum of the forces vanishes. Where the stress ends at
-//! the other fluid, it supports the step of 2μ D·n there; at walls, where its tangential part vanishes, it ends without a force.
+//! the other fluid, it supports the step of 2μ D·n there; on walls it exerts no force.
 
 use crate::math::{Mat2, Vec2};
 use crate::sph::pairs::{Pair, Pairs};
