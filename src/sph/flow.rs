@@ -36,7 +36,7 @@ pub struct Flow {
     pub neighborhood: Neighborhood,
     /// Volumes, densities, normals and forces at the present positions, derived from the state.
     pub fields: Fields,
-    /// The contact lines at the present positions, which the next step takes into the state.
+    /// The contact lines at the present positions, which the next step stores in the state.
     pub lines: Vec<TrackedLine>,
     /// Matrix and workspace of the pressure solve. No step depends on what the previous one left in it.
     pub pressure: PressureSolve,

@@ -29,7 +29,7 @@ pub(crate) enum PressureGradient {
     Difference,
 }
 
-/// All that does not change during a run.
+/// Constants of a run.
 #[derive(Debug, Clone)]
 pub struct Method {
     /// Smoothing kernel.
@@ -56,7 +56,7 @@ pub struct Method {
     pub no_slip: NoSlip,
     /// Floor and lid; `None` in the plane.
     pub plates: Option<Plates>,
-    /// Forms, strengths and tolerances.
+    /// Discretization options and tolerances.
     pub numerics: Numerics,
     /// Pressure solve.
     pub tolerance: Tolerance,

@@ -32,7 +32,7 @@ pub struct Observation {
     pub areas: PhaseAreas,
     /// Mean pressure of the non-wetting phase minus that of the wetting phase.
     pub capillary_pressure: CapillaryPressure,
-    /// Length of wall under the wetting phase in m.
+    /// Length of wall in contact with the wetting phase in m.
     pub wetted_length: f64,
     /// Ganglia (connected parts) of the wetting phase, the largest first.
     pub wetting_blobs: Vec<Blob>,

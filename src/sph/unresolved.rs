@@ -13,7 +13,7 @@ pub(crate) const SMALLEST_PIECE: usize = 20;
 pub(crate) struct ThinParts {
     /// Whether the phase is that thin around each fluid particle.
     pub(crate) is_thin: Vec<bool>,
-    /// Thin particles over the number of particles of the phase that has fewer.
+    /// Number of thin particles over that of all particles of the smaller phase.
     pub(crate) share: f64,
 }
 
@@ -49,7 +49,7 @@ fn wetting(flow: &Flow) -> Vec<bool> {
     p.phase[..p.fluids].iter().map(|phase| *phase == Phase::Wetting).collect()
 }
 
-/// Number of particles of the phase that has fewer; 0 without an interface.
+/// Number of particles of the smaller phase; 0 without an interface.
 fn smaller_phase(flow: &Flow) -> usize {
     if flow.config.method.tension == 0.0 {
         return 0;

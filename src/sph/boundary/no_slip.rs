@@ -20,7 +20,7 @@ pub struct NoSlip {
     pub largest_stretch: f64,
     /// Navier's slip length b in m: along the wall, u = b ∂u/∂n on its surface. 0: no slip.
     pub slip_length: f64,
-    /// The same near contact lines.
+    /// Slip length in m near contact lines.
     pub line_slip_length: f64,
 }
 
@@ -42,7 +42,7 @@ impl NoSlip {
         self.stretch_to(distance, wall, 0.0)
     }
 
-    /// The same where the velocity vanishes at the depth `b` in m.
+    /// [`Self::stretch`] for a velocity that vanishes at the depth `b` in m.
     fn stretch_to(&self, distance: f64, wall: WallDepth, b: f64) -> f64 {
         let (d_a, d_b) = (distance.max(CLOSEST * self.spacing), wall.depth.max(0.0));
         let c = 1.0 + 0.5 * wall.curvature * (d_a + d_b);

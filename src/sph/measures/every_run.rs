@@ -32,7 +32,7 @@ pub(crate) fn measures(s: &Subject) -> Vec<Measure> {
     found
 }
 
-/// Distance of the two nearest fluid particles over the spacing.
+/// Smallest distance of two fluid particles over the spacing.
 fn smallest_distance(flow: &Flow) -> f64 {
     let fluids = flow.state.particles.fluids;
     let among_fluids =
@@ -73,7 +73,7 @@ fn two_phases(s: &Subject) -> Vec<Measure> {
                 s.flow.config.method.tension,
                 s.flow.config.method.kernel.h,
             )),
-            "mean pressure of the non-wetting minus that of the wetting particles farther than 3h from the interface, each referred to the mean height of the interface",
+            "mean pressure of non-wetting minus wetting particles farther than 3h from the interface, referred to the mean height of the interface",
         ),
         measure("interface-length-m", s.seen.interface_length(), "m", None, "length of the c = 0.5 contour"),
         measure(

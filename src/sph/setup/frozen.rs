@@ -114,7 +114,7 @@ impl Pore {
         }
     }
 
-    /// Distance of the interface in m, and the direction from there.
+    /// Distance from the interface in m, and the direction away from it.
     fn interface(&self, x: Vec2) -> (f64, Vec2) {
         let surface = self.region.surface().wall(x);
         (surface.distance.abs(), surface.distance.signum() * surface.normal)

@@ -38,7 +38,7 @@ pub(crate) struct InterfacePoint {
     pub(crate) weight: f64,
 }
 
-/// Lengths of the discretization.
+/// Length scales of the discretization.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Resolution {
     /// Spacing of the particles dx in m.

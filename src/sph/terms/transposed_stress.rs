@@ -38,11 +38,11 @@ pub struct TransposedStress<'a> {
 /// The neighbors of a particle of the more viscous fluid, by their moment −Σ_b V_b ∇_a W_ab ⊗ ∇_a W_ab |r_ab|²/(r_ab·∇_a W_ab).
 #[derive(Clone, Copy)]
 struct Around {
-    /// M_a: that of all but the other fluid.
+    /// M_a: moment of all neighbors not of the other fluid.
     moment: Mat2,
     /// A_a.
     directions: Mat2,
-    /// The inverse of that of the same fluid.
+    /// Inverse of the moment of the neighbors of the same fluid.
     inverse: Mat2,
     /// Factor on Morris's form for which it is at least half of the sum of both forms.
     stiffness: f64,
