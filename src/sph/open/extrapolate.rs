@@ -106,7 +106,7 @@ fn fitted(near: &[(u32, f64, Vec2)], sum: f64, basis: impl Fn(Vec2) -> Vector4<f
         let row = basis(r);
         moments += w / sum * row * row.transpose();
     }
-    // A function left out has no moments.
+    // A basis function that is zero has no moments.
     for i in 1..4 {
         if moments[(i, i)] == 0.0 {
             moments[(i, i)] = 1.0;
